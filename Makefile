@@ -1,0 +1,52 @@
+# make demo   one picture from file to certified deformation, in an environment of its own
+# make test   everything that continuous integration runs
+# make unit   the fast tests only (under a minute)
+# make lint   ruff and pyright
+# make dev    the development environment with everything
+# make browser  Chromium for the browser tests, by apt
+SHELL := /bin/sh
+VENV := .venv
+PYTEST := $(VENV)/bin/python -m pytest
+
+.PHONY: demo test unit lint format dev browser clean
+.DEFAULT_GOAL := demo
+
+demo: $(VENV)/.demo
+	$(VENV)/bin/glid-nb demo --out glid-nb-demo
+
+# --no-skip: a test that would be skipped because something is missing fails instead.
+test: $(VENV)/.test
+	$(PYTEST) --no-skip
+
+unit: $(VENV)/.test
+	$(PYTEST) --no-skip -m "not slow and not browser"
+
+lint: $(VENV)/.dev
+	$(VENV)/bin/ruff check .
+	$(VENV)/bin/ruff format --check .
+	$(VENV)/bin/pyright --pythonpath $(VENV)/bin/python
+
+format: $(VENV)/.dev
+	$(VENV)/bin/ruff check --fix .
+	$(VENV)/bin/ruff format .
+
+dev: $(VENV)/.dev
+
+browser:
+	tools/chromium.sh
+
+# The stamps say what the environment holds; pyproject.toml newer than a stamp installs again.
+$(VENV)/.demo: pyproject.toml tools/environment.sh
+	tools/environment.sh
+	touch $@
+
+$(VENV)/.test: pyproject.toml tools/environment.sh
+	tools/environment.sh test
+	touch $@ $(VENV)/.demo
+
+$(VENV)/.dev: pyproject.toml tools/environment.sh
+	tools/environment.sh dev
+	touch $@ $(VENV)/.test $(VENV)/.demo
+
+clean:
+	rm -rf $(VENV) glid-nb-demo artefacts dist

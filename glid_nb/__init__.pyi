@@ -1,0 +1,67 @@
+# The public face, by topic. Type checkers read this file, and so does __init__.py, which loads each
+# name on first use from the package that stands here.
+
+# Shapes
+from .geometry import Cage as Cage
+from .geometry import Domain as Domain
+from .geometry import GeometryError as GeometryError
+from .geometry import Triangulation as Triangulation
+from .geometry import offset_cage as offset_cage
+from .geometry import triangulate as triangulate
+
+# Pictures
+from .imaging import PixelFrame as PixelFrame
+from .imaging import Scribbles as Scribbles
+from .imaging import TraceError as TraceError
+from .imaging import TraceOptions as TraceOptions
+from .imaging import Tracer as Tracer
+from .imaging import Tracing as Tracing
+from .imaging import read_image as read_image
+from .imaging import trace as trace
+from .imaging import figure_png as figure_png
+from .imaging import overview as overview
+from .imaging import render as render
+from .imaging import rendering as rendering
+
+# Energies
+from .energies import AMIPS as AMIPS
+from .energies import ARAP as ARAP
+from .energies import CustomEnergy as CustomEnergy
+from .energies import Energy as Energy
+from .energies import EnergyError as EnergyError
+from .energies import ExponentialSymmetricDirichlet as ExponentialSymmetricDirichlet
+from .energies import SymmetricDirichlet as SymmetricDirichlet
+from .energies import energy_by_name as energy_by_name
+
+# Maps, and the proof that they do not fold
+from .certificate import Certificate as Certificate
+from .certificate import GlobalInjectivity as GlobalInjectivity
+from .certificate import certify as certify
+from .certificate import global_injectivity as global_injectivity
+from .harmonic import HarmonicMap as HarmonicMap
+from .harmonic import MapError as MapError
+
+# Solving
+from .solvers import Iteration as Iteration
+from .solvers import Options as Options
+from .solvers import OptionError as OptionError
+from .solvers import Pose as Pose
+from .solvers import PoseError as PoseError
+from .solvers import Progress as Progress
+from .solvers import Result as Result
+from .solvers import StartError as StartError
+from .solvers import Status as Status
+from .solvers import solve as solve
+
+# Files and reports
+from .session import InputFileError as InputFileError
+from .session import Problem as Problem
+from .session import build_report as build_report
+from .session import load_pose as load_pose
+from .session import load_scribbles as load_scribbles
+from .session import suggest_pose as suggest_pose
+
+# Bundled pictures
+from . import samples as samples
+
+__version__: str

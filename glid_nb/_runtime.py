@@ -1,0 +1,112 @@
+"""How the package runs JAX: double precision, one BLAS thread, a persistent compilation cache.
+
+Nothing here happens at import, and nothing changes the user's own JAX configuration: every entry
+point of the package that computes wraps itself in :func:`double_precision`.
+"""
+
+from __future__ import annotations
+
+import functools
+import os
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import ParamSpec, TypeVar
+
+import jax
+from threadpoolctl import ThreadpoolController
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+_lock = threading.Lock()
+_depth = 0
+_limiter: object | None = None
+
+
+@contextmanager
+def single_blas_thread() -> Iterator[None]:
+    """Limit BLAS to one thread while solver calls run.
+
+    On the CPU, XLA hands Cholesky to the BLAS that SciPy brings, whose threads fight XLA's own:
+    a 384 x 384 factorisation was seen to take 240 ms instead of 1 ms. The limit is process wide,
+    so nested and concurrent uses share one limiter and the last one out restores the setting.
+    """
+    global _depth, _limiter
+    with _lock:
+        if _depth == 0:
+            _limiter = _controller().limit(limits=1, user_api="blas")
+            _limiter.__enter__()
+        _depth += 1
+    try:
+        yield
+    finally:
+        with _lock:
+            _depth -= 1
+            if _depth == 0 and _limiter is not None:
+                _limiter.__exit__(None, None, None)  # type: ignore[attr-defined]
+                _limiter = None
+
+
+@functools.cache
+def _controller() -> ThreadpoolController:
+    import scipy.linalg  # noqa: F401, PLC0415 - loads the BLAS that XLA calls, so that it is found
+
+    return ThreadpoolController()
+
+
+def double_precision(function: Callable[P, R]) -> Callable[P, R]:
+    """Run ``function`` with 64-bit JAX types, leaving the caller's JAX configuration alone."""
+
+    @functools.wraps(function)
+    def wrapped(*args: P.args, **kwargs: P.kwargs) -> R:
+        with jax.enable_x64(True):
+            return function(*args, **kwargs)
+
+    return wrapped
+
+
+def cache_directory() -> Path:
+    """The folder for compiled programs: ``$GLID_NB_CACHE``, else the user's cache directory."""
+    named = os.environ.get("GLID_NB_CACHE")
+    if named:
+        return Path(named)
+    base = os.environ.get("XDG_CACHE_HOME")
+    return (Path(base) if base else Path.home() / ".cache") / "glid_nb"
+
+
+def enable_compilation_cache() -> Path:
+    """Keep compiled programs in :func:`cache_directory` between processes; returns that folder.
+
+    JAX has one such setting per process, so this is a choice for whoever owns the process: the
+    command line and the editor make it, importing the package or calling ``solve`` does not. A
+    folder that the user configured before stays in use.
+    """
+    configured = jax.config.jax_compilation_cache_dir
+    if configured:
+        return Path(configured)
+    folder = cache_directory() / "compiled"
+    jax.config.update("jax_compilation_cache_dir", str(folder))
+    jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.2)
+    return folder
+
+
+class CompilationClock:
+    """Counts what JAX compiles in this process: how many programs, and the seconds it took."""
+
+    def __init__(self) -> None:
+        self.programs = 0
+        self.seconds = 0.0
+        jax.monitoring.register_event_duration_secs_listener(self._listen)
+
+    def _listen(self, event: str, duration: float, **_: object) -> None:
+        if event.startswith("/jax/core/compile/"):
+            self.seconds += duration
+            self.programs += event.endswith("backend_compile_duration")
+
+
+@functools.cache
+def compilation_clock() -> CompilationClock:
+    """The process's one :class:`CompilationClock`."""
+    return CompilationClock()

@@ -1,0 +1,18 @@
+"""Proofs of local injectivity and certified distortion bounds (paper Section 8 and beyond)."""
+
+from glid_nb.certificate import hermite, lipschitz, rounding
+from glid_nb.certificate.bounds import EndValues, PanelBounds, derivative_bound_weights
+from glid_nb.certificate.certify import Certificate, Method, PanelCertificate, certify
+
+__all__ = [
+    "Certificate",
+    "EndValues",
+    "Method",
+    "PanelBounds",
+    "PanelCertificate",
+    "certify",
+    "derivative_bound_weights",
+    "hermite",
+    "lipschitz",
+    "rounding",
+]

@@ -1,0 +1,40 @@
+"""The paper's certificate: Lipschitz constants on segments (Section 8, Appendix H)."""
+
+from __future__ import annotations
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from glid_nb.certificate.bounds import EndValues, PanelBounds, turning
+
+DERIVATIVE_ORDER = 2
+
+
+def remainder_factor(length: Float[Array, " p"]) -> Float[Array, " p"]:
+    """``l^2 / 2``: turns the bound on ``f_z''`` into that on ``|f_z'| l`` beyond its mean."""
+    return length**2 / 2
+
+
+def panel_bounds(
+    values: EndValues,
+    remainder_fz: Float[Array, " p"],
+    remainder_fzb: Float[Array, " p"],
+) -> PanelBounds:
+    """Bounds on each segment by Equation (26).
+
+    With ``L l = (|f_z'(v_i)| + |f_z'(v_{i+1})|) l / 2 + remainder``, ``|f_z|`` is at least the
+    mean of its end values less ``L l / 2``, and likewise ``|f_zbar|`` at most.
+    """
+    variation_fz = (jnp.abs(values.dfz_start) + jnp.abs(values.dfz_end)) / 2 + remainder_fz
+    variation_fzb = (jnp.abs(values.dfzb_start) + jnp.abs(values.dfzb_end)) / 2 + remainder_fzb
+    mean_fz = (jnp.abs(values.fz_start) + jnp.abs(values.fz_end)) / 2
+    mean_fzb = (jnp.abs(values.fzb_start) + jnp.abs(values.fzb_end)) / 2
+    fz_least = mean_fz - variation_fz / 2
+    fzb_most = mean_fzb + variation_fzb / 2
+    return PanelBounds(
+        fz_least - fzb_most,
+        mean_fz + variation_fz / 2 + fzb_most,
+        jnp.where(fz_least > 0, fzb_most / fz_least, jnp.inf),
+        2 * mean_fz > variation_fz,
+        turning(values),
+    )

@@ -1,0 +1,36 @@
+"""How much rounding can change what the certificate computes.
+
+The certificate's inequalities are evaluated in double precision. Each panel's remainder is
+enlarged by ``slack_factor(n) * scale * max_j |phi_j|``, a first-order running error bound
+(Higham, Accuracy and Stability of Numerical Algorithms, Section 3) for the ``n``-term sums
+``f_z = sum_j D_j phi_j`` whose terms have moduli adding up to at most ``scale * max |phi_j|``:
+``n`` roundings for the sum, and 64 that cover the computation of ``D_j`` itself, of the control
+points and of the Bernstein coefficients. The factor 8 allows for values that a solver has carried
+along through up to seven steps ``f_z + t df_z`` instead of computing them anew.
+"""
+
+from __future__ import annotations
+
+import jax.numpy as jnp
+from jaxtyping import Array, Complex, Float
+
+from glid_nb.certificate.bounds import UNIT_ROUNDOFF
+from glid_nb.harmonic.cauchy import Singularities, rounding_scale
+
+
+CARRIED = 8
+"""How many values' rounding errors may have added up; a solver's calls stay below it."""
+
+
+def slack_factor(n_columns: int) -> float:
+    """``8 (n + 64) u``, ``u`` the unit roundoff of double precision."""
+    return CARRIED * (n_columns + 64) * UNIT_ROUNDOFF
+
+
+def panel_scale(
+    start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
+) -> Float[Array, " p"]:
+    """Per panel, a scale of the terms of ``f_z`` and of ``l f_z'`` at its two ends."""
+    length = jnp.abs(end - start)
+    scales = [rounding_scale(z, singularities) for z in (start, end)]
+    return jnp.maximum(*(value + length * slope for value, slope in scales))

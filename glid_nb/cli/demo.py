@@ -1,0 +1,153 @@
+"""From a picture to a certified deformation, with everything to look at.
+
+Traces the cage, poses it, solves, and writes into --out: deformed.png (the picture deformed),
+overview.png (a figure of it all), cage.json, map.json and report.json. IMAGE is a file or the
+name of a bundled sample (see `glid-nb samples`). Without --pose a sample takes its own gentle pose;
+for any other picture handles are placed automatically and one or two of them moved.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import glid_nb
+from glid_nb.cli import summary
+from glid_nb.cli.errors import BadFileError, about
+from glid_nb.cli.output import check_folder, json_text, png_bytes, write_all
+from glid_nb.cli.progress import Progress
+from glid_nb.cli.run_solver import run_solver
+from glid_nb.cli.solver_arguments import add_solver_arguments, energy_of, options_of
+from glid_nb.cli.trace import add_trace_arguments, cage_data, size_in_words, trace_options_of
+
+DEFAULT_SAMPLE = "gecko"
+DEFAULT_POSE = "gentle"
+# Less than this share of the shape may fall outside of the picture before all of it is shown.
+_CROPPED = 1e-3
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.add_argument(
+        "image",
+        nargs="?",
+        default=DEFAULT_SAMPLE,
+        metavar="IMAGE",
+        help=f"a picture's file, or the name of a sample (default: {DEFAULT_SAMPLE})",
+    )
+    parser.add_argument(
+        "--pose",
+        metavar="FILE.json",
+        help="handles and targets, world coordinates; for a sample also gentle or extreme",
+    )
+    parser.add_argument(
+        "--out", type=Path, default=Path("glid-nb-demo"), metavar="DIR", help="default: %(default)s"
+    )
+    parser.add_argument("--json", action="store_true", help="print the summary as JSON")
+    add_solver_arguments(parser)
+    add_trace_arguments(parser)
+
+
+def run(chosen: argparse.Namespace) -> None:
+    """Run the command."""
+    out = check_folder(chosen.out)
+    energy, options, tracing_options = (
+        energy_of(chosen),
+        options_of(chosen),
+        trace_options_of(chosen),
+    )
+    progress = Progress()
+    source, sample = _source(chosen.image)
+    image = glid_nb.read_image(source)
+    with about(source), progress.step(f"tracing {source.name}"):
+        tracing = glid_nb.trace(image, tracing_options)
+        domain = glid_nb.Domain.from_cage(tracing.cage)
+    pose, origin = _pose(chosen.pose, sample, domain)
+
+    result, report = run_solver(domain, pose, energy, options, progress)
+    with progress.step("rendering"):
+        deformed, cropped = _deformed(image, result.map)
+    with progress.step("drawing the overview"):
+        figure = glid_nb.figure_png(glid_nb.overview(image, result, pose))
+
+    files: dict[Path, bytes | str] = {
+        out / "deformed.png": png_bytes(deformed),
+        out / "overview.png": figure,
+        out / "cage.json": json_text(cage_data(tracing)),
+        out / "map.json": json_text(result.map.to_dict()),
+        out / "report.json": json_text(report),
+    }
+    out.mkdir(parents=True, exist_ok=True)
+    write_all(files)
+
+    notes = [*tracing.notes, *domain.notes]
+    if cropped:
+        notes.append("deformed.png is zoomed out, for the shape leaves the picture's frame")
+    if chosen.json:
+        extra = {"image": str(source), "pose": origin, "notes": notes}
+        print(summary.as_json(report, files, **extra))
+    else:
+        print(summary.as_text(report, files, _rows(source, image, tracing, pose, origin, notes)))
+
+
+def _source(image: str) -> tuple[Path, str | None]:
+    """The picture's file, and the sample's name if it is one; files go before samples."""
+    path, names = Path(image), glid_nb.samples.names()
+    if path.exists():
+        return path, None
+    if image not in names:
+        raise BadFileError(
+            f"{image}: there is no such file, and no sample of that name ({', '.join(names)})"
+        )
+    return glid_nb.samples.path(image), image
+
+
+def _pose(
+    wanted: str | None, sample: str | None, domain: glid_nb.Domain
+) -> tuple[glid_nb.Pose, str]:
+    """The pose, and in words where it comes from."""
+    if wanted is None and sample is None:
+        return glid_nb.suggest_pose(domain), "chosen automatically (give your own with --pose)"
+    if wanted is not None and (sample is None or Path(wanted).exists()):
+        path, origin = Path(wanted), wanted
+    else:
+        assert sample is not None
+        kind = DEFAULT_POSE if wanted is None else wanted
+        path, origin = glid_nb.samples.pose_path(sample, kind), f"the sample's own, {kind}"
+    pose = glid_nb.load_pose(path)
+    with about(path):
+        pose.check_inside(domain)
+    return pose, origin
+
+
+def _deformed(
+    image: NDArray[np.unsignedinteger], harmonic_map: glid_nb.HarmonicMap
+) -> tuple[NDArray[np.uint8], bool]:
+    """The deformed picture, and whether it had to be zoomed out to show all of it."""
+    rendering = glid_nb.rendering(image, harmonic_map)
+    if rendering.outside <= _CROPPED:
+        return rendering.picture, False
+    return glid_nb.render(image, harmonic_map, view="fit"), True
+
+
+def _rows(
+    source: Path,
+    image: NDArray[np.unsignedinteger],
+    tracing: glid_nb.Tracing,
+    pose: glid_nb.Pose,
+    origin: str,
+    notes: Sequence[str],
+) -> list[tuple[str, Any]]:
+    height, width = image.shape[:2]
+    moved = int((np.linalg.norm(pose.targets - pose.handles, axis=1) > 0).sum())
+    return [
+        ("picture", f"{source}, {width} x {height} pixels"),
+        ("cage", size_in_words(tracing.cage)),
+        *(("notes", note) for note in notes),
+        ("pose", f"{origin}: {len(pose)} handles, {moved} moved"),
+    ]

@@ -1,0 +1,39 @@
+"""What counts as bad input, and how it is said in one line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+
+class BadFileError(ValueError):
+    """The content of a file was refused."""
+
+
+@contextmanager
+def about(path: Path) -> Iterator[None]:
+    """Put the name of the file in front of what is refused of its content."""
+    try:
+        yield
+    except ValueError as error:
+        if not is_bad_input(error) or str(path) in str(error):
+            raise
+        raise BadFileError(f"{path}: {error}") from error
+
+
+def is_bad_input(error: BaseException) -> bool:
+    """Whether an exception tells of the user's input rather than of a bug.
+
+    The package refuses bad input with subclasses of ValueError of its own; a plain ValueError
+    comes from a bug and keeps its traceback. What the operating system refuses is input as well.
+    """
+    ours = type(error).__module__.partition(".")[0] == "glid_nb"
+    return isinstance(error, OSError) or (ours and isinstance(error, ValueError))
+
+
+def one_line(error: BaseException) -> str:
+    """The exception's message without line breaks, and with the file first."""
+    if isinstance(error, OSError) and error.filename is not None and error.strerror:
+        return f"{error.filename}: {error.strerror}"
+    return " ".join(str(error).split())

@@ -1,0 +1,73 @@
+"""The parser, and what happens to errors."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from typing import NoReturn
+
+import glid_nb
+from glid_nb.cli import demo, render, samples, solve, trace
+from glid_nb.cli.errors import is_bad_input, one_line
+
+COMMANDS = (demo, trace, solve, render, samples)
+
+EXIT_OK = 0
+EXIT_BAD_INPUT = 1
+EXIT_USAGE = 2
+EXIT_INTERRUPTED = 130
+
+
+class OneLineParser(argparse.ArgumentParser):
+    """A parser that says what is wrong in one line instead of printing the whole usage."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(EXIT_USAGE, f"glid-nb: error: {message} (see {self.prog} --help)\n")
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """The parser of the whole command line."""
+    parser = OneLineParser(
+        prog="glid-nb",
+        description="Locally injective image deformation: from a picture to a map that is proved "
+        "never to fold.",
+    )
+    parser.add_argument("--version", action="version", version=f"glid-nb {glid_nb.__version__}")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for module in COMMANDS:
+        summary = (module.__doc__ or "").splitlines()[0]
+        command = commands.add_parser(
+            module.__name__.rpartition(".")[2],
+            help=summary[0].lower() + summary[1:].rstrip("."),
+            description=module.__doc__,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
+        module.add_arguments(command)
+        command.add_argument(
+            "--debug", action="store_true", help="show the traceback when the input is refused"
+        )
+        command.set_defaults(run=module.run)
+    return parser
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command; the exit code is 0, 1 for bad input, 2 for wrong usage.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        The words after ``glid-nb``; by default those of the process.
+    """
+    chosen = build_parser().parse_args(arguments)
+    try:
+        chosen.run(chosen)
+    except KeyboardInterrupt:
+        print("glid-nb: interrupted; nothing was written", file=sys.stderr)
+        return EXIT_INTERRUPTED
+    except (OSError, ValueError) as error:
+        if chosen.debug or not is_bad_input(error):
+            raise
+        print(f"glid-nb: error: {one_line(error)}", file=sys.stderr)
+        return EXIT_BAD_INPUT
+    return EXIT_OK

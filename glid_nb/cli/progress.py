@@ -1,0 +1,91 @@
+"""Progress on stderr, for what takes over a second."""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TextIO
+
+_PATIENCE = 1.0
+
+
+class Progress:
+    """Says what is going on, but only where it takes longer than a second.
+
+    On a terminal one line is rewritten as details come in and erased at the end; elsewhere a line
+    is written when a step turns out to be long and another when it has ended.
+
+    Parameters
+    ----------
+    stream : text stream, optional
+        Where to write; stderr by default.
+    patience : float
+        Seconds that a step may take unannounced.
+    """
+
+    def __init__(self, stream: TextIO | None = None, patience: float = _PATIENCE) -> None:
+        self._stream = sys.stderr if stream is None else stream
+        self._patience = patience
+        self._live = self._stream.isatty()
+
+    @contextmanager
+    def step(self, doing: str) -> Iterator[Callable[[str], None]]:
+        """Run a step called ``doing``; yields a function that takes what is known meanwhile."""
+        step = _Step(doing, self._stream, self._live)
+        # The step may be one long call into compiled code, so another thread has to speak up.
+        timer = threading.Timer(self._patience, step.announce)
+        timer.daemon = True
+        timer.start()
+        try:
+            yield step.detail
+        finally:
+            timer.cancel()
+            timer.join()
+            step.end()
+
+
+class _Step:
+    """One step; its lock keeps the timer's announcement and the details from mixing."""
+
+    def __init__(self, doing: str, stream: TextIO, live: bool) -> None:
+        self._doing, self._stream, self._live = doing, stream, live
+        self._detail, self._announced = "", False
+        self._start = time.perf_counter()
+        self._lock = threading.Lock()
+
+    def announce(self) -> None:
+        with self._lock:
+            self._announced = True
+            if self._live:
+                self._rewrite()
+            else:
+                self._write(f"glid-nb: {self._doing} ...\n")
+
+    def detail(self, text: str) -> None:
+        with self._lock:
+            self._detail = text
+            if self._announced and self._live:
+                self._rewrite()
+
+    def end(self) -> None:
+        if not self._announced:
+            return
+        if self._live:
+            self._write("\r\x1b[K")
+        else:
+            self._write(f"glid-nb: {self._line()}\n")
+
+    def _line(self) -> str:
+        seconds = time.perf_counter() - self._start
+        detail = f", {self._detail}" if self._detail else ""
+        return f"{self._doing}: {seconds:.1f} s{detail}"
+
+    def _rewrite(self) -> None:
+        self._write(f"\r\x1b[K{self._line()}")
+
+    def _write(self, text: str) -> None:
+        self._stream.write(text)
+        self._stream.flush()

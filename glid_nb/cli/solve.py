@@ -1,0 +1,55 @@
+"""Solve a problem given as a file, and write the map and a report.
+
+PROBLEM.json is an object with the keys cage, holes, handles and targets (world coordinates);
+offset, offset_cage, offset_holes and hole_points are used when given. Without --report only the
+map is written, without --out only the report.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import glid_nb
+from glid_nb.cli import summary
+from glid_nb.cli.errors import about
+from glid_nb.cli.output import check_file, json_text, write_all
+from glid_nb.cli.progress import Progress
+from glid_nb.cli.run_solver import run_solver
+from glid_nb.cli.solver_arguments import add_solver_arguments, energy_of, options_of
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.add_argument("problem", type=Path, metavar="PROBLEM.json")
+    parser.add_argument("--out", type=Path, metavar="map.json", help="where the map goes")
+    parser.add_argument("--report", type=Path, metavar="report.json", help="where the report goes")
+    parser.add_argument(
+        "--start",
+        type=Path,
+        metavar="map.json",
+        help="a certified map of the same domain to start from, instead of the identity",
+    )
+    parser.add_argument("--json", action="store_true", help="print the summary as JSON")
+    add_solver_arguments(parser)
+
+
+def run(chosen: argparse.Namespace) -> None:
+    """Run the command."""
+    for path in (chosen.out, chosen.report):
+        if path is not None:
+            check_file(path)
+    problem = glid_nb.Problem.load(chosen.problem)
+    energy, options = energy_of(chosen), options_of(chosen)
+    start = glid_nb.HarmonicMap.load(chosen.start) if chosen.start else None
+    with about(chosen.start or chosen.problem):
+        result, report = run_solver(
+            problem.domain, problem.pose, energy, options, Progress(), start=start
+        )
+    files: dict[Path, bytes | str] = {}
+    if chosen.out:
+        files[chosen.out] = json_text(result.map.to_dict())
+    if chosen.report:
+        files[chosen.report] = json_text(report)
+    write_all(files)
+    print(summary.as_json(report, files) if chosen.json else summary.as_text(report, files))

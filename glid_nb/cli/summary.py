@@ -1,0 +1,77 @@
+"""What is printed at the end: one screen for people, one JSON object for programs."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+_LONG = ("history", "options", "versions", "machine")
+
+
+def as_json(report: Mapping[str, Any], files: Iterable[Path], **extra: Any) -> str:
+    """The report without its long parts, and where the files are, as one JSON object."""
+    short = {key: value for key, value in report.items() if key not in _LONG}
+    return json.dumps({**extra, **short, "files": {path.name: str(path) for path in files}})
+
+
+def as_text(
+    report: Mapping[str, Any], files: Iterable[Path], rows: Iterable[tuple[str, str]] = ()
+) -> str:
+    """The report on one screen.
+
+    Parameters
+    ----------
+    report : mapping
+        As built by ``build_report``.
+    files : iterable of Path
+        What was written.
+    rows : iterable of (name, text)
+        Rows to put first.
+    """
+    table = [*rows, *_rows(report), *(("written", str(path)) for path in files)]
+    width = max(len(name) for name, _ in table)
+    lines, previous = [], ""
+    for name, text in table:
+        lines.append(f"{name if name != previous else '':<{width}}  {text}".rstrip())
+        previous = name
+    return "\n".join(lines)
+
+
+def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
+    energy = report["energy"] if report["s"] is None else f"{report['energy']}, s = {report['s']:g}"
+    winding = f"{report['winding']}"
+    if len(report["windings"]) > 1:
+        winding += f"  (loops: {', '.join(f'{w:+d}' if w else '0' for w in report['windings'])})"
+    injective = report["globally_injective"]
+    if report["crossing"] is not None:
+        x, y = report["crossing"]
+        injective += f", the boundary's image crosses itself at ({x:.3g}, {y:.3g})"
+    split = f", {report['panels_split']} split" if report["panels_split"] else ""
+    return [
+        ("status", f"{report['status']}: {report['message']}"),
+        ("unknowns", f"{report['n_unknowns']}"),
+        ("panels", f"{report['panels']}{split}"),
+        ("iterations", f"{report['iterations']}"),
+        (
+            "energy",
+            f"{_number(report['E'])}  ({energy}: {_number(report['E_iso'])}, "
+            f"targets: {_number(report['E_p2p'])})",
+        ),
+        ("certified", "yes" if report["certified"] else "no"),
+        ("sigma_2", f">= {_number(report['sigma2_lower'])}"),
+        ("sigma_1", f"<= {_number(report['sigma1_upper'])}"),
+        ("k", f"<= {_number(report['k_upper'])}"),
+        ("winding number", winding),
+        ("injective", injective),
+        (
+            "times",
+            f"compile {report['compile_time']:.2f} s, solve {report['solve_time']:.3f} s, "
+            f"certify {report['certify_time']:.3f} s",
+        ),
+    ]
+
+
+def _number(value: float | None) -> str:
+    return "unbounded" if value is None else f"{value:.6g}"

@@ -1,0 +1,22 @@
+"""Isometric energies (paper Section 6, Table 1)."""
+
+from glid_nb.energies.amips import AMIPS
+from glid_nb.energies.arap import ARAP
+from glid_nb.energies.custom import CustomEnergy
+from glid_nb.energies.energy import Differentials, Energy, EnergyError
+from glid_nb.energies.exponential import ExponentialSymmetricDirichlet
+from glid_nb.energies.named import ENERGY_NAMES, energy_by_name
+from glid_nb.energies.symmetric_dirichlet import SymmetricDirichlet
+
+__all__ = [
+    "AMIPS",
+    "ARAP",
+    "ENERGY_NAMES",
+    "CustomEnergy",
+    "Differentials",
+    "Energy",
+    "EnergyError",
+    "ExponentialSymmetricDirichlet",
+    "SymmetricDirichlet",
+    "energy_by_name",
+]

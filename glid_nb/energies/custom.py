@@ -1,0 +1,61 @@
+"""A user's own energy, differentiated automatically."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+import jax
+import jax.numpy as jnp
+
+from glid_nb.energies.energy import Differentials, Energy, EnergyError, Scalars
+
+
+@functools.partial(
+    jax.tree_util.register_dataclass, data_fields=[], meta_fields=["function"]
+)
+@dataclass(frozen=True)
+class CustomEnergy(Energy):
+    """An energy given as one function ``E(x, y)`` of scalars, written with ``jax.numpy``.
+
+    ``x = |f_z|^2 > y = |f_zbar|^2 >= 0``. The alphas and betas come from automatic
+    differentiation; the projection of the Hessian from Equations (23)-(24).
+
+    Parameters
+    ----------
+    function : callable
+        ``E(x, y) -> scalar``, twice differentiable by JAX. It should be least at the isometry
+        ``E(1, 0)``. Use one function object for many solves: each new one compiles anew.
+
+    Raises
+    ------
+    EnergyError
+        When it cannot be called, or is not finite at the isometry.
+
+    Examples
+    --------
+    >>> dirichlet = CustomEnergy(lambda x, y: (x + y) * (1 + 1 / (x - y) ** 2))
+    """
+
+    function: Callable[[Scalars, Scalars], Scalars] = field()
+
+    name: ClassVar[str] = "custom"
+
+    def __post_init__(self) -> None:
+        if not callable(self.function):
+            raise EnergyError(f"a custom energy must be a function E(x, y), got {self.function!r}")
+
+    def density(self, x: Scalars, y: Scalars) -> Scalars:
+        return jnp.vectorize(self.function)(x, y)
+
+    def differentials(self, x: Scalars, y: Scalars) -> Differentials:
+        gradient = jax.grad(self.function, argnums=(0, 1))
+
+        def at_one_sample(x: Scalars, y: Scalars) -> Differentials:
+            alpha1, alpha2 = gradient(x, y)
+            (beta1, beta3), (_, beta2) = jax.jacfwd(gradient, argnums=(0, 1))(x, y)
+            return Differentials(alpha1, alpha2, beta1, beta2, beta3)
+
+        return jnp.vectorize(at_one_sample)(x, y)

@@ -1,0 +1,45 @@
+"""What an isometric energy is to the solver."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import ClassVar, NamedTuple
+
+from jaxtyping import Array, Float
+
+Scalars = Float[Array, " *samples"]
+
+
+class EnergyError(ValueError):
+    """An energy is unknown or its parameter is out of range."""
+
+
+class Differentials(NamedTuple):
+    """The five scalars of Table 1 at each sample (Equations (E.3) and (E.9))."""
+
+    alpha1: Scalars  # dE/dx
+    alpha2: Scalars  # dE/dy
+    beta1: Scalars  # d2E/dx2
+    beta2: Scalars  # d2E/dy2
+    beta3: Scalars  # d2E/dxdy
+
+
+class Energy(ABC):
+    """A pointwise distortion measure ``E(x, y)`` of ``x = |f_z|^2`` and ``y = |f_zbar|^2``.
+
+    Defined for orientation-preserving maps, ``x > y >= 0``; the solver treats every other sample
+    as infinitely bad and never asks there.
+
+    Subclasses are frozen dataclasses registered with JAX, their parameters being leaves: another
+    value of a parameter runs the same compiled program.
+    """
+
+    name: ClassVar[str]
+
+    @abstractmethod
+    def density(self, x: Scalars, y: Scalars) -> Scalars:
+        """``E(x, y)`` at each sample."""
+
+    @abstractmethod
+    def differentials(self, x: Scalars, y: Scalars) -> Differentials:
+        """First and second derivatives of :meth:`density` at each sample."""

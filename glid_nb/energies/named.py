@@ -1,0 +1,35 @@
+"""Energies by their short names, as the command line and the editor offer them."""
+
+from __future__ import annotations
+
+from glid_nb.energies.amips import AMIPS
+from glid_nb.energies.arap import ARAP
+from glid_nb.energies.energy import Energy, EnergyError
+from glid_nb.energies.exponential import ExponentialSymmetricDirichlet
+from glid_nb.energies.symmetric_dirichlet import SymmetricDirichlet
+
+ENERGY_NAMES: tuple[str, ...] = ("iso", "exp", "amips", "arap")
+"""The names that :func:`energy_by_name` knows."""
+
+
+def energy_by_name(name: str, s: float | None = None) -> Energy:
+    """The energy called ``name``: one of :data:`ENERGY_NAMES`.
+
+    ``s`` is the parameter of ``exp`` and ``amips`` (default 1); ``iso`` and ``arap`` have none
+    and ignore it.
+
+    Raises
+    ------
+    EnergyError
+        For an unknown name, or an ``s`` that is not positive.
+    """
+    sharpness = 1.0 if s is None else s
+    if name == "iso":
+        return SymmetricDirichlet()
+    if name == "exp":
+        return ExponentialSymmetricDirichlet(sharpness)
+    if name == "amips":
+        return AMIPS(sharpness)
+    if name == "arap":
+        return ARAP()
+    raise EnergyError(f"unknown energy {name!r}; choose one of {', '.join(ENERGY_NAMES)}")

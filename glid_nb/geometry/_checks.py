@@ -1,0 +1,187 @@
+"""What a cage's loops must satisfy, checked with a message that names the culprit."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+from numpy.typing import ArrayLike, NDArray
+
+from glid_nb.geometry._loops import GeometryError, loop_name, place, point_objects, segments
+
+# Two parts of the boundary closer than this share of the cage's size count as touching. It is a few
+# thousand roundings wide: below it neither an offset nor a normal direction can be computed.
+RESOLUTION = 1e-12
+
+
+def check_loops(loops: list[NDArray[np.float64]]) -> None:
+    """Raise unless the loops, the exterior first, bound a domain."""
+    corners = np.concatenate(loops)
+    resolution = RESOLUTION * float(max(np.ptp(corners, axis=0).max(), np.abs(corners).max()))
+    for i, loop in enumerate(loops):
+        _check_distinct(loop, loop_name(i), resolution)
+        _check_not_flat(loop, loop_name(i), resolution)
+        _check_fold_back(loop, loop_name(i), resolution)
+    _check_crossings(loops, resolution)
+    _check_nesting(loops)
+
+
+def checked_vertices(vertices: ArrayLike, name: str) -> NDArray[np.float64]:
+    """Shape, numbers and count; a float64 copy."""
+    try:
+        loop = np.array(vertices, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise GeometryError(
+            f"{name}: vertices must be pairs of numbers [[x, y], ...] ({error})"
+        ) from error
+    if loop.size and (loop.ndim != 2 or loop.shape[1] != 2):
+        raise GeometryError(f"{name}: vertices must have the shape (n, 2), not {loop.shape}")
+    if len(loop) < 3:
+        raise GeometryError(f"{name}: {len(loop)} vertices given, a loop needs at least 3")
+    bad = np.flatnonzero(~np.isfinite(loop).all(axis=1))
+    if bad.size:
+        i = int(bad[0])
+        raise GeometryError(
+            f"{name}: vertex {i} is ({loop[i, 0]}, {loop[i, 1]}); "
+            "replace the NaN or infinite coordinate or leave the vertex out"
+        )
+    huge = np.flatnonzero((np.abs(loop) > 1e100).any(axis=1))
+    if huge.size:
+        i = int(huge[0])
+        raise GeometryError(
+            f"{name}: vertex {i} at {place(loop[i])} is too large to compute with; rescale the cage"
+        )
+    return loop
+
+
+def _check_distinct(loop: NDArray[np.float64], name: str, resolution: float) -> None:
+    points = point_objects(loop)
+    pairs = shapely.STRtree(points).query(points, predicate="dwithin", distance=resolution).T
+    pairs = pairs[pairs[:, 0] < pairs[:, 1]]
+    if not len(pairs):
+        return
+    i, j = (int(k) for k in min(map(tuple, pairs)))
+    if (0, len(loop) - 1) in set(map(tuple, pairs.tolist())) and len(pairs) == 1:
+        raise GeometryError(
+            f"{name}: the last vertex {j} repeats vertex 0 at {place(loop[0])}; "
+            "loops close by themselves, leave the last vertex out"
+        )
+    advice = (
+        "; leave one of them out"
+        if j == i + 1
+        else ", so the loop touches itself there; move one of them"
+    )
+    raise GeometryError(f"{name}: vertices {i} and {j} coincide at {place(loop[i])}{advice}")
+
+
+def _check_not_flat(loop: NDArray[np.float64], name: str, resolution: float) -> None:
+    arms = loop - loop[0]
+    far = int(np.argmax(np.hypot(*arms.T)))
+    axis = arms[far] / np.hypot(*arms[far])
+    if np.abs(arms[:, 0] * axis[1] - arms[:, 1] * axis[0]).max() <= resolution:
+        raise GeometryError(
+            f"{name}: all {len(loop)} vertices lie on one line, through vertex 0 at "
+            f"{place(loop[0])} and vertex {far} at {place(loop[far])}, so its area is zero; "
+            "move a vertex off the line or remove the loop"
+        )
+
+
+def _check_crossings(loops: list[NDArray[np.float64]], resolution: float) -> None:
+    """Raise for the first pair of edges that meet, apart from neighbours at their joint."""
+    edges = np.concatenate([segments(loop) for loop in loops])
+    sizes = [len(loop) for loop in loops]
+    loop_of = np.repeat(np.arange(len(loops)), sizes)
+    first = np.concatenate([[0], np.cumsum(sizes)])
+    index = np.arange(len(edges)) - first[loop_of]
+    size = np.array(sizes)[loop_of]
+
+    e, f = shapely.STRtree(edges).query(edges, predicate="dwithin", distance=resolution)
+    e, f = e[e < f], f[e < f]
+    step = np.where(loop_of[e] == loop_of[f], index[f] - index[e], -1)
+    apart = (step != 1) & (step != size[e] - 1)
+    if apart.any():
+        _raise_crossing(loops, edges, loop_of, index, e[apart], f[apart])
+
+
+def _check_fold_back(loop: NDArray[np.float64], name: str, resolution: float) -> None:
+    """Raise where an edge runs back along the edge before it."""
+    before, after = np.roll(segments(loop), 1), segments(loop)
+    corner_before, corner_after = np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0)
+    gap = np.minimum(
+        shapely.distance(before, point_objects(corner_after)),
+        shapely.distance(after, point_objects(corner_before)),
+    )
+    folded = np.flatnonzero(gap <= resolution)
+    if folded.size:
+        i = int(folded[0])
+        n = len(loop)
+        raise GeometryError(
+            f"{name}: the edges {_edge((i - 1) % n, n)} and {_edge(i, n)} lie on top of each "
+            f"other, a spike without width at vertex {i} {place(loop[i])}; leave vertex {i} out"
+        )
+
+
+def _edge(i: int, n: int) -> str:
+    return f"{i}-{(i + 1) % n}"
+
+
+def _raise_crossing(
+    loops: list[NDArray[np.float64]],
+    edges: NDArray[np.object_],
+    loop_of: NDArray[np.intp],
+    index: NDArray[np.intp],
+    e_all: NDArray[np.intp],
+    f_all: NDArray[np.intp],
+) -> None:
+    """Describe the first of the touching pairs, a proper crossing if there is one."""
+    crossing = shapely.crosses(edges[e_all], edges[f_all])
+    first = np.lexsort((f_all, e_all, ~crossing))[0]
+    e, f = e_all[first], f_all[first]
+    between = shapely.shortest_line(edges[e], edges[f])
+    common = shapely.get_coordinates(shapely.intersection(edges[e], edges[f]))
+    at = place(common[0] if len(common) else shapely.get_coordinates(between)[0])
+    a, b = int(loop_of[e]), int(loop_of[f])
+    edge_a, edge_b = _edge(int(index[e]), len(loops[a])), _edge(int(index[f]), len(loops[b]))
+    verb = "cross" if crossing[first] else "touch"
+    if a == b:
+        advice = "reorder or move the vertices" if crossing[first] else "move the vertices apart"
+        raise GeometryError(
+            f"{loop_name(a)}: the edges {edge_a} and {edge_b} {verb} at {at}; {advice} so that the "
+            "loop does not meet itself"
+        )
+    name_a = "the exterior loop" if a == 0 else loop_name(a)
+    raise GeometryError(
+        f"{loop_name(b)} {verb + 'es'} {name_a}: edge {edge_b} of {loop_name(b)} and edge {edge_a} "
+        f"of {name_a} {verb} at {at}; "
+        f"move {loop_name(b)} away or merge the two loops"
+    )
+
+
+def _check_nesting(loops: list[NDArray[np.float64]]) -> None:
+    """Raise unless every hole lies inside the exterior and outside the others.
+
+    The loops are known not to meet, so one vertex of a loop tells for the whole loop.
+    """
+    if len(loops) == 1:
+        return
+    regions = [shapely.Polygon(loop) for loop in loops]
+    starts = point_objects(np.array([loop[0] for loop in loops]))
+    outer, inner = shapely.STRtree(starts).query(regions, predicate="contains")
+    around = {(int(o), int(i)) for o, i in zip(outer, inner, strict=True)}
+    for i, loop in enumerate(loops[1:], start=1):
+        at = f"vertex 0 at {place(loop[0])}"
+        if (i, 0) in around:
+            raise GeometryError(
+                f"{loop_name(i)} contains the exterior loop (vertex 0 of the exterior loop at "
+                f"{place(loops[0][0])} lies in it); swap the two loops"
+            )
+        if (0, i) not in around:
+            raise GeometryError(
+                f"{loop_name(i)} lies outside the exterior loop ({at}); "
+                "remove it or move it into the exterior loop"
+            )
+    for o, i in sorted(around):
+        if o > 0:
+            raise GeometryError(
+                f"{loop_name(i)} lies within {loop_name(o)} (vertex 0 at {place(loops[i][0])}); "
+                "remove the inner one: a hole has no domain inside it"
+            )

@@ -1,0 +1,56 @@
+"""Loops of vertices: their measures, their names in messages, and the error they raise."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import ArrayLike, NDArray
+
+
+class GeometryError(ValueError):
+    """A polygon, offset or domain that cannot be used; the message says where and what to do."""
+
+
+def loop_name(index: int) -> str:
+    """How messages name loop `index` of a cage: "exterior loop", "hole 1", "hole 2", ..."""
+    return "exterior loop" if index == 0 else f"hole {index}"
+
+
+def place(point: ArrayLike) -> str:
+    """Coordinates for a message, e.g. "(1.5, -0.25)"."""
+    x, y = np.asarray(point, dtype=np.float64)
+    return f"({x:.6g}, {y:.6g})"
+
+
+def signed_area(loop: NDArray[np.float64]) -> float:
+    """Signed area of an (n, 2) loop, positive if counter-clockwise."""
+    x, y = (loop - loop[0]).T  # shifted, so that a loop far from the origin keeps its digits
+    return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+
+
+def edge_lengths(loop: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n,) lengths of the edges of an (n, 2) loop; edge i leads from vertex i to vertex i + 1."""
+    return np.hypot(*(np.roll(loop, -1, axis=0) - loop).T)
+
+
+def segments(loop: NDArray[np.float64]) -> NDArray[np.object_]:
+    """(n,) shapely line strings, the edges of an (n, 2) loop."""
+    ends = np.stack([loop, np.roll(loop, -1, axis=0)], axis=1)
+    return np.asarray(shapely.linestrings(ends), dtype=object)
+
+
+def point_objects(points: NDArray[np.float64]) -> NDArray[np.object_]:
+    """(n,) shapely points at (n, 2) positions."""
+    return np.asarray(shapely.points(points), dtype=object)
+
+
+def loop_list(value: Any, key: str) -> list[Any]:
+    """The value of an optional key that holds a list of loops."""
+    if value is None:
+        return []
+    if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Iterable):
+        raise GeometryError(f"'{key}' must be a list of loops, not {type(value).__name__}")
+    return list(value)

@@ -1,0 +1,200 @@
+"""The cage: a polygon with holes, checked once and immutable from then on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import ArrayLike, NDArray
+
+from glid_nb.geometry._cells import CellGrid
+from glid_nb.geometry._checks import RESOLUTION, check_loops, checked_vertices
+from glid_nb.geometry._loops import GeometryError, edge_lengths, loop_list, loop_name, signed_area
+
+# Below this number of points a grid over the cage does not pay.
+_FEW_POINTS = 20_000
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Cage:
+    """A bounded polygon with any number of holes; the boundary P of the certified domain.
+
+    The constructor checks everything the rest of the package relies on: finite coordinates, at
+    least three distinct vertices per loop, loops that neither cross nor touch themselves or each
+    other, every hole inside the exterior and outside every other hole. Loops are reversed where
+    needed, vertex 0 staying first, so that the domain always lies to the left of the boundary.
+
+    Parameters
+    ----------
+    exterior
+        (n, 2) array or nested list, vertices of the exterior loop in order, the first one not
+        repeated at the end. Either orientation.
+    holes
+        Hole loops, each (k, 2). Either orientation.
+
+    Attributes
+    ----------
+    exterior
+        (n, 2) read-only float64 array, counter-clockwise.
+    holes
+        Tuple of (k, 2) read-only float64 arrays, clockwise.
+
+    Raises
+    ------
+    GeometryError
+        The loops do not bound a domain. The message names the loop, the vertex and its coordinates.
+    """
+
+    exterior: NDArray[np.float64]
+    holes: tuple[NDArray[np.float64], ...]
+
+    def __init__(self, exterior: ArrayLike, holes: Iterable[ArrayLike] = ()) -> None:
+        loops = [checked_vertices(exterior, loop_name(0))]
+        loops += [checked_vertices(hole, loop_name(i + 1)) for i, hole in enumerate(holes)]
+        check_loops(loops)
+        oriented = [_oriented(loop, ccw=i == 0) for i, loop in enumerate(loops)]
+        object.__setattr__(self, "exterior", oriented[0])
+        object.__setattr__(self, "holes", tuple(oriented[1:]))
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Cage:
+        """Read a mapping with the keys ``cage`` and, optionally, ``holes``."""
+        if "cage" not in data:
+            raise GeometryError(
+                "the key 'cage' is missing: give the exterior loop's vertices there"
+            )
+        return cls(data["cage"], loop_list(data.get("holes"), "holes"))
+
+    def to_dict(self) -> dict[str, Any]:
+        """The loops as nested lists under the keys ``cage`` and ``holes``, ready for JSON."""
+        return {"cage": self.exterior.tolist(), "holes": [hole.tolist() for hole in self.holes]}
+
+    @staticmethod
+    def loop_name(index: int) -> str:
+        """How messages name loop `index`: "exterior loop", "hole 1", "hole 2", ..."""
+        return loop_name(index)
+
+    @property
+    def loops(self) -> tuple[NDArray[np.float64], ...]:
+        """The exterior loop, then the holes."""
+        return (self.exterior, *self.holes)
+
+    @cached_property
+    def loops_complex(self) -> tuple[NDArray[np.complex128], ...]:
+        """The loops as read-only complex128 arrays x + iy."""
+        return tuple(_read_only(loop[:, 0] + 1j * loop[:, 1]) for loop in self.loops)
+
+    @property
+    def n_holes(self) -> int:
+        """Number of hole loops."""
+        return len(self.holes)
+
+    @property
+    def n_vertices(self) -> int:
+        """Number of vertices over all loops."""
+        return sum(len(loop) for loop in self.loops)
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Bounding box (xmin, ymin, xmax, ymax)."""
+        (xmin, ymin), (xmax, ymax) = self.exterior.min(axis=0), self.exterior.max(axis=0)
+        return float(xmin), float(ymin), float(xmax), float(ymax)
+
+    @property
+    def longer_side(self) -> float:
+        """Longer side of the bounding box."""
+        xmin, ymin, xmax, ymax = self.bounds
+        return max(xmax - xmin, ymax - ymin)
+
+    @cached_property
+    def area(self) -> float:
+        """Area of the domain, holes left out."""
+        return float(sum(signed_area(loop) for loop in self.loops))
+
+    @cached_property
+    def perimeter(self) -> float:
+        """Length of the boundary over all loops."""
+        return float(sum(edge_lengths(loop).sum() for loop in self.loops))
+
+    @cached_property
+    def polygon(self) -> shapely.Polygon:
+        """The domain as a prepared shapely polygon."""
+        polygon = shapely.Polygon(self.exterior, self.holes)
+        shapely.prepare(polygon)
+        return polygon
+
+    def contains(self, points: ArrayLike, tolerance: float = 0.0) -> NDArray[np.bool_]:
+        """Which points lie in the closed domain.
+
+        Parameters
+        ----------
+        points
+            (..., 2) array of positions.
+        tolerance
+            Points outside by at most this much count as inside. Points on the boundary always do,
+            also when rounding put them outside by 1e-12 of the cage's size.
+
+        Returns
+        -------
+        (...) boolean array; False where a coordinate is NaN.
+        """
+        xy = np.asarray(points, dtype=np.float64)
+        if xy.shape[-1:] != (2,):
+            raise GeometryError(f"points must have the shape (..., 2), not {xy.shape}")
+        if not tolerance >= 0:
+            raise GeometryError(f"tolerance must be at least 0, not {tolerance}")
+        flat = xy.reshape(-1, 2)
+        reach = max(tolerance, self._rounding)
+        xmin, ymin, xmax, ymax = self.bounds
+        low, high = np.array([xmin, ymin]) - reach, np.array([xmax, ymax]) + reach
+        near = np.flatnonzero(((flat >= low) & (flat <= high)).all(axis=1))
+        if len(near) < _FEW_POINTS:
+            return self._contains_exactly(flat, near, reach).reshape(xy.shape[:-1])
+        boxed = np.clip(flat[near], [xmin, ymin], [xmax, ymax])
+        state = self._cells(boxed)
+        undecided = state == CellGrid.UNDECIDED
+        if reach > self._rounding:
+            undecided |= state == CellGrid.OUTSIDE
+        inside = self._contains_exactly(flat, near[undecided], reach)
+        inside[near[state == CellGrid.INSIDE]] = True
+        return inside.reshape(xy.shape[:-1])
+
+    def _contains_exactly(
+        self, points: NDArray[np.float64], which: NDArray[np.intp], reach: float
+    ) -> NDArray[np.bool_]:
+        """(n,) whether `points[which]` are inside or within `reach`; False for all others."""
+        inside = np.zeros(len(points), dtype=bool)
+        inside[which] = shapely.intersects_xy(self.polygon, points[which, 0], points[which, 1])
+        rest = which[~inside[which]]
+        inside[rest] = shapely.dwithin(self._outline, shapely.points(points[rest]), reach)
+        return inside
+
+    @property
+    def _rounding(self) -> float:
+        return RESOLUTION * max(self.longer_side, float(np.abs(self.bounds).max()))
+
+    @cached_property
+    def _outline(self) -> shapely.MultiLineString:
+        outline = shapely.MultiLineString([np.vstack([loop, loop[:1]]) for loop in self.loops])
+        shapely.prepare(outline)
+        return outline
+
+    @cached_property
+    def _cells(self) -> CellGrid:
+        return CellGrid(self.polygon, self._rounding)
+
+
+def _read_only(array: NDArray[Any]) -> NDArray[Any]:
+    array.setflags(write=False)
+    return array
+
+
+def _oriented(loop: NDArray[np.float64], ccw: bool) -> NDArray[np.float64]:
+    """A read-only copy of the loop with the given orientation and the same vertex 0."""
+    if (signed_area(loop) > 0) != ccw:
+        loop = np.concatenate([loop[:1], loop[:0:-1]])
+    return _read_only(np.array(loop))

@@ -1,0 +1,233 @@
+"""The domain of a harmonic map: the cage, its offset cage and one point per hole."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import ArrayLike, NDArray
+
+from glid_nb.geometry._loops import GeometryError, loop_list, loop_name, place
+from glid_nb.geometry.cage import Cage
+from glid_nb.geometry.offset import hole_points as choose_hole_points
+from glid_nb.geometry.offset import offset_cage as make_offset_cage
+
+# The paper's reference cages use 0.1 where the longer image side is 20 units.
+_DEFAULT_OFFSET = 0.005
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Domain:
+    """Where a harmonic map lives: the cage P, the offset cage P^ and a point in every hole.
+
+    The basis has its singularities on the offset cage's vertices and on the hole points; both lie
+    outside the closed domain bounded by `cage`, so that everything is smooth there (section 5 and
+    appendix D of Chen & Weber 2017). Compared and hashed by identity, so a domain can key a cache.
+
+    Parameters
+    ----------
+    cage
+        Boundary P of the certified domain.
+    offset_cage
+        P^, with the exterior loop outside that of `cage` and hole i inside hole i of `cage`.
+        Vertex counts may differ from those of `cage`.
+    hole_points
+        (N, 2), one point strictly inside each hole of `offset_cage`, in the same order.
+    notes
+        Sentences about choices made on the way here, such as a reduced offset.
+
+    Raises
+    ------
+    GeometryError
+        The parts do not fit together; the message names the loop and the place.
+    """
+
+    cage: Cage
+    offset_cage: Cage
+    hole_points: NDArray[np.float64]
+    notes: tuple[str, ...]
+
+    def __init__(
+        self,
+        cage: Cage,
+        offset_cage: Cage,
+        hole_points: ArrayLike = (),
+        notes: tuple[str, ...] = (),
+    ) -> None:
+        points = _checked_hole_points(hole_points, cage.n_holes)
+        _check_enclosed(cage, offset_cage)
+        _check_hole_points(points, offset_cage)
+        points.setflags(write=False)
+        object.__setattr__(self, "cage", cage)
+        object.__setattr__(self, "offset_cage", offset_cage)
+        object.__setattr__(self, "hole_points", points)
+        object.__setattr__(self, "notes", tuple(notes))
+
+    @classmethod
+    def from_cage(cls, cage: Cage, offset: float | None = None) -> Domain:
+        """Choose the offset cage and the hole points.
+
+        `offset` is the distance between the cages; the default is 0.005 of the longer side of the
+        cage's bounding box. It is reduced where a passage is too narrow for it; `notes` says where.
+        """
+        distance = _DEFAULT_OFFSET * cage.longer_side if offset is None else offset
+        result = make_offset_cage(cage, distance)
+        return cls(cage, result.cage, choose_hole_points(result.cage), result.notes)
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Domain:
+        """Read a mapping with ``cage`` and, where wanted, the parts chosen elsewhere.
+
+        Parameters
+        ----------
+        data
+            ``cage`` and ``holes`` as in `Cage.from_dict`; ``offset`` (a distance), ``offset_cage``,
+            ``offset_holes`` and ``hole_points`` are used as given apart from orientation and chosen
+            when missing. ``offset_cage`` and ``offset_holes`` come together; ``offset`` has no
+            effect beside them.
+        """
+        cage = Cage.from_dict(data)
+        notes = _checked_notes(data.get("notes"))
+        if data.get("offset_cage") is not None:
+            holes = loop_list(data.get("offset_holes"), "offset_holes")
+            try:
+                outer = Cage(data["offset_cage"], holes)
+            except GeometryError as error:
+                raise GeometryError(f"offset cage: {error}") from error
+        elif data.get("offset_holes"):
+            raise GeometryError(
+                "'offset_holes' is given without 'offset_cage'; give both or neither"
+            )
+        else:
+            offset = data.get("offset")
+            distance = _DEFAULT_OFFSET * cage.longer_side if offset is None else offset
+            result = make_offset_cage(cage, distance)
+            outer, notes = result.cage, notes + result.notes
+        points = data.get("hole_points")
+        if points is None:
+            _check_enclosed(cage, outer)
+            points = choose_hole_points(outer)
+        return cls(cage, outer, points, notes)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Nested lists under the keys that `from_dict` reads, ready for JSON."""
+        return {
+            **self.cage.to_dict(),
+            "offset_cage": self.offset_cage.exterior.tolist(),
+            "offset_holes": [hole.tolist() for hole in self.offset_cage.holes],
+            "hole_points": self.hole_points.tolist(),
+            "notes": list(self.notes),
+        }
+
+    @property
+    def n_holes(self) -> int:
+        """Number of holes N."""
+        return self.cage.n_holes
+
+    @property
+    def n_coefficients(self) -> int:
+        """Length m + N of phi and of psi: m offset-cage vertices, then the hole points."""
+        return self.offset_cage.n_vertices + self.n_holes
+
+    @property
+    def cage_loops_complex(self) -> tuple[NDArray[np.complex128], ...]:
+        """Loops of the cage as complex128 arrays."""
+        return self.cage.loops_complex
+
+    @property
+    def offset_loops_complex(self) -> tuple[NDArray[np.complex128], ...]:
+        """Loops of the offset cage as complex128 arrays."""
+        return self.offset_cage.loops_complex
+
+    @cached_property
+    def hole_points_complex(self) -> NDArray[np.complex128]:
+        """(N,) hole points as a read-only complex128 array."""
+        points = self.hole_points[:, 0] + 1j * self.hole_points[:, 1]
+        points.setflags(write=False)
+        return points
+
+
+def _checked_notes(notes: Any) -> tuple[str, ...]:
+    if notes is None:
+        return ()
+    if isinstance(notes, str):
+        return (notes,)
+    if not isinstance(notes, (list, tuple)) or not all(isinstance(note, str) for note in notes):
+        raise GeometryError(f"'notes' must be a list of sentences, not {notes!r:.60}")
+    return tuple(notes)
+
+
+def _checked_hole_points(hole_points: ArrayLike, n_holes: int) -> NDArray[np.float64]:
+    try:
+        points = np.array(hole_points, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise GeometryError(
+            f"hole points must be pairs of numbers [[x, y], ...] ({error})"
+        ) from error
+    points = points.reshape(0, 2) if points.size == 0 else points
+    if points.ndim != 2 or points.shape[1] != 2:
+        raise GeometryError(f"hole points must have the shape (N, 2), not {points.shape}")
+    if len(points) != n_holes:
+        raise GeometryError(
+            f"{len(points)} hole points given for a cage with {n_holes} holes; give one per hole"
+        )
+    bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    if bad.size:
+        i = int(bad[0])
+        raise GeometryError(
+            f"the point of hole {i + 1} is ({points[i, 0]}, {points[i, 1]}); "
+            "replace the NaN or infinite coordinate"
+        )
+    return points
+
+
+def _check_enclosed(cage: Cage, offset_cage: Cage) -> None:
+    """Raise unless the closed domain of `cage` lies in the open domain of `offset_cage`."""
+    if offset_cage.n_holes != cage.n_holes:
+        raise GeometryError(
+            f"the offset cage has {offset_cage.n_holes} holes and the cage {cage.n_holes}; "
+            "give one offset hole per hole, in the same order"
+        )
+    for i, (loop, offset_loop) in enumerate(zip(cage.loops, offset_cage.loops, strict=True)):
+        _check_loop_pair(loop, offset_loop, i)
+    # Loops of different index lie in disjoint places then: either cage's own loops do not meet.
+
+
+def _check_loop_pair(
+    loop: NDArray[np.float64], offset_loop: NDArray[np.float64], index: int
+) -> None:
+    """Raise unless the offset loop is outside the exterior loop or inside the hole."""
+    name = "the exterior loop" if index == 0 else loop_name(index)
+    ring, offset_ring = shapely.LinearRing(loop), shapely.LinearRing(offset_loop)
+    shapely.prepare(ring)
+    if shapely.intersects(ring, offset_ring):
+        meeting = shapely.get_coordinates(shapely.intersection(ring, offset_ring))[0]
+        raise GeometryError(
+            f"the offset of {name} meets {name} itself at {place(meeting)}; "
+            "use a smaller offset there, or leave the offset cage out to have it chosen"
+        )
+    large, small = (offset_loop, loop) if index == 0 else (loop, offset_loop)
+    region = shapely.Polygon(large)
+    if not shapely.contains_xy(region, *small[0]):
+        if index == 0:
+            raise GeometryError(
+                f"the offset cage's exterior loop does not enclose the cage: vertex 0 of the "
+                f"exterior loop at {place(loop[0])} lies outside it; move the offset loop outward"
+            )
+        raise GeometryError(
+            f"offset hole {index} does not lie in {name}: its vertex 0 at {place(offset_loop[0])} "
+            "is outside; move it into the hole, and list the offset holes in the order of the holes"
+        )
+
+
+def _check_hole_points(points: NDArray[np.float64], offset_cage: Cage) -> None:
+    for i, (point, hole) in enumerate(zip(points, offset_cage.holes, strict=True), start=1):
+        if not shapely.contains_xy(shapely.Polygon(hole), *point):
+            raise GeometryError(
+                f"the point of hole {i} at {place(point)} does not lie strictly inside offset hole "
+                f"{i}; move it there, or leave hole_points out to have them chosen"
+            )

@@ -1,0 +1,382 @@
+"""The offset cage P^: the cage's loops moved outward, and one point inside every offset hole."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from glid_nb.geometry._loops import GeometryError, edge_lengths, loop_name, place, segments
+from glid_nb.geometry.cage import Cage
+
+# No edge of the offset cage comes closer to the cage than this share of the smaller of the two
+# distances at its ends.
+CLEARANCE = 0.3
+# The mitre at an acute convex corner is cut back to this many distances from the corner.
+MITRE_LIMIT = 4.0
+
+# Share of a passage's width that the offset of either side may take: the largest that leaves the
+# clearance between the two.
+_PASSAGE_SHARE = 1.0 / (2.0 + CLEARANCE)
+# From this ratio of length to width on, a passage is narrowed before anything else: two offsets
+# that passed through each other on all its length would only be seen to meet at its ends.
+_PASSAGE_LENGTH = 4.0
+# Change of the distance per unit of arc length: a passage narrows the offset around it gradually.
+_SLOPE = 0.5
+# An offset edge keeps at least this share of the length of the edge it belongs to.
+_KEPT_LENGTH = 0.1
+# Rounds of local shrinking before the whole offset is halved, and rounds of that.
+_LOCAL_ROUNDS = 60
+_GLOBAL_ROUNDS = 30
+_SHRINK = 0.8
+
+
+@dataclass(frozen=True, eq=False)
+class Offset:
+    """An offset cage and how far it lies from its cage.
+
+    Attributes
+    ----------
+    cage
+        The offset cage P^, one vertex per vertex of the cage in the same order.
+    distances
+        Per loop, (n,) distances of vertex i of P^ from the lines of the two cage edges at vertex i.
+        Below the wanted distance in narrow places and where an acute corner's mitre was cut back.
+    notes
+        A sentence per place where the distance had to be reduced.
+    """
+
+    cage: Cage
+    distances: tuple[NDArray[np.float64], ...]
+    notes: tuple[str, ...] = ()
+
+
+def offset_cage(cage: Cage, distance: float) -> Offset:
+    """Move the exterior loop outward and every hole loop into its hole.
+
+    Every edge moves by `distance` along its normal and neighbours meet in a mitre, so P^ has one
+    vertex per cage vertex, as the cages of Chen & Weber (2017) do. Where that does not fit (two
+    parts of a loop face each other, a hole is small, short edges turn inwards) the distance shrinks
+    around the place, and `Offset.notes` says so. The result encloses the cage strictly: no edge of
+    P^ comes closer to the cage than 0.3 of the smaller of the distances at its ends.
+
+    Parameters
+    ----------
+    cage
+        The cage P.
+    distance
+        Wanted distance between P and P^, in the cage's units.
+
+    Raises
+    ------
+    GeometryError
+        The distance is not a positive number, or the cage has a passage too narrow for float64.
+    """
+    distance = _checked_distance(distance)
+    corners = _Corners(cage, distance)
+    wanted = np.full(cage.n_vertices, distance)
+    local = corners.smoothed(np.minimum(wanted, corners.passage_limits(_PASSAGE_LENGTH)))
+    local, fits = corners.shrunk(local, _LOCAL_ROUNDS)
+    for _ in range(_GLOBAL_ROUNDS):
+        if fits:
+            break
+        local, fits = corners.shrunk(0.5 * local, _LOCAL_ROUNDS)
+    if not fits:
+        i = int(np.argmin(local))
+        raise GeometryError(
+            f"no offset cage fits: the {corners.describe(i)} lies in a passage too narrow for any "
+            "offset; widen the passage, merge the two sides or remove the vertex"
+        )
+    loops = corners.split(corners.moved(local))
+    try:
+        outer = Cage(loops[0], loops[1:])
+    except GeometryError as error:
+        raise GeometryError(
+            f"no valid offset cage at distance {distance:.6g} ({error}); "
+            "use a smaller offset or widen the cage's narrowest passage"
+        ) from error
+    distances = corners.split(local * corners.height)
+    for array in distances:
+        array.setflags(write=False)
+    return Offset(outer, tuple(distances), _notes(corners, local, distance))
+
+
+def hole_points(cage: Cage) -> NDArray[np.float64]:
+    """One point strictly inside each hole, far from its boundary.
+
+    The point is the centre of the hole's largest inscribed circle.
+
+    Parameters
+    ----------
+    cage
+        The offset cage.
+
+    Returns
+    -------
+    (N, 2) points in the order of the holes.
+    """
+    points = np.empty((cage.n_holes, 2))
+    for i, hole in enumerate(cage.holes):
+        region = shapely.Polygon(hole)
+        # The default tolerance is a share of the bounding box, too coarse for a slender hole: what
+        # the coarse search finds sets the tolerance of a second one.
+        circle = shapely.maximum_inscribed_circle(region)
+        radius = shapely.length(circle)
+        if radius > 0:
+            circle = shapely.maximum_inscribed_circle(region, tolerance=0.02 * radius)
+        centre = shapely.get_point(circle, 0)
+        candidates = [p for p in (centre, region.representative_point()) if region.contains(p)]
+        if not candidates:
+            raise GeometryError(
+                f"no point strictly inside {loop_name(i + 1)} of the offset cage was found near "
+                f"{place(hole[0])}; widen the hole or remove it"
+            )
+        best = max(candidates, key=region.exterior.distance)
+        points[i] = best.x, best.y
+    return points
+
+
+def _checked_distance(distance: float) -> float:
+    try:
+        number = float(distance)
+    except (TypeError, ValueError) as error:
+        raise GeometryError(f"the offset must be a positive number, not {distance!r}") from error
+    if not (np.isfinite(number) and number > 0):
+        raise GeometryError(f"the offset must be a positive number, not {number}")
+    return number
+
+
+@dataclass(frozen=True, eq=False)
+class _Facing:
+    """Pairs of a vertex and an edge of the same loop with nothing but the outside between them."""
+
+    vertex: NDArray[np.intp]
+    edge: NDArray[np.intp]
+    share: NDArray[np.float64]  # position of the nearest point along the edge, 0 to 1
+    gap: NDArray[np.float64]
+    direction: NDArray[np.float64]  # (p, 2) from the vertex to the edge
+    way: NDArray[np.float64]  # between the two along the loop
+
+
+class _Corners:
+    """The vertices of all loops in one array, with what an offset needs at each of them."""
+
+    def __init__(self, cage: Cage, distance: float) -> None:
+        self.cage = cage
+        self.distance = distance
+        sizes = np.array([len(loop) for loop in cage.loops])
+        self.starts = np.concatenate([[0], np.cumsum(sizes)])
+        self.loop = np.repeat(np.arange(len(sizes)), sizes)
+        index = np.arange(self.starts[-1])
+        self.next = index + 1
+        self.next[self.starts[1:] - 1] = self.starts[:-1]
+        self.previous = np.empty_like(index)
+        self.previous[self.next] = index
+        self.points = np.concatenate(cage.loops)
+        self.length = np.concatenate([edge_lengths(loop) for loop in cage.loops])
+        self.perimeter = np.add.reduceat(self.length, self.starts[:-1])
+        self.position = np.cumsum(self.length) - self.length  # along the loop, up to a constant
+        self.along = (self.points[self.next] - self.points) / self.length[:, None]
+        self.normal = np.stack([self.along[:, 1], -self.along[:, 0]], axis=1)  # away from P
+        self.edges = np.concatenate([segments(loop) for loop in cage.loops])
+        self.tree = shapely.STRtree(self.edges)
+        self._set_mitres()
+
+    def _set_mitres(self) -> None:
+        before, after = self.along[self.previous], self.along
+        bulge = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+        self.convex = bulge > 0
+        # The bisector is along both n_before + n_after and +-(before - after); the longer of the
+        # two keeps its digits, which matters at corners of almost 0 or almost 180 degrees.
+        normals = self.normal[self.previous] + self.normal
+        tangents = np.where(self.convex, 1.0, -1.0)[:, None] * (before - after)
+        cosine = 0.5 * np.hypot(*normals.T)
+        use_normals = cosine > 0.5
+        axis = np.where(use_normals[:, None], normals, tangents)
+        axis /= np.hypot(*axis.T)[:, None]
+        mitre = 1.0 / np.maximum(cosine, 1e-15)
+        mitre = np.where(self.convex, np.minimum(mitre, MITRE_LIMIT), mitre)
+        self.step = mitre[:, None] * axis  # displacement per unit of distance
+        self.height = mitre * cosine  # distance from the edges' lines per unit of distance
+        # Length an offset edge gains per unit of distance at its start and at its end.
+        self.gain_start = -np.sum(self.step * after, axis=1)
+        self.gain_end = np.sum(self.step[self.next] * after, axis=1)
+
+    def moved(self, local: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(n, 2) offset vertices for the distances `local` (n,)."""
+        return self.points + local[:, None] * self.step
+
+    def split(self, values: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+        """Cut an array over all vertices into one per loop."""
+        return [part.copy() for part in np.split(values, self.starts[1:-1])]
+
+    def describe(self, i: int) -> str:
+        """Name and place of vertex `i` for a message."""
+        loop = int(self.loop[i])
+        return f"{loop_name(loop)}'s vertex {i - self.starts[loop]} at {place(self.points[i])}"
+
+    def passage_limits(self, min_ratio: float) -> NDArray[np.float64]:
+        """Upper limits (n,) that leave room where a vertex faces an edge through the outside.
+
+        Only pairs count whose way along the loop is at least `min_ratio` times the gap between
+        them.
+        """
+        limits = np.full(len(self.points), np.inf)
+        facing = self._facing
+        chosen = facing.way >= min_ratio * facing.gap
+        w, e, t = facing.vertex[chosen], facing.edge[chosen], facing.share[chosen]
+        room = _PASSAGE_SHARE * facing.gap[chosen]
+        advance = np.maximum(np.sum(self.step[w] * facing.direction[chosen], axis=1), 1.0)
+        np.minimum.at(limits, w, room / advance)
+        np.minimum.at(limits, e, room / np.maximum(1.0 - t, 1e-9))
+        np.minimum.at(limits, self.next[e], room / np.maximum(t, 1e-9))
+        return limits
+
+    @cached_property
+    def _facing(self) -> _Facing:
+        """Pairs that face each other through the outside, too close for the wanted distance."""
+        w, e = self.tree.query(
+            shapely.points(self.points),
+            predicate="dwithin",
+            distance=self.distance / _PASSAGE_SHARE,
+        )
+        apart = (e != w) & (self.next[e] != w) & (self.loop[e] == self.loop[w])
+        w, e = w[apart], e[apart]
+        arm = self.points[w] - self.points[e]
+        t = np.clip(np.sum(arm * self.along[e], axis=1) / self.length[e], 0.0, 1.0)
+        across = (t * self.length[e])[:, None] * self.along[e] - arm  # from the vertex to the edge
+        gap = np.hypot(*across.T)
+        towards = across / gap[:, None]
+        # They face each other if the way between them is on the outer side of both.
+        off_edge = -np.sum(towards * self.normal[e], axis=1) > -1e-9
+        off_after = np.sum(towards * self.normal[w], axis=1) > -1e-9
+        off_before = np.sum(towards * self.normal[self.previous[w]], axis=1) > -1e-9
+        off_vertex = np.where(self.convex[w], off_after | off_before, off_after & off_before)
+        ahead = (self.position[w] - self.position[e]) % self.perimeter[self.loop[e]]
+        way = np.minimum(ahead - t * self.length[e], self.perimeter[self.loop[e]] - ahead)
+        facing = off_edge & off_vertex
+        return _Facing(*(a[facing] for a in (w, e, t, gap, towards, way)))
+
+    def smoothed(self, local: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The largest distances below `local` that change by at most the slope per arc length."""
+        result = local.copy()
+        for a, b in zip(self.starts[:-1], self.starts[1:], strict=True):
+            n = b - a
+            s = _SLOPE * np.concatenate([[0.0], np.cumsum(np.tile(self.length[a:b], 3))[:-1]])
+            d = np.tile(local[a:b], 3)
+            up = np.minimum.accumulate(d - s) + s
+            down = (np.minimum.accumulate((d + s)[::-1]))[::-1] - s
+            smooth = np.minimum(up, down)[n : 2 * n]
+            # What is kept is kept to the last digit.
+            result[a:b] = np.where(smooth < local[a:b] * (1 - 1e-9), smooth, local[a:b])
+        return result
+
+    def shrunk(self, local: NDArray[np.float64], rounds: int) -> tuple[NDArray[np.float64], bool]:
+        """Shrink distances where the offset does not fit until it does; whether it does."""
+        limits = None
+        for _ in range(rounds):
+            factors = self._edge_factors(local)
+            if (factors == 1.0).all():
+                factors = self._meeting_factors(local)
+                if (factors == 1.0).all():
+                    return local, self._encloses(local)
+                if limits is None:
+                    limits = self.passage_limits(0.0)
+                # Straight to what the passage allows, where that is less.
+                local = np.where(factors < 1.0, np.minimum(local, limits), local)
+            local = self.smoothed(local * factors)
+        return local, False
+
+    def _edge_factors(self, local: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Factors (n,) for vertices whose offset edges became too short or turned round."""
+        gain = local * self.gain_start + local[self.next] * self.gain_end
+        loss = (1.0 - _KEPT_LENGTH) * self.length
+        short = gain < -loss * (1 + 1e-9)
+        factors = np.ones(len(local))
+        edge = np.flatnonzero(short)
+        factor = np.clip(loss[edge] / -gain[edge], 0.25, 0.95)
+        # Only an end that shortens the edge is to blame.
+        start, end = self.gain_start[edge] < 0, self.gain_end[edge] < 0
+        np.minimum.at(factors, edge[start], factor[start])
+        np.minimum.at(factors, self.next[edge[end]], factor[end])
+        return factors
+
+    def _meeting_factors(self, local: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Factors (n,) for vertices whose offset edges come too close to the cage or each other."""
+        factors = np.ones(len(local))
+        moved = self.moved(local)
+        height = local * self.height
+        reach = CLEARANCE * np.minimum(height, height[self.next])
+        ends = np.stack([moved, moved[self.next]], axis=1)
+        edges = np.asarray(shapely.linestrings(ends), dtype=object)
+
+        e, f = self.tree.query(edges, predicate="dwithin", distance=reach)
+        self._blame(factors, edges, e, self.edges[f])
+
+        e, f = shapely.STRtree(edges).query(edges, predicate="dwithin", distance=reach)
+        apart = (
+            (self.loop[e] == self.loop[f]) & (e != f) & (self.next[e] != f) & (self.next[f] != e)
+        )
+        e, f = e[apart], f[apart]
+        gap = shapely.distance(edges[e], edges[f])
+        # Neighbours of a short edge are close to each other by right: compare with the way round.
+        way = self._way_round(np.hypot(*(moved[self.next] - moved).T), e, f)
+        close = gap < np.minimum(np.minimum(reach[e], reach[f]), CLEARANCE * way)
+        self._blame(factors, edges, e[close], edges[f[close]])
+        return factors
+
+    def _way_round(
+        self, length: NDArray[np.float64], e: NDArray[np.intp], f: NDArray[np.intp]
+    ) -> NDArray[np.float64]:
+        """Length of the offset loop between the edges e and f, the shorter way."""
+        position = np.concatenate([[0.0], np.cumsum(length)])
+        total = position[self.starts[1:]] - position[self.starts[:-1]]
+        first, last = np.minimum(e, f), np.maximum(e, f)
+        inner = position[last] - position[first + 1]
+        return np.minimum(inner, total[self.loop[e]] - inner - length[first] - length[last])
+
+    def _blame(
+        self,
+        factors: NDArray[np.float64],
+        edges: NDArray[np.object_],
+        e: NDArray[np.intp],
+        others: NDArray[np.object_],
+    ) -> None:
+        """Shrink the ends of the offset edges `e`, mostly the end nearer to the meeting."""
+        if not len(e):
+            return
+        meeting = shapely.get_point(shapely.shortest_line(edges[e], others), 0)
+        t = shapely.line_locate_point(edges[e], meeting, normalized=True)
+        np.minimum.at(factors, e, np.where(t < 0.75, _SHRINK, 0.9))
+        np.minimum.at(factors, self.next[e], np.where(t > 0.25, _SHRINK, 0.9))
+
+    def _encloses(self, local: NDArray[np.float64]) -> bool:
+        """Whether the offset loops, known not to meet the cage, lie on its right side."""
+        for i, (loop, offset_loop) in enumerate(
+            zip(self.cage.loops, self.split(self.moved(local)), strict=True)
+        ):
+            large, small = (offset_loop, loop) if i == 0 else (loop, offset_loop)
+            if not shapely.contains_xy(shapely.Polygon(large), *small[0]):
+                return False
+        return True
+
+
+def _notes(corners: _Corners, local: NDArray[np.float64], distance: float) -> tuple[str, ...]:
+    """One sentence per run of vertices where the distance was reduced noticeably."""
+    notes: list[str] = []
+    reduced = local < 0.9 * distance
+    for loop, (a, b) in enumerate(zip(corners.starts[:-1], corners.starts[1:], strict=True)):
+        where = np.flatnonzero(reduced[a:b])
+        if not where.size:
+            continue
+        least = int(a + where[np.argmin(local[a + where])])
+        share = "everywhere" if len(where) == b - a else f"at {len(where)} of {b - a} vertices"
+        notes.append(
+            f"{loop_name(loop)}: the offset {distance:.4g} was reduced {share}, to "
+            f"{local[least]:.4g} at vertex {least - a} {place(corners.points[least])}, "
+            "because there is no room for more."
+        )
+    return tuple(notes)

@@ -1,0 +1,146 @@
+"""Panels: the straight pieces of the cage on which a map is integrated and certified."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from glid_nb.geometry.domain import Domain
+
+Array = np.ndarray
+
+# Bisecting a panel this often brings it below rounding for any domain of sane proportions.
+_MAX_BISECTIONS = 48
+
+
+@dataclass(frozen=True, eq=False)
+class Panels:
+    """Consecutive pieces of the cage's edges, loop by loop.
+
+    Attributes
+    ----------
+    start, end : (p,) complex array
+        End points; ``end[i] == start[next[i]]``.
+    loop : (p,) int array
+        The loop of the cage: 0 exterior, then the holes.
+    depth : (p,) int array
+        How often the panel was split since the first grading.
+    next : (p,) int array
+        The panel that follows on the same closed loop.
+    """
+
+    start: Array
+    end: Array
+    loop: Array
+    depth: Array
+    next: Array
+
+    def __len__(self) -> int:
+        return len(self.start)
+
+    @property
+    def length(self) -> Array:
+        """(p,) lengths, world units."""
+        return np.abs(self.end - self.start)
+
+    @property
+    def middle(self) -> Array:
+        """(p,) complex midpoints."""
+        return (self.start + self.end) / 2
+
+    @property
+    def divisible(self) -> Array:
+        """(p,) bool: False where the midpoint coincides with an end in floating point."""
+        return (self.middle != self.start) & (self.middle != self.end)
+
+    def split(self, chosen: Array) -> Panels:
+        """The panels with those of ``chosen`` (p,) bool cut in half, the order along loops kept.
+
+        Panels that are not :attr:`divisible` are left whole.
+        """
+        middle = self.middle
+        chosen = chosen & self.divisible
+        count = np.where(chosen, 2, 1)
+        first = np.cumsum(count) - count
+        start, end = np.repeat(self.start, count), np.repeat(self.end, count)
+        end[first[chosen]] = middle[chosen]
+        start[first[chosen] + 1] = middle[chosen]
+        depth = np.repeat(self.depth + chosen, count)
+        return _linked(start, end, np.repeat(self.loop, count), depth)
+
+    def chosen(self, which: Array) -> Panels:
+        """Only the panels of ``which`` (p,) bool, as a bare list: ``next`` loses its meaning."""
+        index = np.arange(int(which.sum()))
+        return Panels(
+            self.start[which], self.end[which], self.loop[which], self.depth[which], index
+        )
+
+
+def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
+    """Panels no longer than ``ratio`` times their distance to the nearest singularity of ``f_z``.
+
+    The singularities of ``f_z`` are the offset cage's vertices and the hole points; each edge of
+    the cage is bisected until the rule holds, so panels are short only where the map may vary
+    fast.
+
+    Parameters
+    ----------
+    domain : Domain
+    ratio : float
+        Greatest length over distance, positive; smaller means more panels.
+    """
+    if not ratio > 0:
+        raise ValueError(f"ratio is {ratio}; it must be positive")
+    singular = np.concatenate([*domain.offset_loops_complex, domain.hole_points @ [1, 1j]])
+    panels = edge_panels(domain)
+    for _ in range(_MAX_BISECTIONS):
+        nearest = distance_to_segments(singular, panels.start, panels.end).min(axis=1)
+        too_long = panels.length > ratio * nearest
+        if not too_long.any():
+            break
+        panels = panels.split(too_long)
+    return _linked(panels.start, panels.end, panels.loop, np.zeros(len(panels), dtype=int))
+
+
+def edge_panels(domain: Domain) -> Panels:
+    """One panel per edge of the cage."""
+    loops = domain.cage_loops_complex
+    start = np.concatenate(loops)
+    end = np.concatenate([np.roll(loop, -1) for loop in loops])
+    loop = np.repeat(np.arange(len(loops)), [len(loop) for loop in loops])
+    return _linked(start, end, loop, np.zeros(len(start), dtype=int))
+
+
+def panels_between(points: Array, loop: Array) -> Panels:
+    """Panels between consecutive sample points of closed loops (the paper's segments)."""
+    following = _next_index(loop)
+    return Panels(points, points[following], loop, np.zeros(len(points), dtype=int), following)
+
+
+def distance_to_segments(points: Array, start: Array, end: Array) -> Array:
+    """(p, k) distances from complex ``points`` (k,) to segments ``start`` to ``end`` (p,)."""
+    along = end - start
+    relative = points - start[:, None]
+    length_squared = np.abs(along) ** 2
+    position = (relative * along.conj()[:, None]).real / length_squared[:, None]
+    np.clip(position, 0, 1, out=position)
+    return np.abs(relative - position * along[:, None])
+
+
+def _linked(start: Array, end: Array, loop: Array, depth: Array) -> Panels:
+    panels = Panels(start, end, loop, depth, _next_index(loop))
+    for array in (panels.start, panels.end, panels.loop, panels.depth, panels.next):
+        array.flags.writeable = False
+    return panels
+
+
+def _next_index(loop: Array) -> Array:
+    """Index of the following element within each run of equal ``loop``, cyclically."""
+    following = np.arange(1, len(loop) + 1)
+    first = np.flatnonzero(np.diff(loop, prepend=-1))
+    last = np.append(first[1:], len(loop)) - 1
+    following[last] = first
+    return following

@@ -1,0 +1,170 @@
+"""Even triangulations of a cage, for display."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pythoncdt
+import shapely
+from numpy.typing import NDArray
+
+from glid_nb.geometry._loops import GeometryError, edge_lengths
+from glid_nb.geometry.cage import Cage
+from glid_nb.geometry.sampling import subdivided
+
+# Lattice points keep this share of the spacing from the boundary: closer ones make flat triangles.
+_MARGIN = 0.55
+_ROW = np.sqrt(3.0) / 2.0  # height of a lattice row, in spacings
+
+
+@dataclass(frozen=True, eq=False)
+class Triangulation:
+    """A triangle mesh of a cage.
+
+    Attributes
+    ----------
+    vertices
+        (v, 2) positions; the first `n_boundary` lie on the cage, loop after loop in order.
+    triangles
+        (t, 3) int32 vertex indices, counter-clockwise.
+    n_boundary
+        Number of vertices on the boundary.
+    """
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    n_boundary: int
+
+    def __post_init__(self) -> None:
+        self.vertices.setflags(write=False)
+        self.triangles.setflags(write=False)
+
+
+def triangulate(cage: Cage, n_vertices: int = 10_000) -> Triangulation:
+    """Constrained Delaunay triangulation with evenly spread vertices.
+
+    Edges of the cage are cut into parts of one spacing and the inside is filled with a hexagonal
+    lattice of the same spacing, chosen so that the number of vertices comes out near `n_vertices`.
+    Every cage vertex is a vertex of the mesh, so a small `n_vertices` is exceeded by cages with
+    more vertices than that.
+
+    Parameters
+    ----------
+    cage
+        The polygon to fill; holes stay empty.
+    n_vertices
+        Wanted number of vertices, at least 3.
+
+    Raises
+    ------
+    GeometryError
+        `n_vertices` is less than 3.
+    """
+    if n_vertices < 3:
+        raise GeometryError(f"a triangulation needs at least 3 vertices, not {n_vertices}")
+    spacing = _spacing(cage, n_vertices)
+    loops = [
+        subdivided(loop, _parts(edge_lengths(corners), spacing))
+        for loop, corners in zip(cage.loops_complex, cage.loops, strict=True)
+    ]
+    boundary = np.concatenate(loops)
+    inside = _lattice_points(_lattice_rows(cage, spacing), spacing)
+    vertices = np.concatenate([np.stack([boundary.real, boundary.imag], axis=1), inside])
+    return Triangulation(vertices, _constrained_delaunay(vertices, loops), len(boundary))
+
+
+def _parts(lengths: NDArray[np.float64], spacing: float) -> NDArray[np.int64]:
+    """Number of parts of each edge, each of about the spacing."""
+    return np.maximum(np.rint(lengths / spacing), 1).astype(np.int64)
+
+
+def _spacing(cage: Cage, n_vertices: int) -> float:
+    """Spacing that gives about `n_vertices` vertices."""
+    # n = (area - margin * perimeter) / cell + perimeter / spacing with cell = row * spacing^2.
+    linear = cage.perimeter * (1.0 - _MARGIN / _ROW)
+    inverse = (np.sqrt(linear**2 + 4.0 * n_vertices * cage.area / _ROW) - linear) / (
+        2.0 * cage.area / _ROW
+    )
+    spacing = 1.0 / float(inverse)
+    lengths = np.concatenate([edge_lengths(loop) for loop in cage.loops])
+    # The formula overrates cages with many short edges or slender limbs.
+    for _ in range(6):
+        count = int(_parts(lengths, spacing).sum())
+        rows = _lattice_rows(cage, spacing)
+        count += int(rows.counts.sum())
+        if abs(count - n_vertices) <= 0.02 * n_vertices or spacing > cage.longer_side:
+            break
+        spacing *= (count / n_vertices) ** 0.6
+    return spacing
+
+
+@dataclass(frozen=True, eq=False)
+class _Rows:
+    """Runs of lattice points: (r,) height, x of the first point, number of points."""
+
+    y: NDArray[np.float64]
+    x: NDArray[np.float64]
+    counts: NDArray[np.int64]
+
+
+def _lattice_rows(cage: Cage, spacing: float) -> _Rows:
+    """Runs of the hexagonal lattice inside the cage and away from its boundary."""
+    inner = shapely.buffer(cage.polygon, -_MARGIN * spacing, quad_segs=4)
+    rings = shapely.get_rings(shapely.get_parts(inner))
+    if not len(rings):
+        return _Rows(np.empty(0), np.empty(0), np.empty(0, dtype=np.int64))
+    xy, ring = shapely.get_coordinates(rings, return_index=True)
+    same = ring[1:] == ring[:-1]
+    a, b = xy[:-1][same], xy[1:][same]
+
+    # Scan line by scan line: where the row crosses the inner boundary, runs start and end.
+    height = _ROW * spacing
+    xmin, ymin, _, _ = cage.bounds
+    low, high = np.minimum(a[:, 1], b[:, 1]), np.maximum(a[:, 1], b[:, 1])
+    first = np.ceil((low - ymin) / height).astype(np.int64)
+    last = np.ceil((high - ymin) / height).astype(np.int64)  # half open: each joint counts once
+    crossings = last - first
+    edge = np.repeat(np.arange(len(a)), crossings)
+    offset = np.cumsum(crossings) - crossings
+    row = first[edge] + np.arange(len(edge)) - offset[edge]
+    y = ymin + row * height
+    t = (y - a[edge, 1]) / (b[edge, 1] - a[edge, 1])
+    x = a[edge, 0] + t * (b[edge, 0] - a[edge, 0])
+    order = np.lexsort((x, row))
+    row, y, x = row[order], y[order], x[order]
+    start, end = x[0::2], x[1::2]
+    origin = xmin + 0.5 * spacing * (row[0::2] % 2)
+    k_start = np.ceil((start - origin) / spacing)
+    counts = np.maximum(np.floor((end - origin) / spacing) - k_start + 1, 0).astype(np.int64)
+    return _Rows(y[0::2], origin + k_start * spacing, counts)
+
+
+def _lattice_points(rows: _Rows, spacing: float) -> NDArray[np.float64]:
+    """(p, 2) points of the runs."""
+    run = np.repeat(np.arange(len(rows.counts)), rows.counts)
+    offset = np.cumsum(rows.counts) - rows.counts
+    x = rows.x[run] + (np.arange(len(run)) - offset[run]) * spacing
+    return np.stack([x, rows.y[run]], axis=1)
+
+
+def _constrained_delaunay(
+    vertices: NDArray[np.float64], loops: list[NDArray[np.complex128]]
+) -> NDArray[np.int32]:
+    """Triangles of the region bounded by the loops, whose points are the first vertices."""
+    ends = np.cumsum([len(loop) for loop in loops])
+    following = np.arange(1, ends[-1] + 1)
+    following[ends - 1] = np.concatenate([[0], ends[:-1]])
+    # Any: numpy's stubs call an array a buffer from Python 3.12 on only.
+    points: Any = np.ascontiguousarray(vertices)
+    edges: Any = np.stack([np.arange(ends[-1]), following], axis=1).astype(np.uintc)
+    delaunay = pythoncdt.Triangulation(
+        pythoncdt.VertexInsertionOrder.AUTO,
+        pythoncdt.IntersectingConstraintEdges.NOT_ALLOWED,
+        0.0,
+    )
+    delaunay.insert_vertices(points)
+    delaunay.insert_edges(edges)
+    delaunay.erase_outer_triangles_and_holes()
+    return delaunay.triangles_array()["vertices"].astype(np.int32)

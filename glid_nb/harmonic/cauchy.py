@@ -1,0 +1,132 @@
+"""Cauchy barycentric coordinates and their derivatives (paper Appendix D, Equation (9)).
+
+The cage that carries the basis has ``m`` vertices ``z_j`` on one or more closed loops and one
+point ``rho`` per hole. With ``A_j = z_j - z_{j-1}`` and ``B_j(z) = z_j - z`` (Figure 4), the
+columns of every matrix here are the ``m`` vertices in the order of the loops, then the holes.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Complex, Float, Int
+
+_TWO_PI_I = 2j * np.pi
+
+
+class Singularities(NamedTuple):
+    """Where the basis functions are singular: the offset cage's vertices and the hole points."""
+
+    vertices: Complex[Array, " m"]
+    next: Int[Array, " m"]
+    previous: Int[Array, " m"]
+    hole_points: Complex[Array, " N"]
+
+
+def cauchy_coordinates(
+    z: Complex[Array, " k"], singularities: Singularities
+) -> Complex[Array, "k n"]:
+    """``C_j(z)`` of Equation (8): (D.1) for vertices and ``ln|z - rho|`` for holes."""
+    vertices, following, preceding, rho = singularities
+    b = vertices - z[:, None]
+    log_over_a = _log_over_edge(b, singularities)
+    c = (b[:, following] * log_over_a - b[:, preceding] * log_over_a[:, preceding]) / _TWO_PI_I
+    logarithms = jnp.log(jnp.abs(z[:, None] - rho))
+    return jnp.concatenate([c, logarithms.astype(c.dtype)], axis=1)
+
+
+def first_derivatives(
+    z: Complex[Array, " k"], singularities: Singularities
+) -> Complex[Array, "k n"]:
+    """``D_j(z)`` of Equation (9): (D.2) for vertices and ``1 / (z - rho)`` for holes."""
+    vertices, _, preceding, rho = singularities
+    log_over_a = _log_over_edge(vertices - z[:, None], singularities)
+    d = (log_over_a[:, preceding] - log_over_a) / _TWO_PI_I
+    return jnp.concatenate([d, 1 / (z[:, None] - rho)], axis=1)
+
+
+def second_derivatives(
+    z: Complex[Array, " k"], singularities: Singularities
+) -> Complex[Array, "k n"]:
+    """``D'_j(z)``: (D.3) for vertices and ``-1 / (z - rho)^2`` for holes."""
+    vertices, following, preceding, rho = singularities
+    b = vertices - z[:, None]
+    numerator = (vertices[following] - vertices[preceding]) / _TWO_PI_I
+    d = numerator / (b[:, preceding] * b * b[:, following])
+    return jnp.concatenate([d, -1 / (z[:, None] - rho) ** 2], axis=1)
+
+
+def edge_slopes(
+    coefficients: Complex[Array, "... m"], singularities: Singularities
+) -> Complex[Array, "... m"]:
+    """``s_j = (phi_j - phi_{j-1}) / (z_j - z_{j-1})`` (Section 8), cyclic within each loop."""
+    vertices, _, preceding, _ = singularities
+    return (coefficients - coefficients[..., preceding]) / (vertices - vertices[preceding])
+
+
+def slope_jumps(
+    coefficients: Complex[Array, "... n"], singularities: Singularities
+) -> Complex[Array, "... n"]:
+    """``s_j - s_{j+1}`` for the vertices and the coefficient itself for the holes.
+
+    These are the residues that drive every derivative of ``f_z`` (Appendix H):
+    ``f_z' = 1/(2 pi i) sum_j (s_j - s_{j+1}) / B_j - sum_k phi_{m+k} / (z - rho_k)^2``.
+    """
+    m = singularities.vertices.shape[0]
+    slopes = edge_slopes(coefficients[..., :m], singularities)
+    return jnp.concatenate(
+        [slopes - slopes[..., singularities.next], coefficients[..., m:]], axis=-1
+    )
+
+
+def higher_derivative(
+    z: Complex[Array, " k"],
+    coefficients: Complex[Array, " n"],
+    singularities: Singularities,
+    order: int,
+) -> Complex[Array, " k"]:
+    """The ``order``-th derivative (``order >= 1``) of ``sum_j D_j(z) coefficients_j``.
+
+    Differentiating the expression for ``f_z'`` in Appendix H ``order - 1`` times:
+    ``(order-1)!/(2 pi i) sum_j (s_j - s_{j+1}) / B_j^order
+    + (-1)^order order! sum_k phi_{m+k} / (z - rho_k)^(order+1)``.
+    """
+    vertices, _, _, rho = singularities
+    m = vertices.shape[0]
+    jumps = slope_jumps(coefficients, singularities)
+    factorial = float(np.prod(np.arange(1, order)))
+    inner = ((vertices - z[:, None]) ** -order) @ jumps[:m] * (factorial / _TWO_PI_I)
+    holes = ((z[:, None] - rho) ** -(order + 1)) @ jumps[m:]
+    return inner + (-1) ** order * factorial * order * holes
+
+
+def rounding_scale(
+    z: Complex[Array, " k"], singularities: Singularities
+) -> tuple[Float[Array, " k"], Float[Array, " k"]]:
+    """Sums of the moduli of all terms that make up ``D(z)`` and ``D'(z)``.
+
+    To first order the rounding error of a computed ``f_z(z)`` is at most a small multiple of
+    ``n * unit roundoff * scale * max_j |phi_j|``. A logarithm of a computed ratio near 1 has an
+    absolute, not a relative, error of a few roundoffs; the 4 beside its modulus covers that.
+    """
+    vertices, following, preceding, rho = singularities
+    b = jnp.abs(vertices - z[:, None])
+    to_hole = jnp.abs(z[:, None] - rho)
+    logs = jnp.abs(_log_over_edge(vertices - z[:, None], singularities))
+    first = jnp.sum(logs + 4 / jnp.abs(vertices[following] - vertices), axis=1) / np.pi
+    chord = jnp.abs(vertices[following] - vertices[preceding])
+    second = jnp.sum(chord / (b[:, preceding] * b * b[:, following]), axis=1) / (2 * np.pi)
+    return first + jnp.sum(1 / to_hole, axis=1), second + jnp.sum(to_hole**-2, axis=1)
+
+
+def _log_over_edge(
+    b: Complex[Array, "k m"], singularities: Singularities
+) -> Complex[Array, "k m"]:
+    """``Log(B_{j+1} / B_j) / A_{j+1}``, one column per edge from vertex ``j`` to ``j + 1``.
+
+    The principal branch is right: an edge is seen under less than pi from any point off it.
+    """
+    vertices, following, _, _ = singularities
+    return jnp.log(b[:, following] / b) / (vertices[following] - vertices)

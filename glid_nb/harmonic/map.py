@@ -1,0 +1,273 @@
+"""A harmonic map as a value."""
+
+from __future__ import annotations
+
+import functools
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from numpy.typing import ArrayLike
+
+from glid_nb._files import write_text_atomically
+from glid_nb._runtime import double_precision
+from glid_nb.geometry import Domain, GeometryError
+from glid_nb.harmonic import cauchy
+from glid_nb.harmonic.basis import Basis, build_basis
+from glid_nb.harmonic.cauchy import Singularities
+
+Array = np.ndarray
+
+FORMAT = "glid_nb-map"
+FORMAT_VERSION = 1
+
+# Points per evaluation chunk: bounds the memory at chunk x columns complex numbers.
+_CHUNK_ELEMENTS = 1 << 19
+_SMALL_CHUNK = 64
+
+
+class MapError(ValueError):
+    """A harmonic map's coefficients, or a file that should hold one, are not valid."""
+
+
+@functools.lru_cache(maxsize=64)
+def basis_of(domain: Domain) -> Basis:
+    """The (cached) basis of a domain."""
+    return build_basis(domain)
+
+
+@dataclass(frozen=True, eq=False)
+class HarmonicMap:
+    """A planar harmonic map on a multiply-connected domain (paper Equation (8)).
+
+    ``f(z) = sum_j C_j(z) phi_j + conj(sum_j C_j(z) psi_j)``, with the offset cage's vertices in
+    the order of its loops first, then one logarithm per hole.
+
+    Parameters
+    ----------
+    domain : Domain
+        Where the map lives.
+    phi, psi : (n,) complex array_like
+        Coefficients, ``n`` = offset-cage vertices + holes, zeros of the fixed unknowns
+        included. For the holes ``phi_j = conj(psi_j)`` must hold (Section 5).
+
+    Raises
+    ------
+    MapError
+        When the counts do not match the domain, a coefficient is not finite, or a hole's two
+        coefficients are not conjugate.
+    """
+
+    domain: Domain
+    phi: Array = field(repr=False)
+    psi: Array = field(repr=False)
+
+    def __post_init__(self) -> None:
+        n = self.domain.n_coefficients
+        for name in ("phi", "psi"):
+            values = np.array(getattr(self, name), dtype=complex)
+            if values.shape != (n,):
+                raise MapError(
+                    f"{name} has shape {values.shape}, but the domain has {n} coefficients "
+                    f"(offset-cage vertices and holes); pass an array of shape ({n},)"
+                )
+            bad = np.flatnonzero(~np.isfinite(values))
+            if bad.size:
+                raise MapError(f"{name}[{bad[0]}] is {values[bad[0]]}; it must be finite")
+            values.flags.writeable = False
+            object.__setattr__(self, name, values)
+        holes = slice(n - self.domain.n_holes, n)
+        gap = np.abs(self.phi[holes] - self.psi[holes].conj())
+        scale = 1 + np.abs(self.phi[holes])
+        if (gap > 1e-9 * scale).any():
+            worst = int(np.argmax(gap / scale))
+            raise MapError(
+                f"the logarithm coefficients of hole {worst + 1} are not conjugate: "
+                f"phi = {self.phi[holes][worst]}, psi = {self.psi[holes][worst]}"
+            )
+
+    @classmethod
+    def identity(cls, domain: Domain) -> HarmonicMap:
+        """The identity map: ``phi`` = the exterior offset vertices, everything else 0."""
+        exterior = domain.offset_loops_complex[0]
+        phi = np.zeros(domain.n_coefficients, dtype=complex)
+        phi[: len(exterior)] = exterior
+        return cls(domain, phi, np.zeros_like(phi))
+
+    def __call__(self, points: ArrayLike) -> Array:
+        """Images of points.
+
+        Parameters
+        ----------
+        points : (k, 2) array_like
+            Points of the domain, in world coordinates.
+
+        Returns
+        -------
+        (k, 2) array
+        """
+        (f,) = self._evaluate(_values, points)
+        return np.stack([f.real, f.imag], axis=-1)
+
+    def wirtinger(self, points: ArrayLike) -> tuple[Array, Array]:
+        """Wirtinger derivatives ``f_z`` and ``f_zbar``, each (k,) complex (Equation (9))."""
+        fz, fzb_conj = self._evaluate(_first, points)
+        return fz, fzb_conj.conj()
+
+    def wirtinger_derivatives(self, points: ArrayLike, order: int) -> tuple[Array, Array]:
+        """The ``order``-th complex derivatives of ``f_z`` and of ``conj(f_zbar)``, order >= 1."""
+        if order < 1:
+            raise ValueError(f"order is {order}; it must be at least 1")
+        a, b = self._evaluate(_higher(order), points)
+        return a, b
+
+    def sigma1(self, points: ArrayLike) -> Array:
+        """Large singular value of the Jacobian, (k,) (Equation (2))."""
+        fz, fzb = self.wirtinger(points)
+        return np.abs(fz) + np.abs(fzb)
+
+    def sigma2(self, points: ArrayLike) -> Array:
+        """Signed small singular value ``|f_z| - |f_zbar|``, (k,); negative where it folds."""
+        fz, fzb = self.wirtinger(points)
+        return np.abs(fz) - np.abs(fzb)
+
+    def k(self, points: ArrayLike) -> Array:
+        """Little dilatation ``|f_zbar| / |f_z|``, (k,) (Section 3.2)."""
+        fz, fzb = self.wirtinger(points)
+        return np.abs(fzb) / np.abs(fz)
+
+    def det(self, points: ArrayLike) -> Array:
+        """Determinant of the Jacobian, ``|f_z|^2 - |f_zbar|^2``, (k,)."""
+        fz, fzb = self.wirtinger(points)
+        return np.abs(fz) ** 2 - np.abs(fzb) ** 2
+
+    def distance(self, other: HarmonicMap, n_points: int = 2000) -> float:
+        """Largest distance between the images under two maps, over points of the boundary.
+
+        Both components of the difference are harmonic, so their extremes lie on the boundary;
+        ``n_points`` boundary points sample it. The maps may have different offset cages.
+        """
+        from glid_nb.geometry import uniform_boundary_samples  # noqa: PLC0415
+
+        samples = uniform_boundary_samples(self.domain.cage, n_points).points
+        points = np.stack([samples.real, samples.imag], axis=-1)
+        return float(np.linalg.norm(self(points) - other(points), axis=1).max())
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON values: format, version, the domain's loops, ``phi`` and ``psi``."""
+        return {
+            "format": FORMAT,
+            "version": FORMAT_VERSION,
+            **self.domain.to_dict(),
+            "phi": [[v.real, v.imag] for v in self.phi.tolist()],
+            "psi": [[v.real, v.imag] for v in self.psi.tolist()],
+        }
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> HarmonicMap:
+        """The map that :meth:`to_dict` wrote; everything is validated."""
+        if not isinstance(data, Mapping) or data.get("format") != FORMAT:
+            raise MapError(f'this is not a glid_nb map: the key "format" is not "{FORMAT}"')
+        version = data.get("version")
+        if version != FORMAT_VERSION:
+            raise MapError(f"map version {version!r} is not supported; expected {FORMAT_VERSION}")
+        required = ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "phi", "psi")
+        for key in required:
+            if key not in data:
+                raise MapError(f'the map lacks the key "{key}"')
+        try:
+            domain = Domain.from_dict(data)
+        except GeometryError as error:
+            raise MapError(f"the map's domain is not valid: {error}") from error
+        return cls(domain, _complex_list(data["phi"], "phi"), _complex_list(data["psi"], "psi"))
+
+    def save(self, path: str | Path) -> None:
+        """Write the map as JSON, atomically."""
+        write_text_atomically(Path(path), json.dumps(self.to_dict()))
+
+    @classmethod
+    def load(cls, path: str | Path) -> HarmonicMap:
+        """Read a map written by :meth:`save`.
+
+        Raises
+        ------
+        MapError
+            When the file is not a valid map; the message names the file and the culprit.
+        OSError
+            When it cannot be read.
+        """
+        try:
+            data = json.loads(Path(path).read_text(encoding="utf-8"))
+        except ValueError as error:
+            raise MapError(f"{path} is not a JSON file: {error}") from error
+        try:
+            return cls.from_dict(data)
+        except MapError as error:
+            raise MapError(f"{path}: {error}") from error
+
+    @double_precision
+    def _evaluate(self, kernel: Callable[..., Any], points: ArrayLike) -> tuple[Array, ...]:
+        z = as_complex(points)
+        basis = basis_of(self.domain)
+        coefficients = np.stack([basis.pad(self.phi), basis.pad(self.psi)])
+        # Two chunk sizes only, so that few programs are compiled whatever the number of points.
+        large = max(_SMALL_CHUNK, _CHUNK_ELEMENTS // basis.n_columns)
+        chunk = _SMALL_CHUNK if len(z) <= _SMALL_CHUNK else large
+        run = _compiled(kernel)
+        parts = []
+        for start in range(0, max(len(z), 1), chunk):
+            part = z[start : start + chunk]
+            filled = np.full(chunk, part[0] if len(part) else 0j)
+            filled[: len(part)] = part
+            outputs = run(filled, coefficients, basis.singularities)
+            parts.append([np.asarray(o)[: len(part)] for o in outputs])
+        return tuple(np.concatenate(columns) for columns in zip(*parts, strict=True))
+
+
+def as_complex(points: ArrayLike) -> Array:
+    """(k, 2) real points as a (k,) complex array; complex input passes through."""
+    array = np.asarray(points)
+    if np.iscomplexobj(array):
+        return array.astype(complex).ravel()
+    array = np.asarray(array, dtype=float)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise ValueError(f"points have shape {array.shape}; expected (k, 2)")
+    return array[:, 0] + 1j * array[:, 1]
+
+
+def _values(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any]:
+    c = cauchy.cauchy_coordinates(z, singularities)
+    return (c @ coefficients[0] + jnp.conj(c @ coefficients[1]),)
+
+
+def _first(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any, Any]:
+    d = cauchy.first_derivatives(z, singularities)
+    return d @ coefficients[0], d @ coefficients[1]
+
+
+@functools.cache
+def _higher(order: int) -> Callable[..., Any]:
+    def kernel(z: Any, coefficients: Any, singularities: Singularities) -> Any:
+        return tuple(cauchy.higher_derivative(z, c, singularities, order) for c in coefficients)
+
+    return kernel
+
+
+@functools.cache
+def _compiled(kernel: Callable[..., Any]) -> Callable[..., Any]:
+    return jax.jit(kernel)
+
+
+def _complex_list(values: Any, name: str) -> Array:
+    try:
+        array = np.asarray(values, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise MapError(f'"{name}" must be a list of [re, im] pairs of numbers') from error
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise MapError(f'"{name}" must be a list of [re, im] pairs; its shape is {array.shape}')
+    return array[:, 0] + 1j * array[:, 1]

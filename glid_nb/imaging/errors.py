@@ -1,0 +1,5 @@
+"""The error of everything between a picture and a cage."""
+
+
+class TraceError(ValueError):
+    """A picture, or a choice of options, that no cage can be traced from; the message says why."""

@@ -1,0 +1,74 @@
+"""The frame of pixels along a picture's border, which mostly shows the background."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+_SHARE = 0.01  # width of the frame relative to the shorter side
+_LEVELS = 16  # per channel, to find the most frequent colour
+_SAME = 0.1  # colours closer than this (black to white is 1) count as one
+_UNIFORM = 0.6
+
+
+@dataclass(frozen=True)
+class BorderColor:
+    """The most frequent colour of the border.
+
+    Attributes
+    ----------
+    color
+        (red, green, blue) in [0, 1].
+    share
+        The part of the border that has it, nearly.
+    spread
+        99th percentile of the distances of that part from `color`.
+    """
+
+    color: tuple[float, float, float]
+    share: float
+    spread: float
+
+    @property
+    def is_uniform(self) -> bool:
+        """Whether the border tells a background colour at all."""
+        return self.share >= _UNIFORM
+
+
+def border_pixels(array: NDArray) -> NDArray:
+    """(k, ...) pixels of a frame 1 % wide, at least one pixel; of a wide one a regular sample."""
+    height, width = array.shape[:2]
+    frame = max(1, round(_SHARE * min(height, width)))
+    if 2 * frame >= min(height, width):
+        return array.reshape(-1, *array.shape[2:])
+    sides = (
+        array[:frame],
+        array[-frame:],
+        array[frame:-frame, :frame],
+        array[frame:-frame, -frame:],
+    )
+    step = max(1, frame // 4)  # a sample of the frames of large pictures
+    return np.concatenate([side[::step, ::step].reshape(-1, *array.shape[2:]) for side in sides])
+
+
+def border_color(image: NDArray[np.unsignedinteger]) -> BorderColor | None:
+    """Estimate the background's colour; None if the whole border is transparent."""
+    pixels = border_pixels(image)
+    scaled = pixels[pixels[:, 3] > np.iinfo(image.dtype).max // 2, :3] / np.iinfo(image.dtype).max
+    if not len(scaled):
+        return None
+    bins = np.minimum((scaled * _LEVELS).astype(np.intp), _LEVELS - 1)
+    codes = np.ravel_multi_index(tuple(bins.T), (_LEVELS,) * 3)
+    most = np.bincount(codes).argmax()
+    color = scaled[codes == most].mean(axis=0)
+    for _ in range(3):  # a few steps towards the mode: the bin may have cut it
+        distance = np.linalg.norm(scaled - color, axis=1) / np.sqrt(3)
+        near = distance <= _SAME
+        color = np.median(scaled[near], axis=0)
+    distance = np.linalg.norm(scaled - color, axis=1) / np.sqrt(3)
+    near = distance <= _SAME
+    red, green, blue = (float(c) for c in color)
+    spread = float(np.percentile(distance[near], 99)) if near.any() else 0.0
+    return BorderColor((red, green, blue), float(near.mean()), spread)

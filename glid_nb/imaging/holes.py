@@ -1,0 +1,135 @@
+"""Which holes of a shape stay holes of its cage."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw
+
+from glid_nb.imaging.options import Point
+from glid_nb.imaging.outline import Outline
+
+# Relative to the component, and in square pixels. A hole in the alpha channel is meant; one found by
+# colour is as likely an eye or a highlight.
+_LEAST_SHARE, _LEAST_SHARE_BY_COLOR, _LEAST_AREA = 0.002, 0.0075, 9.0
+
+
+@dataclass(frozen=True, eq=False)
+class Hole:
+    """A hole, kept or filled.
+
+    Attributes
+    ----------
+    loop
+        (k, 2) read-only vertices in pixel coordinates, as in the picture (not moved by the offset).
+    area
+        In square pixels.
+    bounds
+        Bounding box (xmin, ymin, xmax, ymax) in pixel coordinates.
+    pixel
+        A point (x, y) in the hole, for `TraceOptions.keep_holes` and `drop_holes`.
+    kept
+        Whether the cage has it.
+    by_offset
+        Whether it is not in the picture but was closed off by the offset.
+    """
+
+    loop: NDArray[np.float64]
+    area: float
+    bounds: tuple[float, float, float, float]
+    pixel: Point
+    kept: bool
+    by_offset: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class HoleRule:
+    """Decides which holes are kept: by least area in square pixels, with exceptions by points."""
+
+    min_area: float
+    keep: tuple[Point, ...]
+    drop: tuple[Point, ...]
+
+    def keeps(self, loop: NDArray[np.float64], area: float) -> bool:
+        """Whether a hole is kept."""
+        if _holds_any(loop, self.drop):
+            return False
+        return area >= self.min_area or _holds_any(loop, self.keep)
+
+
+def choose_holes(
+    outline: Outline,
+    method: str,
+    min_hole_area: float | None = None,
+    keep: tuple[Point, ...] = (),
+    drop: tuple[Point, ...] = (),
+) -> tuple[tuple[Hole, ...], HoleRule, tuple[str, ...]]:
+    """Apply the rule to the holes of an outline.
+
+    `method` is the one that found the foreground; the other parameters are those of `TraceOptions`.
+
+    Returns
+    -------
+    The holes, in the outline's order; the rule, for holes that are made later; notes.
+    """
+    least = min_hole_area
+    if least is None:
+        share = _LEAST_SHARE_BY_COLOR if method in ("color", "threshold") else _LEAST_SHARE
+        least = max(share * outline.component.area, _LEAST_AREA)
+    rule = HoleRule(least, keep, drop)
+    holes = tuple(as_hole(loop, rule) for loop in outline.holes)
+    filled = [h for h in holes if not h.kept and not _holds_any(h.loop, drop)]
+    notes = []
+    if filled or outline.n_specks:
+        count = len(filled) + outline.n_specks
+        notes.append(
+            f"{count} {'hole' if count == 1 else 'holes'} smaller than {least:.4g} square pixels "
+            f"{'was' if count == 1 else 'were'} filled"
+        )
+    for name, points in (("keep_holes", keep), ("drop_holes", drop)):
+        notes += [
+            f"{name}: there is no hole at the pixel ({x:g}, {y:g})"
+            for x, y in points
+            if not any(_holds_any(hole.loop, ((x, y),)) for hole in holes)
+        ]
+    return holes, rule, tuple(notes)
+
+
+def as_hole(loop: NDArray[np.float64], rule: HoleRule, by_offset: bool = False) -> Hole:
+    """A hole with the given outline."""
+    region = shapely.Polygon(loop)
+    pixel = shapely.point_on_surface(region)
+    kept = rule.keeps(loop, region.area)
+    return Hole(loop, region.area, region.bounds, (pixel.x, pixel.y), kept, by_offset)
+
+
+def filled_mask(
+    shape: tuple[int, int], outline: Outline, holes: tuple[Hole, ...]
+) -> NDArray[np.bool_]:
+    """(h, w) read-only mask of the component with the holes that are not kept filled."""
+    mask = np.zeros(shape, dtype=bool)
+    row, column = outline.corner
+    height, width = outline.inside.shape
+    mask[row : row + height, column : column + width] = outline.inside
+    for hole in holes:
+        if not hole.kept:
+            # The pixels on the hole's outline, which are drawn too, are the shape's own.
+            xmin, ymin, xmax, ymax = np.floor(hole.bounds).astype(int)
+            drawn = Image.new("1", (xmax - xmin + 1, ymax - ymin + 1))
+            vertices = (hole.loop - [xmin + 0.5, ymin + 0.5]).ravel().tolist()
+            ImageDraw.Draw(drawn).polygon(vertices, fill=1, outline=1)
+            part = mask[ymin : ymax + 1, xmin : xmax + 1]
+            part |= np.asarray(drawn)[: part.shape[0], : part.shape[1]]
+    mask.setflags(write=False)
+    return mask
+
+
+def _holds_any(loop: NDArray[np.float64], points: tuple[Point, ...]) -> bool:
+    """Whether a loop goes around one of the points."""
+    if not points:
+        return False
+    xy = np.array(points)
+    return bool(shapely.contains_xy(shapely.Polygon(loop), xy[:, 0], xy[:, 1]).any())

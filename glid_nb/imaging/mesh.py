@@ -1,0 +1,177 @@
+"""A triangle mesh of a deformed shape, fine enough to be drawn with straight edges."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import dijkstra
+
+from glid_nb.geometry import Cage, triangulate
+from glid_nb.harmonic import HarmonicMap
+
+# A map can bend so sharply beside its singularities that no mesh follows it there.
+_MOST_VERTICES = 1_000_000
+_MOST_ROUNDS = 12
+
+# The vertices among which the innermost one is looked for.
+_CANDIDATES = 2000
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
+
+
+@dataclass(frozen=True, eq=False)
+class DeformedMesh:
+    """A triangulated domain and its image.
+
+    Attributes
+    ----------
+    vertices, images : (v, 2) arrays
+        The vertices and where the map takes them, world coordinates.
+    triangles : (t, 3) int32 array
+        Counter-clockwise, in the order in which they are to be painted; see `painting_order`.
+    error : float
+        Largest distance between the image of an edge's midpoint and the middle of the edge's end
+        points, world units: how far straight edges stray from the map.
+    """
+
+    vertices: Floats
+    images: Floats
+    triangles: Ints
+    error: float
+
+    def __post_init__(self) -> None:
+        for array in (self.vertices, self.images, self.triangles):
+            array.setflags(write=False)
+
+
+def deformed_mesh(
+    map: HarmonicMap, n_vertices: int = 5000, tolerance: float | None = None
+) -> DeformedMesh:
+    """Triangulate a map's domain and evaluate the map at the vertices.
+
+    Parameters
+    ----------
+    map : HarmonicMap
+    n_vertices : int
+        About how many vertices to spread evenly, at least 3.
+    tolerance : float, optional
+        World units, positive. Edges whose midpoint the map takes further than this from the
+        straight image edge are halved, and the triangles beside them split, until none is left
+        (or a million vertices are there). So vertices gather where the map bends.
+
+    Raises
+    ------
+    ValueError
+        When ``tolerance`` is not positive or there are too few vertices.
+    """
+    if tolerance is not None and not tolerance > 0:
+        raise ValueError(f"tolerance is {tolerance}; it must be positive")
+    start = triangulate(map.domain.cage, n_vertices)
+    vertices, triangles = start.vertices, start.triangles
+    triangles = triangles[painting_order(map.domain.cage, vertices, triangles)]
+    images = map(vertices)
+    # Edges are looked at once; those found straight enough stay so.
+    straight, error = np.zeros(0, np.int64), 0.0
+    for _ in range(_MOST_ROUNDS):
+        edges, edge_of = _edges(triangles)
+        fresh = np.flatnonzero(~np.isin(_keys(edges), straight, assume_unique=True))
+        middles = vertices[edges[fresh]].mean(axis=1)
+        middle_images = map(middles)
+        bend = np.linalg.norm(middle_images - images[edges[fresh]].mean(axis=1), axis=1)
+        bent = bend > (np.inf if tolerance is None else tolerance)
+        error = max(error, float(bend[~bent].max(initial=0.0)))
+        straight = np.concatenate([straight, _keys(edges[fresh[~bent]])])
+        if not bent.any():
+            break
+        if len(vertices) + bent.sum() > _MOST_VERTICES:
+            error = float(bend.max())
+            break
+        new_vertex = np.full(len(edges), -1, np.int32)
+        new_vertex[fresh[bent]] = len(vertices) + np.arange(bent.sum(), dtype=np.int32)
+        vertices = np.concatenate([vertices, middles[bent]])
+        images = np.concatenate([images, middle_images[bent]])
+        triangles = _split(triangles, new_vertex[edge_of])
+    else:
+        error = max(error, float(bend.max()))
+    return DeformedMesh(vertices, images, triangles, error)
+
+
+def painting_order(cage: Cage, vertices: Floats, triangles: Ints) -> NDArray[np.intp]:
+    """In which order to paint triangles whose images may overlap.
+
+    The map is locally injective, but an arm can still come to lie over the body. Which triangle
+    covers which must then not change from one to the next, or the overlap becomes a patchwork.
+    Triangles are sorted by their distance from the shape's innermost point, measured within the
+    shape, so that limbs cover the trunk; smaller shares of the distance from the point opposite
+    and of x decide between the two ends of a ring and between a left and a right arm.
+
+    Parameters
+    ----------
+    cage : Cage
+    vertices, triangles
+        A triangulation of the cage, undeformed.
+
+    Returns
+    -------
+    (t,) int array
+        Indices of the triangles, the first to paint first.
+    """
+    edges, _ = _edges(triangles)
+    length = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
+    n = len(vertices)
+    graph = csr_array((length, (edges[:, 0], edges[:, 1])), shape=(n, n))
+    candidates = np.arange(0, n, max(1, n // _CANDIDATES))
+    outline = shapely.boundary(cage.polygon)
+    depth = shapely.distance(outline, shapely.points(vertices[candidates]))
+    inner = dijkstra(graph, directed=False, indices=candidates[np.argmax(depth)])
+    opposite = int(np.argmax(np.where(np.isfinite(inner), inner, -1)))
+    along = dijkstra(graph, directed=False, indices=opposite)
+    height = np.nan_to_num(inner + 0.35 * along, posinf=0.0) + 0.35 * vertices[:, 0]
+    return np.argsort(height[triangles].mean(axis=1), kind="stable")
+
+
+def _edges(triangles: Ints) -> tuple[Ints, Ints]:
+    """Unique edges (e, 2), and for side k of each triangle, opposite vertex k, its edge: (t, 3)."""
+    sides = np.stack([np.roll(triangles, -1, axis=1), np.roll(triangles, 1, axis=1)], axis=2)
+    sides = np.sort(sides.reshape(-1, 2), axis=1)
+    _, first, inverse = np.unique(_keys(sides), return_index=True, return_inverse=True)
+    return sides[first], inverse.reshape(-1, 3).astype(np.int32)
+
+
+def _keys(edges: Ints) -> NDArray[np.int64]:
+    return (edges[:, 0].astype(np.int64) << 32) | edges[:, 1]
+
+
+def _split(triangles: Ints, middle: Ints) -> Ints:
+    """Split triangles at the new vertices on their sides (t, 3), -1 for none; order kept.
+
+    Side k lies opposite vertex k. With one new vertex a triangle becomes two, with two three,
+    with three four.
+    """
+    count = (middle >= 0).sum(axis=1)
+    pieces = np.full((len(triangles), 4, 3), -1, np.int32)
+    pieces[count == 0, 0] = triangles[count == 0]
+
+    # Turn each triangle so that its odd side, the only one split or the only one not, is side 0.
+    odd = np.where(count == 1, (middle >= 0).argmax(axis=1), (middle < 0).argmax(axis=1))
+    turn = (odd[:, None] + np.arange(3)) % 3
+    a, b, c = np.take_along_axis(triangles, turn, axis=1).T
+    ma, mb, mc = np.take_along_axis(middle, turn, axis=1).T
+
+    one, two, three = count == 1, count == 2, count == 3
+    pieces[one, 0] = np.stack([a, b, ma], axis=1)[one]
+    pieces[one, 1] = np.stack([a, ma, c], axis=1)[one]
+    pieces[two, 0] = np.stack([a, mc, mb], axis=1)[two]
+    pieces[two, 1] = np.stack([mc, b, c], axis=1)[two]
+    pieces[two, 2] = np.stack([mc, c, mb], axis=1)[two]
+    pieces[three, 0] = np.stack([a, mc, mb], axis=1)[three]
+    pieces[three, 1] = np.stack([mc, b, ma], axis=1)[three]
+    pieces[three, 2] = np.stack([mb, ma, c], axis=1)[three]
+    pieces[three, 3] = np.stack([ma, mb, mc], axis=1)[three]
+    flat = pieces.reshape(-1, 3)
+    return flat[flat[:, 0] >= 0]

@@ -1,0 +1,217 @@
+"""What can be chosen when a cage is traced, checked where it is stored."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from glid_nb.imaging.errors import TraceError
+
+Method = Literal["auto", "alpha", "threshold", "color", "scribbles"]
+"""Ways to tell the foreground from the background."""
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Scribbles:
+    """Strokes that a user drew over what belongs to the shape and what does not.
+
+    Parameters
+    ----------
+    foreground
+        Either polylines, a list of (k, 2) arrays of pixel coordinates (x, y), or a boolean mask of
+        the picture's shape (h, w).
+    background
+        Likewise. Without any the picture's border stands for the background.
+    """
+
+    foreground: tuple[NDArray[np.float64], ...] | NDArray[np.bool_]
+    background: tuple[NDArray[np.float64], ...] | NDArray[np.bool_]
+
+    def __init__(
+        self,
+        foreground: Iterable[ArrayLike] | NDArray[np.bool_],
+        background: Iterable[ArrayLike] | NDArray[np.bool_] = (),
+    ) -> None:
+        object.__setattr__(self, "foreground", _strokes(foreground, "foreground"))
+        object.__setattr__(self, "background", _strokes(background, "background"))
+
+
+@dataclass(frozen=True)
+class TraceOptions:
+    """How a cage is traced. None means that a value is chosen to suit the picture.
+
+    Parameters
+    ----------
+    method
+        How the foreground is found: ``"alpha"`` (the alpha channel), ``"threshold"`` (brightness),
+        ``"color"`` (distance from the background's colour), ``"scribbles"`` (strokes drawn by a
+        user), or ``"auto"``: alpha where it tells something, else colour where the border is
+        uniform, else threshold; scribbles where there are any.
+    threshold
+        Least value, in [0, 1], of what is foreground: of alpha (None: 0.5), of brightness (None:
+        Otsu), of the distance from the background's colour, where black and white are 1 apart
+        (None: from the distances themselves), of the probability of the scribbles (None: 0.5).
+    invert
+        Swap foreground and background: for a threshold the dark pixels are foreground, for a colour
+        those that have it. None: no, but for a threshold whichever makes the border background.
+    background
+        Background colour (red, green, blue), each in [0, 1], for ``"color"``; None: estimated from
+        the border.
+    background_at
+        A pixel (x, y) that shows the background's colour, instead of `background`.
+    scribbles
+        Strokes for ``"scribbles"``.
+    smoothing
+        Standard deviation in pixels of a Gaussian blur before the outline is taken. None: 0 for
+        alpha and scribbles, 0.1 % of the longer side otherwise.
+    component
+        Which connected component of the foreground, counted from 0, the largest.
+    component_at
+        A pixel (x, y) in the component, instead of `component`.
+    min_hole_area
+        Least area, in square pixels, of a hole that is kept. None: 0.2 % of the component, or 0.75 %
+        by colour or threshold, where eyes and highlights look like holes; at least 9.
+    keep_holes, drop_holes
+        Pixels (x, y) in holes that are kept or filled whatever their area; the later list wins.
+    offset
+        How far, in pixels, the cage is moved away from the shape's outline, into the holes too.
+        None: about 1 % of the shape's size, less if that closed a bay.
+    simplify
+        Largest distance in pixels that simplification moves the outline. None: what gives a typical
+        character 60 to 120 vertices.
+    max_vertices
+        Most vertices that the cage may have.
+    min_edge
+        Edges shorter than this many pixels are merged with a neighbour. None: a fifth of the mean
+        edge; they make the harmonic basis stiff.
+    max_edge
+        Edges longer than this many pixels are divided evenly, so that straight limbs can bend. None:
+        a twenty-fifth of the perimeter; `math.inf`: never.
+
+    Raises
+    ------
+    TraceError
+        A value outside its range; the message names it.
+    """
+
+    method: Method = "auto"
+    threshold: float | None = None
+    invert: bool | None = None
+    background: tuple[float, float, float] | None = None
+    background_at: Point | None = None
+    scribbles: Scribbles | None = None
+    smoothing: float | None = None
+    component: int = 0
+    component_at: Point | None = None
+    min_hole_area: float | None = None
+    keep_holes: tuple[Point, ...] = ()
+    drop_holes: tuple[Point, ...] = ()
+    offset: float | None = None
+    simplify: float | None = None
+    max_vertices: int | None = None
+    min_edge: float | None = None
+    max_edge: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.method not in get_args(Method):
+            raise TraceError(
+                f"method must be one of {', '.join(get_args(Method))}, not {self.method!r}"
+            )
+        if self.invert not in (None, True, False):
+            raise TraceError(f"invert must be True, False or None, not {self.invert!r}")
+        self._check_number("threshold", 0, 1)
+        for name in ("smoothing", "min_hole_area", "offset", "simplify", "min_edge"):
+            self._check_number(name, 0, math.inf)
+        if self.max_edge != math.inf:
+            self._check_number("max_edge", 0, math.inf, low_allowed=False)
+        for name, least in (("component", 0), ("max_vertices", 3)):
+            value = getattr(self, name)
+            if value is None and name == "max_vertices":
+                continue
+            if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
+                raise TraceError(f"{name} must be a whole number, at least {least}, not {value!r}")
+            object.__setattr__(self, name, int(value))
+        for name in ("background_at", "component_at"):
+            value = getattr(self, name)
+            object.__setattr__(self, name, None if value is None else _numbers(value, 2, name))
+        for name in ("keep_holes", "drop_holes"):
+            points = getattr(self, name)
+            if not isinstance(points, Iterable):
+                raise TraceError(f"{name} must be a list of pixels (x, y), not {points!r}")
+            object.__setattr__(self, name, tuple(_numbers(p, 2, name) for p in points))
+        if self.background is not None:
+            color = _numbers(self.background, 3, "background")
+            if not all(0 <= c <= 1 for c in color):
+                raise TraceError(
+                    f"background must be (red, green, blue), each in [0, 1], not {color}"
+                )
+            object.__setattr__(self, "background", color)
+        if self.background is not None and self.background_at is not None:
+            raise TraceError("background and background_at are both given; give one of them")
+        if self.scribbles is not None and not isinstance(self.scribbles, Scribbles):
+            raise TraceError(
+                f"scribbles must be of the class Scribbles, not {type(self.scribbles).__name__}"
+            )
+        if self.method == "scribbles" and self.scribbles is None:
+            raise TraceError(
+                "the method 'scribbles' needs scribbles=Scribbles(foreground, background)"
+            )
+
+    def _check_number(self, name: str, low: float, high: float, low_allowed: bool = True) -> None:
+        value = getattr(self, name)
+        if value is None:
+            return
+        number = _number(value, name)
+        if not (low <= number <= high and (low_allowed or number > low) and number < math.inf):
+            above = f"at least {low}" if low_allowed else f"greater than {low}"
+            span = f"in [{low}, {high}]" if high < math.inf else above
+            raise TraceError(f"{name} must be a number {span}, not {value!r}")
+        object.__setattr__(self, name, number)
+
+
+def _number(value: object, name: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.number)):
+        raise TraceError(f"{name} must be a number, not {value!r}")
+    return float(value.real)
+
+
+def _numbers(value: object, count: int, name: str) -> tuple:
+    """A tuple of `count` finite floats."""
+    what = "pixels (x, y)" if count == 2 else "(red, green, blue)"
+    if not isinstance(value, Iterable) or isinstance(value, (str, bytes)):
+        raise TraceError(f"{name} must be given as {what}, not {value!r}")
+    numbers = tuple(_number(v, name) for v in value)
+    if len(numbers) != count or not all(map(math.isfinite, numbers)):
+        raise TraceError(f"{name} must be given as {what} with finite numbers, not {value!r}")
+    return numbers
+
+
+def _strokes(
+    strokes: Iterable[ArrayLike] | NDArray[np.bool_], name: str
+) -> tuple[NDArray[np.float64], ...] | NDArray[np.bool_]:
+    if isinstance(strokes, np.ndarray) and strokes.dtype == np.bool_:
+        if strokes.ndim != 2:
+            raise TraceError(
+                f"scribbles: the {name} mask must have the shape (h, w), not {strokes.shape}"
+            )
+        mask = strokes.copy()
+        mask.setflags(write=False)
+        return mask
+    lines = []
+    for i, stroke in enumerate(strokes):
+        line = np.array(stroke, dtype=np.float64)
+        if line.ndim != 2 or line.shape[1] != 2 or not len(line) or not np.isfinite(line).all():
+            raise TraceError(
+                f"scribbles: {name} stroke {i} must be a (k, 2) array of finite pixel coordinates "
+                "(x, y); for a mask use an array of bool"
+            )
+        line.setflags(write=False)
+        lines.append(line)
+    return tuple(lines)

@@ -1,0 +1,209 @@
+"""Pictures from files and arrays, brought to one form: (h, w, 4) RGBA of 8 or 16 bit."""
+
+from __future__ import annotations
+
+import io
+import os
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from PIL import Image, ImageOps, UnidentifiedImageError
+
+from glid_nb.imaging.errors import TraceError
+
+MAX_SIDE = 8000
+"""Most pixels a side may have."""
+
+ImageSource = str | os.PathLike[str] | bytes | Image.Image | ArrayLike
+"""What is accepted as a picture: a path, a file's bytes, a PIL image or an array."""
+
+_TIFF_STARTS = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+_ROWS = 256  # rows per block where a whole picture in float would need gigabytes
+
+
+def read_image(source: ImageSource) -> NDArray[np.uint8] | NDArray[np.uint16]:
+    """Read a picture.
+
+    Parameters
+    ----------
+    source
+        Path of a file or its bytes (PNG, JPEG, TIFF, GIF, WebP, BMP and what else Pillow reads; of
+        several frames the first), a PIL image, or an array as in `as_rgba`. The orientation in a
+        JPEG's EXIF record is applied and palettes are resolved.
+
+    Returns
+    -------
+    (h, w, 4) array, red, green, blue and alpha (not premultiplied), row 0 at the top. uint8, or
+    uint16 where the source holds more than 8 bit and the reader keeps them (grey PNG, TIFF, arrays).
+
+    Raises
+    ------
+    TraceError
+        The file is missing, no picture or damaged, or the picture is empty or too large.
+    """
+    if isinstance(source, Image.Image):
+        return _from_pillow(source, "the PIL image")
+    if isinstance(source, (str, os.PathLike)):
+        path = Path(source)
+        try:
+            data = path.read_bytes()
+        except FileNotFoundError as error:
+            raise TraceError(f"{path}: there is no such file") from error
+        except OSError as error:
+            raise TraceError(f"{path} cannot be read: {error.strerror or error}") from error
+        return _decode(data, str(path))
+    if isinstance(source, (bytes, bytearray, memoryview)):
+        return _decode(bytes(source), "the picture's bytes")
+    return as_rgba(source)
+
+
+def as_rgba(image: ArrayLike) -> NDArray[np.uint8] | NDArray[np.uint16]:
+    """Bring an array to (h, w, 4) RGBA.
+
+    Parameters
+    ----------
+    image
+        (h, w) or (h, w, 1) grey, (h, w, 2) grey and alpha, (h, w, 3) RGB or (h, w, 4) RGBA; bool,
+        uint8, uint16, or float in [0, 1].
+
+    Returns
+    -------
+    uint8 for bool and uint8 (the array itself if it is RGBA already), uint16 for the other types.
+
+    Raises
+    ------
+    TraceError
+        Empty, too large, of another shape or type, NaN, or float outside [0, 1].
+    """
+    array = np.asarray(image)
+    if array.ndim not in (2, 3) or (array.ndim == 3 and not 0 <= array.shape[2] <= 4):
+        raise TraceError(
+            "an image must have the shape (h, w) or (h, w, c) with 1 to 4 channels (grey, "
+            f"grey + alpha, RGB, RGBA), not {array.shape}"
+        )
+    if array.size == 0:
+        raise TraceError(f"the image is empty: its shape is {array.shape}")
+    height, width = array.shape[:2]
+    check_size(width, height)
+    if array.ndim == 2:
+        array = array[..., np.newaxis]
+    if array.dtype == np.bool_:
+        array = array.astype(np.uint8) * np.uint8(255)
+    if np.issubdtype(array.dtype, np.floating):
+        array = _from_float(array)
+    if array.dtype not in (np.uint8, np.uint16):
+        raise TraceError(
+            f"the image has the type {array.dtype}; convert it to uint8, uint16, bool or to float in "
+            "[0, 1]"
+        )
+    array = array.astype(array.dtype.newbyteorder("="), copy=False)
+    channels = array.shape[2]
+    if channels == 4:
+        return array
+    rgba = np.empty((height, width, 4), dtype=array.dtype)
+    rgba[..., :3] = array[..., : 3 if channels == 3 else 1]
+    rgba[..., 3] = array[..., 1] if channels == 2 else np.iinfo(array.dtype).max
+    return rgba
+
+
+def as_rgba8(image: ArrayLike) -> NDArray[np.uint8]:
+    """`as_rgba`, rounded to 8 bit."""
+    rgba = as_rgba(image)
+    if rgba.dtype == np.uint8:
+        return rgba.view(np.uint8)
+    rounded = np.empty(rgba.shape, dtype=np.uint8)
+    for start in range(0, len(rgba), _ROWS):
+        rows = slice(start, start + _ROWS)
+        rounded[rows] = (rgba[rows].astype(np.uint32) + 128) // 257
+    return rounded
+
+
+def check_size(width: int, height: int) -> None:
+    """Raise if a side is longer than `MAX_SIDE`."""
+    if max(width, height) > MAX_SIDE:
+        raise TraceError(
+            f"the image is too large, {width} x {height} pixels; a side may have at most {MAX_SIDE}: "
+            "scale it down first"
+        )
+
+
+def _from_float(array: NDArray[np.floating]) -> NDArray[np.uint16]:
+    result = np.empty(array.shape, dtype=np.uint16)
+    for start in range(0, len(array), _ROWS):
+        block = array[start : start + _ROWS].astype(np.float64)
+        bad = ~np.isfinite(block)
+        if bad.any():
+            row, column = np.argwhere(bad)[0][:2]
+            raise TraceError(
+                f"the image holds {block[bad][0]} in row {start + row}, column {column}; "
+                "replace NaN and infinite values"
+            )
+        # Interpolation overshoots by a rounding or two.
+        if block.min() < -1e-6 or block.max() > 1 + 1e-6:
+            value = block.min() if block.min() < -1e-6 else block.max()
+            raise TraceError(
+                f"a float image must lie in [0, 1], this one holds {value:.6g}; divide it by its "
+                "largest possible value"
+            )
+        result[start : start + _ROWS] = np.rint(np.clip(block, 0, 1) * 65535)
+    return result
+
+
+def _decode(data: bytes, name: str) -> NDArray[np.uint8] | NDArray[np.uint16]:
+    if not data:
+        raise TraceError(f"{name}: the file is empty")
+    try:
+        with Image.open(io.BytesIO(data)) as picture:
+            return _from_pillow(picture, name)
+    except UnidentifiedImageError as error:
+        if data.startswith(_TIFF_STARTS):
+            return _from_tifffile(data, name)  # 16-bit RGB and other kinds that Pillow lacks
+        raise TraceError(f"{name}: this is no picture in a format that can be read") from error
+    except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
+        raise TraceError(f"{name}: the image is too large ({error})") from error
+
+
+def _from_pillow(picture: Image.Image, name: str) -> NDArray[np.uint8] | NDArray[np.uint16]:
+    if 0 in picture.size:
+        raise TraceError(
+            f"the image is empty: {name} has {picture.width} x {picture.height} pixels"
+        )
+    check_size(*picture.size)  # before the pixels are decoded
+    try:
+        picture = ImageOps.exif_transpose(picture)
+        if picture.mode.startswith("I"):
+            return _from_integers(np.asarray(picture), name)
+        if picture.mode == "F":
+            return as_rgba(np.asarray(picture))
+        return np.array(picture.convert("RGBA"))
+    except TraceError:
+        raise
+    except Exception as error:  # Pillow's decoders raise nearly anything for a damaged file
+        raise TraceError(f"{name} is damaged or cut short: {error}") from error
+
+
+def _from_integers(
+    values: NDArray[np.integer], name: str
+) -> NDArray[np.uint8] | NDArray[np.uint16]:
+    low, high = int(values.min()), int(values.max())
+    if low < 0 or high > 65535:
+        raise TraceError(
+            f"{name}: the grey values run from {low} to {high}; only 8 and 16 bit are supported"
+        )
+    return as_rgba(values.astype(np.uint16))
+
+
+def _from_tifffile(data: bytes, name: str) -> NDArray[np.uint8] | NDArray[np.uint16]:
+    import tifffile  # noqa: PLC0415  (slow to import and seldom needed; scikit-image brings it)
+
+    try:
+        with tifffile.TiffFile(io.BytesIO(data)) as file:
+            page = file.pages.first
+            check_size(page.imagewidth, page.imagelength)
+            array, axes = page.asarray(), page.axes
+    except TraceError:
+        raise
+    except Exception as error:  # as above
+        raise TraceError(f"{name} is damaged or cut short: {error}") from error
+    return as_rgba(np.moveaxis(array, 0, -1) if axes == "SYX" else array)

@@ -1,0 +1,186 @@
+"""Warp a picture through a harmonic map."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+import shapely
+from numpy.typing import ArrayLike, NDArray
+
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging.frame import PixelFrame
+from glid_nb.imaging.mesh import DeformedMesh, deformed_mesh
+from glid_nb.imaging.rasterise import render_mesh
+from glid_nb.imaging.texture import Texture
+
+View = Literal["source", "fit"]
+
+# Straight mesh edges may stray from the map by this many output pixels.
+_TOLERANCE_PX = 0.25
+
+# One vertex of the first, even mesh for this many output pixels, within the limits below.
+_PIXELS_PER_VERTEX = 500
+_EVEN_VERTICES = 1000, 8000
+
+# With view="fit", room around the shape, as a share of the output's sides.
+_MARGIN = 0.04
+
+
+@dataclass(frozen=True)
+class OutputFrame:
+    """The similarity between the plane and the pixels of an output picture.
+
+    Parameters
+    ----------
+    size : (w, h)
+        Pixels.
+    pixels_per_unit : float
+        Scale, output pixels per world unit.
+    centre : (x, y)
+        World coordinates at the middle of the picture.
+    """
+
+    size: tuple[int, int]
+    pixels_per_unit: float
+    centre: tuple[float, float]
+
+    def to_pixel(self, world: ArrayLike) -> NDArray[np.float64]:
+        """Continuous pixel coordinates of world coordinates, (k, 2) in and out."""
+        offset = (np.asarray(world, dtype=np.float64) - self.centre) * self.pixels_per_unit
+        return np.array(self.size) / 2 + offset * [1, -1]
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """What the picture shows, world units: (xmin, ymin, xmax, ymax)."""
+        half = np.array(self.size) / (2 * self.pixels_per_unit)
+        low, high = self.centre - half, self.centre + half
+        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+
+
+@dataclass(frozen=True, eq=False)
+class Rendering:
+    """A warped picture and how it was made.
+
+    Attributes
+    ----------
+    picture : (h, w, 4) uint8 array
+        RGBA, straight alpha.
+    frame : OutputFrame
+        What part of the plane it shows.
+    mesh : DeformedMesh
+        The mesh that was drawn.
+    outside : float
+        Share of the deformed shape's area that lies outside of the frame, from 0 to 1.
+    error_px : float
+        How far the mesh's straight edges stray from the map, output pixels.
+    """
+
+    picture: NDArray[np.uint8]
+    frame: OutputFrame
+    mesh: DeformedMesh
+    outside: float
+    error_px: float
+
+
+def render(
+    image: ArrayLike | Texture,
+    map: HarmonicMap,
+    size: tuple[int, int] | None = None,
+    n_vertices: int | None = None,
+    view: View = "source",
+) -> NDArray[np.uint8]:
+    """Warp a picture through a map; see `rendering`, whose ``picture`` this is.
+
+    Returns
+    -------
+    (h, w, 4) uint8 array
+        RGBA with straight alpha, transparent where the deformed shape is not.
+    """
+    return rendering(image, map, size, n_vertices, view).picture
+
+
+def rendering(
+    image: ArrayLike | Texture,
+    map: HarmonicMap,
+    size: tuple[int, int] | None = None,
+    n_vertices: int | None = None,
+    view: View = "source",
+) -> Rendering:
+    """Warp a picture through a map.
+
+    Parameters
+    ----------
+    image : (h, w, 4), (h, w, 3) or (h, w) array, or Texture
+        The picture that the map's cage was traced from, or another one of the same proportions;
+        its longer side is 20 world units.
+    map : HarmonicMap
+    size : (w, h), optional
+        Pixels of the result; by default the image's own.
+    n_vertices : int, optional
+        About how many vertices the mesh gets, evenly spread. By default it is refined where the
+        map bends until straight edges stray from the map by less than 0.25 output pixels.
+    view : "source" or "fit"
+        Show the part of the plane that the image covers, letter-boxed when ``size`` has other
+        proportions; or all of the deformed shape, with a margin.
+
+    Raises
+    ------
+    ValueError
+        When an argument is out of range; the message names it.
+    """
+    if view not in get_args(View):
+        raise ValueError(f"unknown view {view!r}; choose one of {', '.join(get_args(View))}")
+    texture = image if isinstance(image, Texture) else Texture.from_image(image)
+    source = PixelFrame(texture.width, texture.height)
+    width, height = (texture.width, texture.height) if size is None else size
+    if min(width, height) < 1:
+        raise ValueError(f"size is {width} x {height} pixels; both sides must be at least 1")
+
+    xmin, ymin, xmax, ymax = source.bounds
+    margin = 0.0
+    if view == "fit":
+        outline = map(_outline_points(map))
+        (xmin, ymin), (xmax, ymax) = outline.min(axis=0), outline.max(axis=0)
+        margin = _MARGIN
+    scale = min(width / (xmax - xmin), height / (ymax - ymin)) * (1 - 2 * margin)
+    centre = float(xmin + xmax) / 2, float(ymin + ymax) / 2
+    frame = OutputFrame((int(width), int(height)), float(scale), centre)
+
+    if n_vertices is None:
+        even = int(np.clip(width * height / _PIXELS_PER_VERTEX, *_EVEN_VERTICES))
+        mesh = deformed_mesh(map, even, _TOLERANCE_PX / scale)
+    else:
+        mesh = deformed_mesh(map, n_vertices)
+    picture = render_mesh(
+        texture,
+        source.to_pixel(mesh.vertices),
+        frame.to_pixel(mesh.images),
+        mesh.triangles,
+        frame.size,
+    )
+    return Rendering(picture, frame, mesh, _share_outside(mesh, frame), mesh.error * frame.pixels_per_unit)
+
+
+def _outline_points(map: HarmonicMap) -> NDArray[np.float64]:
+    """Points on the exterior loop, close enough together to bound the deformed shape."""
+    loop = map.domain.cage.exterior
+    t = np.linspace(0, 1, 16, endpoint=False)[:, None, None]
+    return (loop + t * (np.roll(loop, -1, axis=0) - loop)).reshape(-1, 2)
+
+
+def _share_outside(mesh: DeformedMesh, frame: OutputFrame) -> float:
+    corners = mesh.images[mesh.triangles]
+    e = corners[:, 1:] - corners[:, :1]
+    area = np.abs(e[:, 0, 0] * e[:, 1, 1] - e[:, 0, 1] * e[:, 1, 0]) / 2
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    xmin, ymin, xmax, ymax = frame.bounds
+    out = ((high <= [xmin, ymin]) | (low >= [xmax, ymax])).any(axis=1)
+    cut = ~out & ((low < [xmin, ymin]) | (high > [xmax, ymax])).any(axis=1)
+    lost = area[out].sum()
+    if cut.any():
+        rings = np.concatenate([corners[cut], corners[cut][:, :1]], axis=1)
+        kept = shapely.area(shapely.clip_by_rect(shapely.polygons(rings), xmin, ymin, xmax, ymax))
+        lost += np.maximum(area[cut] - kept, 0).sum()
+    return float(lost / area.sum())

@@ -1,0 +1,290 @@
+"""From a picture to a cage."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from typing import Any, TypeVar
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from glid_nb.geometry import Cage
+from glid_nb.imaging.components import Component, Components, find_components
+from glid_nb.imaging.dilate import Dilation, dilate
+from glid_nb.imaging.errors import TraceError
+from glid_nb.imaging.foreground import Foreground, find_foreground
+from glid_nb.imaging.frame import PixelFrame
+from glid_nb.imaging.holes import Hole, choose_holes, filled_mask
+from glid_nb.imaging.options import TraceOptions
+from glid_nb.imaging.outline import Outline, find_outline
+from glid_nb.imaging.read import ImageSource, read_image
+from glid_nb.imaging.simplify import Simplified, simplify
+
+_CUT_OFF = 0.002  # of the shape's area outside the cage is worth a note
+_LEFT_OUT = 0.01  # likewise, of the foreground in other components
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, eq=False)
+class Tracing:
+    """A traced cage and how it came about.
+
+    Attributes
+    ----------
+    cage
+        The boundary P, in world coordinates.
+    mask
+        (h, w) read-only, the pixels of the shape; holes that were dropped are filled.
+    frame
+        Pixels to world coordinates and back.
+    notes
+        Sentences about what was chosen, filled, moved or repaired.
+    method
+        How the foreground was found, never ``"auto"``.
+    threshold, offset, simplify
+        The values used, given or automatic, in the terms of `TraceOptions`.
+    component
+        The component that was traced.
+    components
+        The largest components of the foreground, at most fifty.
+    n_components
+        Number of all components.
+    outline
+        (n, 2) read-only, the shape's exterior outline in pixel coordinates before the offset.
+    holes
+        The shape's holes, the largest first, then those that the offset made; kept or not.
+    """
+
+    cage: Cage
+    mask: NDArray[np.bool_]
+    frame: PixelFrame
+    notes: tuple[str, ...]
+    method: str
+    threshold: float
+    offset: float
+    simplify: float
+    component: Component
+    components: tuple[Component, ...]
+    n_components: int
+    outline: NDArray[np.float64]
+    holes: tuple[Hole, ...]
+
+
+def trace(image: ImageSource, options: TraceOptions | None = None, **changes: Any) -> Tracing:
+    """Trace a cage around the shape in a picture.
+
+    Parameters
+    ----------
+    image
+        A picture, as in `read_image`.
+    options
+        How to trace; the default suits most drawings and many photographs.
+    changes
+        Fields of `TraceOptions` to set.
+
+    Raises
+    ------
+    TraceError
+        The picture cannot be read or shows no shape, or an option is out of its range.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> y, x = np.mgrid[:100, :100] + 0.5
+    >>> disc = np.hypot(x - 50, y - 50) < 40
+    >>> tracing = trace(disc, offset=0, simplify=0.2)
+    >>> round(tracing.cage.area / (np.pi * 8**2), 2)
+    1.0
+    """
+    return Tracer(image).trace(with_changes(options, changes))
+
+
+def with_changes(options: TraceOptions | None, changes: dict[str, Any]) -> TraceOptions:
+    """`options` with fields replaced; an unknown name is refused with a hint."""
+    names = [field.name for field in fields(TraceOptions)]
+    for name in changes:
+        if name not in names:
+            close = difflib.get_close_matches(name, names, n=1)
+            hint = f"did you mean '{close[0]}'?" if close else f"there are {', '.join(names)}"
+            raise TraceError(f"'{name}' is no option of trace; {hint}")
+    base = options if options is not None else TraceOptions()
+    return TraceOptions(**({name: getattr(base, name) for name in names} | changes))
+
+
+class Tracer:
+    """Traces one picture again and again, doing only what changed options need.
+
+    The stages are plain functions with immutable results: foreground, components, outline, holes,
+    dilation, simplification. A stage runs again if an option of its own, or a result that it
+    depends on, is a different one than last time. Not for use by several threads at once.
+
+    Parameters
+    ----------
+    image
+        A picture, as in `read_image`. An array is not copied and must not be changed afterwards.
+    """
+
+    def __init__(self, image: ImageSource) -> None:
+        self.image = read_image(image)
+        """The picture, (h, w, 4)."""
+        height, width = self.image.shape[:2]
+        self.frame = PixelFrame(width=width, height=height)
+        """Pixels to world coordinates and back."""
+        self._stages: dict[str, tuple[tuple[Any, ...], Any]] = {}
+
+    def trace(self, options: TraceOptions | None = None) -> Tracing:
+        """Trace; see `trace`."""
+        o = options if options is not None else TraceOptions()
+        foreground = self.foreground(o)
+        components = self._stage(
+            "components",
+            lambda f, threshold: find_components(f.mask(threshold)),
+            foreground,
+            o.threshold,
+        )
+        rank = o.component if o.component_at is None else components.rank_at(o.component_at)
+        outline = self._stage("outline", _outline, foreground, components, o.threshold, rank)
+        holes, rule, hole_notes = self._stage(
+            "holes",
+            choose_holes,
+            outline,
+            foreground.method,
+            o.min_hole_area,
+            o.keep_holes,
+            o.drop_holes,
+        )
+        mask = self._stage("mask", filled_mask, self.image.shape[:2], outline, holes)
+        dilation = self._stage("dilation", dilate, outline, holes, rule, o.offset)
+        simplified, cage = self._stage(
+            "simplification",
+            self._cage,
+            dilation,
+            o.simplify,
+            o.max_vertices,
+            o.min_edge,
+            o.max_edge,
+        )
+        notes = (
+            *foreground.notes,
+            *_component_notes(components, rank, o),
+            *_roughness_notes(outline),
+            *hole_notes,
+            *dilation.notes,
+            *simplified.notes,
+            *self._stage("coverage", _coverage_notes, outline, holes, simplified),
+        )
+        return Tracing(
+            cage,
+            mask,
+            self.frame,
+            notes,
+            foreground.method,
+            foreground.threshold(o.threshold),
+            dilation.offset,
+            simplified.tolerance,
+            outline.component,
+            components.largest,
+            components.n_components,
+            outline.exterior,
+            dilation.listed,
+        )
+
+    def foreground(self, options: TraceOptions) -> Foreground:
+        """How much each pixel is foreground, the first stage."""
+        return self._stage(
+            "foreground",
+            lambda method, invert, background, at, scribbles, smoothing: find_foreground(
+                self.image,
+                method,
+                invert=invert,
+                background=background,
+                background_at=at,
+                scribbles=scribbles,
+                smoothing=smoothing,
+            ),
+            options.method,
+            options.invert,
+            options.background,
+            options.background_at,
+            options.scribbles,
+            options.smoothing,
+        )
+
+    def _cage(
+        self,
+        dilation: Dilation,
+        tolerance: float | None,
+        max_vertices: int | None,
+        min_edge: float | None,
+        max_edge: float | None,
+    ) -> tuple[Simplified, Cage]:
+        simplified = simplify(
+            (dilation.exterior, *dilation.holes),
+            tolerance,
+            offset=dilation.offset,
+            max_vertices=max_vertices,
+            min_edge=min_edge,
+            max_edge=max_edge,
+        )
+        to_world = self.frame.to_world
+        return simplified, Cage(to_world(simplified.exterior), map(to_world, simplified.holes))
+
+    def _stage(self, name: str, function: Callable[..., T], *inputs: Any) -> T:
+        """The stage's last result if its inputs are the same, else a new one."""
+        if name in self._stages:
+            previous, result = self._stages[name]
+            if previous == inputs:  # the stages' results compare by identity, options by value
+                return result
+        result = function(*inputs)
+        self._stages[name] = (inputs, result)
+        return result
+
+
+def _outline(
+    foreground: Foreground, components: Components, threshold: float | None, rank: int
+) -> Outline:
+    return find_outline(
+        foreground.score,
+        foreground.level(threshold),
+        components.labels,
+        components.component(rank),
+    )
+
+
+def _component_notes(components: Components, rank: int, options: TraceOptions) -> list[str]:
+    """A note if much of the foreground is left out though nobody picked a component."""
+    others = components.areas.sum() - components.areas[rank]
+    share = others / components.areas.sum()
+    if options.component_at is not None or options.component or share < _LEFT_OUT:
+        return []
+    count = components.n_components - 1
+    return [
+        f"{count} smaller {'component' if count == 1 else 'components'}, {share:.0%} of the "
+        f"foreground, {'was' if count == 1 else 'were'} left out"
+    ]
+
+
+def _roughness_notes(outline: Outline) -> list[str]:
+    if outline.block == 1:
+        return []
+    return [
+        f"the outline is very rough: it was traced in blocks of {outline.block} x {outline.block} "
+        "pixels; more smoothing, or another way to find the foreground, may help"
+    ]
+
+
+def _coverage_notes(outline: Outline, holes: tuple[Hole, ...], simplified: Simplified) -> list[str]:
+    """A note if a visible part of the shape lies outside the cage."""
+    shape = shapely.Polygon(outline.exterior, [hole.loop for hole in holes if hole.kept])
+    cage = shapely.Polygon(simplified.exterior, simplified.holes)
+    share = shape.difference(cage).area / shape.area
+    if share < _CUT_OFF:
+        return []
+    return [
+        f"{share:.1%} of the shape lies outside the cage and is cut off; a larger offset or a smaller "
+        "simplify keeps more"
+    ]

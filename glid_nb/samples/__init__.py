@@ -1,0 +1,80 @@
+"""Pictures drawn for this project, with two poses each.
+
+==============  =====  ====================================================
+name            holes  shows
+==============  =====  ====================================================
+``gecko``       0      limbs and a tail that curls
+``teapot``      1      a spout that beckons, a handle to squeeze
+``frog``        2      arms akimbo
+``monstera``    8      a leaf full of holes that bends as one
+``gingerbread`` 0      checks that show the distortion on a figure
+``bar``         0      checks and circles on the plainest shape
+==============  =====  ====================================================
+
+The pictures are RGBA with a transparent ground, their longer side 20 world units like that of any
+picture. ``python -m glid_nb.samples.draw`` draws them anew from `glid_nb.samples.drawings`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal, TypeAlias, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+PoseKind: TypeAlias = Literal["gentle", "extreme"]
+
+_NAMES = ("gecko", "teapot", "frog", "monstera", "gingerbread", "bar")
+_PICTURES = Path(__file__).parent / "pictures"
+
+
+class SampleError(ValueError):
+    """There is no such sample or no such pose of it."""
+
+
+def names() -> tuple[str, ...]:
+    """Names of the samples."""
+    return _NAMES
+
+
+def path(name: str) -> Path:
+    """The PNG file of a sample.
+
+    Raises
+    ------
+    SampleError
+        There is no sample of that name.
+    """
+    if name not in _NAMES:
+        raise SampleError(f"there is no sample {name!r}: choose one of {', '.join(_NAMES)}")
+    return _PICTURES / f"{name}.png"
+
+
+def image(name: str) -> NDArray[np.uint8]:
+    """A sample's pixels: RGBA (h, w, 4), not premultiplied, row 0 at the top.
+
+    Raises
+    ------
+    SampleError
+        There is no sample of that name.
+    """
+    with Image.open(path(name)) as picture:
+        return np.array(picture.convert("RGBA"))
+
+
+def pose_path(name: str, kind: PoseKind) -> Path:
+    """The JSON file of a sample's pose, "gentle" or "extreme".
+
+    It holds `handles` and `targets`, lists of [x, y] in world coordinates, and `description`.
+
+    Raises
+    ------
+    SampleError
+        There is no sample of that name, or no pose of that kind.
+    """
+    kinds = get_args(PoseKind)
+    if kind not in kinds:
+        raise SampleError(f"there is no pose {kind!r}: choose one of {', '.join(kinds)}")
+    return path(name).with_suffix(f".{kind}.json")

@@ -1,0 +1,101 @@
+"""What there is to say about a solve, as plain JSON values."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import os
+import platform
+import time
+from collections.abc import Mapping
+from importlib.metadata import version
+from typing import Any
+
+import jax
+import numpy as np
+
+from glid_nb.certificate import global_injectivity
+from glid_nb.solvers import Result
+
+_LIBRARIES = ("jax", "jaxlib", "numpy", "scipy")
+
+
+def build_report(result: Result) -> dict[str, Any]:
+    """The report of a solve, the final proof included, which is made here and timed.
+
+    Parameters
+    ----------
+    result : Result
+        What :func:`glid_nb.solve` returned.
+
+    Returns
+    -------
+    dict
+        ``status`` and ``message``; ``certified`` and the ``proof`` in words; the energies ``E``, ``E_iso`` and ``E_p2p``; the certified
+        bounds ``sigma2_lower``, ``sigma1_upper`` and ``k_upper``; ``windings`` of f_z per loop
+        (exterior first) and their sum ``winding``; counts; times in seconds; and the ``history``,
+        one object per iteration. Numbers that are not finite are null.
+    """
+    began = time.perf_counter()
+    certificate = result.certificate
+    injectivity = global_injectivity(result.map)
+    certify_time = time.perf_counter() - began
+    energy, options, crossing = result.energy_measure, result.options, injectivity.crossing
+    report = {
+        "status": result.status.value,
+        "message": result.message,
+        "certified": certificate.certified,
+        "proof": certificate.reason,
+        "E": result.energy,
+        "E_iso": result.energy_iso,
+        "E_p2p": result.energy_p2p,
+        "energy": energy.name,
+        "s": getattr(energy, "s", None),
+        "p2p_weight": options.p2p_weight,
+        "sigma2_lower": certificate.sigma2_lower,
+        "sigma1_upper": certificate.sigma1_upper,
+        "k_upper": certificate.k_upper,
+        "winding": certificate.winding,
+        "windings": list(certificate.windings),
+        "globally_injective": injectivity.verdict,
+        "crossing": None if crossing is None else list(crossing),
+        "iterations": result.iterations,
+        "n_unknowns": result.n_unknowns,
+        "panels": result.n_panels,
+        "panels_split": result.panels_split,
+        "compile_time": result.compile_time,
+        "solve_time": result.solve_time,
+        "certify_time": certify_time,
+        "options": dataclasses.asdict(options),
+        "history": [dataclasses.asdict(iteration) for iteration in result.history],
+        "versions": _versions(),
+        "machine": _machine(),
+    }
+    return _plain(report)
+
+
+def _versions() -> dict[str, str]:
+    libraries = {name: version(name) for name in _LIBRARIES}
+    return {"glid_nb": version("glid-nb"), "python": platform.python_version(), **libraries}
+
+
+def _machine() -> dict[str, Any]:
+    return {
+        "system": platform.platform(),
+        "architecture": platform.machine(),
+        "cpus": os.cpu_count(),
+        "devices": [f"{device.platform}: {device.device_kind}" for device in jax.local_devices()],
+    }
+
+
+def _plain(value: Any) -> Any:
+    """The same value of types that JSON has."""
+    if isinstance(value, Mapping):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, np.generic | np.ndarray):
+        return _plain(value.tolist())
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value

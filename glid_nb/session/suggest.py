@@ -1,0 +1,92 @@
+"""A pose for a shape that nobody has posed yet: handles at its ends, one or two of them moved."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import dijkstra
+
+from glid_nb.geometry import Domain, Triangulation, triangulate
+from glid_nb.solvers import Pose
+
+_MESH_VERTICES = 3000
+# All as shares of the way from the middle of the shape to its farthest point.
+_LEAST_SPACING = 0.45
+_PULL_IN = 0.15
+_TURN = np.radians(24)
+
+
+def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
+    """Handles at the middle and at the far ends of a shape, with one or two ends swung aside.
+
+    The first handle is the point deepest inside the domain. The others are found by farthest-point
+    sampling with distances measured inside the domain, then pulled in to where the limb is widest.
+    The end farthest from the middle, and the end farthest from that one, turn about the middle
+    by 24 degrees towards the side where there is more room; all other handles stay.
+
+    Parameters
+    ----------
+    domain : Domain
+        The shape.
+    max_handles : int
+        At most this many handles, at least 2.
+    """
+    if max_handles < 2:
+        raise ValueError(f"max_handles is {max_handles}; it must be at least 2")
+    mesh = triangulate(domain.cage, _MESH_VERTICES)
+    graph = _edge_lengths(mesh)
+    outline = shapely.MultiLineString([np.vstack([p, p[:1]]) for p in domain.cage.loops])
+    clearance = shapely.distance(shapely.points(mesh.vertices), outline)
+
+    middle = int(np.argmax(clearance))
+    from_middle = dijkstra(graph, indices=middle)
+    reach = float(from_middle.max())
+    chosen, nearest = [middle], from_middle
+    while len(chosen) < max_handles:
+        end = int(np.argmax(nearest))
+        if nearest[end] < _LEAST_SPACING * reach and len(chosen) > 2:
+            break
+        from_end = dijkstra(graph, indices=end)
+        vicinity = np.flatnonzero(from_end <= _PULL_IN * reach)
+        handle = int(vicinity[np.argmax(clearance[vicinity])])
+        nearest = np.minimum(nearest, from_end)
+        if handle not in chosen and clearance[handle] > 0:
+            chosen.append(handle)
+        elif nearest.max() == 0:
+            break
+
+    handles = mesh.vertices[chosen]
+    between = dijkstra(graph, indices=chosen)[:, chosen]
+    first = int(np.argmax(between[0]))
+    moved = [first]
+    if len(chosen) > 3:
+        others = [i for i in range(1, len(chosen)) if i != first]
+        moved.append(max(others, key=lambda i: between[first, i]))
+    targets = handles.copy()
+    for i in moved:
+        targets[i] = _swung(handles, targets, i)
+    return Pose(handles, targets)
+
+
+def _edge_lengths(mesh: Triangulation) -> coo_array:
+    """The mesh as a graph whose edges weigh their lengths."""
+    a = mesh.triangles.ravel()
+    b = np.roll(mesh.triangles, -1, axis=1).ravel()
+    edges = np.unique(np.sort(np.stack([a, b], axis=1), axis=1), axis=0)
+    lengths = np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1)
+    n = len(mesh.vertices)
+    rows, columns = np.concatenate([edges, edges[:, ::-1]]).T
+    return coo_array((np.tile(lengths, 2), (rows, columns)), shape=(n, n)).tocsr()
+
+
+def _swung(
+    handles: NDArray[np.float64], targets: NDArray[np.float64], i: int
+) -> NDArray[np.float64]:
+    """Handle ``i`` turned about handle 0, towards the side with more room to the other targets."""
+    arm = handles[i] - handles[0]
+    cosine, sine = np.cos(_TURN), np.sin(_TURN)
+    sides = [handles[0] + np.array([[cosine, -s], [s, cosine]]) @ arm for s in (sine, -sine)]
+    rest = np.delete(targets, i, axis=0)
+    return max(sides, key=lambda p: float(np.linalg.norm(rest - p, axis=1).min()))

@@ -1,0 +1,20 @@
+"""Minimising a deformation energy over certified harmonic maps (paper Sections 7 and 9)."""
+
+from glid_nb.solvers.options import OptionError, Options
+from glid_nb.solvers.pose import Pose, PoseError
+from glid_nb.solvers.result import Iteration, Result
+from glid_nb.solvers.solve import Progress, StartError, solve
+from glid_nb.solvers.status import Status
+
+__all__ = [
+    "Iteration",
+    "OptionError",
+    "Options",
+    "Pose",
+    "PoseError",
+    "Progress",
+    "Result",
+    "StartError",
+    "Status",
+    "solve",
+]

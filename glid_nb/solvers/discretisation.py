@@ -1,0 +1,270 @@
+"""The matrices on which a solve runs: the basis at the panels' ends, midpoints and Hessian nodes.
+
+Everything is real: a complex matrix ``D`` is stored as ``[Re D, -Im D]`` (the first row pair of
+Equation (15)), so that ``Re(D phi)`` is one real product and ``Im(D phi) = Re(D (-i phi))``.
+"""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float, Int
+
+from glid_nb._runtime import double_precision
+from glid_nb.certificate import derivative_bound_weights, hermite, lipschitz, rounding
+from glid_nb.geometry import Domain, graded_panels, panels_between, uniform_boundary_samples
+from glid_nb.geometry.panels import Panels
+from glid_nb.harmonic import basis_of, cauchy
+from glid_nb.harmonic.basis import Basis
+
+Sampling = Literal["graded", "uniform"]
+CertificateKind = Literal["hermite", "lipschitz"]
+
+UNIFORM_SAMPLES = 10_000
+"""``|G|`` of the paper (Section 10)."""
+HESSIAN_STRIDE = 10
+"""``|H| = |G| / 10`` (Section 9.1)."""
+
+_CHUNK_ELEMENTS = 1 << 18
+
+
+class Matrices(NamedTuple):
+    """What one Newton iteration reads; a JAX pytree, padded to buckets.
+
+    ``c`` padded columns, ``p`` padded panels, ``q`` midpoints (``p``, or 0 for the uniform
+    sampling), ``h`` Hessian nodes. Padding panels have zero weight and are never refused.
+    """
+
+    ends: Float[Array, "p 2c"]
+    """``D`` at the panels' starts."""
+    slopes: Float[Array, "p 2c"]
+    """``D'`` at the panels' starts."""
+    middles: Float[Array, "q 2c"]
+    """``D`` at the panels' midpoints."""
+    hessian_nodes: Float[Array, "h 2c"]
+    """``D`` at the nodes of the Hessian's quadrature."""
+    hessian_index: Int[Array, " h"]
+    """Where those nodes are among the ends followed by the midpoints."""
+    weights: Float[Array, " p+q"]
+    """Quadrature weights of the energy at the ends, then at the midpoints; their sum is 1."""
+    hessian_weights: Float[Array, " h"]
+    remainder: Float[Array, "p c"]
+    """Remainder of the certificate per modulus of a slope jump."""
+    rounding: Float[Array, " p"]
+    """Rounding slack per largest modulus of a coefficient."""
+    chord: Float[Array, "p 2"]
+    """``end - start`` as (Re, Im)."""
+    next: Int[Array, " p"]
+    real: Bool[Array, " p"]
+    """False for padding."""
+
+
+class _Rows(NamedTuple):
+    """Unpadded rows per panel, kept so that a refinement only computes what is new."""
+
+    ends: np.ndarray
+    slopes: np.ndarray
+    middles: np.ndarray
+    remainder: np.ndarray
+    rounding: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Discretisation:
+    """A domain's boundary cut into panels, with the basis evaluated on them."""
+
+    domain: Domain
+    basis: Basis
+    sampling: Sampling
+    certificate: CertificateKind
+    panels: Panels
+    matrices: Matrices
+    rows: _Rows | None
+    """None when the panels are fixed."""
+
+    @property
+    def can_refine(self) -> bool:
+        """Whether panels may be split (the paper's uniform sampling is fixed)."""
+        return self.rows is not None
+
+    @double_precision
+    def refined(self, chosen: np.ndarray) -> Discretisation:
+        """The discretisation with the panels of ``chosen`` (p,) bool cut in half."""
+        if self.rows is None:
+            raise ValueError("the uniform sampling of the paper is fixed; it cannot be refined")
+        chosen = chosen & self.panels.divisible
+        panels, old = self.panels.split(chosen), self.rows
+        count = np.where(chosen, 2, 1)
+        parent = np.repeat(np.arange(len(self.panels)), count)
+        children = np.flatnonzero(chosen[parent])
+        second = children[1::2]
+
+        rows = _Rows(*(part[parent] for part in old))
+        rows.ends[second] = old.middles[parent[second]]
+        rows.slopes[second] = basis_rows(
+            cauchy.second_derivatives, panels.start[second], self.basis
+        )
+        rows.middles[children] = basis_rows(
+            cauchy.first_derivatives, panels.middle[children], self.basis
+        )
+        rows.remainder[children], rows.rounding[children] = _certificate_rows(
+            panels.start[children], panels.end[children], self.basis, self.certificate
+        )
+        return _graded(self.domain, self.basis, self.certificate, panels, rows)
+
+
+@functools.lru_cache(maxsize=8)
+@double_precision
+def discretise(
+    domain: Domain, sampling: Sampling = "graded", certificate: CertificateKind = "hermite"
+) -> Discretisation:
+    """The discretisation that a solve on ``domain`` starts from; the last few are kept.
+
+    ``graded``: panels no longer than their distance to the nearest singularity, with Simpson's
+    rule on each. ``uniform``: the paper's samples with the plain mean (31), the Hessian on every
+    tenth (33).
+    """
+    basis = basis_of(domain)
+    if sampling == "graded":
+        panels = graded_panels(domain)
+    else:
+        samples = uniform_boundary_samples(domain.cage, UNIFORM_SAMPLES)
+        panels = panels_between(samples.points, samples.loop)
+    middles = panels.middle if sampling == "graded" else panels.middle[:0]
+    rows = _Rows(
+        basis_rows(cauchy.first_derivatives, panels.start, basis),
+        basis_rows(cauchy.second_derivatives, panels.start, basis),
+        basis_rows(cauchy.first_derivatives, middles, basis),
+        *_certificate_rows(panels.start, panels.end, basis, certificate),
+    )
+    build = _graded if sampling == "graded" else _uniform
+    return build(domain, basis, certificate, panels, rows)
+
+
+def _graded(
+    domain: Domain, basis: Basis, certificate: CertificateKind, panels: Panels, rows: _Rows
+) -> Discretisation:
+    # Simpson's rule shares the ends, which the certificate needs anyway, between neighbours.
+    length = panels.length / panels.length.sum()
+    p = bucket(len(panels))
+    ends = length / 6
+    np.add.at(ends, panels.next, length / 6)
+    weights = np.zeros(2 * p)
+    weights[: len(panels)] = ends
+    weights[p : p + len(panels)] = length * (4 / 6)
+    middles = jnp.asarray(padded(rows.middles, p))
+    matrices = Matrices(
+        ends=jnp.asarray(padded(rows.ends, p)),
+        slopes=jnp.asarray(padded(rows.slopes, p)),
+        middles=middles,
+        hessian_nodes=middles,
+        hessian_index=jnp.asarray(np.arange(p, 2 * p)),
+        weights=jnp.asarray(weights),
+        hessian_weights=jnp.asarray(padded(length, p, 0.0)),
+        **_panel_arrays(panels, rows, p),
+    )
+    return Discretisation(domain, basis, "graded", certificate, panels, matrices, rows)
+
+
+def _uniform(
+    domain: Domain, basis: Basis, certificate: CertificateKind, panels: Panels, rows: _Rows
+) -> Discretisation:
+    count = len(panels)
+    p = bucket(count)
+    hessian_index = np.arange(0, count, HESSIAN_STRIDE)
+    h = bucket(len(hessian_index))
+    matrices = Matrices(
+        ends=jnp.asarray(padded(rows.ends, p)),
+        slopes=jnp.asarray(padded(rows.slopes, p)),
+        middles=jnp.asarray(rows.middles),
+        hessian_nodes=jnp.asarray(padded(rows.ends[hessian_index], h)),
+        hessian_index=jnp.asarray(padded(hessian_index, h)),
+        weights=jnp.asarray(padded(np.full(count, 1 / count), p, 0.0)),
+        hessian_weights=jnp.asarray(
+            padded(np.full(len(hessian_index), 1 / len(hessian_index)), h, 0.0)
+        ),
+        **_panel_arrays(panels, rows, p),
+    )
+    return Discretisation(domain, basis, "uniform", certificate, panels, matrices, None)
+
+
+def _panel_arrays(panels: Panels, rows: _Rows, p: int) -> dict[str, Any]:
+    chord = panels.end - panels.start
+    return {
+        "remainder": jnp.asarray(padded(rows.remainder, p)),
+        "rounding": jnp.asarray(padded(rows.rounding, p)),
+        "chord": jnp.asarray(padded(np.stack([chord.real, chord.imag], axis=-1), p)),
+        "next": jnp.asarray(padded(panels.next, p)),
+        "real": jnp.asarray(np.arange(p) < len(panels)),
+    }
+
+
+def bucket(count: int) -> int:
+    """The padded size for ``count`` items: eight sizes per octave, a little room included."""
+    wanted = max(count + count // 64, 64)
+    step = max(8, 1 << (wanted.bit_length() - 4))
+    return -(-wanted // step) * step
+
+
+def padded(array: np.ndarray, size: int, fill: float | None = None) -> np.ndarray:
+    """``array`` with its first axis extended to ``size`` by its first element or by ``fill``."""
+    extra = size - len(array)
+    value = array[:1] if fill is None else np.full_like(array[:1], fill)
+    return np.concatenate([array, np.repeat(value, extra, axis=0)])
+
+
+@functools.cache
+def _compiled_rows(kernel: Any) -> Any:
+    def rows(z: Any, singularities: Any) -> Any:
+        d = kernel(z, singularities)
+        return jnp.concatenate([jnp.real(d), -jnp.imag(d)], axis=1)
+
+    return jax.jit(rows)
+
+
+def basis_rows(kernel: Any, z: np.ndarray, basis: Basis) -> np.ndarray:
+    """``[Re D, -Im D]`` of one of the basis matrices at points ``z`` (k,)."""
+    return _in_chunks(_compiled_rows(kernel), (z,), basis, (2 * basis.n_columns,))[0]
+
+
+@functools.cache
+def _compiled_certificate_rows(certificate: CertificateKind) -> Any:
+    method = hermite if certificate == "hermite" else lipschitz
+
+    def rows(start: Any, end: Any, singularities: Any) -> Any:
+        weights = derivative_bound_weights(start, end, singularities, method.DERIVATIVE_ORDER)
+        factor = method.remainder_factor(jnp.abs(end - start))
+        scale = rounding.panel_scale(start, end, singularities)
+        n_columns = weights.shape[1]
+        return factor[:, None] * weights, rounding.slack_factor(n_columns) * scale
+
+    return jax.jit(rows)
+
+
+def _certificate_rows(
+    start: np.ndarray, end: np.ndarray, basis: Basis, certificate: CertificateKind
+) -> tuple[np.ndarray, np.ndarray]:
+    kernel = _compiled_certificate_rows(certificate)
+    remainder, slack = _in_chunks(kernel, (start, end), basis, (basis.n_columns,), ())
+    return remainder, slack
+
+
+def _in_chunks(
+    kernel: Any, points: tuple[np.ndarray, ...], basis: Basis, *row_shapes: tuple[int, ...]
+) -> tuple[np.ndarray, ...]:
+    """Run a row-wise kernel over chunks of two fixed sizes, so that it compiles at most twice."""
+    count = len(points[0])
+    outputs = tuple(np.empty((count, *shape)) for shape in row_shapes)
+    chunk = min(64 if count <= 64 else 1 << 20, max(64, _CHUNK_ELEMENTS // basis.n_columns))
+    for first in range(0, count, chunk):
+        part = [padded(z[first : first + chunk], chunk) for z in points]
+        results = kernel(*part, basis.singularities)
+        results = results if isinstance(results, tuple) else (results,)
+        for output, result in zip(outputs, results, strict=True):
+            output[first : first + chunk] = np.asarray(result)[: count - first]
+    return outputs

@@ -1,0 +1,299 @@
+"""Newton's method on the device: one compiled call runs several iterations (paper Algorithm 1)."""
+
+from __future__ import annotations
+
+import functools
+from typing import NamedTuple
+
+import jax
+import jax.numpy as jnp
+from jax import lax
+from jaxtyping import Array, Bool, Float, Int
+
+from glid_nb.certificate import EndValues, PanelBounds, hermite, lipschitz
+from glid_nb.energies import Energy
+from glid_nb.harmonic.cauchy import Singularities, slope_jumps
+from glid_nb.solvers import line_search
+from glid_nb.solvers.discretisation import CertificateKind, Matrices
+from glid_nb.solvers.hessian import assemble, local_hessian, positive_part
+from glid_nb.solvers.outcome import CONVERGED, INDEFINITE, RUNNING
+from glid_nb.solvers.options import HessianKind
+from glid_nb.solvers.unknowns import Unknowns, expand, restrict_gradient, restrict_hessian
+
+
+class Constraints(NamedTuple):
+    """Handles and targets, padded to a bucket (paper Section 6.1, Appendix F)."""
+
+    handles: Float[Array, "h 2c"]
+    """``C`` at the handles as ``[Re C, -Im C]``."""
+    targets: Float[Array, "h 2"]
+    weights: Float[Array, " h"]
+    """``lambda`` for a handle, 0 for padding."""
+
+
+class Samples(NamedTuple):
+    """``f_z`` and ``conj(f_zbar)`` as columns (Re, Im, Re, Im), and their derivatives."""
+
+    nodes: Float[Array, "p+q 4"]
+    slopes: Float[Array, "p 4"]
+
+
+class Record(NamedTuple):
+    """History of one iteration, the state after its step."""
+
+    energy_iso: Float[Array, ""]
+    energy_p2p: Float[Array, ""]
+    step: Float[Array, ""]
+    decrement: Float[Array, ""]
+    sigma2_lower: Float[Array, ""]
+    modified: Bool[Array, ""]
+
+
+class State(NamedTuple):
+    """State of the loop."""
+
+    coefficients: Float[Array, " 4c"]
+    samples: Samples
+    energy_iso: Float[Array, ""]
+    energy_p2p: Float[Array, ""]
+    iteration: Int[Array, ""]
+    outcome: Int[Array, ""]
+    decrement: Float[Array, ""]
+    records: Record
+    refused: Bool[Array, " p"]
+    """Panels that refused the last preferred step."""
+    sigma2_lower: Float[Array, " p"]
+    """Certified bound per panel at ``coefficients``, once a step was taken."""
+
+
+class Settings(NamedTuple):
+    """Numbers that may change without compiling again."""
+
+    tolerance: Float[Array, ""]
+    iterations: Int[Array, ""]
+    may_refine: Bool[Array, ""]
+    """Whether to return as soon as a panel refuses a step, so that it can be split."""
+    ridge: Float[Array, ""]
+    """Added to the Hessian's diagonal, relative to its mean (Section 9.1's epsilon)."""
+
+
+@functools.partial(jax.jit, static_argnames=("hessian", "certificate", "capacity"))
+def run(
+    matrices: Matrices,
+    singularities: Singularities,
+    unknowns: Unknowns,
+    constraints: Constraints,
+    energy: Energy,
+    coefficients: Float[Array, " 4c"],
+    settings: Settings,
+    *,
+    hessian: HessianKind,
+    certificate: CertificateKind,
+    capacity: int,
+) -> State:
+    """Up to ``settings.iterations`` (at most ``capacity``) Newton iterations."""
+    p2p_matrix = _constraint_matrix(constraints)
+    row_weights = jnp.concatenate([constraints.weights, constraints.weights])
+    p2p_hessian = p2p_matrix.T @ (row_weights[:, None] * p2p_matrix)
+
+    def energies(samples: Samples, y: Float[Array, " 4c"]) -> tuple[Array, Array]:
+        residual = p2p_matrix @ y - constraints.targets.T.ravel()
+        return (
+            line_search.isometric_energy(samples.nodes, matrices.weights, energy),
+            0.5 * jnp.sum(row_weights * residual**2),
+        )
+
+    def keep_going(state: State) -> Bool[Array, ""]:
+        return (state.outcome == RUNNING) & (state.iteration < settings.iterations)
+
+    def iterate(state: State) -> State:
+        y, nodes = state.coefficients, state.samples.nodes
+        x, yy = _squares(nodes)
+        d = energy.differentials(x, yy)
+        residual = p2p_matrix @ y - constraints.targets.T.ravel()
+        gradient = _energy_gradient(matrices, nodes, d) + p2p_matrix.T @ (row_weights * residual)
+        gradient = restrict_gradient(gradient, unknowns)
+
+        def factor(modify: bool) -> Float[Array, "4c 4c"]:
+            index = matrices.hessian_index
+            local = local_hessian(type(d)(*(a[index] for a in d)), x[index], yy[index])
+            k = positive_part(local) if modify else local
+            f, g = _directions(nodes[index])
+            h = assemble(matrices.hessian_nodes, matrices.hessian_weights, f, g, k)
+            h = restrict_hessian(h + p2p_hessian, unknowns)
+            shift = settings.ridge * jnp.mean(jnp.diag(h))
+            return jnp.linalg.cholesky(h + shift * jnp.eye(h.shape[0]))
+
+        if hessian == "projected":
+            lower = factor(True)
+            modified = jnp.array(True)
+        elif hessian == "exact":
+            lower = factor(False)
+            modified = jnp.array(False)
+        else:
+            exact = factor(False)
+            modified = ~jnp.isfinite(exact[-1, -1])
+            lower = lax.cond(modified, lambda: factor(True), lambda: exact)
+        definite = jnp.isfinite(lower[-1, -1])
+        direction = -jax.scipy.linalg.cho_solve((lower, True), gradient)
+        direction = expand(jnp.where(definite, direction, 0), unknowns)
+        squared_decrement = -jnp.dot(gradient, direction)
+
+        change = _products(matrices, direction)
+        p2p_change = p2p_matrix @ direction
+        total = state.energy_iso + state.energy_p2p
+        search = line_search.search(
+            nodes,
+            change.nodes,
+            matrices.weights,
+            energy,
+            residual,
+            p2p_change,
+            row_weights,
+            total,
+            squared_decrement,
+        )
+
+        def certified(t: Float[Array, ""]) -> PanelBounds:
+            moved = Samples(*(a + t * b for a, b in zip(state.samples, change, strict=True)))
+            return bounds(matrices, singularities, y + t * direction, moved, certificate)
+
+        outcome, t, panel, refused = line_search.backtrack(
+            search, certified, matrices.real, settings.may_refine
+        )
+        converged = squared_decrement / 2 <= settings.tolerance * jnp.abs(total)
+        outcome = jnp.where(converged, CONVERGED, outcome)
+        outcome = jnp.where(definite, outcome, INDEFINITE)
+        t = jnp.where(outcome == RUNNING, t, 0.0)
+
+        y = y + t * direction
+        samples = Samples(*(a + t * b for a, b in zip(state.samples, change, strict=True)))
+        iso, p2p = energies(samples, y)
+        decrement = jnp.sqrt(jnp.maximum(squared_decrement, 0))
+        least = jnp.min(jnp.where(matrices.real, panel.sigma2_lower, jnp.inf))
+        record = Record(iso, p2p, t, decrement, least, modified)
+        stepped = outcome == RUNNING
+        records = jax.tree.map(
+            lambda all_, one: all_.at[state.iteration].set(
+                jnp.where(stepped, one, all_[state.iteration])
+            ),
+            state.records,
+            record,
+        )
+        return State(
+            y,
+            samples,
+            iso,
+            p2p,
+            state.iteration + stepped,
+            outcome,
+            decrement,
+            records,
+            refused,
+            jnp.where(stepped, panel.sigma2_lower, state.sigma2_lower),
+        )
+
+    samples = _products(matrices, coefficients)
+    iso, p2p = energies(samples, coefficients)
+    empty = Record(*(jnp.full(capacity, jnp.nan) for _ in range(5)), jnp.zeros(capacity, bool))
+    start = State(
+        coefficients,
+        samples,
+        iso,
+        p2p,
+        jnp.array(0),
+        jnp.array(RUNNING),
+        jnp.array(jnp.inf),
+        empty,
+        jnp.zeros_like(matrices.real),
+        jnp.full(matrices.real.shape, jnp.nan),
+    )
+    return lax.while_loop(keep_going, iterate, start)
+
+
+def bounds(
+    matrices: Matrices,
+    singularities: Singularities,
+    coefficients: Float[Array, " 4c"],
+    samples: Samples,
+    certificate: CertificateKind,
+) -> PanelBounds:
+    """The certificate's bounds on every panel."""
+    phi, psi = _complex_pair(coefficients)
+    jumps = jnp.abs(slope_jumps(jnp.stack([phi, psi]), singularities))
+    largest = jnp.maximum(jnp.abs(phi).max(), jnp.abs(psi).max())
+    remainder = matrices.remainder @ jumps.T + (matrices.rounding * largest)[:, None]
+    chord = lax.complex(matrices.chord[:, 0], matrices.chord[:, 1])
+    panels = chord.shape[0]
+    f, g = _complex_columns(samples.nodes[:panels])
+    df, dg = _complex_columns(samples.slopes)
+    after = matrices.next
+    values = EndValues(
+        f, f[after], g, g[after], df * chord, df[after] * chord, dg * chord, dg[after] * chord
+    )
+    method = hermite if certificate == "hermite" else lipschitz
+    return method.panel_bounds(values, remainder[:, 0], remainder[:, 1])
+
+
+def _products(matrices: Matrices, y: Float[Array, " 4c"]) -> Samples:
+    """``f_z``, ``conj(f_zbar)`` and their derivatives on the panels (G.6), one product each."""
+    c = y.shape[0] // 4
+    columns = []
+    for first in (0, 2 * c):
+        re, im = y[first : first + c], y[first + c : first + 2 * c]
+        columns += [jnp.concatenate([re, im]), jnp.concatenate([im, -re])]
+    y4 = jnp.stack(columns, axis=1)
+    nodes = jnp.concatenate([matrices.ends @ y4, matrices.middles @ y4])
+    return Samples(nodes, matrices.slopes @ y4)
+
+
+def _energy_gradient(
+    matrices: Matrices, nodes: Float[Array, "s 4"], d: Differentials
+) -> Float[Array, " 4c"]:
+    """Gradient of the isometric energy, (G.7) with the last block's sign corrected."""
+    w1, w2 = 2 * matrices.weights * d.alpha1, 2 * matrices.weights * d.alpha2
+    v = nodes * jnp.stack([w1, w1, w2, w2], axis=1)
+    p = matrices.ends.shape[0]
+    m = matrices.ends.T @ v[:p] + matrices.middles.T @ v[p:]
+    c = m.shape[0] // 2
+    top, bottom = m[:c], m[c:]
+    # D^H v = (Re D^T - i Im D^T) v with the stored halves Re D and -Im D.
+    return jnp.concatenate(
+        [
+            top[:, 0] - bottom[:, 1],
+            top[:, 1] + bottom[:, 0],
+            top[:, 2] - bottom[:, 3],
+            top[:, 3] + bottom[:, 2],
+        ]
+    )
+
+
+def _constraint_matrix(constraints: Constraints) -> Float[Array, "2h 4c"]:
+    """The matrix of (F.5): first all rows for the real parts, then those for the imaginary."""
+    c = constraints.handles.shape[1] // 2
+    re, minus_im = constraints.handles[:, :c], constraints.handles[:, c:]
+    return jnp.block([[re, minus_im, re, minus_im], [-minus_im, re, minus_im, -re]])
+
+
+def _squares(nodes: Float[Array, "s 4"]) -> tuple[Array, Array]:
+    return nodes[:, 0] ** 2 + nodes[:, 1] ** 2, nodes[:, 2] ** 2 + nodes[:, 3] ** 2
+
+
+def _directions(nodes: Float[Array, "s 4"]) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+    """Unit vectors along both derivatives; (1, 0) where one vanishes."""
+    pairs = []
+    for k in (0, 2):
+        modulus = jnp.hypot(nodes[:, k], nodes[:, k + 1])
+        vanishes = modulus == 0
+        safe = jnp.where(vanishes, 1, modulus)
+        pairs.append((jnp.where(vanishes, 1, nodes[:, k] / safe), nodes[:, k + 1] / safe))
+    return pairs[0], pairs[1]
+
+
+def _complex_pair(y: Float[Array, " 4c"]) -> tuple[Array, Array]:
+    c = y.shape[0] // 4
+    return lax.complex(y[:c], y[c : 2 * c]), lax.complex(y[2 * c : 3 * c], y[3 * c :])
+
+
+def _complex_columns(a: Float[Array, "s 4"]) -> tuple[Array, Array]:
+    return lax.complex(a[:, 0], a[:, 1]), lax.complex(a[:, 2], a[:, 3])

@@ -1,0 +1,97 @@
+"""Settings of a solve."""
+
+from __future__ import annotations
+
+import math
+import numbers
+from dataclasses import dataclass
+from typing import Any, Literal, get_args
+
+from glid_nb.certificate.rounding import CARRIED
+from glid_nb.solvers.discretisation import CertificateKind, Sampling
+
+HessianKind = Literal["adaptive", "projected", "exact"]
+
+
+class OptionError(ValueError):
+    """A setting is out of range."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """How to solve. The defaults are ours; the paper's are ``Options.paper()``.
+
+    Parameters
+    ----------
+    sampling : "graded" or "uniform"
+        Where the energy is integrated: panels graded by their distance to the singularities,
+        or the paper's 10^4 uniform samples (31).
+    certificate : "hermite" or "lipschitz"
+        How local injectivity is proved; "lipschitz" is the paper's (Section 8).
+    hessian : "adaptive", "projected" or "exact"
+        The exact Hessian where it is positive definite, else the projected one; always the
+        projected one (the paper's, Section 7); or always the exact one, halting where it is
+        not positive definite.
+    p2p_weight : float
+        ``lambda`` of (20), positive.
+    conformal : bool
+        Restrict the maps to conformal ones, ``psi = 0`` (Section 6).
+    max_iterations : int
+        Most Newton iterations, at least 0.
+    tolerance : float
+        The solve has converged when the Newton decrement's promise of a decrease,
+        ``decrement^2 / 2``, falls below ``tolerance`` times the energy.
+    iterations_per_call : int
+        Newton iterations that one compiled call runs before the host sees the state, 1 to 7.
+
+    Raises
+    ------
+    OptionError
+        When a value is out of range; the message names it.
+    """
+
+    sampling: Sampling = "graded"
+    certificate: CertificateKind = "hermite"
+    hessian: HessianKind = "adaptive"
+    p2p_weight: float = 1e5
+    conformal: bool = False
+    max_iterations: int = 200
+    tolerance: float = 1e-10
+    iterations_per_call: int = 4
+
+    def __post_init__(self) -> None:
+        for name, kinds in (
+            ("sampling", Sampling),
+            ("certificate", CertificateKind),
+            ("hessian", HessianKind),
+        ):
+            value, allowed = getattr(self, name), get_args(kinds)
+            if value not in allowed:
+                raise OptionError(f"unknown {name} {value!r}; choose one of {', '.join(allowed)}")
+        _check_number("p2p_weight", self.p2p_weight, 0.0, strict=True)
+        _check_number("tolerance", self.tolerance, 0.0, strict=False)
+        _check_integer("max_iterations", self.max_iterations, 0)
+        _check_integer("iterations_per_call", self.iterations_per_call, 1)
+        if self.iterations_per_call >= CARRIED:
+            raise OptionError(
+                f"iterations_per_call must be less than {CARRIED}, got {self.iterations_per_call}: "
+                "the certificate's allowance for rounding covers no more"
+            )
+
+    @classmethod
+    def paper(cls, **changes: Any) -> Options:
+        """The paper's own settings: uniform samples, Lipschitz certificate, projected Hessian."""
+        settings = {"sampling": "uniform", "certificate": "lipschitz", "hessian": "projected"}
+        return cls(**{**settings, **changes})
+
+
+def _check_number(name: str, value: Any, least: float, strict: bool) -> None:
+    valid = isinstance(value, numbers.Real) and math.isfinite(value)
+    if not valid or (value <= least if strict else value < least):
+        relation = "greater than" if strict else "at least"
+        raise OptionError(f"{name} must be a finite number {relation} {least:g}, got {value!r}")
+
+
+def _check_integer(name: str, value: Any, least: int) -> None:
+    if isinstance(value, bool) or not isinstance(value, numbers.Integral) or value < least:
+        raise OptionError(f"{name} must be a whole number of at least {least}, got {value!r}")

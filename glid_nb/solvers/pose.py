@@ -1,0 +1,108 @@
+"""Handles and where they should go."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from glid_nb.geometry import Domain
+
+Array = np.ndarray
+
+
+class PoseError(ValueError):
+    """The handles or their targets are not valid."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """Positional constraints (paper Section 6.1): handle ``i`` should map to target ``i``.
+
+    Parameters
+    ----------
+    handles : (h, 2) array_like
+        Points ``p_i`` of the domain, world coordinates.
+    targets : (h, 2) array_like
+        Desired images ``q_i``; anywhere.
+
+    Raises
+    ------
+    PoseError
+        When shapes or counts differ, a coordinate is not finite, or two handles coincide.
+    """
+
+    handles: Array
+    targets: Array
+
+    def __post_init__(self) -> None:
+        for name in ("handles", "targets"):
+            object.__setattr__(self, name, _checked_points(getattr(self, name), name))
+        n_handles, n_targets = len(self.handles), len(self.targets)
+        if n_handles != n_targets:
+            raise PoseError(
+                f"there are {n_handles} handles but {n_targets} targets; give one target per handle"
+            )
+        _, first, inverse = np.unique(self.handles, axis=0, return_index=True, return_inverse=True)
+        repeated = np.flatnonzero(first[inverse.ravel()] != np.arange(n_handles))
+        if repeated.size:
+            j = int(repeated[0])
+            i = int(first[inverse.ravel()[j]])
+            raise PoseError(
+                f"handles {i} and {j} are the same point {_text(self.handles[j])}; remove one"
+            )
+
+    def __len__(self) -> int:
+        return len(self.handles)
+
+    def check_inside(self, domain: Domain) -> None:
+        """Raise :class:`PoseError` naming the first handle that lies outside the domain."""
+        outside = np.flatnonzero(~domain.cage.contains(self.handles))
+        if outside.size:
+            i = int(outside[0])
+            raise PoseError(
+                f"handle {i} at {_text(self.handles[i])} lies outside the domain; "
+                "move it inside the cage and out of its holes, or remove it"
+            )
+
+    def with_targets(self, targets: ArrayLike) -> Pose:
+        """The same handles with other targets."""
+        return Pose(self.handles, np.asarray(targets))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON values with the keys ``handles`` and ``targets``."""
+        return {"handles": self.handles.tolist(), "targets": self.targets.tolist()}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Pose:
+        """The pose with the keys ``handles`` and ``targets``; other keys are ignored."""
+        if not isinstance(data, Mapping):
+            raise PoseError(f"a pose must be an object, got {type(data).__name__}")
+        for key in ("handles", "targets"):
+            if key not in data:
+                raise PoseError(f'the pose lacks the key "{key}"')
+        return cls(data["handles"], data["targets"])
+
+
+def _checked_points(points: Any, name: str) -> Array:
+    try:
+        array = np.array(points, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise PoseError(f"{name} must be a list of [x, y] pairs of numbers") from error
+    if array.size == 0:
+        array = array.reshape(0, 2)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise PoseError(f"{name} must be a list of [x, y] pairs; the shape is {array.shape}")
+    bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
+    if bad.size:
+        i = int(bad[0])
+        raise PoseError(f"{name}[{i}] is {_text(array[i])}; coordinates must be finite numbers")
+    array.flags.writeable = False
+    return array
+
+
+def _text(point: Array) -> str:
+    return f"({point[0]:.6g}, {point[1]:.6g})"

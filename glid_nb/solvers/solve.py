@@ -1,0 +1,294 @@
+"""Solving for a deformation: the host's side of Newton's method (paper Algorithm 1)."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import jax.numpy as jnp
+import numpy as np
+
+from glid_nb._runtime import compilation_clock, double_precision, single_blas_thread
+from glid_nb.certificate import certify
+from glid_nb.energies import Energy, SymmetricDirichlet
+from glid_nb.geometry import Domain
+from glid_nb.harmonic import HarmonicMap, cauchy
+from glid_nb.harmonic.basis import Basis
+from glid_nb.solvers import newton, outcome
+from glid_nb.solvers.discretisation import Discretisation, basis_rows, discretise, padded
+from glid_nb.solvers.options import Options
+from glid_nb.solvers.pose import Pose
+from glid_nb.solvers.result import Iteration, Result
+from glid_nb.solvers.status import Status
+from glid_nb.solvers.unknowns import canonical, unknowns_of
+
+Array = np.ndarray
+
+_HANDLE_BUCKET = 8
+# Without two handles a rotation costs nothing and the Hessian is singular (Appendix I).
+_RIDGE = 1e-9
+# How often panels are split in a row before a shorter step is tried instead, and in all before a
+# solve that gets nowhere ends.
+_PATIENCE = 3
+_MOST_ROUNDS = 40
+_MOST_PANELS = 60_000
+# A decrease promised by the Newton decrement that rounding of the energy can hide.
+_ROUNDING = 1e-8
+
+
+class StartError(ValueError):
+    """The map to start from cannot be used."""
+
+
+@dataclass(frozen=True, eq=False)
+class Progress:
+    """What a callback sees between calls."""
+
+    history: tuple[Iteration, ...]
+    """All iterations so far."""
+    sigma2_lower: Array
+    """(p,) certified bound per panel."""
+    discretisation: Discretisation
+    _coefficients: Any
+
+    @property
+    def map(self) -> HarmonicMap:
+        """The certified map of this moment."""
+        return _map_from(self.discretisation, self._coefficients)
+
+
+Callback = Callable[[Progress], bool | None]
+
+
+@double_precision
+def solve(
+    domain: Domain,
+    pose: Pose,
+    energy: Energy | None = None,
+    options: Options | None = None,
+    start: HarmonicMap | Result | None = None,
+    callback: Callback | None = None,
+) -> Result:
+    """Deform a domain so that its handles go to their targets with the least distortion.
+
+    Minimises (20) by Newton's method from a certified map. Every step is proved locally
+    injective before it is taken, so the result always is: when no certified step lowers the
+    energy, the last map is returned with a status that says so.
+
+    Parameters
+    ----------
+    domain : Domain
+    pose : Pose
+        Handles, which must lie in the domain, and their targets, which may be anywhere.
+    energy : Energy, optional
+        Isometric energy; by default the symmetric Dirichlet energy.
+    options : Options, optional
+    start : HarmonicMap or Result, optional
+        Where to start; by default the identity. The result of an earlier solve on the same
+        domain also passes on its panels.
+    callback : callable, optional
+        Called with a :class:`Progress` between compiled calls; returning ``True`` stops the solve.
+
+    Raises
+    ------
+    PoseError
+        When a handle lies outside the domain.
+    StartError
+        When the starting map belongs to another domain, is not conformal though the options ask
+        for it, or is not proved locally injective.
+    """
+    energy = SymmetricDirichlet() if energy is None else energy
+    options = Options() if options is None else options
+    pose.check_inside(domain)
+    clock = compilation_clock()
+    compiled_before, began = clock.seconds, time.perf_counter()
+    loop = _Loop(domain, pose, energy, options, start)
+    with single_blas_thread():
+        status = loop.run(callback)
+    elapsed = time.perf_counter() - began
+    compile_time = clock.seconds - compiled_before
+    return Result(
+        _map_from(loop.discretisation, loop.coefficients),
+        status,
+        loop.energy_iso + loop.energy_p2p,
+        loop.energy_iso,
+        loop.energy_p2p,
+        tuple(loop.history),
+        pose,
+        options,
+        energy,
+        loop.discretisation,
+        compile_time,
+        max(elapsed - compile_time, 0.0),
+    )
+
+
+class _Loop:
+    """The state of one solve on the host."""
+
+    def __init__(
+        self,
+        domain: Domain,
+        pose: Pose,
+        energy: Energy,
+        options: Options,
+        start: HarmonicMap | Result | None,
+    ) -> None:
+        self.options, self.energy = options, energy
+        map_, self.discretisation = _starting_point(domain, options, start)
+        basis = self.discretisation.basis
+        self.unknowns = unknowns_of(basis, options.conformal)
+        self.constraints = _constraints(basis, pose, options.p2p_weight)
+        self.ridge = _RIDGE if len(pose) < 2 else 0.0
+        phi, psi = basis.pad(map_.phi), basis.pad(map_.psi)
+        self.coefficients: Any = jnp.asarray(
+            np.concatenate([phi.real, phi.imag, psi.real, psi.imag])
+        )
+        self.history: list[Iteration] = []
+        self.energy_iso = self.energy_p2p = np.nan
+        self.just_split = 0
+
+    def run(self, callback: Callback | None) -> Status:
+        rounds = total_rounds = 0
+        clock = compilation_clock()
+        while True:
+            began, compiled = time.perf_counter(), clock.seconds
+            state = self._call(may_refine=rounds < _PATIENCE)
+            end = int(state.outcome)
+            taken = int(state.iteration)
+            seconds = time.perf_counter() - began - (clock.seconds - compiled)
+            self._record(state, taken, seconds)
+            if taken:
+                rounds = total_rounds = 0
+                if callback is not None and callback(self._progress(state)):
+                    return Status.STOPPED
+            if end == outcome.CONVERGED:
+                return Status.CONVERGED
+            if end == outcome.INDEFINITE:
+                return Status.INDEFINITE
+            if end == outcome.NO_DECREASE:
+                return self._without_decrease(state)
+            if len(self.history) >= self.options.max_iterations:
+                return Status.MAX_ITERATIONS
+            if end in (outcome.REFUSED, outcome.BLOCKED):
+                rounds, total_rounds = rounds + 1, total_rounds + 1
+                if end == outcome.BLOCKED:
+                    rounds = 0
+                if total_rounds > _MOST_ROUNDS or not self._split(np.asarray(state.refused)):
+                    return Status.BLOCKED
+
+    def _call(self, may_refine: bool) -> newton.State:
+        options = self.options
+        left = options.max_iterations - len(self.history)
+        # With no iterations left, one call still evaluates the energies.
+        settings = newton.Settings(
+            np.float64(options.tolerance),
+            np.int64(min(options.iterations_per_call, left)),
+            np.bool_(may_refine and self.discretisation.can_refine),
+            np.float64(self.ridge),
+        )
+        return newton.run(
+            self.discretisation.matrices,
+            self.discretisation.basis.singularities,
+            self.unknowns,
+            self.constraints,
+            self.energy,
+            self.coefficients,
+            settings,
+            hessian=options.hessian,
+            certificate=options.certificate,
+            capacity=_capacity(options.iterations_per_call),
+        )
+
+    def _record(self, state: newton.State, taken: int, seconds: float) -> None:
+        self.coefficients = state.coefficients
+        self.energy_iso, self.energy_p2p = float(state.energy_iso), float(state.energy_p2p)
+        records = newton.Record(*(np.asarray(values)[:taken] for values in state.records))
+        for iso, p2p, step, decrement, sigma2, modified in zip(*records, strict=True):
+            self.history.append(
+                Iteration(
+                    len(self.history) + 1,
+                    float(iso + p2p),
+                    float(iso),
+                    float(p2p),
+                    float(step),
+                    float(decrement),
+                    float(sigma2),
+                    bool(modified),
+                    len(self.discretisation.panels),
+                    self.just_split,
+                    seconds / taken,
+                )
+            )
+            self.just_split = 0
+
+    def _progress(self, state: newton.State) -> Progress:
+        bounds = np.asarray(state.sigma2_lower)[: len(self.discretisation.panels)]
+        return Progress(tuple(self.history), bounds, self.discretisation, self.coefficients)
+
+    def _without_decrease(self, state: newton.State) -> Status:
+        promised = float(state.decrement) ** 2 / 2
+        small = promised <= _ROUNDING * abs(self.energy_iso + self.energy_p2p)
+        return Status.STATIONARY if small else Status.BLOCKED
+
+    def _split(self, refused: Array) -> bool:
+        """Split the panels that refused a step; False when none can be."""
+        panels = self.discretisation.panels
+        wanted = refused[: len(panels)] & panels.divisible
+        count = int(wanted.sum())
+        if not self.discretisation.can_refine or not count or len(panels) + count > _MOST_PANELS:
+            return False
+        self.discretisation = self.discretisation.refined(wanted)
+        self.just_split += count
+        return True
+
+
+def _starting_point(
+    domain: Domain, options: Options, start: HarmonicMap | Result | None
+) -> tuple[HarmonicMap, Discretisation]:
+    fresh = discretise(domain, options.sampling, options.certificate)
+    if start is None:
+        return HarmonicMap.identity(domain), fresh
+    map_ = start.map if isinstance(start, Result) else start
+    if map_.domain is not domain and map_.domain.to_dict() != domain.to_dict():
+        raise StartError("the map to start from belongs to another domain; start from a map of this one")
+    if options.conformal and np.abs(map_.psi - map_.psi[0]).max() > 0:
+        raise StartError(
+            "the map to start from is not conformal (psi is not constant); start from a conformal "
+            "map or turn the option conformal off"
+        )
+    if isinstance(start, Result):
+        disc = start.discretisation
+        same = (disc.sampling, disc.certificate) == (options.sampling, options.certificate)
+        return canonical(map_), disc if same else fresh
+    certificate = certify(map_)
+    if not certificate.certified:
+        raise StartError(f"the map to start from is not certified: {certificate.reason}")
+    return canonical(HarmonicMap(domain, map_.phi, map_.psi)), fresh
+
+
+def _constraints(basis: Basis, pose: Pose, weight: float) -> newton.Constraints:
+    count = len(pose)
+    size = _HANDLE_BUCKET * max(1, -(-count // _HANDLE_BUCKET))
+    if not count:
+        columns = 2 * basis.n_columns
+        return newton.Constraints(np.zeros((size, columns)), np.zeros((size, 2)), np.zeros(size))
+    rows = basis_rows(cauchy.cauchy_coordinates, pose.handles @ np.array([1, 1j]), basis)
+    return newton.Constraints(
+        padded(rows, size),
+        padded(np.array(pose.targets), size),
+        padded(np.full(count, float(weight)), size, 0.0),
+    )
+
+
+def _capacity(iterations: int) -> int:
+    """Room in a call's history: a power of two, so that few programs are compiled."""
+    return 1 << (iterations - 1).bit_length()
+
+
+def _map_from(discretisation: Discretisation, coefficients: Any) -> HarmonicMap:
+    basis = discretisation.basis
+    re_phi, im_phi, re_psi, im_psi = np.asarray(coefficients).reshape(4, -1)[:, basis.columns]
+    return HarmonicMap(discretisation.domain, re_phi + 1j * im_phi, re_psi + 1j * im_psi)

@@ -1,0 +1,96 @@
+"""Which coefficients are unknowns, and the tie of the logarithms (paper Section 5).
+
+A solve works on the real vector ``[Re phi, Im phi, Re psi, Im psi]`` of all padded columns. The
+redundant ones are not cut out but masked: their rows and columns of the Hessian become those of
+the identity and their gradient 0, which keeps shapes fixed. The hole coefficients obey
+``psi_j = conj(phi_j)``; their ``psi`` parts are folded onto the ``phi`` parts.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.harmonic.basis import Basis
+
+
+class Unknowns(NamedTuple):
+    """The unknowns of one domain, as data for compiled programs."""
+
+    free: Float[Array, " 4c"]
+    """1 for an unknown, 0 for a fixed or tied one."""
+    holes: Float[Array, " N"]
+    """One entry per padded hole column (its length is what matters)."""
+
+
+def unknowns_of(basis: Basis, conformal: bool) -> Unknowns:
+    """The unknowns on a basis; ``conformal`` drops all of ``psi`` and the logarithms."""
+    phi, psi = basis.phi_free.copy(), basis.psi_free.copy()
+    n_holes = basis.n_hole_columns
+    if conformal:
+        psi[:] = False
+        phi[len(phi) - n_holes :] = False
+    return Unknowns(np.concatenate([phi, phi, psi, psi]).astype(float), np.ones(n_holes))
+
+
+def restrict_gradient(g: Float[Array, " 4c"], unknowns: Unknowns) -> Float[Array, " 4c"]:
+    """Gradient with respect to the unknowns, 0 elsewhere."""
+    phi, psi, sign = _hole_slices(g.shape[0], unknowns)
+    if phi is not None:
+        g = g.at[phi].add(sign * g[psi])
+    return g * unknowns.free
+
+
+def restrict_hessian(h: Float[Array, "4c 4c"], unknowns: Unknowns) -> Float[Array, "4c 4c"]:
+    """Hessian with respect to the unknowns, the identity elsewhere."""
+    phi, psi, sign = _hole_slices(h.shape[0], unknowns)
+    if phi is not None:
+        h = h.at[phi, :].add(sign[:, None] * h[psi, :])
+        h = h.at[:, phi].add(sign * h[:, psi])
+    free = unknowns.free
+    return h * free[:, None] * free + jnp.diag(1 - free)
+
+
+def expand(step: Float[Array, " 4c"], unknowns: Unknowns) -> Float[Array, " 4c"]:
+    """A change of the unknowns as a change of all coefficients."""
+    phi, psi, sign = _hole_slices(step.shape[0], unknowns)
+    step = step * unknowns.free
+    return step if phi is None else step.at[psi].set(sign * step[phi])
+
+
+def _hole_slices(size: int, unknowns: Unknowns) -> tuple:
+    """Positions of the holes' ``[Re phi, Im phi]`` and ``[Re psi, Im psi]``, and conj's signs."""
+    n_holes = unknowns.holes.shape[0]
+    if n_holes == 0:
+        return None, None, None
+    c = size // 4
+    last = np.arange(c - n_holes, c)
+    phi = np.concatenate([last, c + last])
+    psi = phi + 2 * c
+    return phi, psi, np.repeat([1.0, -1.0], n_holes)
+
+
+def canonical(map: HarmonicMap) -> HarmonicMap:
+    """The same map with the redundant coefficients at zero (Section 5).
+
+    For a hole loop, adding ``a z_j + b`` to its coefficients changes no map (Cauchy's theorem);
+    the pair ``a, b`` is chosen to bring the loop's first two coefficients to zero. A constant
+    moves from ``psi`` to ``phi`` so that the exterior's first ``psi`` is zero.
+    """
+    phi, psi = map.phi.copy(), map.psi.copy()
+    loops = map.domain.offset_loops_complex
+    first = len(loops[0])
+    phi[:first] += np.conj(psi[0])
+    psi[:first] -= psi[0]
+    for loop in loops[1:]:
+        part = slice(first, first + len(loop))
+        for values in (phi, psi):
+            a = (values[first + 1] - values[first]) / (loop[1] - loop[0])
+            values[part] -= values[first] + a * (loop - loop[0])
+            values[first : first + 2] = 0
+        first += len(loop)
+    return HarmonicMap(map.domain, phi, psi)

@@ -1,0 +1,231 @@
+"""Bad input: exit code 1, exactly one line that names the file and the culprit, nothing written."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import glid_nb
+
+
+def assert_refused(outcome, *parts: object) -> None:
+    assert outcome.code == 1
+    assert outcome.out == ""
+    assert outcome.err.startswith("glid-nb: error: ")
+    assert outcome.err.count("\n") == 1
+    for part in parts:
+        assert str(part) in outcome.err
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"cage": None}, 'the key "cage" must be given'),
+        ({"targets": None}, 'the key "targets" must be given'),
+        ({"cage": "bar"}, '"cage" must be a list'),
+        ({"cage": [[-8, -2], [8, -2]]}, "exterior loop: 2 vertices given"),
+        ({"cage": [[-8, -2], [8, 2], [8, -2], [-8, 2]]}, "exterior loop: the edges"),
+        ({"cage": [[-8, -2], [8, -2], [8, 2], [-8, float("nan")]]}, "cage[3] must be finite"),
+        ({"cage": [[-8, -2], [8, -2], [8, -2], [-8, 2]]}, "vertices 1 and 2 coincide"),
+        ({"holes": [[[9, 0], [10, 0], [9, 1]]]}, "hole 1 lies outside"),
+        ({"holes": [[[-8, -1], [1, -1], [1, 1]]]}, "hole 1 touches the exterior loop"),
+        ({"handles": [[-7, 0], [0, -1.5]]}, "2 handles but 3 targets"),
+        ({"handles": [[-7, 0], [0, 0], [7, 0]]}, "handle 1 at (0, 0) lies outside the domain"),
+        ({"handles": [[-7, 0], [7, 0], [7, 0]]}, "handles 1 and 2 are the same point (7, 0)"),
+        ({"targets": [[-7, 0], [0, 0], [float("nan"), 0]]}, "targets[2] must be finite"),
+    ],
+)
+def test_a_bad_problem(
+    run, problem: Path, problem_data: dict[str, Any], tmp_path: Path, change: dict, message: str
+) -> None:
+    problem.write_text(json.dumps({**problem_data, **change}), encoding="utf-8")
+    out = tmp_path / "map.json"
+    assert_refused(run("solve", problem, "--out", out), problem, message)
+    assert not out.exists()
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "\x00"])
+def test_a_problem_that_is_no_json_object(run, problem: Path, text: str) -> None:
+    problem.write_text(text, encoding="utf-8")
+    assert_refused(run("solve", problem), problem, "JSON")
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--energy", "stiff"], "unknown energy 'stiff'; choose one of iso, exp, amips, arap"),
+        (["--energy", "exp", "--s", "0"], "s of the energy 'exp' must be positive"),
+        (["--energy", "amips", "--s", "-1"], "s of the energy 'amips' must be positive"),
+        (["--p2p-weight", "0"], "p2p_weight must be a finite number greater than 0"),
+        (["--p2p-weight", "nan"], "p2p_weight must be a finite number greater than 0"),
+        (["--max-iterations", "-1"], "max_iterations must be a whole number of at least 0"),
+        (["--sampling", "random"], "unknown sampling 'random'; choose one of graded, uniform"),
+        (["--certificate", "none"], "unknown certificate 'none'; choose one of"),
+        (["--hessian", "none"], "unknown hessian 'none'; choose one of"),
+    ],
+)
+def test_a_bad_option(run, problem: Path, words: list[str], message: str) -> None:
+    assert_refused(run("solve", problem, *words), message)
+
+
+@pytest.mark.parametrize("command", ["solve", "demo", "trace", "render"])
+def test_a_file_that_is_missing(run, tmp_path: Path, command: str) -> None:
+    missing = tmp_path / "nothing.here"
+    words = {"render": [missing, "--out", tmp_path / "x"], "trace": ["--out", tmp_path / "x"]}
+    outcome = run(command, missing, *words.get(command, []))
+    assert_refused(outcome, missing, "no such file" if command != "solve" else "No such file")
+
+
+def _picture(path: Path, rgba: np.ndarray) -> Path:
+    Image.fromarray(rgba).save(path)
+    return path
+
+
+@pytest.mark.parametrize("command", ["demo", "trace"])
+def test_a_picture_of_one_colour(run, tmp_path: Path, command: str) -> None:
+    picture = _picture(tmp_path / "red.png", np.full((40, 60, 3), (200, 0, 0), dtype=np.uint8))
+    out = tmp_path / "out"
+    assert_refused(run(command, picture, "--out", out), picture, "one colour only")
+    assert not out.exists()
+
+
+def test_a_picture_without_foreground(run, picture: Path, tmp_path: Path) -> None:
+    words = ("--method", "color", "--background", 0, 0, 0, "--threshold", 1)
+    outcome = run("trace", picture, "--out", tmp_path / "cage.json", *words)
+    assert_refused(outcome, picture)
+
+
+def test_a_file_that_is_no_picture(run, problem: Path, tmp_path: Path) -> None:
+    assert_refused(run("demo", problem, "--out", tmp_path / "out"), problem, "no picture")
+
+
+def test_a_picture_that_is_cut_short(run, picture: Path, tmp_path: Path) -> None:
+    picture.write_bytes(picture.read_bytes()[:-200])
+    assert_refused(run("demo", picture, "--out", tmp_path / "out"), picture, "damaged or cut short")
+
+
+def test_a_sample_that_does_not_exist(run, tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert_refused(run("demo", "unicorn"), "unicorn", "no such file", "gecko")
+
+
+def test_a_pose_that_does_not_fit(run, picture: Path, tmp_path: Path) -> None:
+    pose = tmp_path / "pose.json"
+    pose.write_text(json.dumps({"handles": [[-7, 0], [9.5, 6]], "targets": [[-7, 0], [6, 3]]}))
+    outcome = run("demo", picture, "--pose", pose, "--out", tmp_path / "out")
+    assert_refused(outcome, pose, "handle 1 at (9.5, 6) lies outside the domain")
+
+
+def test_a_pose_of_a_sample_that_does_not_exist(run, tmp_path: Path) -> None:
+    outcome = run("demo", "gecko", "--pose", "wild", "--out", tmp_path / "out")
+    assert_refused(outcome, "wild", "gentle, extreme")
+
+
+@pytest.fixture
+def map_data(problem_data: dict[str, Any]) -> dict[str, Any]:
+    return glid_nb.HarmonicMap.identity(glid_nb.Problem.from_dict(problem_data).domain).to_dict()
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"format": "other"}, "this is not a glid_nb map"),
+        ({"version": 99}, "version 99"),
+        ({"phi": None}, '"phi" must be a list'),
+        ({"phi": [[0, 0]]}, "phi has shape (1,)"),
+        ({"psi": [["a", 0]]}, '"psi" must be a list of [re, im] pairs of numbers'),
+        ({"hole_points": [[5, 0]]}, "the map's domain is not valid"),
+        ({"offset_cage": [[-1, -1], [1, -1], [0, 1]]}, "the map's domain is not valid"),
+    ],
+)
+def test_a_corrupt_map(
+    run, picture: Path, tmp_path: Path, map_data: dict[str, Any], change: dict, message: str
+) -> None:
+    path = tmp_path / "map.json"
+    path.write_text(json.dumps({**map_data, **change}))
+    out = tmp_path / "out.png"
+    assert_refused(run("render", picture, path, "--out", out), path, message)
+    assert not out.exists()
+
+
+def test_a_map_with_nan(run, picture: Path, tmp_path: Path, map_data: dict[str, Any]) -> None:
+    map_data["psi"][2] = [float("nan"), 0]
+    path = tmp_path / "map.json"
+    path.write_text(json.dumps(map_data))
+    outcome = run("render", picture, path, "--out", tmp_path / "x.png")
+    assert_refused(outcome, path, "psi[2]", "finite")
+
+
+def test_a_map_that_lacks_a_key(
+    run, picture: Path, tmp_path: Path, map_data: dict[str, Any]
+) -> None:
+    del map_data["psi"]
+    path = tmp_path / "map.json"
+    path.write_text(json.dumps(map_data))
+    outcome = run("render", picture, path, "--out", tmp_path / "x.png")
+    assert_refused(outcome, path, 'lacks the key "psi"')
+
+
+def test_a_foreign_map(run, picture: Path, problem: Path, tmp_path: Path) -> None:
+    outcome = run("render", picture, problem, "--out", tmp_path / "x.png")
+    assert_refused(outcome, problem, "this is not a glid_nb map")
+
+
+def test_a_start_map_of_another_domain(run, problem: Path, tmp_path: Path) -> None:
+    other = glid_nb.Domain.from_cage(glid_nb.Cage([[0, 0], [1, 0], [0, 1]]))
+    start = tmp_path / "start.json"
+    glid_nb.HarmonicMap.identity(other).save(start)
+    assert_refused(run("solve", problem, "--start", start), start, "domain")
+
+
+@pytest.mark.parametrize("command", ["solve", "trace", "render"])
+def test_an_output_folder_that_is_missing(
+    run, picture: Path, problem: Path, tmp_path: Path, command: str
+) -> None:
+    words = {"solve": [problem], "trace": [picture], "render": [picture, problem]}[command]
+    folder = tmp_path / "missing"
+    outcome = run(command, *words, "--out", folder / "file")
+    assert_refused(outcome, folder, "there is no such folder")
+
+
+def test_an_output_folder_that_is_a_file(run, picture: Path) -> None:
+    assert_refused(run("demo", picture, "--out", picture), picture, "is a file; name a folder")
+    outcome = run("demo", picture, "--out", picture / "deeper")
+    assert_refused(outcome, picture, "is a file; name a folder")
+
+
+def test_an_output_file_that_is_a_folder(run, problem: Path, tmp_path: Path) -> None:
+    outcome = run("solve", problem, "--out", tmp_path)
+    assert_refused(outcome, tmp_path, "is a folder; name a file")
+
+
+def test_what_was_there_stays_when_the_run_fails(
+    run, problem: Path, problem_data: dict[str, Any], tmp_path: Path
+) -> None:
+    out, report = tmp_path / "map.json", tmp_path / "report.json"
+    out.write_text("precious")
+    report.write_text("dear")
+    problem.write_text(json.dumps({**problem_data, "handles": []}), encoding="utf-8")
+    assert run("solve", problem, "--out", out, "--report", report).code == 1
+    assert (out.read_text(), report.read_text()) == ("precious", "dear")
+
+
+def test_an_interrupted_write_leaves_what_was_there(tmp_path: Path, monkeypatch) -> None:
+    from glid_nb.cli import output
+
+    path = tmp_path / "map.json"
+    path.write_text("precious")
+
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Path, "replace", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        output.write_all({path: "new"})
+    assert path.read_text() == "precious"
+    assert list(tmp_path.iterdir()) == [path]

@@ -1,0 +1,226 @@
+"""Every command run for real, on small input."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import glid_nb
+
+ROWS = (
+    "picture",
+    "cage",
+    "pose",
+    "status",
+    "unknowns",
+    "panels",
+    "iterations",
+    "energy",
+    "certified",
+    "sigma_2",
+    "sigma_1",
+    "k",
+    "winding number",
+    "injective",
+    "times",
+    "written",
+)
+
+
+def read(path: Path) -> dict:
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+def strict_json(text: str) -> dict:
+    """JSON without the NaN and Infinity that Python's reader would let pass."""
+
+    def refuse(name: str) -> float:
+        raise AssertionError(f"{name} is not JSON")
+
+    return json.loads(text, parse_constant=refuse)
+
+
+def test_trace_writes_the_cage_in_world_coordinates(run, picture: Path, tmp_path: Path) -> None:
+    out = tmp_path / "cage.json"
+    outcome = run("trace", picture, "--out", out, "--offset", 0, "--simplify", 0.5)
+    assert outcome.code == 0
+    assert outcome.out.startswith(f"{out}: ")
+    assert "1 hole" in outcome.out
+    data = read(out)
+    assert data["image_size_px"] == [160, 120]
+    cage = glid_nb.Cage.from_dict(data)
+    # The plus sign spans the pixels 15..145 x 15..105 of 160 x 120, a pixel being 1/8 unit.
+    np.testing.assert_allclose(cage.bounds, (-8.125, -5.625, 8.125, 5.625), atol=0.15)
+    assert len(cage.holes) == 1
+
+
+def test_trace_takes_its_options(run, picture: Path, tmp_path: Path) -> None:
+    out = tmp_path / "cage.json"
+    assert run("trace", picture, "--out", out, "--drop-hole", 80, 60).code == 0
+    assert read(out)["holes"] == []
+    assert run("trace", picture, "--out", out, "--min-hole-area", 1000).code == 0
+    assert read(out)["holes"] == []
+
+
+def test_trace_takes_scribbles(run, picture: Path, tmp_path: Path) -> None:
+    strokes = tmp_path / "strokes.json"
+    strokes.write_text(
+        json.dumps(
+            {"foreground": [[[20, 60], [60, 60]]], "background": [[[5, 5], [40, 20]]]},
+        )
+    )
+    out = tmp_path / "cage.json"
+    outcome = run("trace", picture, "--out", out, "--method", "scribbles", "--scribbles", strokes)
+    assert outcome.code == 0
+    assert glid_nb.Cage.from_dict(read(out)).contains([[-5.0, 0.0]]).all()
+
+
+def test_solve_writes_a_map_and_a_report(run, problem: Path, tmp_path: Path) -> None:
+    out, report_path = tmp_path / "map.json", tmp_path / "report.json"
+    outcome = run("solve", problem, "--out", out, "--report", report_path)
+    assert outcome.code == 0
+    harmonic_map = glid_nb.HarmonicMap.load(out)
+    np.testing.assert_allclose(harmonic_map([[7.0, 0.0]]), [[6.0, 3.0]], atol=1e-3)
+    report = strict_json(report_path.read_text())
+    assert report["status"] in ("converged", "stationary")
+    assert report["certified"] is True
+    assert report["winding"] == 0
+    assert len(report["windings"]) == 2
+    assert report["energy"] == "iso"
+    assert report["E"] == pytest.approx(report["E_iso"] + report["E_p2p"], rel=1e-12)
+    assert len(report["history"]) == report["iterations"] > 0
+    assert {
+        "iteration",
+        "energy",
+        "energy_iso",
+        "energy_p2p",
+        "step",
+        "decrement",
+        "sigma2_lower",
+        "panels_split",
+        "time",
+    } <= set(report["history"][0])
+    assert 0 < report["sigma2_lower"] <= report["sigma1_upper"]
+    assert 0 < report["k_upper"] < 1
+    certificate = glid_nb.certify(harmonic_map)
+    assert certificate.certified
+    points = glid_nb.triangulate(harmonic_map.domain.cage, 2000).vertices
+    assert harmonic_map.sigma2(points).min() >= report["sigma2_lower"]
+    assert harmonic_map.sigma1(points).max() <= report["sigma1_upper"]
+    assert harmonic_map.k(points).max() <= report["k_upper"]
+
+
+def test_solve_takes_its_options(run, problem: Path, tmp_path: Path) -> None:
+    report_path = tmp_path / "report.json"
+    words = ("--energy", "amips", "--s", 0.5, "--p2p-weight", 10, "--max-iterations", 1)
+    words += ("--sampling", "uniform", "--certificate", "lipschitz", "--hessian", "projected")
+    outcome = run("solve", problem, "--report", report_path, "--json", *words)
+    assert outcome.code == 0
+    report = strict_json(report_path.read_text())
+    assert (report["energy"], report["s"], report["p2p_weight"]) == ("amips", 0.5, 10)
+    assert report["iterations"] == 1
+    assert report["options"]["sampling"] == "uniform"
+    assert report["options"]["certificate"] == "lipschitz"
+    assert report["options"]["hessian"] == "projected"
+    summary = strict_json(outcome.out)
+    assert summary["E"] == report["E"]
+    assert summary["files"] == {"report.json": str(report_path)}
+
+
+def test_conformal_maps_have_no_dilatation(run, problem: Path, tmp_path: Path) -> None:
+    out = tmp_path / "map.json"
+    assert run("solve", problem, "--out", out, "--conformal").code == 0
+    harmonic_map = glid_nb.HarmonicMap.load(out)
+    vertices = harmonic_map.domain.offset_cage.n_vertices
+    assert not harmonic_map.psi[:vertices].any()
+    assert harmonic_map.k([[3.0, 0.5]]) < 1e-12
+
+
+def test_solving_again_from_the_solution_takes_no_time(run, problem: Path, tmp_path: Path) -> None:
+    out, report = tmp_path / "map.json", tmp_path / "report.json"
+    assert run("solve", problem, "--out", out).code == 0
+    assert run("solve", problem, "--start", out, "--report", report).code == 0
+    assert read(report)["iterations"] <= 2
+
+
+@pytest.fixture
+def solved(run, problem: Path, tmp_path: Path) -> Path:
+    path = tmp_path / "map.json"
+    assert run("solve", problem, "--out", path).code == 0
+    return path
+
+
+def test_render_warps_the_picture(run, picture: Path, solved: Path, tmp_path: Path) -> None:
+    out = tmp_path / "warped.png"
+    assert run("render", picture, solved, "--out", out).code == 0
+    with Image.open(out) as warped:
+        assert (warped.size, warped.mode) == ((160, 120), "RGBA")
+
+
+def test_render_takes_a_size_and_a_view(run, picture: Path, solved: Path, tmp_path: Path) -> None:
+    out = tmp_path / "warped.png"
+    words = ("--size", 200, 90, "--view", "fit")
+    outcome = run("render", picture, solved, "--out", out, *words)
+    assert outcome.out == f"{out}: 200 x 90 pixels\n"
+    with Image.open(out) as warped:
+        assert warped.size == (200, 90)
+        left, top, right, bottom = warped.getchannel("A").getbbox()
+    # Nothing is cut off, and one of the two directions is filled but for the margin.
+    assert 0 < left < right < 200
+    assert 0 < top < bottom < 90
+    assert right - left > 170 or bottom - top > 75
+
+
+def test_demo_on_ones_own_picture(run, picture: Path, tmp_path: Path) -> None:
+    out = tmp_path / "a" / "b"
+    outcome = run("demo", picture, "--out", out)
+    assert outcome.code == 0
+    names = {"deformed.png", "overview.png", "cage.json", "map.json", "report.json"}
+    assert {path.name for path in out.iterdir()} == names
+    with Image.open(out / "deformed.png") as deformed:
+        assert (deformed.size, deformed.mode) == ((160, 120), "RGBA")
+    with Image.open(out / "overview.png") as overview:
+        assert min(overview.size) > 500
+    assert glid_nb.certify(glid_nb.HarmonicMap.load(out / "map.json")).certified
+    lines = outcome.out.splitlines()
+    assert len(lines) <= 40
+    first = [line.split("  ")[0] for line in lines if not line.startswith(" ")]
+    assert [name for name in first if name != "notes"] == list(ROWS)
+    assert "chosen automatically" in outcome.out
+
+
+def test_demo_with_a_pose_of_ones_own(run, picture: Path, tmp_path: Path) -> None:
+    pose = tmp_path / "pose.json"
+    pose.write_text(json.dumps({"handles": [[-7, 0], [7, 0]], "targets": [[-7, 0], [6, 3]]}))
+    out = tmp_path / "out"
+    outcome = run("demo", picture, "--pose", pose, "--out", out, "--json", "--energy", "arap")
+    assert outcome.code == 0
+    summary = strict_json(outcome.out)
+    assert summary["pose"] == str(pose)
+    assert summary["energy"] == "arap"
+    assert set(summary["files"]) == {path.name for path in out.iterdir()}
+    harmonic_map = glid_nb.HarmonicMap.load(out / "map.json")
+    np.testing.assert_allclose(harmonic_map([[7.0, 0.0]]), [[6.0, 3.0]], atol=1e-2)
+
+
+@pytest.mark.slow
+def test_demo_without_anything_uses_a_sample(run, tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    outcome = run("demo")
+    assert outcome.code == 0
+    assert "the sample's own, gentle" in outcome.out
+    source = glid_nb.read_image(glid_nb.samples.path("gecko"))
+    with Image.open(tmp_path / "glid-nb-demo" / "deformed.png") as deformed:
+        assert deformed.size == source.shape[1::-1]
+
+
+def test_results_may_overwrite_results(run, problem: Path, tmp_path: Path) -> None:
+    out = tmp_path / "map.json"
+    out.write_text("old")
+    assert run("solve", problem, "--out", out).code == 0
+    assert glid_nb.HarmonicMap.load(out)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["map.json", "problem.json"]

@@ -1,0 +1,71 @@
+"""Bad input is told from bugs, and said in one line."""
+
+from __future__ import annotations
+
+import pytest
+
+from glid_nb.cli import main as main_module
+from glid_nb.cli.errors import is_bad_input, one_line
+from glid_nb.cli.main import main
+from glid_nb.geometry import GeometryError
+
+
+def test_the_packages_own_refusals_are_bad_input() -> None:
+    assert is_bad_input(GeometryError("hole 1 touches hole 2"))
+    assert is_bad_input(FileNotFoundError(2, "No such file", "x.png"))
+
+
+def test_other_errors_are_bugs() -> None:
+    assert not is_bad_input(ValueError("operands could not be broadcast together"))
+    assert not is_bad_input(TypeError("unsupported operand"))
+
+
+def test_a_system_error_names_the_file_first() -> None:
+    error = FileNotFoundError(2, "No such file or directory", "x.json")
+    assert one_line(error) == "x.json: No such file or directory"
+
+
+def test_a_message_of_several_lines_becomes_one() -> None:
+    assert one_line(GeometryError("hole 1\n  touches hole 2\n")) == "hole 1 touches hole 2"
+
+
+def test_a_bug_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(_: object) -> None:
+        raise ValueError("a bug")
+
+    monkeypatch.setattr(main_module.samples, "run", broken)
+    with pytest.raises(ValueError, match="a bug"):
+        main(["samples"])
+
+
+@pytest.fixture
+def refusing(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(_: object) -> None:
+        raise GeometryError("hole 1 touches hole 2")
+
+    monkeypatch.setattr(main_module.samples, "run", refuse)
+
+
+@pytest.mark.usefixtures("refusing")
+def test_bad_input_is_one_line_and_exit_code_1(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["samples"]) == 1
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err == "glid-nb: error: hole 1 touches hole 2\n"
+
+
+@pytest.mark.usefixtures("refusing")
+def test_debug_shows_the_traceback() -> None:
+    with pytest.raises(GeometryError, match="hole 1 touches hole 2"):
+        main(["samples", "--debug"])
+
+
+def test_an_interrupt_is_said_quietly(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def interrupted(_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(main_module.samples, "run", interrupted)
+    assert main(["samples"]) == 130
+    assert "interrupted" in capsys.readouterr().err

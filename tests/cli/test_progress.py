@@ -1,0 +1,67 @@
+"""Progress speaks up only for what takes long."""
+
+from __future__ import annotations
+
+import io
+import threading
+
+import pytest
+
+from glid_nb.cli.progress import Progress
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+class Recorder(io.StringIO):
+    """A stream that tells when something was written."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.written = threading.Event()
+
+    def write(self, text: str) -> int:
+        count = super().write(text)
+        self.written.set()
+        return count
+
+
+def test_a_short_step_is_silent() -> None:
+    stream = io.StringIO()
+    with Progress(stream, patience=60).step("tracing"):
+        pass
+    assert stream.getvalue() == ""
+
+
+def test_a_long_step_is_announced_while_it_runs_and_summed_up_after() -> None:
+    stream = Recorder()
+    with Progress(stream, patience=0).step("solving") as detail:
+        assert stream.written.wait(10)
+        assert stream.getvalue() == "glid-nb: solving ...\n"
+        detail("iteration 7")
+    last = stream.getvalue().splitlines()[-1]
+    assert last.startswith("glid-nb: solving: ")
+    assert last.endswith(" s, iteration 7")
+
+
+def test_a_failing_step_ends_its_line() -> None:
+    stream = Terminal()
+    with pytest.raises(RuntimeError), Progress(stream, patience=60).step("solving"):
+        raise RuntimeError
+    assert stream.getvalue() == ""
+
+
+def test_a_terminal_line_is_rewritten_and_erased() -> None:
+    class RecordingTerminal(Recorder, Terminal):
+        pass
+
+    stream = RecordingTerminal()
+    with Progress(stream, patience=0).step("solving") as detail:
+        assert stream.written.wait(10)
+        detail("iteration 7")
+    text = stream.getvalue()
+    assert "iteration 7" in text
+    assert "\n" not in text
+    assert text.endswith("\r\x1b[K")

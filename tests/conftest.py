@@ -1,0 +1,74 @@
+"""What every test shares: the options, the reference problems, a headless matplotlib."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Generator
+from pathlib import Path
+
+import hypothesis
+import pytest
+
+os.environ.setdefault("MPLBACKEND", "agg")
+
+# Compiling a JAX program can take longer than hypothesis' deadline for one example. In
+# continuous integration the examples are the same on every run.
+hypothesis.settings.register_profile("default", deadline=None)
+hypothesis.settings.register_profile("ci", deadline=None, derandomize=True, print_blob=True)
+hypothesis.settings.load_profile("ci" if os.environ.get("CI") else "default")
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--no-skip",
+        action="store_true",
+        help="a test that would be skipped fails instead",
+    )
+    parser.addoption(
+        "--reference",
+        metavar="DIR",
+        default=os.environ.get("GLID_NB_REFERENCE"),
+        help="folder with the reference problems (default: $GLID_NB_REFERENCE); without it the "
+        "tests marked `reference` are left out",
+    )
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    if config.getoption("--reference"):
+        return
+    left_out = [item for item in items if item.get_closest_marker("reference")]
+    if left_out:
+        config.hook.pytest_deselected(items=left_out)
+        items[:] = [item for item in items if not item.get_closest_marker("reference")]
+
+
+def _fail_if_skipped(config: pytest.Config, report: pytest.CollectReport | pytest.TestReport):
+    if config.getoption("--no-skip") and report.skipped and not hasattr(report, "wasxfail"):
+        reason = report.longrepr[2] if isinstance(report.longrepr, tuple) else report.longrepr
+        report.outcome = "failed"
+        report.longrepr = f"skipped, which --no-skip forbids: {reason}"
+    return report
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(
+    item: pytest.Item,
+) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    report = yield
+    return _fail_if_skipped(item.config, report)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report(
+    collector: pytest.Collector,
+) -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
+    report = yield
+    return _fail_if_skipped(collector.config, report)
+
+
+@pytest.fixture(scope="session")
+def reference_folder(request: pytest.FixtureRequest) -> Path:
+    """The folder of the reference problems; for tests marked ``reference``."""
+    folder = Path(request.config.getoption("--reference"))
+    assert folder.is_dir(), f"--reference names {folder}, which is not a folder"
+    return folder

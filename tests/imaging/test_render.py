@@ -1,0 +1,226 @@
+"""Warping a picture through a harmonic map: meshes, frames, views."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from glid_nb.geometry import Cage, Domain
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging.frame import PixelFrame
+from glid_nb.imaging.mesh import deformed_mesh, painting_order
+from glid_nb.imaging.render import OutputFrame, render, rendering
+
+
+def rectangle(width: float, height: float, parts: int = 1) -> NDArray[np.float64]:
+    """Counter-clockwise loop around the origin, the long sides cut into ``parts``."""
+    x = np.linspace(-width / 2, width / 2, parts + 1)
+    lower, upper = np.full_like(x, -height / 2), np.full_like(x, height / 2)
+    return np.concatenate([np.stack([x, lower], 1), np.stack([x[::-1], upper], 1)])
+
+
+def conformal(domain: Domain, function) -> HarmonicMap:
+    """Nearly the holomorphic function, interpolated at the offset cage's vertices."""
+    start = HarmonicMap.identity(domain)
+    phi = np.where(start.phi != 0, function(start.phi), 0)
+    return HarmonicMap(domain, phi, start.psi)
+
+
+def bent(domain: Domain, curvature: float) -> HarmonicMap:
+    """Bends the x axis into a circle of this curvature."""
+    return conformal(domain, lambda z: (np.exp(1j * curvature * z) - 1) / (1j * curvature))
+
+
+def affine(domain: Domain, factor: complex, shift: complex) -> HarmonicMap:
+    return conformal(domain, lambda z: factor * z + shift)
+
+
+@pytest.fixture(scope="module")
+def domain() -> Domain:
+    """A rectangle of 12 x 8 with a square hole."""
+    hole = 1.0 + 1.5 * np.array([[-1, -1], [-1, 1], [1, 1], [1, -1]])
+    return Domain.from_cage(Cage(rectangle(12, 8), [hole]))
+
+
+@pytest.fixture(scope="module")
+def bar() -> Domain:
+    return Domain.from_cage(Cage(rectangle(18, 1.6, 72)))
+
+
+def coordinates_as_colours(width: int, height: int) -> NDArray[np.uint8]:
+    """Red grows to the right, green downwards, blue is constant."""
+    y, x = np.mgrid[:height, :width] + 0.5
+    channels = [255 * x / width, 255 * y / height, np.full_like(x, 60), np.full_like(x, 255)]
+    return np.rint(np.stack(channels, axis=2)).astype(np.uint8)
+
+
+def covered(domain: Domain, width: int, height: int, margin: float) -> NDArray[np.bool_]:
+    """Pixels whose centre lies in the cage, ``margin`` world units away from its boundary."""
+    y, x = np.mgrid[:height, :width] + 0.5
+    world = PixelFrame(width, height).to_world(np.stack([x, y], axis=-1))
+    shifts = margin * np.array([[0, 0], [1, 1], [1, -1], [-1, 1], [-1, -1]])
+    return np.all([domain.cage.contains(world + shift) for shift in shifts], axis=0)
+
+
+def test_the_identity_reproduces_the_picture_inside_the_cage(domain: Domain):
+    image = np.random.default_rng(0).integers(0, 256, (128, 160, 4), dtype=np.uint8)
+    image[..., 3] |= 128
+    result = render(image, HarmonicMap.identity(domain))
+    assert result.shape == image.shape
+    assert result.dtype == np.uint8
+    inside = covered(domain, 160, 128, 0.13)
+    assert np.abs(result[inside].astype(int) - image[inside]).max() <= 2
+    outside = ~covered(domain, 160, 128, -0.13)
+    # The corners of a negative margin reach into the cage; what is left out is clear of it.
+    y, x = np.mgrid[:128, :160] + 0.5
+    world = PixelFrame(160, 128).to_world(np.stack([x, y], axis=-1))
+    clear = outside & ~domain.cage.contains(world, tolerance=0.13)
+    assert clear.any()
+    assert not result[clear].any()
+
+
+def test_a_similarity_moves_every_pixel(domain: Domain):
+    image = coordinates_as_colours(200, 200)
+    factor, shift = 0.8 * np.exp(0.5j), 1.0 - 0.7j
+    result = render(image, affine(domain, factor, shift))
+    y, x = np.mgrid[:200, :200] + 0.5
+    frame = PixelFrame(200, 200)
+    world = frame.to_world(np.stack([x, y], axis=-1)) @ [1, 1j]
+    source = (world - shift) / factor
+    source = np.stack([source.real, source.imag], axis=-1)
+    inside = domain.cage.contains(source)
+    solid = (result[..., 3] == 255) & inside
+    assert solid.sum() > 0.9 * inside.sum()
+    expected = frame.to_pixel(source) * 255 / 200
+    assert np.abs(result[solid][:, :2] - expected[solid]).max() < 1.6
+
+
+def test_the_size_is_free_and_other_proportions_are_letter_boxed(domain: Domain):
+    image = coordinates_as_colours(160, 128)
+    identity = HarmonicMap.identity(domain)
+    tall = rendering(image, identity, size=(80, 164))
+    assert tall.picture.shape == (164, 80, 4)
+    assert tall.frame.pixels_per_unit == pytest.approx(80 / 20)
+    np.testing.assert_allclose(tall.frame.to_pixel([[0.0, 0.0]]), [[40, 82]])
+    filled = tall.picture[..., 3] > 0
+    rows = np.flatnonzero(filled.any(axis=1))
+    assert (rows[0], rows[-1]) == (82 - 16, 82 + 15)
+    doubled = rendering(image, identity, size=(320, 256)).picture
+    np.testing.assert_allclose(doubled[128, 80, :2], [80 * 255 / 320, 128 * 255 / 256], atol=2)
+
+
+def test_fit_shows_all_of_a_shape_that_left_the_picture(domain: Domain):
+    image = coordinates_as_colours(160, 128)
+    away = affine(domain, 1.7, 15 + 9j)
+    lost = rendering(image, away)
+    assert lost.outside > 0.6
+    fitted = rendering(image, away, view="fit")
+    assert fitted.outside == 0.0
+    alpha = fitted.picture[..., 3]
+    assert not alpha[0].any()
+    assert not alpha[-1].any()
+    assert not alpha[:, 0].any()
+    assert not alpha[:, -1].any()
+    columns = np.flatnonzero(alpha.any(axis=0))
+    assert columns[-1] - columns[0] + 1 >= 0.9 * 160
+
+
+def test_the_share_outside_is_an_area(domain: Domain):
+    image = coordinates_as_colours(100, 100)
+    # 12 x 8 with a hole of 3 x 3; the hole's and the shape's left parts are cut off at x = -10.
+    moved = rendering(image, affine(domain, 1, -7.0), n_vertices=300)
+    # The shape covers [-13, -1], the hole [-7.5, -4.5]: 3 x 8 units are lost.
+    assert moved.outside == pytest.approx(24 / (96 - 9), abs=1e-9)
+    assert rendering(image, HarmonicMap.identity(domain), n_vertices=300).outside == 0.0
+
+
+def test_straight_edges_follow_the_map_to_a_quarter_of_a_pixel(bar: Domain):
+    image = coordinates_as_colours(400, 400)
+    map = bent(bar, 0.3)
+    result = rendering(image, map, view="fit")
+    assert 0 < result.error_px <= 0.25
+    mesh, frame = result.mesh, result.frame
+    rng = np.random.default_rng(0)
+    weights = rng.dirichlet([1, 1, 1], len(mesh.triangles))[:, :, None]
+    points = (mesh.vertices[mesh.triangles] * weights).sum(axis=1)
+    drawn = (mesh.images[mesh.triangles] * weights).sum(axis=1)
+    error = np.linalg.norm(frame.to_pixel(map(points)) - frame.to_pixel(drawn), axis=1)
+    assert error.max() < 0.5
+    assert np.quantile(error, 0.99) < 0.25
+
+
+def test_refinement_is_conforming_and_keeps_the_domain(bar: Domain):
+    coarse = deformed_mesh(bent(bar, 0.3), 300)
+    fine = deformed_mesh(bent(bar, 0.3), 300, tolerance=2e-3)
+    assert len(fine.vertices) > 2 * len(coarse.vertices)
+    assert fine.error <= 2e-3 < coarse.error
+    for mesh in (coarse, fine):
+        e = mesh.vertices[mesh.triangles][:, 1:] - mesh.vertices[mesh.triangles][:, :1]
+        area = (e[:, 0, 0] * e[:, 1, 1] - e[:, 0, 1] * e[:, 1, 0]) / 2
+        assert (area > 0).all()
+        assert area.sum() == pytest.approx(bar.cage.area)
+        # Conforming: every edge inside has two triangles, once in each direction.
+        edges = mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+        directed = {tuple(edge) for edge in edges.tolist()}
+        assert len(directed) == len(edges)
+        middle = mesh.vertices[[e for e in directed if e[::-1] not in directed]].mean(axis=1)
+        assert bar.cage.contains(middle).all()
+        assert not bar.cage.contains(middle * 1.001).any()
+
+
+def test_a_tolerance_that_cannot_be_met_is_reported(bar: Domain, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("glid_nb.imaging.mesh._MOST_VERTICES", 600)
+    mesh = deformed_mesh(bent(bar, 0.3), 300, tolerance=1e-6)
+    assert len(mesh.vertices) <= 600
+    assert mesh.error > 1e-6
+
+
+def test_where_the_shape_overlaps_itself_one_end_lies_on_the_other(bar: Domain):
+    # The bar is bent beyond a full circle, so that its ends cover the same part of a ring.
+    image = coordinates_as_colours(400, 400)
+    map = bent(bar, 2 * np.pi / 15)
+    result = rendering(image, map, view="fit")
+    angle = np.array([-8.9, 8.9, -6.2, 6.2])
+    places = result.frame.to_pixel(map(np.stack([angle, np.zeros(4)], axis=1)))
+    # The middle of the overlap is 7.5 from the centre along either end.
+    middle = result.frame.to_pixel(map([[7.5, 0.0], [-7.5, 0.0]]))
+    assert np.abs(middle[0] - middle[1]).max() < 3
+    low, high = np.sort(places[:, 1])[[0, -1]]
+    x, y = middle[0]
+    patch = result.picture[round(y) - 25 : round(y) + 25, round(x) - 6 : round(x) + 6]
+    assert low < high
+    assert (patch[..., 3] == 255).all()
+    red = patch[..., 0]
+    assert red.max() < 100 or red.min() > 155
+
+
+def test_the_painting_order_starts_inside_and_ends_at_the_limbs(domain: Domain):
+    mesh = deformed_mesh(HarmonicMap.identity(domain), 800)
+    order = painting_order(domain.cage, mesh.vertices, mesh.triangles)
+    assert sorted(order) == list(range(len(mesh.triangles)))
+    np.testing.assert_array_equal(order, np.arange(len(order)))  # it is in that order already
+    # The innermost part of the rectangle with a hole near its top right is its left half.
+    first = mesh.vertices[mesh.triangles[:20]].mean(axis=(0, 1))
+    last = mesh.vertices[mesh.triangles[-20:]].mean(axis=(0, 1))
+    assert first[0] < 0 < last[0]
+
+
+def test_bad_input(domain: Domain):
+    image, identity = coordinates_as_colours(20, 20), HarmonicMap.identity(domain)
+    with pytest.raises(ValueError, match="unknown view 'front'; choose one of source, fit"):
+        render(image, identity, view="front")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="size is 0 x 5 pixels"):
+        render(image, identity, size=(0, 5))
+    with pytest.raises(ValueError, match="at least 3 vertices"):
+        render(image, identity, n_vertices=2)
+    with pytest.raises(ValueError, match="image must have the shape"):
+        render(np.zeros(5, np.uint8), identity)
+    with pytest.raises(ValueError, match="tolerance is 0"):
+        deformed_mesh(identity, tolerance=0)
+
+
+def test_the_frame_converts_to_pixels():
+    frame = OutputFrame((200, 100), 10.0, (1.0, 2.0))
+    np.testing.assert_allclose(frame.to_pixel([[1, 2], [2, 3]]), [[100, 50], [110, 40]])
+    assert frame.bounds == (-9.0, -3.0, 11.0, 7.0)

@@ -1,0 +1,70 @@
+"""The public face: complete, light, and without side effects."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import glid_nb
+
+STUB = Path(glid_nb.__file__).with_suffix(".pyi")
+
+
+def public_names() -> list[str]:
+    tree = ast.parse(STUB.read_text(encoding="utf-8"))
+    imports = [node for node in tree.body if isinstance(node, ast.ImportFrom)]
+    return [alias.name for node in imports for alias in node.names]
+
+
+def run_python(source: str) -> str:
+    done = subprocess.run(
+        [sys.executable, "-c", source], capture_output=True, text=True, check=True, timeout=120
+    )
+    return done.stdout.strip()
+
+
+@pytest.mark.parametrize("name", public_names())
+def test_every_name_resolves_to_something_documented(name: str) -> None:
+    value = getattr(glid_nb, name)
+    assert value.__doc__
+
+
+def test_the_names_are_listed() -> None:
+    assert set(public_names()) <= set(dir(glid_nb))
+    assert len(public_names()) == len(set(public_names()))
+
+
+def test_an_unknown_name_is_an_attribute_error() -> None:
+    with pytest.raises(AttributeError, match="unheard_of"):
+        glid_nb.unheard_of  # noqa: B018
+
+
+def test_importing_loads_nothing_heavy() -> None:
+    heavy = ("jax", "numpy", "scipy", "matplotlib", "skimage", "shapely", "pythreejs", "ipywidgets")
+    loaded = run_python(f"import glid_nb, sys; print([m for m in {heavy} if m in sys.modules])")
+    assert loaded == "[]"
+
+
+def test_loading_every_name_leaves_the_jax_configuration_alone() -> None:
+    source = """
+import jax
+before = dict(jax.config.values)
+import glid_nb
+for name in glid_nb.__all__:
+    getattr(glid_nb, name)
+after = dict(jax.config.values)
+print({key: (before[key], after[key]) for key in before if before[key] != after[key]})
+import jax.numpy as jnp
+print(jnp.ones(3).dtype)
+"""
+    assert run_python(source).splitlines() == ["{}", "float32"]
+
+
+def test_the_version_is_the_distributions() -> None:
+    from importlib.metadata import version
+
+    assert glid_nb.__version__ == version("glid-nb")
