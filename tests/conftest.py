@@ -5,9 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Generator
 from pathlib import Path
+from typing import TypeVar
 
 import hypothesis
 import pytest
+
+Report = TypeVar("Report", pytest.CollectReport, pytest.TestReport)
 
 os.environ.setdefault("MPLBACKEND", "agg")
 
@@ -42,7 +45,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         items[:] = [item for item in items if not item.get_closest_marker("reference")]
 
 
-def _fail_if_skipped(config: pytest.Config, report: pytest.CollectReport | pytest.TestReport):
+def _fail_if_skipped(config: pytest.Config, report: Report) -> Report:
     if config.getoption("--no-skip") and report.skipped and not hasattr(report, "wasxfail"):
         reason = report.longrepr[2] if isinstance(report.longrepr, tuple) else report.longrepr
         report.outcome = "failed"
@@ -69,6 +72,6 @@ def pytest_make_collect_report(
 @pytest.fixture(scope="session")
 def reference_folder(request: pytest.FixtureRequest) -> Path:
     """The folder of the reference problems; for tests marked ``reference``."""
-    folder = Path(request.config.getoption("--reference"))
+    folder = Path(str(request.config.getoption("--reference")))
     assert folder.is_dir(), f"--reference names {folder}, which is not a folder"
     return folder

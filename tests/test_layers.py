@@ -44,10 +44,11 @@ def imported(source: str, package: tuple[str, ...]) -> Iterator[tuple[int, str]]
     ``package`` holds the names of the package that the source's module lives in.
     """
     for node in ast.walk(ast.parse(source)):
-        names: list[str] = []
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
+        elif not isinstance(node, ast.ImportFrom):
+            continue
+        else:
             base = package[: len(package) - node.level + 1] if node.level else ()
             module = ".".join((*base, *([node.module] if node.module else [])))
             # `from glid_nb import geometry` is an import of the layer, `... import Cage` is not.

@@ -40,7 +40,7 @@ def test_the_names_are_listed() -> None:
 
 def test_an_unknown_name_is_an_attribute_error() -> None:
     with pytest.raises(AttributeError, match="unheard_of"):
-        glid_nb.unheard_of  # noqa: B018
+        getattr(glid_nb, "unheard_of")  # noqa: B009
 
 
 def test_importing_loads_nothing_heavy() -> None:

@@ -3,15 +3,18 @@
 from glid_nb.certificate import hermite, lipschitz, rounding
 from glid_nb.certificate.bounds import EndValues, PanelBounds, derivative_bound_weights
 from glid_nb.certificate.certify import Certificate, Method, PanelCertificate, certify
+from glid_nb.certificate.injectivity import GlobalInjectivity, global_injectivity
 
 __all__ = [
     "Certificate",
     "EndValues",
+    "GlobalInjectivity",
     "Method",
     "PanelBounds",
     "PanelCertificate",
     "certify",
     "derivative_bound_weights",
+    "global_injectivity",
     "hermite",
     "lipschitz",
     "rounding",

@@ -46,6 +46,11 @@ class PanelBounds(NamedTuple):
         return (self.sigma2_lower > 0) & self.turning_known
 
 
+def modulus(z: Complex[Array, " *k"]) -> Float[Array, " *k"]:
+    """``|z|`` without care for overflow, which no value here is near; it compiles to much less."""
+    return jnp.sqrt(jnp.real(z) ** 2 + jnp.imag(z) ** 2)
+
+
 def turning(values: EndValues) -> Float[Array, " p"]:
     """Principal ``Arg(f_z(v_{i+1}) / f_z(v_i))`` of each panel, a term of (30)."""
     return jnp.angle(values.fz_end * jnp.conj(values.fz_start))
@@ -58,9 +63,9 @@ def distances(
     points = jnp.concatenate([singularities.vertices, singularities.hole_points])
     along = (end - start)[:, None]
     relative = points - start[:, None]
-    length_squared = jnp.abs(along) ** 2
+    length_squared = jnp.real(along) ** 2 + jnp.imag(along) ** 2
     position = jnp.real(relative * jnp.conj(along)) / jnp.where(length_squared > 0, length_squared, 1)
-    return jnp.abs(relative - jnp.clip(position, 0, 1) * along)
+    return modulus(relative - jnp.clip(position, 0, 1) * along)
 
 
 def derivative_bound_weights(

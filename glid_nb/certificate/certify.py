@@ -10,9 +10,9 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from glid_nb._runtime import double_precision
+from glid_nb._runtime import COMPILER_OPTIONS, double_precision
 from glid_nb.certificate import hermite, lipschitz, rounding
-from glid_nb.certificate.bounds import EndValues, derivative_bound_weights
+from glid_nb.certificate.bounds import EndValues, derivative_bound_weights, modulus
 from glid_nb.geometry import Panels, graded_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.harmonic.basis import Basis
@@ -21,7 +21,7 @@ Array = np.ndarray
 Method = Literal["hermite", "lipschitz"]
 
 _METHODS = {"hermite": hermite, "lipschitz": lipschitz}
-_CHUNK_ELEMENTS = 1 << 17
+_CHUNK = 256
 _MAX_ROUNDS = 40
 _MAX_PANELS = 400_000
 
@@ -212,18 +212,17 @@ def _evaluate(
 ) -> dict[str, Array]:
     """Bounds on each panel, and the distortion seen at its start, by name."""
     count = len(panels)
-    chunk = 64 if count <= 64 else max(64, _CHUNK_ELEMENTS // basis.n_columns)
     parts = []
-    for first in range(0, count, chunk):
-        ends = [panels.start[first : first + chunk], panels.end[first : first + chunk]]
+    for first in range(0, count, _CHUNK):
+        ends = [panels.start[first : first + _CHUNK], panels.end[first : first + _CHUNK]]
         size = len(ends[0])
-        filled = [np.append(e, np.full(chunk - size, e[0])) for e in ends]
+        filled = [np.append(e, np.full(_CHUNK - size, e[0])) for e in ends]
         outputs = _kernel(*filled, coefficients, basis.singularities, method=method)
         parts.append({name: np.asarray(values)[:size] for name, values in outputs.items()})
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
-@functools.partial(jax.jit, static_argnames="method")
+@functools.partial(jax.jit, static_argnames="method", compiler_options=COMPILER_OPTIONS)
 def _kernel(start: Any, end: Any, coefficients: Any, singularities: Any, method: Method) -> Any:
     chord = end - start
     values = [cauchy.first_derivatives(z, singularities) @ coefficients.T for z in (start, end)]
@@ -241,7 +240,7 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Any, method:
     slack = rounding.slack_factor(coefficients.shape[1]) * jnp.abs(coefficients).max()
     remainder = remainder + slack * rounding.panel_scale(start, end, singularities)[:, None]
     bounds = module.panel_bounds(ends, remainder[:, 0], remainder[:, 1])
-    f, g = (jnp.abs(values[0][:, k]) for k in (0, 1))
+    f, g = (modulus(values[0][:, k]) for k in (0, 1))
     return {
         "sigma2_lower": bounds.sigma2_lower,
         "sigma1_upper": bounds.sigma1_upper,

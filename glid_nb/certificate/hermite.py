@@ -9,13 +9,18 @@ interpolation does not change sign, so the bound holds for complex functions too
 
 from __future__ import annotations
 
+import functools
+
 import jax.numpy as jnp
-import numpy as np
 from jaxtyping import Array, Complex, Float
 
-from glid_nb.certificate.bounds import EndValues, PanelBounds, turning
+from glid_nb.certificate.bounds import EndValues, PanelBounds, modulus, turning
 
 DERIVATIVE_ORDER = 4
+
+# A cubic by its four Bezier control points, or a real sextic by its seven Bernstein coefficients.
+Cubic = list[Complex[Array, " p"]]
+Sextic = list[Float[Array, " p"]]
 
 
 def remainder_factor(length: Float[Array, " p"]) -> Float[Array, " p"]:
@@ -24,51 +29,54 @@ def remainder_factor(length: Float[Array, " p"]) -> Float[Array, " p"]:
 
 
 def panel_bounds(
-    values: EndValues,
-    remainder_fz: Float[Array, " p"],
-    remainder_fzb: Float[Array, " p"],
-    pieces: int = 2,
+    values: EndValues, remainder_fz: Float[Array, " p"], remainder_fzb: Float[Array, " p"]
 ) -> PanelBounds:
     """Bounds that hold on each whole panel.
 
-    ``pieces`` (1, 2 or 4) is how finely the polynomials are subdivided, which tightens the
-    enclosure without another evaluation of the map.
+    The interpolants are cut in half once, which tightens the enclosure without another
+    evaluation of the map.
     """
     p = _control_points(values.fz_start, values.fz_end, values.dfz_start, values.dfz_end)
     q = _control_points(values.fzb_start, values.fzb_end, values.dfzb_start, values.dfzb_end)
-    e_f, e_g = remainder_fz[:, None], remainder_fzb[:, None]
+    halves = [
+        _piece_bounds(p_half, q_half, remainder_fz, remainder_fzb)
+        for p_half, q_half in zip(_halves(p), _halves(q), strict=True)
+    ]
+    sigma2, sigma1, k = zip(*halves, strict=True)
 
-    split = _subdivision(pieces)
-    p_pieces = jnp.einsum("sij,pj->psi", split, p)
-    q_pieces = jnp.einsum("sij,pj->psi", split, q)
-    p_square = _squared_modulus(p_pieces)
-    q_square = _squared_modulus(q_pieces)
-    p_most = jnp.abs(p_pieces).max(axis=-1)
-    q_most = jnp.abs(q_pieces).max(axis=-1)
+    # If the control polygon lies in a half plane further than e_f from 0, so does f_z.
+    direction = p[0] / modulus(p[0]) + p[3] / modulus(p[3])
+    direction = direction / modulus(direction)
+    offset = _least([jnp.real(jnp.conj(direction) * point) for point in p])
+    return PanelBounds(
+        jnp.nan_to_num(_least(sigma2), nan=-jnp.inf),
+        _greatest(sigma1),
+        _greatest(k),
+        offset > remainder_fz,
+        turning(values),
+    )
+
+
+def _piece_bounds(
+    p: Cubic, q: Cubic, e_f: Float[Array, " p"], e_g: Float[Array, " p"]
+) -> tuple[Array, Array, Array]:
+    """Lower bound on sigma_2, upper bounds on sigma_1 and k, where ``p`` and ``q`` interpolate."""
+    p_square, q_square = _squared_modulus(p), _squared_modulus(q)
+    p_most = _greatest([modulus(point) for point in p])
+    q_most = _greatest([modulus(point) for point in q])
 
     # |p| - |q| = (|p|^2 - |q|^2) / (|p| + |q|), the denominator being at most the control points'.
-    least = (p_square - q_square).min(axis=-1)
+    least = _least([a - b for a, b in zip(p_square, q_square, strict=True)])
     sigma2 = least / (p_most + q_most) - e_f - e_g
     sigma1 = p_most + q_most + e_f + e_g
 
     # kappa^2 |p|^2 - |q|^2 >= 0 coefficient by coefficient bounds |q| / |p| by kappa.
-    p_least_square = p_square.min(axis=-1)
+    p_least_square = _least(p_square)
     p_least = jnp.sqrt(jnp.maximum(p_least_square, 0))
-    kappa = jnp.sqrt(jnp.max(jnp.maximum(q_square, 0) / p_square, axis=-1))
+    ratios = [jnp.maximum(b, 0) / a for a, b in zip(p_square, q_square, strict=True)]
+    kappa = jnp.sqrt(_greatest(ratios))
     k = (kappa * p_least + e_g) / (p_least - e_f)
-    k = jnp.where((p_least_square > 0) & (p_least > e_f), k, jnp.inf)
-
-    # If the control polygon lies in a half plane further than e_f from 0, so does f_z.
-    direction = p[:, 0] / jnp.abs(p[:, 0]) + p[:, 3] / jnp.abs(p[:, 3])
-    direction = direction / jnp.abs(direction)
-    offset = jnp.real(jnp.conj(direction)[:, None] * p).min(axis=-1)
-    return PanelBounds(
-        jnp.nan_to_num(sigma2.min(axis=-1), nan=-jnp.inf),
-        sigma1.max(axis=-1),
-        k.max(axis=-1),
-        offset > remainder_fz,
-        turning(values),
-    )
+    return sigma2, sigma1, jnp.where((p_least_square > 0) & (p_least > e_f), k, jnp.inf)
 
 
 def _control_points(
@@ -76,36 +84,40 @@ def _control_points(
     end: Complex[Array, " p"],
     slope_start: Complex[Array, " p"],
     slope_end: Complex[Array, " p"],
-) -> Complex[Array, "p 4"]:
-    return jnp.stack([start, start + slope_start / 3, end - slope_end / 3, end], axis=-1)
+) -> Cubic:
+    return [start, start + slope_start / 3, end - slope_end / 3, end]
 
 
-def _squared_modulus(c: Complex[Array, "... 4"]) -> Float[Array, "... 7"]:
-    """Bernstein coefficients of degree 6 of ``|cubic|^2``."""
+def _halves(cubic: Cubic) -> tuple[Cubic, Cubic]:
+    """De Casteljau's subdivision at the middle."""
+    a, b, c, d = cubic
+    ab, bc, cd = (a + b) / 2, (b + c) / 2, (c + d) / 2
+    abc, bcd = (ab + bc) / 2, (bc + cd) / 2
+    middle = (abc + bcd) / 2
+    return [a, ab, abc, middle], [middle, bcd, cd, d]
 
-    def dot(i: int, j: int) -> Float[Array, ...]:
-        a, b = c[..., i], c[..., j]
+
+def _squared_modulus(cubic: Cubic) -> Sextic:
+    """Bernstein coefficients of ``|cubic|^2``."""
+
+    def dot(i: int, j: int) -> Float[Array, " p"]:
+        a, b = cubic[i], cubic[j]
         return jnp.real(a) * jnp.real(b) + jnp.imag(a) * jnp.imag(b)
 
-    return jnp.stack(
-        [
-            dot(0, 0),
-            dot(0, 1),
-            (2 * dot(0, 2) + 3 * dot(1, 1)) / 5,
-            (dot(0, 3) + 9 * dot(1, 2)) / 10,
-            (2 * dot(1, 3) + 3 * dot(2, 2)) / 5,
-            dot(2, 3),
-            dot(3, 3),
-        ],
-        axis=-1,
-    )
+    return [
+        dot(0, 0),
+        dot(0, 1),
+        (2 * dot(0, 2) + 3 * dot(1, 1)) / 5,
+        (dot(0, 3) + 9 * dot(1, 2)) / 10,
+        (2 * dot(1, 3) + 3 * dot(2, 2)) / 5,
+        dot(2, 3),
+        dot(3, 3),
+    ]
 
 
-def _subdivision(pieces: int) -> Float[np.ndarray, "s 4 4"]:
-    """De Casteljau's subdivision of a cubic's control points into equal pieces."""
-    left = np.array([[8, 0, 0, 0], [4, 4, 0, 0], [2, 4, 2, 0], [1, 3, 3, 1]]) / 8
-    right = left[::-1, ::-1]
-    matrices = [np.eye(4)]
-    while len(matrices) < pieces:
-        matrices = [half @ m for m in matrices for half in (left, right)]
-    return np.stack(matrices)
+def _least(values: list[Array] | tuple[Array, ...]) -> Array:
+    return functools.reduce(jnp.minimum, values)
+
+
+def _greatest(values: list[Array] | tuple[Array, ...]) -> Array:
+    return functools.reduce(jnp.maximum, values)

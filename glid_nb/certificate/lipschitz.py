@@ -5,7 +5,7 @@ from __future__ import annotations
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from glid_nb.certificate.bounds import EndValues, PanelBounds, turning
+from glid_nb.certificate.bounds import EndValues, PanelBounds, modulus, turning
 
 DERIVATIVE_ORDER = 2
 
@@ -25,10 +25,10 @@ def panel_bounds(
     With ``L l = (|f_z'(v_i)| + |f_z'(v_{i+1})|) l / 2 + remainder``, ``|f_z|`` is at least the
     mean of its end values less ``L l / 2``, and likewise ``|f_zbar|`` at most.
     """
-    variation_fz = (jnp.abs(values.dfz_start) + jnp.abs(values.dfz_end)) / 2 + remainder_fz
-    variation_fzb = (jnp.abs(values.dfzb_start) + jnp.abs(values.dfzb_end)) / 2 + remainder_fzb
-    mean_fz = (jnp.abs(values.fz_start) + jnp.abs(values.fz_end)) / 2
-    mean_fzb = (jnp.abs(values.fzb_start) + jnp.abs(values.fzb_end)) / 2
+    variation_fz = (modulus(values.dfz_start) + modulus(values.dfz_end)) / 2 + remainder_fz
+    variation_fzb = (modulus(values.dfzb_start) + modulus(values.dfzb_end)) / 2 + remainder_fzb
+    mean_fz = (modulus(values.fz_start) + modulus(values.fz_end)) / 2
+    mean_fzb = (modulus(values.fzb_start) + modulus(values.fzb_end)) / 2
     fz_least = mean_fz - variation_fz / 2
     fzb_most = mean_fzb + variation_fzb / 2
     return PanelBounds(

@@ -11,7 +11,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,7 +117,7 @@ def _pose(
         path, origin = Path(wanted), wanted
     else:
         assert sample is not None
-        kind = DEFAULT_POSE if wanted is None else wanted
+        kind = cast("glid_nb.samples.PoseKind", DEFAULT_POSE if wanted is None else wanted)
         path, origin = glid_nb.samples.pose_path(sample, kind), f"the sample's own, {kind}"
     pose = glid_nb.load_pose(path)
     with about(path):

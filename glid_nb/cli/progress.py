@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
-_PATIENCE = 1.0
+PATIENCE = 1.0
+"""Seconds that a step may take unannounced."""
 
 
 class Progress:
@@ -22,13 +23,13 @@ class Progress:
     ----------
     stream : text stream, optional
         Where to write; stderr by default.
-    patience : float
-        Seconds that a step may take unannounced.
+    patience : float, optional
+        Seconds that a step may take unannounced; :data:`PATIENCE` by default.
     """
 
-    def __init__(self, stream: TextIO | None = None, patience: float = _PATIENCE) -> None:
+    def __init__(self, stream: TextIO | None = None, patience: float | None = None) -> None:
         self._stream = sys.stderr if stream is None else stream
-        self._patience = patience
+        self._patience = PATIENCE if patience is None else patience
         self._live = self._stream.isatty()
 
     @contextmanager

@@ -30,7 +30,7 @@ def as_text(
     rows : iterable of (name, text)
         Rows to put first.
     """
-    table = [*rows, *_rows(report), *(("written", str(path)) for path in files)]
+    table = [*rows, *_rows(report), *_written(files)]
     width = max(len(name) for name, _ in table)
     lines, previous = [], ""
     for name, text in table:
@@ -39,10 +39,18 @@ def as_text(
     return "\n".join(lines)
 
 
+def _written(files: Iterable[Path]) -> list[tuple[str, str]]:
+    """A row for every folder."""
+    folders: dict[Path, list[str]] = {}
+    for path in files:
+        folders.setdefault(path.parent, []).append(path.name)
+    return [("written", f"{folder}: {', '.join(names)}") for folder, names in folders.items()]
+
+
 def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     energy = report["energy"] if report["s"] is None else f"{report['energy']}, s = {report['s']:g}"
     winding = f"{report['winding']}"
-    if len(report["windings"]) > 1:
+    if any(report["windings"]):
         winding += f"  (loops: {', '.join(f'{w:+d}' if w else '0' for w in report['windings'])})"
     injective = report["globally_injective"]
     if report["crossing"] is not None:
@@ -50,7 +58,7 @@ def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         injective += f", the boundary's image crosses itself at ({x:.3g}, {y:.3g})"
     split = f", {report['panels_split']} split" if report["panels_split"] else ""
     return [
-        ("status", f"{report['status']}: {report['message']}"),
+        ("status", report["message"]),
         ("unknowns", f"{report['n_unknowns']}"),
         ("panels", f"{report['panels']}{split}"),
         ("iterations", f"{report['iterations']}"),

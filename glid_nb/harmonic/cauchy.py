@@ -71,8 +71,9 @@ def slope_jumps(
 ) -> Complex[Array, "... n"]:
     """``s_j - s_{j+1}`` for the vertices and the coefficient itself for the holes.
 
-    These are the residues that drive every derivative of ``f_z`` (Appendix H):
-    ``f_z' = 1/(2 pi i) sum_j (s_j - s_{j+1}) / B_j - sum_k phi_{m+k} / (z - rho_k)^2``.
+    These are the residues that drive every derivative of ``f_z`` (Appendix H, whose first sum has
+    the wrong sign):
+    ``f_z' = -1/(2 pi i) sum_j (s_j - s_{j+1}) / B_j - sum_k phi_{m+k} / (z - rho_k)^2``.
     """
     m = singularities.vertices.shape[0]
     slopes = edge_slopes(coefficients[..., :m], singularities)
@@ -90,14 +91,14 @@ def higher_derivative(
     """The ``order``-th derivative (``order >= 1``) of ``sum_j D_j(z) coefficients_j``.
 
     Differentiating the expression for ``f_z'`` in Appendix H ``order - 1`` times:
-    ``(order-1)!/(2 pi i) sum_j (s_j - s_{j+1}) / B_j^order
+    ``-(order-1)!/(2 pi i) sum_j (s_j - s_{j+1}) / B_j^order
     + (-1)^order order! sum_k phi_{m+k} / (z - rho_k)^(order+1)``.
     """
     vertices, _, _, rho = singularities
     m = vertices.shape[0]
     jumps = slope_jumps(coefficients, singularities)
     factorial = float(np.prod(np.arange(1, order)))
-    inner = ((vertices - z[:, None]) ** -order) @ jumps[:m] * (factorial / _TWO_PI_I)
+    inner = ((vertices - z[:, None]) ** -order) @ jumps[:m] * (-factorial / _TWO_PI_I)
     holes = ((z[:, None] - rho) ** -(order + 1)) @ jumps[m:]
     return inner + (-1) ** order * factorial * order * holes
 

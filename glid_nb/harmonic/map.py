@@ -270,4 +270,4 @@ def _complex_list(values: Any, name: str) -> Array:
         raise MapError(f'"{name}" must be a list of [re, im] pairs of numbers') from error
     if array.ndim != 2 or array.shape[1] != 2:
         raise MapError(f'"{name}" must be a list of [re, im] pairs; its shape is {array.shape}')
-    return array[:, 0] + 1j * array[:, 1]
+    return array.view(complex)[:, 0]  # keeps signed zeros and infinities

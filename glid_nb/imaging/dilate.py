@@ -32,6 +32,8 @@ class Dilation:
         (k, 2) each.
     offset
         The distance in pixels.
+    least_offset
+        The smallest distance that a narrow hole got instead.
     listed
         All holes, with those that the offset closed off at the end.
     notes
@@ -41,6 +43,7 @@ class Dilation:
     exterior: NDArray[np.float64]
     holes: tuple[NDArray[np.float64], ...]
     offset: float
+    least_offset: float
     listed: tuple[Hole, ...]
     notes: tuple[str, ...]
 
@@ -71,9 +74,11 @@ def dilate(
                 chosen, grown = factor * largest, smaller
     notes: list[str] = []
     loops: list[NDArray[np.float64]] = []
+    least = chosen
     for hole in _kept(holes):
         parts, used = _shrunk(hole.loop, chosen, rule.min_area)
         loops += parts
+        least = min(least, used)
         if used < chosen:
             notes.append(
                 f"the hole at {_place(hole)} is too narrow for an offset of {chosen:.3g} px; it got "
@@ -88,7 +93,8 @@ def dilate(
             f"the offset of {chosen:.3g} px closed a bay at {_place(bay)}, which became a hole; a "
             "smaller offset leaves it open"
         )
-    return Dilation(_loop(grown.exterior), tuple(loops), chosen, (*holes, *bays), tuple(notes))
+    listed = (*holes, *bays)
+    return Dilation(_loop(grown.exterior), tuple(loops), chosen, least, listed, tuple(notes))
 
 
 def _kept(holes: Iterable[Hole]) -> list[Hole]:

@@ -50,14 +50,16 @@ class HoleRule:
     """Decides which holes are kept: by least area in square pixels, with exceptions by points."""
 
     min_area: float
+    min_bay_area: float  # for holes that the offset makes: these are gaps for sure
     keep: tuple[Point, ...]
     drop: tuple[Point, ...]
 
-    def keeps(self, loop: NDArray[np.float64], area: float) -> bool:
+    def keeps(self, loop: NDArray[np.float64], area: float, by_offset: bool = False) -> bool:
         """Whether a hole is kept."""
         if _holds_any(loop, self.drop):
             return False
-        return area >= self.min_area or _holds_any(loop, self.keep)
+        least = self.min_bay_area if by_offset else self.min_area
+        return area >= least or _holds_any(loop, self.keep)
 
 
 def choose_holes(
@@ -75,19 +77,20 @@ def choose_holes(
     -------
     The holes, in the outline's order; the rule, for holes that are made later; notes.
     """
-    least = min_hole_area
-    if least is None:
+    least = least_bay = min_hole_area
+    if least is None or least_bay is None:
         share = _LEAST_SHARE_BY_COLOR if method in ("color", "threshold") else _LEAST_SHARE
         least = max(share * outline.component.area, _LEAST_AREA)
-    rule = HoleRule(least, keep, drop)
+        least_bay = max(_LEAST_SHARE * outline.component.area, _LEAST_AREA)
+    rule = HoleRule(least, least_bay, keep, drop)
     holes = tuple(as_hole(loop, rule) for loop in outline.holes)
     filled = [h for h in holes if not h.kept and not _holds_any(h.loop, drop)]
     notes = []
     if filled or outline.n_specks:
         count = len(filled) + outline.n_specks
         notes.append(
-            f"{count} {'hole' if count == 1 else 'holes'} smaller than {least:.4g} square pixels "
-            f"{'was' if count == 1 else 'were'} filled"
+            f"{count} small {'hole was' if count == 1 else 'holes were'} filled; the least area is "
+            f"{least:.4g} square pixels"
         )
     for name, points in (("keep_holes", keep), ("drop_holes", drop)):
         notes += [
@@ -102,7 +105,7 @@ def as_hole(loop: NDArray[np.float64], rule: HoleRule, by_offset: bool = False) 
     """A hole with the given outline."""
     region = shapely.Polygon(loop)
     pixel = shapely.point_on_surface(region)
-    kept = rule.keeps(loop, region.area)
+    kept = rule.keeps(loop, region.area, by_offset)
     return Hole(loop, region.area, region.bounds, (pixel.x, pixel.y), kept, by_offset)
 
 

@@ -33,7 +33,9 @@ class DeformedMesh:
     vertices, images : (v, 2) arrays
         The vertices and where the map takes them, world coordinates.
     triangles : (t, 3) int32 array
-        Counter-clockwise, in the order in which they are to be painted; see `painting_order`.
+        Counter-clockwise, the lower ones first.
+    heights : (v,) array
+        Where the image overlaps itself the higher part lies over the lower; see `sheet_heights`.
     error : float
         Largest distance between the image of an edge's midpoint and the middle of the edge's end
         points, world units: how far straight edges stray from the map.
@@ -42,10 +44,11 @@ class DeformedMesh:
     vertices: Floats
     images: Floats
     triangles: Ints
+    heights: Floats
     error: float
 
     def __post_init__(self) -> None:
-        for array in (self.vertices, self.images, self.triangles):
+        for array in (self.vertices, self.images, self.triangles, self.heights):
             array.setflags(write=False)
 
 
@@ -73,7 +76,7 @@ def deformed_mesh(
         raise ValueError(f"tolerance is {tolerance}; it must be positive")
     start = triangulate(map.domain.cage, n_vertices)
     vertices, triangles = start.vertices, start.triangles
-    triangles = triangles[painting_order(map.domain.cage, vertices, triangles)]
+    heights = sheet_heights(map.domain.cage, vertices, triangles)
     images = map(vertices)
     # Edges are looked at once; those found straight enough stay so.
     straight, error = np.zeros(0, np.int64), 0.0
@@ -95,20 +98,23 @@ def deformed_mesh(
         new_vertex[fresh[bent]] = len(vertices) + np.arange(bent.sum(), dtype=np.int32)
         vertices = np.concatenate([vertices, middles[bent]])
         images = np.concatenate([images, middle_images[bent]])
+        heights = np.concatenate([heights, heights[edges[fresh[bent]]].mean(axis=1)])
         triangles = _split(triangles, new_vertex[edge_of])
     else:
         error = max(error, float(bend.max()))
-    return DeformedMesh(vertices, images, triangles, error)
+    triangles = triangles[np.argsort(heights[triangles].mean(axis=1), kind="stable")]
+    return DeformedMesh(vertices, images, triangles, heights, error)
 
 
-def painting_order(cage: Cage, vertices: Floats, triangles: Ints) -> NDArray[np.intp]:
-    """In which order to paint triangles whose images may overlap.
+def sheet_heights(cage: Cage, vertices: Floats, triangles: Ints) -> Floats:
+    """Heights that decide which part of a shape covers which where its image overlaps itself.
 
-    The map is locally injective, but an arm can still come to lie over the body. Which triangle
-    covers which must then not change from one to the next, or the overlap becomes a patchwork.
-    Triangles are sorted by their distance from the shape's innermost point, measured within the
-    shape, so that limbs cover the trunk; smaller shares of the distance from the point opposite
-    and of x decide between the two ends of a ring and between a left and a right arm.
+    The map is locally injective, but an arm can still come to lie over the body. Which covers
+    which must not change from one triangle to the next, or the overlap becomes a patchwork, so the
+    heights are continuous on the shape. They grow with the distance from the shape's innermost
+    point, measured within the shape, so that limbs cover the trunk; smaller shares of the distance
+    from the point opposite and of x decide between the two ends of a ring and between a left and a
+    right arm.
 
     Parameters
     ----------
@@ -118,8 +124,7 @@ def painting_order(cage: Cage, vertices: Floats, triangles: Ints) -> NDArray[np.
 
     Returns
     -------
-    (t,) int array
-        Indices of the triangles, the first to paint first.
+    (v,) array
     """
     edges, _ = _edges(triangles)
     length = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
@@ -131,8 +136,7 @@ def painting_order(cage: Cage, vertices: Floats, triangles: Ints) -> NDArray[np.
     inner = dijkstra(graph, directed=False, indices=candidates[np.argmax(depth)])
     opposite = int(np.argmax(np.where(np.isfinite(inner), inner, -1)))
     along = dijkstra(graph, directed=False, indices=opposite)
-    height = np.nan_to_num(inner + 0.35 * along, posinf=0.0) + 0.35 * vertices[:, 0]
-    return np.argsort(height[triangles].mean(axis=1), kind="stable")
+    return np.nan_to_num(inner + 0.35 * along, posinf=0.0) + 0.35 * vertices[:, 0]
 
 
 def _edges(triangles: Ints) -> tuple[Ints, Ints]:

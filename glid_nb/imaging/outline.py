@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 from scipy.ndimage import label
 from skimage.measure import find_contours
 
+from glid_nb.geometry._loops import signed_area
 from glid_nb.imaging.components import Component
 
 _PRECISION = 0.05  # pixels; vertices that change the outline by less are dropped
 _SPECK_SHARE, _SPECK = 1e-5, 4  # smaller holes, relative to the component and in pixels, are noise
-_MOST_HOLES = 300
+_MOST_HOLES = 100
 # Steps (see `_steps`) of an outline whose holes are mostly noise, and of one that is itself so rough
 # that it is traced at a lower resolution. A drawing of 8,000 px has some 30,000.
 _NOISY, _ROUGH = 20_000, 100_000
@@ -94,7 +95,7 @@ def find_outline(
         for contour in find_contours(field, 0.0, fully_connected="high")
     ]
     # The component is connected, so one loop goes around it and all others around its holes.
-    areas = [shapely.Polygon(loop).area for loop in loops]
+    areas = [abs(signed_area(loop)) for loop in loops]
     order = sorted(range(len(loops)), key=lambda i: -areas[i])
     chosen = [i for i in order[: _MOST_HOLES + 1] if areas[i] >= least or i == order[0]]
     exterior, *holes = _thinned([loops[i] for i in chosen])
@@ -181,6 +182,6 @@ def thinned(polygon: shapely.Polygon, tolerance: float) -> shapely.Polygon:
     ):  # the first is ten times as fast and nearly always right
         thin = polygon.simplify(tolerance, preserve_topology=preserve_topology)
         same = isinstance(thin, shapely.Polygon) and len(thin.interiors) == len(polygon.interiors)
-        if same and thin.is_valid:
+        if same and not thin.is_empty and thin.is_valid:
             return thin
     return polygon

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,6 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patheffects import Normal, Stroke
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from numpy.typing import ArrayLike, NDArray
 
@@ -28,8 +28,8 @@ from glid_nb.imaging.render import OutputFrame
 from glid_nb.imaging.style import (
     BLUE,
     CYAN,
-    FAINT,
     FONT_SIZE,
+    GREY,
     HAIRLINE,
     INK,
     SMALL,
@@ -41,16 +41,28 @@ from glid_nb.imaging.texture import Texture
 if TYPE_CHECKING:
     from glid_nb.solvers import Pose, Result
 
+_NAMES = (
+    "Source",
+    "Deformation",
+    "Distortion  max(σ₁, 1/σ₂)",
+    "Energy",
+    "Newton steps",
+    "Certificate",
+)
+
 # Inches.
 _MARGIN = 0.12
 _GAP = 0.34
 _TITLE = 0.24
 _KEY = 0.34
 _PLOT = 1.35
-_PLOT_TITLE = 0.46
+_PLOT_TITLE = 0.4
 _AXIS_LEFT = 0.36
-_AXIS_BELOW = 0.36
+_AXIS_BELOW = 0.3
 _TALLEST = 3.0
+
+# How much smaller than it could be a picture is drawn for the sake of a common scale.
+_SHRINK = 1.7
 
 _DPI = 300
 _TICKS = (1, 1.1, 1.2, 1.5, 2, 3, 5, 10, 20, 50, 100, 1000, 10_000)
@@ -59,13 +71,14 @@ _MISS = 0.004
 
 
 def overview(
-    image: ArrayLike | Texture, result: Result, pose: Pose, *, width: float = 7.0
+    image: ArrayLike | Texture, result: Result, pose: Pose | None = None, *, width: float = 7.0
 ) -> Figure:
     """A figure that shows a solve at one glance.
 
-    Above, at one scale: the picture with the cage, the offset cage and the handles; the deformed
-    picture with targets (cyan discs) and the handles' images (black dots), joined by a line where
-    they differ; the distortion max(sigma_1, 1 / sigma_2) over the deformed shape. Below: the
+    Above, at one scale unless their sizes differ a lot: the picture with the cage, the offset cage
+    and the handles; the deformed picture with targets (cyan discs) and the handles' images (black
+    dots), joined by a line where they differ; the distortion max(sigma_1, 1 / sigma_2) over the
+    deformed shape. Where it overlaps itself, both look as `rendering` draws it. Below: the
     energies and the Newton steps per iteration, and the certified lower bound on sigma_2 along the
     boundary with the sampled sigma_2.
 
@@ -75,8 +88,8 @@ def overview(
         The picture that the cage was traced from.
     result : Result
         What :func:`glid_nb.solve` returned.
-    pose : Pose
-        The handles and targets it was given.
+    pose : Pose, optional
+        Other handles and targets to show than those of the solve.
     width : float
         Inches; text keeps its size.
 
@@ -88,15 +101,17 @@ def overview(
     """
     texture = image if isinstance(image, Texture) else Texture.from_image(image)
     map = result.map
+    pose = result.pose if pose is None else pose
     cage, outer = map.domain.cage, map.domain.offset_cage
     source = _Extent.around(outer.exterior)
     outline = [map(_dense(loop)) for loop in cage.loops]
     target = _Extent.around(np.concatenate(outline)).reaching(pose.targets)
 
     column = (width - 2 * _MARGIN - 2 * _GAP) / 3
-    tallest = max(source.height, target.height)
-    scale = min(column / max(source.width, target.width), _TALLEST / tallest)
-    row = tallest * scale
+    fits = [min(column / extent.width, _TALLEST / extent.height) for extent in (source, target)]
+    # One scale for both, unless that would leave one of them tiny.
+    scales = [min(fit, max(min(fits), fit / _SHRINK)) for fit in fits]
+    row = max(source.height * scales[0], target.height * scales[1])
     height = 2 * _MARGIN + _TITLE + row + _KEY + _PLOT_TITLE + _PLOT + _AXIS_BELOW
     figure = Figure(figsize=(width, height), dpi=_DPI, facecolor="white")
     FigureCanvasAgg(figure)
@@ -104,10 +119,10 @@ def overview(
 
     lefts = [_MARGIN + i * (column + _GAP) for i in range(3)]
     top = height - _MARGIN - _TITLE
-    mesh = deformed_mesh(map, 4000, 0.25 / (scale * _DPI))
+    mesh = deformed_mesh(map, 4000, 0.25 / (scales[1] * _DPI))
+    cells = zip(lefts, (source, target, target), (scales[0], scales[1], scales[1]), strict=True)
     pictures = [
-        page.picture(left, top, column, row, extent, scale)
-        for left, extent in zip(lefts, (source, target, target), strict=True)
+        page.picture(left, top, column, row, extent, scale) for left, extent, scale in cells
     ]
     _draw_source(pictures[0], texture, cage, outer, pose)
     _draw_result(pictures[1], texture, mesh, outline, map, pose)
@@ -121,10 +136,9 @@ def overview(
     )
     EnergyPlot(energy).update(result.history)
     StepPlot(steps).update(result.history)
-    CertificatePlot(certificate, cage).update(result.certificate.panels, map)
+    CertificatePlot(certificate, cage).update(result.certificate, map)
 
-    names = ("Source", "Deformation", "Distortion", "Energy", "Newton steps", "Certificate")
-    for i, name in enumerate(names):
+    for i, name in enumerate(_NAMES):
         y = height - _MARGIN if i < 3 else below + _PLOT + _PLOT_TITLE - 0.02
         page.title(lefts[i % 3], y, "abcdef"[i], name)
     return figure
@@ -192,9 +206,7 @@ class _Page:
     ) -> Axes:
         """Axes in world units without frame, in the middle of a cell."""
         width, height = extent.width * scale, extent.height * scale
-        axes = self.axes(
-            left + (column - width) / 2, top - row + (row - height) / 2, width, height
-        )
+        axes = self.axes(left + (column - width) / 2, top - row + (row - height) / 2, width, height)
         axes.set_xlim(extent.xmin, extent.xmax)
         axes.set_ylim(extent.ymin, extent.ymax)
         axes.set_axis_off()
@@ -230,8 +242,10 @@ def _draw_source(axes: Axes, texture: Texture, cage: Cage, outer: Cage, pose: Po
     world = PixelFrame(*size).to_world(corners)
     triangles = np.array([[0, 1, 2], [0, 2, 3]])
     _show(axes, render_mesh(texture, corners, frame.to_pixel(world), triangles, frame.size))
-    _draw_loops(axes, outer.loops, color=FAINT, linewidth=0.7)
-    _draw_loops(axes, cage.loops, color=BLUE, linewidth=0.9)
+    for loops in (outer.loops, cage.loops):
+        _draw_loops(axes, loops, color="white", linewidth=1.4, alpha=0.7)
+    _draw_loops(axes, outer.loops, color=GREY, linewidth=0.4)
+    _draw_loops(axes, cage.loops, color=BLUE, linewidth=0.6)
     _draw_dots(axes, pose.handles, INK, 3.4)
 
 
@@ -246,7 +260,7 @@ def _draw_result(
     frame = _frame_of(axes)
     places = PixelFrame(texture.width, texture.height).to_pixel(mesh.vertices)
     positions = frame.to_pixel(mesh.images)
-    _show(axes, render_mesh(texture, places, positions, mesh.triangles, frame.size))
+    _show(axes, render_mesh(texture, places, positions, mesh.triangles, frame.size, mesh.heights))
     if not len(pose):
         return
     images = map(pose.handles)
@@ -273,9 +287,8 @@ def _draw_distortion(
     fz, fzb = (np.abs(v) for v in map.wirtinger(mesh.vertices))
     with np.errstate(divide="ignore"):
         distortion = np.maximum(fz + fzb, 1 / np.maximum(fz - fzb, 0))
-    # Single spots beside a corner of the cage must not take the scale from the rest.
-    most = float(np.quantile(distortion, 0.998))
-    highest = max(1.25, min(most, 1e4))
+    # Spots beside a corner of the cage must not take the scale from the rest.
+    highest = max(1.25, min(_quantile(distortion, mesh, 0.995), 1e4))
     clipped = float(distortion.max()) > 1.02 * highest
     norm = LogNorm(1.0, highest)
     colors = distortion_colors()
@@ -285,8 +298,8 @@ def _draw_distortion(
     places = np.stack([0.5 + value * (n - 1), np.ones(len(value))], axis=1)
     frame = _frame_of(axes)
     positions = frame.to_pixel(mesh.images)
-    _show(axes, render_mesh(strip, places, positions, mesh.triangles, frame.size))
-    _draw_loops(axes, outline, color=INK, linewidth=0.5, halo=False)
+    _show(axes, render_mesh(strip, places, positions, mesh.triangles, frame.size, mesh.heights))
+    _draw_loops(axes, outline, color=INK, linewidth=0.5)
 
     bar = page.axes(left + 0.1 * column, bottom - 0.17, 0.8 * column, 0.07)
     scale = page.figure.colorbar(
@@ -306,6 +319,16 @@ def _draw_distortion(
     scale.outline.set_edgecolor(INK)  # type: ignore[union-attr]
 
 
+def _quantile(values: NDArray[np.float64], mesh: DeformedMesh, share: float) -> float:
+    """What the values at the vertices stay below on this share of the undeformed area."""
+    e = mesh.vertices[mesh.triangles][:, 1:] - mesh.vertices[mesh.triangles][:, :1]
+    area = np.abs(e[:, 0, 0] * e[:, 1, 1] - e[:, 0, 1] * e[:, 1, 0])
+    value = values[mesh.triangles].mean(axis=1)
+    order = np.argsort(value)
+    total = np.cumsum(area[order])
+    return float(value[order[np.searchsorted(total, share * total[-1])]])
+
+
 def _spaced(ticks: list[float], highest: float) -> list[float]:
     """Those ticks that keep a tenth of the colour bar apart, the first always."""
     kept: list[float] = []
@@ -315,13 +338,9 @@ def _spaced(ticks: list[float], highest: float) -> list[float]:
     return kept
 
 
-def _draw_loops(axes: Axes, loops: Any, halo: bool = True, **style: Any) -> None:
+def _draw_loops(axes: Axes, loops: Iterable[NDArray[np.float64]], **style: Any) -> None:
     for loop in loops:
-        closed = np.concatenate([loop, loop[:1]])
-        (line,) = axes.plot(*closed.T, solid_joinstyle="round", zorder=2, **style)
-        if halo:
-            wide = Stroke(linewidth=style["linewidth"] + 1.2, foreground="white", alpha=0.75)
-            line.set_path_effects([wide, Normal()])
+        axes.plot(*np.concatenate([loop, loop[:1]]).T, solid_joinstyle="round", zorder=2, **style)
 
 
 def _draw_dots(
@@ -349,7 +368,7 @@ def _dense(loop: NDArray[np.float64]) -> NDArray[np.float64]:
 def _source_key(page: _Page, left: float, bottom: float, column: float) -> None:
     handles = [
         Line2D([], [], color=BLUE, linewidth=0.9, label="cage"),
-        Line2D([], [], color=FAINT, linewidth=0.9, label="offset cage"),
+        Line2D([], [], color=GREY, linewidth=0.7, label="offset cage"),
         _dot(INK, 3.4, "white", 0.6, "handles"),
     ]
     _key(page, left, bottom, column, handles)

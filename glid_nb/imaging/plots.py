@@ -14,10 +14,11 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
+from matplotlib.text import Text
+from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
-from glid_nb.certificate import PanelCertificate
+from glid_nb.certificate import Certificate
 from glid_nb.geometry import Cage
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.style import (
@@ -37,6 +38,12 @@ _LOG_FROM = 20.0
 
 # Decades that a logarithmic axis shows at most below the largest value.
 _DECADES = 12
+
+# A loop's name is written where the loop makes up this share of the boundary.
+_NAMED = 0.1
+
+# The certificate's axis ends at this multiple of what nine tenths of the boundary stay below.
+_PEAK = 1.5
 
 # Where the true sigma_2 is sampled within each panel.
 _SAMPLES = np.array([0.0, 0.25, 0.5, 0.75, 1.0])
@@ -78,12 +85,13 @@ class EnergyPlot:
         self._p2p = _line(axes, animated, color=VERMILION, label="targets")
         self._iso = _line(axes, animated, color=BLUE, label="isometric")
         self._total = _line(axes, animated, color=INK, label="total", linestyle=(0, (4, 1.5)))
+        self._text = _note(axes, animated)
         _legend(axes, [self._total, self._iso, self._p2p])
 
     @property
     def artists(self) -> tuple[Artist, ...]:
-        """The lines."""
-        return self._p2p, self._iso, self._total
+        """What ``update`` changes."""
+        return self._p2p, self._iso, self._total, self._text
 
     def update(self, history: Sequence[IterationRecord]) -> bool:
         """Show these iterations; True when the limits or the scale of the axes changed."""
@@ -96,16 +104,19 @@ class EnergyPlot:
         }
         for line, values in series.items():
             line.set_data(x, values)
+        self._text.set_text(f"E = {history[-1].energy:.4g}" if len(history) else "no iterations")
         values = np.concatenate([*series.values()])
         values = values[np.isfinite(values)]
         total = series[self._total]
         falls = len(total) > 0 and total[0] > _LOG_FROM * total[-1] > 0
         if falls:
-            _log_limits(self.axes, values[values > 0])
+            # The targets' part ends at nothing; the plot need not follow it all the way.
+            lowest = 0.1 * float(total[total > 0].min())
+            _log_limits(self.axes, values[values > lowest])
         else:
             self.axes.set_yscale("linear")
             top = float(values.max(initial=1.0))
-            self.axes.set_ylim(0.0, 1.08 * top)
+            self.axes.set_ylim(0.0, 1.25 * top)
         _iteration_limits(self.axes, x)
         return _view(self.axes) != before
 
@@ -169,23 +180,49 @@ class CertificatePlot:
             axes, animated, color=BLUE, label="certified bound", linewidth=0.9, zorder=3
         )
         self._truth = _line(
-            axes, animated, color=INK, label="sampled", linewidth=0.45, zorder=4
+            axes, animated, color=INK, label="σ₂, sampled", linewidth=0.45, zorder=4
         )
         (self._fill,) = axes.fill(
             [0.0], [0.0], facecolor=SKY, alpha=0.35, linewidth=0, animated=animated, zorder=2
         )
         self._least = _line(
-            axes, animated, color=VERMILION, linestyle="none", marker="v", markersize=3.5, zorder=5
+            axes,
+            animated,
+            color=VERMILION,
+            linestyle="none",
+            marker="o",
+            markersize=3.5,
+            markerfacecolor="white",
+            zorder=5,
         )
+        self._text = _note(axes, animated)
+        self._headroom = 1.36 if cage.n_holes else 1.2
+        self._name_loops(cage)
         _legend(axes, [self._truth, self._bound])
 
     @property
     def artists(self) -> tuple[Artist, ...]:
         """What ``update`` changes."""
-        return self._fill, self._bound, self._truth, self._least
+        return self._fill, self._bound, self._truth, self._least, self._text
 
-    def update(self, panels: PanelCertificate, map: HarmonicMap | None = None) -> bool:
-        """Show these panels; with a map also its sigma_2, sampled five times per panel.
+    def _name_loops(self, cage: Cage) -> None:
+        """Names above those loops that are long enough to bear one, if there are several."""
+        width = np.diff(self._starts)
+        for i in np.flatnonzero(width > _NAMED * width.sum()) if cage.n_holes else ():
+            self.axes.annotate(
+                Cage.loop_name(int(i)).removesuffix(" loop"),
+                (self._starts[i] + width[i] / 2, 1.0),
+                xytext=(0, -10),
+                textcoords="offset points",
+                xycoords=self.axes.get_xaxis_transform(),
+                ha="center",
+                va="top",
+                fontsize=SMALL,
+                color=INK,
+            )
+
+    def update(self, certificate: Certificate, map: HarmonicMap | None = None) -> bool:
+        """Show a certificate; with the map also its sigma_2, sampled five times per panel.
 
         Returns
         -------
@@ -193,44 +230,55 @@ class CertificatePlot:
             Whether the limits of the axes changed.
         """
         before = _view(self.axes)
-        length = panels.length
+        panels = certificate.panels
+        length, bound = panels.length, np.nan_to_num(panels.sigma2_lower, nan=-1.0)
+        # Along each loop the panels follow one another from the loop's start.
         first = np.flatnonzero(np.diff(panels.loop, prepend=-1))
-        begin = np.cumsum(length) - length
-        begin = begin - np.repeat(begin[first] - self._starts[panels.loop[first]], _run_lengths(first, len(length)))
-        left, right = begin, begin + length
-        bound = np.asarray(panels.sigma2_lower, dtype=float)
-        gaps = first[1:]
-        x = _with_gaps(np.stack([left, right], axis=1), gaps)
-        y = _with_gaps(np.stack([bound, bound], axis=1), gaps)
-        self._bound.set_data(x, y)
-        solid = np.stack([left, right], axis=1).ravel()
-        heights = np.repeat(np.maximum(bound, 0.0), 2)
-        outline = np.concatenate(
-            [[[solid[0], 0.0]], np.stack([solid, heights], axis=1), [[solid[-1], 0.0]]]
-        )
-        self._fill.set_xy(outline)
+        left = np.cumsum(length) - length
+        shift = self._starts[panels.loop[first]] - left[first]
+        left = left + np.repeat(shift, np.diff(first, append=len(length)))
+        ends = np.stack([left, left + length], axis=1)
+        levels = np.stack([bound, bound], axis=1)
+        self._bound.set_data(_with_gaps(ends, first), _with_gaps(levels, first))
+        upper = np.stack([ends.ravel(), np.maximum(levels.ravel(), 0.0)], axis=1)
+        self._fill.set_xy(np.concatenate([[[ends[0, 0], 0]], upper, [[ends[-1, 1], 0]]]))
         least = int(np.argmin(bound))
-        self._least.set_data([(left[least] + right[least]) / 2], [bound[least]])
-        top, bottom = float(bound.max()), float(bound.min())
-        if map is None:
-            self._truth.set_data([], [])
-        else:
+        self._least.set_data([ends[least].mean()], [bound[least]])
+        certified = certificate.certified
+        lower = _rounded_down(certificate.sigma2_lower) if certified else ""
+        self._text.set_text(f"σ₂ ≥ {lower} everywhere" if certified else "not certified")
+        self._text.set_color(INK if certified else VERMILION)
+
+        seen = levels
+        self._truth.set_data([], [])
+        if map is not None:
             along = (panels.end - panels.start)[:, None] * _SAMPLES[:, None]
-            points = panels.start[:, None] + along
-            sigma2 = map.sigma2(points.reshape(-1, 2)).reshape(len(bound), -1)
-            self._truth.set_data(
-                _with_gaps(left[:, None] + length[:, None] * _SAMPLES, gaps),
-                _with_gaps(sigma2, gaps),
-            )
-            top, bottom = max(top, float(sigma2.max())), min(bottom, float(sigma2.min()))
-        top = max(top, 0.1)
-        self.axes.set_ylim(min(-0.04 * top, 1.05 * bottom), 1.05 * top)
+            points = (panels.start[:, None] + along).reshape(-1, 2)
+            seen = np.asarray(map.sigma2(points)).reshape(len(bound), -1)
+            places = left[:, None] + length[:, None] * _SAMPLES
+            self._truth.set_data(_with_gaps(places, first), _with_gaps(seen, first))
+        # What counts is how far above 0 the curves stay, so high peaks are cut off.
+        top = max(0.1, min(float(seen.max()), _PEAK * float(np.quantile(seen, 0.9))))
+        bottom = min(float(seen.min()), float(bound.min()))
+        low = max(min(-0.04 * top, 1.05 * bottom), -max(top, 1.0))
+        self.axes.set_ylim(low, self._headroom * top)
         return _view(self.axes) != before
 
 
-def _line(axes: Axes, animated: bool, **style: Any) -> Line2D:
-    (line,) = axes.plot([], [], animated=animated, **({"linewidth": LINE} | style))
+def _line(axes: Axes, animated: bool, linewidth: float = LINE, **style: Any) -> Line2D:
+    line = Line2D([], [], linewidth=linewidth, animated=animated, **style)
+    axes.add_line(line)
     return line
+
+
+def _note(axes: Axes, animated: bool) -> Text:
+    """An empty line of text in the upper right corner."""
+    style: dict[str, Any] = {"ha": "right", "va": "top", "fontsize": SMALL, "color": INK}
+    text = axes.text(0.99, 0.99, "", transform=axes.transAxes, **style)
+    text.set_bbox({"facecolor": "white", "alpha": 0.8, "linewidth": 0, "pad": 0.5})
+    text.set_zorder(6)
+    text.set_animated(animated)
+    return text
 
 
 def _legend(axes: Axes, lines: Sequence[Line2D]) -> None:
@@ -239,11 +287,12 @@ def _legend(axes: Axes, lines: Sequence[Line2D]) -> None:
         fontsize=SMALL,
         frameon=False,
         loc="lower left",
-        bbox_to_anchor=(0.0, 1.0),
+        bbox_to_anchor=(-0.03, 1.0),
+        borderaxespad=0.3,
         ncols=len(lines),
-        handlelength=1.3,
-        handletextpad=0.4,
-        columnspacing=0.9,
+        handlelength=1.1,
+        handletextpad=0.35,
+        columnspacing=0.7,
         borderpad=0.1,
         labelcolor=INK,
     )
@@ -263,7 +312,7 @@ def _log_limits(axes: Axes, positive: NDArray[np.float64]) -> None:
     """Whole decades around the values, the lowest left out where they span too many."""
     axes.set_yscale("log")
     axes.yaxis.set_major_locator(LogLocator(numticks=6))
-    axes.yaxis.set_minor_formatter(NullFormatter())
+    axes.yaxis.set_minor_locator(NullLocator())
     if not len(positive):
         axes.set_ylim(0.1, 1.0)
         return
@@ -272,10 +321,12 @@ def _log_limits(axes: Axes, positive: NDArray[np.float64]) -> None:
     axes.set_ylim(10.0 ** max(low, high - _DECADES), 10.0**high)
 
 
-def _run_lengths(first: NDArray[np.intp], total: int) -> NDArray[np.intp]:
-    return np.diff(first, append=total)
+def _rounded_down(value: float) -> str:
+    """Three digits of a positive lower bound that still is one."""
+    unit = 10.0 ** (np.floor(np.log10(value)) - 2)
+    return f"{np.floor(value / unit) * unit:.3g}"
 
 
-def _with_gaps(rows: NDArray[np.float64], gaps: NDArray[np.intp]) -> NDArray[np.float64]:
-    """The rows one after the other, with a NaN before each row in ``gaps``."""
-    return np.insert(rows.ravel(), gaps * rows.shape[1], np.nan)
+def _with_gaps(rows: NDArray[np.float64], starts: NDArray[np.intp]) -> NDArray[np.float64]:
+    """The rows one after the other, with a NaN before each that begins a loop."""
+    return np.insert(rows.ravel(), starts[1:] * rows.shape[1], np.nan)

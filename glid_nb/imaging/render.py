@@ -144,9 +144,9 @@ def rendering(
         outline = map(_outline_points(map))
         (xmin, ymin), (xmax, ymax) = outline.min(axis=0), outline.max(axis=0)
         margin = _MARGIN
-    scale = min(width / (xmax - xmin), height / (ymax - ymin)) * (1 - 2 * margin)
+    scale = float(min(width / (xmax - xmin), height / (ymax - ymin))) * (1 - 2 * margin)
     centre = float(xmin + xmax) / 2, float(ymin + ymax) / 2
-    frame = OutputFrame((int(width), int(height)), float(scale), centre)
+    frame = OutputFrame((int(width), int(height)), scale, centre)
 
     if n_vertices is None:
         even = int(np.clip(width * height / _PIXELS_PER_VERTEX, *_EVEN_VERTICES))
@@ -159,8 +159,9 @@ def rendering(
         frame.to_pixel(mesh.images),
         mesh.triangles,
         frame.size,
+        mesh.heights,
     )
-    return Rendering(picture, frame, mesh, _share_outside(mesh, frame), mesh.error * frame.pixels_per_unit)
+    return Rendering(picture, frame, mesh, _share_outside(mesh, frame), mesh.error * scale)
 
 
 def _outline_points(map: HarmonicMap) -> NDArray[np.float64]:

@@ -7,6 +7,7 @@ number to the last bit: every sample on either side belongs to exactly one of th
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,12 +22,14 @@ SUBSAMPLES = 8
 # otherwise know 8 degrees of coverage instead of 64.
 _SHIFT = ((np.arange(SUBSAMPLES) * 3) % SUBSAMPLES + 0.5) / SUBSAMPLES - 0.5
 
+# Where the samples lie in their pixel: (2, SUBSAMPLES^2), x and y.
+_ROW, _COLUMN = np.divmod(np.arange(SUBSAMPLES**2), SUBSAMPLES)
+_OFFSETS = np.stack([_COLUMN + 0.5 + _SHIFT[_ROW], _ROW + 0.5]) / SUBSAMPLES
+
 # Row numbers are clipped to this before they become integers.
 _FAR = 1 << 30
 
 Ints = NDArray[np.int32]
-
-_EMPTY = np.zeros(0, np.float32), np.zeros((0, 2), np.float32), np.zeros((0, 2), np.float32)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,13 +101,102 @@ class ScanConverter:
         return Spans(triangle[some].astype(np.int32), row[some], start[some], stop[some])
 
 
-def paint(spans: Spans, row_start: int, row_stop: int, width: int) -> Ints:
-    """(rows * width,) index of the triangle seen at each sample, the last one drawn; else -1."""
-    seen = np.full((row_stop - row_start) * width, -1, np.int32)
+@dataclass(frozen=True, eq=False)
+class Layer:
+    """At most one triangle per sample.
+
+    Attributes
+    ----------
+    sample : (k,) int32 array
+        Distinct indices of samples.
+    triangle : (k,) int32 array
+    """
+
+    sample: Ints
+    triangle: Ints
+
+
+@dataclass(frozen=True, eq=False)
+class Heights:
+    """Planes over the triangles that say which of two lies over the other.
+
+    Attributes
+    ----------
+    planes : (t, 3) array
+        Height a + b x + c y of each triangle at the continuous pixel (x, y).
+    """
+
+    planes: NDArray[np.float64]
+
+    @classmethod
+    def over(cls, corners: NDArray[np.float64], heights: NDArray[np.float64]) -> Heights:
+        """The planes through heights (t, 3) at corners (t, 3, 2)."""
+        e, rise = corners[:, 1:] - corners[:, :1], heights[:, 1:] - heights[:, :1]
+        det = e[:, 0, 0] * e[:, 1, 1] - e[:, 0, 1] * e[:, 1, 0]
+        slope = np.stack(
+            [
+                rise[:, 0] * e[:, 1, 1] - rise[:, 1] * e[:, 0, 1],
+                rise[:, 1] * e[:, 0, 0] - rise[:, 0] * e[:, 1, 0],
+            ],
+            axis=1,
+        )
+        covers = np.abs(det)[:, None] > 1e-300  # others show at no sample
+        slope = np.divide(slope, det[:, None], out=np.zeros_like(slope), where=covers)
+        level = heights[:, 0] - (slope * corners[:, 0]).sum(axis=1)
+        return cls(np.column_stack([level, slope]))
+
+    def at(self, triangle: Ints, x: NDArray[Any], y: NDArray[Any]) -> NDArray[np.float64]:
+        """Height of each of the triangles (k,) at its own point."""
+        level, right, down = self.planes[triangle].T
+        return level + right * x + down * y
+
+
+def layers(
+    spans: Spans, row_start: int, row_stop: int, width: int, heights: Heights | None = None
+) -> list[Layer]:
+    """What each sample of the rows shows, the lowest layer first.
+
+    Samples are numbered row by row from ``row_start``. A sample that n triangles cover is in the
+    first n layers, by height, or in the triangles' order when no heights are given.
+    """
+
+    def height(sample: Ints, triangle: Ints) -> NDArray[np.float64]:
+        assert heights is not None
+        return heights.at(triangle, sample % width + 0.5, sample // width + row_start + 0.5)
+
     length = spans.stop - spans.start
-    samples = _runs((spans.row - row_start) * width + spans.start, length)
-    seen[samples] = np.repeat(spans.triangle, length)
-    return seen
+    sample = _runs((spans.row - row_start) * width + spans.start, length)
+    triangle = np.repeat(spans.triangle, length)
+    n_samples = (row_stop - row_start) * width
+    return _layers(sample, triangle, n_samples, None if heights is None else height)
+
+
+def _layers(
+    sample: Ints,
+    triangle: Ints,
+    n_samples: int,
+    height: Callable[[Ints, Ints], NDArray[np.float64]] | None,
+) -> list[Layer]:
+    if not len(sample):
+        return []
+    several = np.bincount(sample, minlength=n_samples)[sample] > 1
+    once = ~several
+    if not several.any():
+        return [Layer(sample, triangle)]
+    rest = np.flatnonzero(several)
+    if height is None:
+        rest = rest[np.argsort(sample[rest], kind="stable")]
+    else:
+        rest = rest[np.lexsort((height(sample[rest], triangle[rest]), sample[rest]))]
+    first = np.flatnonzero(np.diff(sample[rest], prepend=-1))
+    rank = np.arange(len(rest)) - np.repeat(first, np.diff(first, append=len(rest)))
+    result = []
+    for k in range(int(rank.max()) + 1):
+        chosen = rest[rank == k]
+        if k == 0:
+            chosen = np.concatenate([np.flatnonzero(once), chosen])
+        result.append(Layer(sample[chosen], triangle[chosen]))
+    return result
 
 
 def outline_edges(triangles: NDArray[np.integer], corners: NDArray[np.float64]) -> NDArray[Any]:
@@ -165,16 +257,18 @@ def near(corners: NDArray[np.float64], touched: NDArray[np.bool_], row_start: in
     return np.flatnonzero(count > 0).astype(np.int32)
 
 
-def paint_subsamples(spans: Spans, touched: NDArray[np.bool_], row_start: int) -> NDArray[np.int32]:
-    """(p, SUBSAMPLES^2) triangle seen at each sample of the p touched pixels, row by row; else -1.
+def subsample_layers(
+    spans: Spans, touched: NDArray[np.bool_], row_start: int, heights: Heights | None = None
+) -> list[Layer]:
+    """What each sample of the touched pixels shows, the lowest layer first.
 
-    ``spans`` are those of a converter with ``scale=SUBSAMPLES``.
+    ``spans`` are those of a converter with ``scale=SUBSAMPLES``. Sample s of the p-th touched
+    pixel, row by row, has the number ``SUBSAMPLES^2 p + s``.
     """
     width = touched.shape[1]
     pixels = np.flatnonzero(touched)
     before = np.zeros(touched.size + 1, np.int32)
     np.cumsum(touched.ravel(), out=before[1:])
-    seen = np.full((len(pixels), SUBSAMPLES * SUBSAMPLES), -1, np.int32)
     line = (spans.row // SUBSAMPLES - row_start) * width
     first = before[line + spans.start // SUBSAMPLES]
     count = before[line + (spans.stop - 1) // SUBSAMPLES + 1] - first
@@ -184,59 +278,72 @@ def paint_subsamples(spans: Spans, touched: NDArray[np.bool_], row_start: int) -
     start = np.maximum(spans.start[span], column)
     stop = np.minimum(spans.stop[span], column + SUBSAMPLES)
     slot = pixel * SUBSAMPLES**2 + spans.row[span] % SUBSAMPLES * SUBSAMPLES + start - column
-    seen.ravel()[_runs(slot, stop - start)] = np.repeat(spans.triangle[span], stop - start)
-    return seen
+    # Shifted rows let a span end before the pixel that its neighbour in the row still reaches.
+    length = np.maximum(stop - start, 0)
+    triangle = np.repeat(spans.triangle[span], length)
+
+    def height(sample: Ints, triangle: Ints) -> NDArray[np.float64]:
+        assert heights is not None
+        pixel, place = np.divmod(sample, SUBSAMPLES**2)
+        down, right = np.divmod(pixels[pixel], width)
+        x, y = right + _OFFSETS[0, place], down + row_start + _OFFSETS[1, place]
+        return heights.at(triangle, x, y)
+
+    n_samples = len(pixels) * SUBSAMPLES**2
+    return _layers(_runs(slot, length), triangle, n_samples, None if heights is None else height)
 
 
 @dataclass(frozen=True, eq=False)
 class Fragments:
-    """Parts of pixels that show one triangle each.
+    """Parts of pixels that show one triangle each, within one layer.
 
     Attributes
     ----------
     pixel : (f,) int array
-        Row of the array of subsamples, ascending.
+        The touched pixel, ascending.
     triangle : (f,) int32 array
-    share : (f,) float32 array
-        Part of the pixel's area.
+    count : (f,) int array
+        How many of the pixel's samples.
     centre : (f, 2) float32 array
         Centroid of the fragment's samples, (x, y) from the pixel's corner. It lies in the triangle.
     pixel_centre : (f, 2) float32 array
-        Centroid of all samples of the pixel that show some triangle.
+        Centroid of all samples of the pixel in this layer.
+    sample, fragment : (k,) int arrays
+        Every sample of the layer, and the fragment that it belongs to.
     """
 
     pixel: NDArray[np.int64]
     triangle: Ints
-    share: NDArray[np.float32]
+    count: NDArray[np.int64]
     centre: NDArray[np.float32]
     pixel_centre: NDArray[np.float32]
+    sample: NDArray[np.int64]
+    fragment: NDArray[np.int64]
 
 
-def fragments(seen: NDArray[np.int32]) -> Fragments:
-    """Group the subsamples (p, SUBSAMPLES^2) of every pixel by triangle."""
-    n_samples = SUBSAMPLES * SUBSAMPLES
-    key = np.sort(seen.astype(np.int64) * n_samples + np.arange(n_samples), axis=1).ravel()
-    triangle = key // n_samples
-    starts = np.ones(len(key), dtype=bool)
-    starts[1:] = triangle[1:] != triangle[:-1]
-    starts[::n_samples] = True
-    first = np.flatnonzero(starts)
-    count = np.diff(first, append=len(key))
-    row, column = np.divmod(np.arange(n_samples), SUBSAMPLES)
-    places = np.stack([column + 0.5 + _SHIFT[row], row + 0.5]) / SUBSAMPLES
-    if not len(key):
-        return Fragments(first, first.astype(np.int32), *_EMPTY)
-    sums = np.stack([np.add.reduceat(place[key % n_samples], first) for place in places], axis=1)
-    shown = triangle[first] >= 0
-    pixel, count, sums = first[shown] // n_samples, count[shown], sums[shown]
-    _, group = np.unique(pixel, return_inverse=True)
-    whole = np.stack([np.bincount(group, column) for column in (count, *sums.T)], axis=1)[group]
+def fragments(layer: Layer) -> Fragments:
+    """Group the samples of a layer, as `subsample_layers` numbers them, by pixel and triangle."""
+    n = SUBSAMPLES * SUBSAMPLES
+    pixel, place = np.divmod(layer.sample.astype(np.int64), n)
+    n_triangles = int(layer.triangle.max(initial=0)) + 1
+    key = np.sort((pixel * n_triangles + layer.triangle) * n + place)
+    group, place = np.divmod(key, n)
+    first = np.flatnonzero(np.diff(group, prepend=-1))
+    count = np.diff(first, append=len(group))
+    pixel, triangle = np.divmod(group[first], n_triangles)
+    sums = np.stack([np.add.reduceat(offset[place], first) for offset in _OFFSETS], axis=1)
+    start = np.flatnonzero(np.diff(pixel, prepend=-1))
+    of_pixel = np.repeat(np.arange(len(start)), np.diff(start, append=len(pixel)))
+    whole = np.add.reduceat(sums, start) / np.add.reduceat(count, start)[:, None]
+    fragment = np.repeat(np.arange(len(first)), count)
     return Fragments(
         pixel=pixel,
-        triangle=triangle[first[shown]].astype(np.int32),
-        share=(count / n_samples).astype(np.float32),
+        triangle=triangle.astype(np.int32),
+        count=count,
         centre=(sums / count[:, None]).astype(np.float32),
-        pixel_centre=(whole[:, 1:] / whole[:, :1]).astype(np.float32),
+        pixel_centre=whole[of_pixel].astype(np.float32),
+        sample=pixel[fragment] * n + place,
+        fragment=fragment,
     )
 
 

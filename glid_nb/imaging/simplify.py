@@ -9,11 +9,13 @@ import shapely
 from numpy.typing import NDArray
 from shapely.geometry.base import BaseGeometry
 
+from glid_nb.geometry._loops import edge_lengths, segments, signed_area
+
 Loop = NDArray[np.float64]
 
 # What the automatic tolerance aims at, in this order: about _VERTICES, without leaving the offset;
 # not many more than _MANY, without leaving a few times the offset; never more than _MOST.
-_VERTICES, _MANY, _MOST = 75, 100, 300
+_VERTICES, _MANY, _MOST = 75, 115, 300
 _VERTICES_PER_HOLE = 6
 _FAR = 3.0
 _LEAST_TOLERANCE = 0.25  # pixels
@@ -22,9 +24,9 @@ _LOOP_SHARE = 0.08  # likewise, of each loop's own area: small holes keep their 
 _MIN_EDGE = 0.2  # of the mean edge
 _MAX_EDGE = 0.04  # of the perimeter
 _FEWEST_PER_LOOP = 8  # edges that a loop keeps before its edges count as short
-_GAP, _LEAST_GAP = 0.25, 0.1  # times the offset, and in pixels: what loops keep apart if they can
+_GAP, _LEAST_GAP = 0.25, 0.1  # times the room, and in pixels: what loops keep apart if they can
 _MARGIN = 0.5  # of the offset may be cut off
-_LEAST_ANGLE = 0.05
+_FEWEST, _LEAST_ANGLE = 4, 0.05  # what merging leaves of a loop, and at its corners
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +57,7 @@ def simplify(
     tolerance: float | None = None,
     *,
     offset: float = 0.0,
+    room: float = 0.0,
     max_vertices: int | None = None,
     min_edge: float | None = None,
     max_edge: float | None = None,
@@ -70,11 +73,13 @@ def simplify(
     offset
         How far the loops were moved away from the shape, in pixels. The automatic tolerance stays
         below it if it can, and then the shape stays inside.
+    room
+        The loops are at least about this far apart, in pixels, and shall stay so in proportion.
     max_vertices, min_edge, max_edge
         As in `TraceOptions`.
     """
     importance = [significance(loop) for loop in loops]
-    areas = [shapely.Polygon(loop).area for loop in loops]
+    areas = [abs(signed_area(loop)) for loop in loops]
     if tolerance is None:
         tolerance = _automatic_tolerance(importance, areas[0], offset)
         limits = np.minimum(tolerance, _LOOP_SHARE * np.sqrt(areas))
@@ -85,11 +90,11 @@ def simplify(
     notes: list[str] = []
     if max_vertices is not None and sum(map(np.count_nonzero, kept)) > max_vertices:
         free = np.concatenate([v[~f] for v, f in zip(importance, forced, strict=True)])
-        room = max(max_vertices - 3 * len(loops), 0)
-        tolerance = float(np.sort(free)[::-1][room])
+        most = max(max_vertices - 3 * len(loops), 0)
+        tolerance = float(np.sort(free)[::-1][most])
         kept = [(v > tolerance) | f for v, f in zip(importance, forced, strict=True)]
 
-    gap = max(_GAP * offset, _LEAST_GAP)
+    gap = max(_GAP * room, _LEAST_GAP)
     notes += _repair(loops, importance, kept, gap)
     _merge_short_edges(loops, kept, min_edge, gap)
     count = sum(map(np.count_nonzero, kept))
@@ -140,14 +145,11 @@ def significance(loop: Loop) -> NDArray[np.float64]:
 
 
 def _distances(points: Loop, a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(k,) distances of (k, 2) points from the segment a, b."""
-    edge = b - a
-    squared = float(edge @ edge)
-    apart = points - a
-    if squared > 0:
-        along = np.clip(apart @ edge / squared, 0, 1)
-        apart = apart - along[:, np.newaxis] * edge
-    return np.hypot(apart[:, 0], apart[:, 1])
+    """(k,) distances of (k, 2) points from segments a, b, each (2,) or (k, 2)."""
+    edge, apart = b - a, points - a
+    squared = np.maximum(np.sum(edge * edge, axis=-1, keepdims=True), np.finfo(float).tiny)
+    along = np.clip(np.sum(apart * edge, axis=-1, keepdims=True) / squared, 0, 1)
+    return np.hypot(*(apart - along * edge).T)
 
 
 def _automatic_tolerance(
@@ -182,18 +184,12 @@ def _repair(
     place: NDArray[np.float64] | None = None
     while True:
         simplified = [loop[keep] for loop, keep in zip(loops, kept, strict=True)]
-        added = False
-        for number, edge in _edges_in_conflict(simplified, gap) or _jumped(simplified, loops, kept):
-            index = np.flatnonzero(kept[number])
-            low, high = index[edge], index[(edge + 1) % len(index)]
-            between = np.arange(low + 1, high if high > low else high + len(loops[number]))
-            between %= len(loops[number])
-            if len(between):
-                back = between[np.argmax(importance[number][between])]
-                kept[number][back] = added = True
-                place = loops[number][back]
-        if not added:
+        back = _put_back(_edges_in_conflict(simplified, gap), loops, importance, kept)
+        if back is None:  # only now, with no crossings left, can loops be said to contain others
+            back = _put_back(_jumped(simplified, loops, kept), loops, importance, kept)
+        if back is None:
             break
+        place = back
     if place is None:
         return []
     count = sum(map(np.count_nonzero, kept)) - before
@@ -204,6 +200,30 @@ def _repair(
     ]
 
 
+def _put_back(
+    edges: list[tuple[int, int]],
+    loops: tuple[Loop, ...],
+    importance: list[NDArray[np.float64]],
+    kept: list[NDArray[np.bool_]],
+) -> NDArray[np.float64] | None:
+    """Put the most important vertex back into every edge (loop, edge); one of them, if any."""
+    indices = [np.flatnonzero(keep) for keep in kept]
+    place = None
+    for number, edge in edges:
+        between = _between(indices[number], edge, len(loops[number]))
+        if len(between):
+            back = between[np.argmax(importance[number][between])]
+            kept[number][back] = True
+            place = loops[number][back]
+    return place
+
+
+def _between(index: NDArray[np.intp], edge: int, n: int) -> NDArray[np.intp]:
+    """The vertices of a loop of `n` that were dropped between the kept ones `edge` and `edge` + 1."""
+    low, high = index[edge], index[(edge + 1) % len(index)]
+    return np.arange(low + 1, high if high > low else high + n) % n
+
+
 def _edges_in_conflict(loops: list[Loop], gap: float) -> list[tuple[int, int]]:
     """(loop, edge) for the edges that cross, or come closer than `gap` to, an edge elsewhere.
 
@@ -212,10 +232,9 @@ def _edges_in_conflict(loops: list[Loop], gap: float) -> list[tuple[int, int]]:
     """
     number = np.repeat(np.arange(len(loops)), [len(loop) for loop in loops])
     index = np.concatenate([np.arange(len(loop)) for loop in loops])
-    starts = np.concatenate(loops)
-    ends = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
-    segments = shapely.linestrings(np.stack([starts, ends], axis=1))
-    e, f = shapely.STRtree(segments).query(segments, predicate="dwithin", distance=gap)
+    edges = np.concatenate([segments(loop) for loop in loops])
+    length = np.concatenate([edge_lengths(loop) for loop in loops])
+    e, f = shapely.STRtree(edges).query(edges, predicate="dwithin", distance=gap)
     e, f = e[e < f], f[e < f]
     size = np.array([len(loop) for loop in loops])[number[e]]
     same = number[e] == number[f]
@@ -224,14 +243,13 @@ def _edges_in_conflict(loops: list[Loop], gap: float) -> list[tuple[int, int]]:
     e, f, same = e[~adjacent], f[~adjacent], same[~adjacent]
     if not len(e):
         return []
-    length = np.hypot(*(ends - starts).T)
     travelled = np.concatenate([[0.0], np.cumsum(length)])
     total = np.array([length[number == k].sum() for k in range(len(loops))])[number[e]]
     forth = travelled[f] - travelled[e + 1]
     back = total - forth - length[e] - length[f]
     near = same & (np.minimum(forth, back) < 4 * gap)
     conflict = ~near
-    conflict[near] = shapely.intersects(segments[e[near]], segments[f[near]])
+    conflict[near] = shapely.intersects(edges[e[near]], edges[f[near]])
     hit = np.unique(np.concatenate([e[conflict], f[conflict]]))
     return [(int(number[k]), int(index[k])) for k in hit]
 
@@ -252,16 +270,15 @@ def _jumped(
     wrong = inside != expected
     np.fill_diagonal(wrong, False)
     found = []
-    for outer, inner in np.argwhere(wrong):
-        for number, other in ((outer, inner), (inner, outer)):
+    for pair in np.argwhere(wrong):
+        for number, other in (pair, pair[::-1]):
+            # Which edge passed over the loop: the nearest one with vertices to put back.
             index = np.flatnonzero(kept[number])
-            for edge, (low, high) in enumerate(zip(index, np.roll(index, -1), strict=True)):
-                span = np.arange(low, (high if high > low else high + len(loops[number])) + 1)
-                if len(span) < 3:
-                    continue
-                cut = shapely.Polygon(loops[number][span % len(loops[number])]).buffer(0)
-                if shapely.contains_xy(cut, *starts[other]):
-                    found.append((int(number), edge))
+            dropped = np.diff(index, append=index[0] + len(kept[number])) > 1
+            if dropped.any():
+                edges = segments(simplified[number])[dropped]
+                nearest = int(np.argmin(shapely.distance(edges, shapely.Point(starts[other]))))
+                found.append((int(number), int(np.flatnonzero(dropped)[nearest])))
     return found
 
 
@@ -269,61 +286,79 @@ def _merge_short_edges(
     loops: tuple[Loop, ...], kept: list[NDArray[np.bool_]], min_edge: float | None, gap: float
 ) -> None:
     """Drop an end of every edge shorter than `min_edge`, in place, where nothing is in the way."""
-    lengths = [_lengths(loop[keep]) for loop, keep in zip(loops, kept, strict=True)]
+    lengths = [edge_lengths(loop[keep]) for loop, keep in zip(loops, kept, strict=True)]
     if min_edge is None:
         min_edge = _MIN_EDGE * float(np.concatenate(lengths).mean())
-    for number in range(len(loops)):
-        shortest = min(min_edge, float(lengths[number].sum()) / _FEWEST_PER_LOOP)
-        stuck: set[int] = set()
-        while np.count_nonzero(kept[number]) > 3:
-            index = np.flatnonzero(kept[number])
-            length = _lengths(loops[number][index])
-            short = [int(i) for i in np.flatnonzero(length < shortest) if index[i] not in stuck]
-            if not short:
-                break
-            edge = min(short, key=lambda i: length[i])
-            simplified = [loop[keep] for loop, keep in zip(loops, kept, strict=True)]
-            ends = [edge, (edge + 1) % len(index)]
-            for vertex in sorted(ends, key=lambda i: _height(simplified[number], i)):
-                if _can_drop(simplified, number, vertex, gap):
-                    kept[number][index[vertex]] = False
-                    break
-            else:
-                stuck.add(int(index[edge]))
+    shortest = [min(min_edge, float(length.sum()) / _FEWEST_PER_LOOP) for length in lengths]
+    blocked = [np.zeros(len(loop), dtype=bool) for loop in loops]
+    while True:
+        simplified = [loop[keep] for loop, keep in zip(loops, kept, strict=True)]
+        chosen = [
+            _droppable(loop, blocked[number][kept[number]], shortest[number])
+            for number, loop in enumerate(simplified)
+        ]
+        if not any(map(len, chosen)):
+            break
+        clear = _clear(simplified, chosen, gap)
+        for number, vertices in enumerate(chosen):
+            original = np.flatnonzero(kept[number])[vertices]
+            kept[number][original[clear[number]]] = False
+            blocked[number][original[~clear[number]]] = True
 
 
-def _lengths(loop: Loop) -> NDArray[np.float64]:
-    return np.hypot(*(np.roll(loop, -1, axis=0) - loop).T)
-
-
-def _height(loop: Loop, vertex: int) -> float:
-    """Distance of a vertex from the segment between its neighbours."""
-    after = (vertex + 1) % len(loop)
-    return float(_distances(loop[[vertex]], loop[vertex - 1], loop[after])[0])
-
-
-def _can_drop(loops: list[Loop], number: int, vertex: int, gap: float) -> bool:
-    """Whether the triangle at a vertex, widened by `gap`, is clear of all other edges."""
-    loop = loops[number]
+def _droppable(loop: Loop, blocked: NDArray[np.bool_], shortest: float) -> NDArray[np.intp]:
+    """Vertices at short edges, one per edge, so far apart that each can be judged by itself."""
     n = len(loop)
-    triangle = shapely.Polygon(loop[[vertex - 1, vertex, (vertex + 1) % n]])
-    # The edges from the vertex after the next one round to the one before the last.
-    rest = np.roll(loop, -(vertex + 2), axis=0)[: n - 3]
-    others: list[BaseGeometry] = [
-        shapely.LineString(rest) if len(rest) > 1 else shapely.Point(rest[0])
-    ]
-    others += [shapely.LinearRing(other) for k, other in enumerate(loops) if k != number]
-    if any(shapely.dwithin(triangle, other, gap) for other in others):
-        return False
-    # The neighbouring edges must not fold onto the new one.
-    corner = loop[[vertex - 2, vertex - 1, (vertex + 1) % n, (vertex + 2) % n]]
-    return all(_angle(*corner[i : i + 3]) > _LEAST_ANGLE for i in (0, 1))
+    if n <= _FEWEST:
+        return np.zeros(0, dtype=np.intp)
+    length = edge_lengths(loop)
+    before, after = np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0)
+    height = _distances(loop, before, after)
+    taken = np.zeros(n, dtype=bool)
+    chosen: list[int] = []
+    for edge in np.argsort(length):
+        if length[edge] >= shortest or n - len(chosen) <= _FEWEST:
+            break
+        ends = [end for end in (int(edge), int(edge + 1) % n) if not blocked[end]]
+        if ends:
+            vertex = min(ends, key=lambda end: height[end])
+            around = np.arange(vertex - 2, vertex + 3) % n
+            if not taken[around].any():
+                taken[around] = True
+                chosen.append(vertex)
+    return np.array(chosen, dtype=np.intp)
 
 
-def _angle(a: NDArray[np.float64], b: NDArray[np.float64], c: NDArray[np.float64]) -> float:
-    """The angle at b in [0, pi]."""
+def _clear(
+    loops: list[Loop], chosen: list[NDArray[np.intp]], gap: float
+) -> list[NDArray[np.bool_]]:
+    """For every chosen vertex, whether its triangle, widened by `gap`, is clear of other edges.
+
+    Also whether the edge that replaces the triangle's two sides leaves an angle to its neighbours.
+    """
+    tree = shapely.STRtree(np.concatenate([segments(loop) for loop in loops]))
+    first = np.cumsum([0, *map(len, loops)])
+    result = []
+    for number, (loop, vertices) in enumerate(zip(loops, chosen, strict=True)):
+        n = len(loop)
+        around = loop[(vertices[:, np.newaxis] + [-2, -1, 0, 1, 2]) % n]
+        triangles = shapely.polygons(around[:, 1:4])
+        triangle, edge = tree.query(triangles, predicate="dwithin", distance=gap)
+        # The two sides and the edges that start or end at their ends are no obstacles.
+        step = (edge - first[number] - vertices[triangle] + 2) % n
+        own = (edge >= first[number]) & (edge < first[number + 1]) & (step < 4)
+        clear = np.ones(len(vertices), dtype=bool)
+        clear[triangle[~own]] = False
+        clear &= _angles(around[:, 0], around[:, 1], around[:, 3]) > _LEAST_ANGLE
+        clear &= _angles(around[:, 1], around[:, 3], around[:, 4]) > _LEAST_ANGLE
+        result.append(clear)
+    return result
+
+
+def _angles(a: Loop, b: Loop, c: Loop) -> NDArray[np.float64]:
+    """(k,) angles at b in [0, pi]."""
     u, v = a - b, c - b
-    return float(np.arctan2(abs(u[0] * v[1] - u[1] * v[0]), u @ v))
+    return np.arctan2(np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]), np.sum(u * v, axis=1))
 
 
 def _enclosing(
@@ -337,13 +372,13 @@ def _enclosing(
     simplified = [loop[keep] for loop, keep in zip(loops, kept, strict=True)]
     shifts = []
     for number, (loop, keep) in enumerate(zip(loops, kept, strict=True)):
-        outwards = 1.0 if (_signed_area(simplified[number]) > 0) == (number == 0) else -1.0
+        outwards = 1.0 if (signed_area(simplified[number]) > 0) == (number == 0) else -1.0
         shifts.append(_shifts(loop, np.flatnonzero(keep), outwards, margin))
     while True:
         moved = [loop + shift for loop, shift in zip(simplified, shifts, strict=True)]
         changed = False
         for number, (before, after) in enumerate(zip(simplified, moved, strict=True)):
-            ratio = _signed_area(after) / _signed_area(before)
+            ratio = signed_area(after) / signed_area(before)
             if not 0.5 < ratio < 2 and shifts[number].any():
                 shifts[number][:] = 0
                 changed = True
@@ -365,8 +400,8 @@ def _shifts(
     normal = outwards * np.stack([edge[:, 1], -edge[:, 0]], axis=1)
     normal /= np.hypot(*edge.T)[:, np.newaxis]
     cut = np.zeros(len(index))
-    for k, (low, high) in enumerate(zip(index, np.roll(index, -1), strict=True)):
-        between = np.arange(low + 1, high if high > low else high + len(loop)) % len(loop)
+    for k in range(len(index)):
+        between = _between(index, k, len(loop))
         if len(between):
             cut[k] = max(0.0, float(((loop[between] - corners[k]) @ normal[k]).max()) - margin)
     before, cut_before = np.roll(normal, 1, axis=0), np.roll(cut, 1)
@@ -390,15 +425,10 @@ def _shifts(
     return shift * np.minimum(1.0, 2 * most / np.maximum(length, 1e-12))[:, np.newaxis]
 
 
-def _signed_area(loop: Loop) -> float:
-    x, y = (loop - loop[0]).T
-    return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
-
-
 def _divide_long_edges(
     loops: list[Loop], max_edge: float | None, max_vertices: int | None
 ) -> list[Loop]:
-    length = [_lengths(loop) for loop in loops]
+    length = [edge_lengths(loop) for loop in loops]
     longest = max_edge
     if longest is None:
         longest = _MAX_EDGE * float(sum(values.sum() for values in length))

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.colors import Colormap, ListedColormap
-from matplotlib import colormaps
 
 # The ink of axes and text, and Okabe and Ito's colours.
 INK = "#2b2b2b"
+GREY = "#7f7f7f"
 FAINT = "#b8b8b8"
 BLUE = "#0072b2"
 SKY = "#56b4e9"
@@ -39,6 +40,12 @@ def tidy(axes: Axes) -> None:
         axes.spines[side].set_color(INK)
         axes.spines[side].set_linewidth(HAIRLINE)
     axes.tick_params(
-        which="both", colors=INK, labelsize=SMALL, width=HAIRLINE, length=2.5, pad=2, direction="out"
+        which="both",
+        colors=INK,
+        labelsize=SMALL,
+        width=HAIRLINE,
+        length=2.5,
+        pad=2,
+        direction="out",
     )
     axes.tick_params(which="minor", length=1.5)

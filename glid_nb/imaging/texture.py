@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -77,7 +78,7 @@ class Texture:
         base = texels[: width * height].reshape(height, width, 4)
         for top in range(0, height, _ROWS):
             base[top : top + _ROWS] = _premultiplied(pixels[top : top + _ROWS])
-        for finer, coarser in zip(levels[:-1], levels[1:], strict=True):
+        for finer, coarser in itertools.pairwise(levels):
             _halve(_level(texels, finer), _level(texels, coarser))
         texels.flags.writeable = levels.flags.writeable = False
         return cls(width, height, texels, levels)
@@ -127,7 +128,7 @@ def _products() -> NDArray[np.uint16]:
 
 
 def _halve(finer: NDArray[np.uint16], coarser: NDArray[np.uint16]) -> None:
-    """Fill ``coarser`` with the averages over 2 x 2 blocks; an odd last row or column is repeated."""
+    """Fill ``coarser`` with averages over 2 x 2 blocks; an odd last row or column is repeated."""
     height, width = finer.shape[:2]
     for top in range(0, height, 2 * _ROWS):
         rows = finer[top : top + 2 * _ROWS]
@@ -220,7 +221,8 @@ class Sampler:
         footprints[:, 11] = footprints[:, 11].clip(0, len(texture.levels) - 2)
         self._n_lookups = (footprints[:, 10] * np.where(one_level, 1, 2)).astype(np.int32)
         self._footprints = footprints
-        table = np.zeros((_bucket(len(footprints), _LEAST_TRIANGLES), footprints.shape[1]), np.float32)
+        n_rows = _bucket(len(footprints), _LEAST_TRIANGLES)
+        table = np.zeros((n_rows, footprints.shape[1]), np.float32)
         table[: len(footprints)] = footprints
         self._arrays = jnp.asarray(texture.texels), jnp.asarray(levels), jnp.asarray(table)
 
@@ -267,8 +269,8 @@ class Sampler:
         d = points - row[:, :2]
         u = row[:, 2] + row[:, 4] * d[:, 0] + row[:, 5] * d[:, 1]
         v = row[:, 3] + row[:, 6] * d[:, 0] + row[:, 7] * d[:, 1]
-        reach = np.maximum(0.5 * row[:, 10] * np.hypot(row[:, 8], row[:, 9]), np.float32(0.5))
-        return np.stack([u, v], axis=1), reach[:, None]
+        reach = np.maximum(row[:, 10] * np.hypot(row[:, 8], row[:, 9]) / 2, np.float32(0.5))
+        return np.stack([u, v], axis=1).astype(np.float32), reach[:, None].astype(np.float32)
 
     def _chunk(self, triangle: Any, x: Any, y: Any, n_lookups: int) -> NDArray[np.float32]:
         n = len(triangle)

@@ -226,6 +226,7 @@ class Tracer:
             (dilation.exterior, *dilation.holes),
             tolerance,
             offset=dilation.offset,
+            room=dilation.least_offset,
             max_vertices=max_vertices,
             min_edge=min_edge,
             max_edge=max_edge,

@@ -43,21 +43,7 @@ class Linear:
         return _ramp(t, self.colours)
 
 
-@dataclass(frozen=True)
-class Radial:
-    """Colour that runs through `colours` from `centre` out to `radius`."""
-
-    centre: tuple[float, float]
-    radius: float
-    colours: Sequence[str]
-
-    def __call__(self, x: Mask, y: Mask) -> Mask:
-        """Colour at world points: arrays (h, w) -> (h, w, 3)."""
-        t = np.hypot(x - self.centre[0], y - self.centre[1]) / self.radius
-        return _ramp(t, self.colours)
-
-
-Colour: TypeAlias = str | Linear | Radial
+Colour: TypeAlias = str | Linear
 
 
 def _ramp(t: NDArray[np.floating], colours: Sequence[str]) -> Mask:

@@ -31,14 +31,16 @@ def build_report(result: Result) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``status`` and ``message``; ``certified`` and the ``proof`` in words; the energies ``E``, ``E_iso`` and ``E_p2p``; the certified
-        bounds ``sigma2_lower``, ``sigma1_upper`` and ``k_upper``; ``windings`` of f_z per loop
-        (exterior first) and their sum ``winding``; counts; times in seconds; and the ``history``,
-        one object per iteration. Numbers that are not finite are null.
+        ``status`` and ``message``; ``certified`` and the ``proof`` in words; the energies ``E``,
+        ``E_iso`` and ``E_p2p``; the certified bounds ``sigma2_lower``, ``sigma1_upper`` and
+        ``k_upper``; ``windings`` of f_z per loop (exterior first) and their sum ``winding``;
+        ``globally_injective`` ("yes", "no" or "undecided") and a ``crossing`` if not; counts;
+        times in seconds; and the ``history``, one object per iteration. Numbers that are not
+        finite are null.
     """
     began = time.perf_counter()
     certificate = result.certificate
-    injectivity = global_injectivity(result.map)
+    injectivity = global_injectivity(result.map, certificate)
     certify_time = time.perf_counter() - began
     energy, options, crossing = result.energy_measure, result.options, injectivity.crossing
     report = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
+from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import dijkstra
 
 from glid_nb.geometry import Domain, Triangulation, triangulate
@@ -24,7 +24,7 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
     The first handle is the point deepest inside the domain. The others are found by farthest-point
     sampling with distances measured inside the domain, then pulled in to where the limb is widest.
     The end farthest from the middle, and the end farthest from that one, turn about the middle
-    by 24 degrees towards the side where there is more room; all other handles stay.
+    by 24 degrees, away from the rest of the shape; all other handles stay.
 
     Parameters
     ----------
@@ -41,14 +41,15 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
     clearance = shapely.distance(shapely.points(mesh.vertices), outline)
 
     middle = int(np.argmax(clearance))
-    from_middle = dijkstra(graph, indices=middle)
+    from_middle = np.asarray(dijkstra(graph, indices=middle))
     reach = float(from_middle.max())
-    chosen, nearest = [middle], from_middle
+    chosen = [middle]
+    nearest: NDArray[np.float64] = from_middle
     while len(chosen) < max_handles:
         end = int(np.argmax(nearest))
         if nearest[end] < _LEAST_SPACING * reach and len(chosen) > 2:
             break
-        from_end = dijkstra(graph, indices=end)
+        from_end = np.asarray(dijkstra(graph, indices=end))
         vicinity = np.flatnonzero(from_end <= _PULL_IN * reach)
         handle = int(vicinity[np.argmax(clearance[vicinity])])
         nearest = np.minimum(nearest, from_end)
@@ -58,7 +59,8 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
             break
 
     handles = mesh.vertices[chosen]
-    between = dijkstra(graph, indices=chosen)[:, chosen]
+    paths = np.asarray(dijkstra(graph, indices=chosen))
+    between = paths[:, chosen]
     first = int(np.argmax(between[0]))
     moved = [first]
     if len(chosen) > 3:
@@ -66,11 +68,11 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
         moved.append(max(others, key=lambda i: between[first, i]))
     targets = handles.copy()
     for i in moved:
-        targets[i] = _swung(handles, targets, i)
+        targets[i] = _swung(handles[i], handles[0], mesh.vertices, paths[i])
     return Pose(handles, targets)
 
 
-def _edge_lengths(mesh: Triangulation) -> coo_array:
+def _edge_lengths(mesh: Triangulation) -> csr_array:
     """The mesh as a graph whose edges weigh their lengths."""
     a = mesh.triangles.ravel()
     b = np.roll(mesh.triangles, -1, axis=1).ravel()
@@ -82,11 +84,17 @@ def _edge_lengths(mesh: Triangulation) -> coo_array:
 
 
 def _swung(
-    handles: NDArray[np.float64], targets: NDArray[np.float64], i: int
+    handle: NDArray[np.float64],
+    middle: NDArray[np.float64],
+    vertices: NDArray[np.float64],
+    path_lengths: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Handle ``i`` turned about handle 0, towards the side with more room to the other targets."""
-    arm = handles[i] - handles[0]
+    """The handle turned about the middle, to the side that is farther from the rest of the shape.
+
+    The rest is what lies farther from the handle, measured inside the shape, than it moves.
+    """
+    arm = handle - middle
     cosine, sine = np.cos(_TURN), np.sin(_TURN)
-    sides = [handles[0] + np.array([[cosine, -s], [s, cosine]]) @ arm for s in (sine, -sine)]
-    rest = np.delete(targets, i, axis=0)
+    sides = [middle + np.array([[cosine, -s], [s, cosine]]) @ arm for s in (sine, -sine)]
+    rest = vertices[path_lengths > np.linalg.norm(sides[0] - handle)]
     return max(sides, key=lambda p: float(np.linalg.norm(rest - p, axis=1).min()))

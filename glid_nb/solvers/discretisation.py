@@ -87,6 +87,20 @@ class Discretisation:
     rows: _Rows | None
     """None when the panels are fixed."""
 
+    @functools.cached_property
+    def full_matrices(self) -> Matrices:
+        """:attr:`matrices` with the Hessian's quadrature on every node of the energy's.
+
+        Twice the work per iteration, but the Hessian is then exactly that of the discrete energy.
+        """
+        m = self.matrices
+        nodes = m.ends.shape[0] + m.middles.shape[0]
+        return m._replace(
+            hessian_nodes=jnp.concatenate([m.ends, m.middles]),
+            hessian_index=jnp.arange(nodes),
+            hessian_weights=m.weights,
+        )
+
     @property
     def can_refine(self) -> bool:
         """Whether panels may be split (the paper's uniform sampling is fixed)."""

@@ -17,9 +17,9 @@ from jaxtyping import Array, Bool, Float, Int
 from glid_nb.certificate import PanelBounds
 from glid_nb.energies import Energy
 
-from glid_nb.solvers.outcome import BLOCKED, NO_DECREASE, REFUSED, RUNNING
+from glid_nb.solvers.outcome import BLOCKED, NO_DECREASE, PENDING, REFUSED, RUNNING
 
-CANDIDATES = 16
+CANDIDATES = 24
 RATIO = 0.8
 # A Newton direction may be too short while the Hessian is modified; trying up to twice its length
 # costs nothing and saved up to a tenth of the iterations on the reference shapes.
@@ -34,11 +34,14 @@ LEAST_STEP = 1e-12
 
 
 class Search(NamedTuple):
-    """The preferred step and the energy along the line."""
+    """Candidate steps, longest first, and the total energy at each."""
 
-    step: Float[Array, ""]
-    decreases: Bool[Array, ""]
-    sufficient: Callable[[Array], Array]
+    steps: Float[Array, " t"]
+    energies: Float[Array, " t"]
+    acceptable: Bool[Array, " t"]
+    """Where the energy decreases sufficiently (Algorithm 1, line 17)."""
+    best: Int[Array, ""]
+    """The candidate of least energy."""
 
 
 def isometric_energy(
@@ -81,35 +84,31 @@ def search(
     total: Float[Array, ""],
     squared_decrement: Float[Array, ""],
 ) -> Search:
-    """The step of least energy among two batches of candidates."""
+    """Energies along the line in batches of candidates, each batch shorter, until one decreases."""
 
-    def along(t: Float[Array, " *t"]) -> Float[Array, " *t"]:
-        r = residual + t[..., None] * residual_change
+    def along(t: Float[Array, " t"]) -> Float[Array, " t"]:
+        r = residual + t[:, None] * residual_change
         p2p = 0.5 * jnp.sum(residual_weights * r**2, axis=-1)
-        return isometric_energy(nodes + t[..., None, None] * change, weights, energy) + p2p
+        return isometric_energy(nodes + t[:, None, None] * change, weights, energy) + p2p
 
-    def sufficient(t: Array) -> Array:
-        return along(t) <= total - ARMIJO * t * squared_decrement
+    def acceptable(steps: Array, energies: Array) -> Array:
+        return energies < total - ARMIJO * steps * squared_decrement
 
-    limit = SAFETY * largest_step(nodes, change)
-    steps = jnp.minimum(limit, LONGEST_STEP) * RATIO ** jnp.arange(CANDIDATES)
-    # The full Newton step is always among the candidates, or convergence would not be quadratic.
-    steps = jnp.where((steps > 1) & (steps * RATIO < 1), 1.0, steps)
-    values = along(steps)
-
-    def finer(carry: tuple[Array, Array]) -> tuple[Array, Array]:
-        steps, _ = carry
-        steps = steps * RATIO**CANDIDATES
+    def lower(carry: tuple[Array, Array]) -> tuple[Array, Array]:
+        steps = carry[0] * RATIO**CANDIDATES
+        # The full Newton step is always among the candidates, or convergence would be linear.
+        steps = jnp.where((steps > 1) & (steps * RATIO < 1), 1.0, steps)
         return steps, along(steps)
 
-    steps, values = lax.while_loop(
-        lambda carry: ~jnp.any(carry[1] < total) & (carry[0][-1] > LEAST_STEP),
-        finer,
-        (steps, values),
+    limit = SAFETY * largest_step(nodes, change)
+    top = jnp.minimum(limit, LONGEST_STEP) * RATIO ** jnp.arange(CANDIDATES)
+    steps, energies = lax.while_loop(
+        lambda carry: ~jnp.any(acceptable(*carry)) & (carry[0][0] > LEAST_STEP),
+        lower,
+        (top / RATIO**CANDIDATES, jnp.full(CANDIDATES, jnp.inf)),
     )
-    best = jnp.nanargmin(jnp.where(jnp.isnan(values), jnp.inf, values))
-    step = steps[best]
-    return Search(step, values[best] < total, sufficient)
+    energies = jnp.where(jnp.isnan(energies), jnp.inf, energies)
+    return Search(steps, energies, acceptable(steps, energies), jnp.argmin(energies))
 
 
 def backtrack(
@@ -118,34 +117,38 @@ def backtrack(
     real: Bool[Array, " p"],
     may_refine: Bool[Array, ""],
 ) -> tuple[Int[Array, ""], Float[Array, ""], PanelBounds, Bool[Array, " p"]]:
-    """Shorten the preferred step until the map is certified, or ask for finer panels.
+    """Go from the best candidate to shorter ones until one is certified, or ask for finer panels.
 
     Returns the outcome, the step, the bounds there, and which panels refused the first step.
     """
+    decreases = found.acceptable[found.best]
+    count = found.steps.shape[0]
 
-    def refusals(bounds: PanelBounds) -> tuple[Array, Array]:
-        refused = real & ~bounds.injective
-        # Condition (30): zeros of f_z inside, a sum of turnings that is not 0.
+    def attempt(carry: tuple[Array, Array, PanelBounds, Array]) -> tuple:
+        _, index, _, refused = carry
+        bounds = certified(found.steps[index])
+        refuses = real & ~bounds.injective
+        # Condition (30): zeros of f_z inside show as a sum of turnings that is not 0.
         zeros = jnp.abs(jnp.sum(jnp.where(real, bounds.turning, 0))) > 1
-        return refused, jnp.any(refused) | zeros
+        fails = jnp.any(refuses) | zeros
+        first = index == found.best
+        refused = jnp.where(first, refuses, refused)
+        shorter = jnp.argmax(found.acceptable & (jnp.arange(count) > index))
+        outcome = jnp.where(
+            ~fails,
+            RUNNING,
+            jnp.where(first & may_refine & jnp.any(refuses), REFUSED, BLOCKED),
+        )
+        # argmax gives 0 when there is no shorter acceptable candidate.
+        ended = (outcome != BLOCKED) | (shorter == 0)
+        return jnp.where(ended, outcome, PENDING), jnp.where(ended, index, shorter), bounds, refused
 
-    first = certified(found.step)
-    refused, first_fails = refusals(first)
-    ask = jnp.any(refused) & may_refine & found.decreases
-
-    def shorten(carry: tuple[Array, PanelBounds, Array]) -> tuple[Array, PanelBounds, Array]:
-        t = carry[0] * 0.5
-        bounds = certified(t)
-        return t, bounds, refusals(bounds)[1] | ~found.sufficient(t)
-
-    t, bounds, fails = lax.while_loop(
-        lambda carry: carry[2] & (carry[0] > LEAST_STEP) & found.decreases & ~ask,
-        shorten,
-        (found.step, first, first_fails),
+    blank = jnp.zeros(real.shape)
+    start = (
+        jnp.where(decreases, PENDING, NO_DECREASE),
+        found.best,
+        PanelBounds(blank, blank, blank, real, blank),
+        jnp.zeros_like(real),
     )
-    outcome = jnp.where(
-        ask,
-        REFUSED,
-        jnp.where(~found.decreases, NO_DECREASE, jnp.where(fails, BLOCKED, RUNNING)),
-    )
-    return outcome, t, bounds, refused
+    outcome, index, bounds, refused = lax.while_loop(lambda c: c[0] == PENDING, attempt, start)
+    return outcome, found.steps[index], bounds, refused

@@ -10,6 +10,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
+from glid_nb._runtime import COMPILER_OPTIONS
 from glid_nb.certificate import EndValues, PanelBounds, hermite, lipschitz
 from glid_nb.energies import Energy
 from glid_nb.harmonic.cauchy import Singularities, slope_jumps
@@ -19,6 +20,9 @@ from glid_nb.solvers.hessian import assemble, local_hessian, positive_part
 from glid_nb.solvers.outcome import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.options import HessianKind
 from glid_nb.solvers.unknowns import Unknowns, expand, restrict_gradient, restrict_hessian
+
+
+_ATTEMPTS = {"exact": (0, 0), "projected": (1, 1), "adaptive": (0, 1)}
 
 
 class Constraints(NamedTuple):
@@ -64,6 +68,8 @@ class State(NamedTuple):
     """Panels that refused the last preferred step."""
     sigma2_lower: Float[Array, " p"]
     """Certified bound per panel at ``coefficients``, once a step was taken."""
+    quadrature_gap: Float[Array, " p"]
+    """How much Simpson's rule and the midpoint rule differ on each panel (0 if uniform)."""
 
 
 class Settings(NamedTuple):
@@ -77,7 +83,11 @@ class Settings(NamedTuple):
     """Added to the Hessian's diagonal, relative to its mean (Section 9.1's epsilon)."""
 
 
-@functools.partial(jax.jit, static_argnames=("hessian", "certificate", "capacity"))
+@functools.partial(
+    jax.jit,
+    static_argnames=("hessian", "certificate", "capacity"),
+    compiler_options=COMPILER_OPTIONS,
+)
 def run(
     matrices: Matrices,
     singularities: Singularities,
@@ -114,26 +124,28 @@ def run(
         gradient = _energy_gradient(matrices, nodes, d) + p2p_matrix.T @ (row_weights * residual)
         gradient = restrict_gradient(gradient, unknowns)
 
-        def factor(modify: bool) -> Float[Array, "4c 4c"]:
-            index = matrices.hessian_index
-            local = local_hessian(type(d)(*(a[index] for a in d)), x[index], yy[index])
-            k = positive_part(local) if modify else local
-            f, g = _directions(nodes[index])
+        index = matrices.hessian_index
+        local = local_hessian(type(d)(*(a[index] for a in d)), x[index], yy[index])
+        f, g = _directions(nodes[index])
+
+        def factor(carry: tuple[Array, Array]) -> tuple[Array, Array]:
+            modify = carry[0] > 0
+            k = jax.tree.map(lambda a, b: jnp.where(modify, b, a), local, positive_part(local))
             h = assemble(matrices.hessian_nodes, matrices.hessian_weights, f, g, k)
             h = restrict_hessian(h + p2p_hessian, unknowns)
             shift = settings.ridge * jnp.mean(jnp.diag(h))
-            return jnp.linalg.cholesky(h + shift * jnp.eye(h.shape[0]))
+            return carry[0] + 1, lax.linalg.cholesky(
+                h + shift * jnp.eye(h.shape[0]), symmetrize_input=False
+            )
 
-        if hessian == "projected":
-            lower = factor(True)
-            modified = jnp.array(True)
-        elif hessian == "exact":
-            lower = factor(False)
-            modified = jnp.array(False)
-        else:
-            exact = factor(False)
-            modified = ~jnp.isfinite(exact[-1, -1])
-            lower = lax.cond(modified, lambda: factor(True), lambda: exact)
+        # Attempt 0 is the exact Hessian, attempt 1 the projected one.
+        first, last = _ATTEMPTS[hessian]
+        attempts, lower = lax.while_loop(
+            lambda carry: (carry[0] <= last) & ~jnp.isfinite(carry[1][-1, -1]),
+            factor,
+            (jnp.array(first), jnp.full((y.shape[0], y.shape[0]), jnp.nan)),
+        )
+        modified = attempts == 2
         definite = jnp.isfinite(lower[-1, -1])
         direction = -jax.scipy.linalg.cho_solve((lower, True), gradient)
         direction = expand(jnp.where(definite, direction, 0), unknowns)
@@ -191,6 +203,7 @@ def run(
             records,
             refused,
             jnp.where(stepped, panel.sigma2_lower, state.sigma2_lower),
+            state.quadrature_gap,
         )
 
     samples = _products(matrices, coefficients)
@@ -207,8 +220,10 @@ def run(
         empty,
         jnp.zeros_like(matrices.real),
         jnp.full(matrices.real.shape, jnp.nan),
+        jnp.zeros(matrices.real.shape),
     )
-    return lax.while_loop(keep_going, iterate, start)
+    end = lax.while_loop(keep_going, iterate, start)
+    return end._replace(quadrature_gap=_quadrature_gap(matrices, end.samples.nodes, energy))
 
 
 def bounds(
@@ -266,6 +281,17 @@ def _energy_gradient(
             top[:, 3] + bottom[:, 2],
         ]
     )
+
+
+def _quadrature_gap(
+    matrices: Matrices, nodes: Float[Array, "s 4"], energy: Energy
+) -> Float[Array, " p"]:
+    p = matrices.ends.shape[0]
+    if nodes.shape[0] == p:
+        return jnp.zeros(p)
+    density = energy.density(*_squares(nodes))
+    start, middle = density[:p], density[p:]
+    return matrices.weights[p:] / 4 * jnp.abs(start - 2 * middle + start[matrices.next])
 
 
 def _constraint_matrix(constraints: Constraints) -> Float[Array, "2h 4c"]:

@@ -36,8 +36,14 @@ class Options:
         ``lambda`` of (20), positive.
     conformal : bool
         Restrict the maps to conformal ones, ``psi = 0`` (Section 6).
+    align : bool
+        Begin with the rigid motion that brings the handles closest to their targets. It changes
+        neither distortion nor certificate and often saves half of the iterations.
+    restarts : int
+        How many other ways to a minimum (see :mod:`glid_nb.solvers.restarts`) a solve from the
+        identity may try when its first one ends blocked or at a high energy; 0 tries none.
     max_iterations : int
-        Most Newton iterations, at least 0.
+        Most Newton iterations of one attempt, at least 0.
     tolerance : float
         The solve has converged when the Newton decrement's promise of a decrease,
         ``decrement^2 / 2``, falls below ``tolerance`` times the energy.
@@ -55,6 +61,8 @@ class Options:
     hessian: HessianKind = "adaptive"
     p2p_weight: float = 1e5
     conformal: bool = False
+    align: bool = True
+    restarts: int = 3
     max_iterations: int = 200
     tolerance: float = 1e-10
     iterations_per_call: int = 4
@@ -70,6 +78,7 @@ class Options:
                 raise OptionError(f"unknown {name} {value!r}; choose one of {', '.join(allowed)}")
         _check_number("p2p_weight", self.p2p_weight, 0.0, strict=True)
         _check_number("tolerance", self.tolerance, 0.0, strict=False)
+        _check_integer("restarts", self.restarts, 0)
         _check_integer("max_iterations", self.max_iterations, 0)
         _check_integer("iterations_per_call", self.iterations_per_call, 1)
         if self.iterations_per_call >= CARRIED:
@@ -80,8 +89,17 @@ class Options:
 
     @classmethod
     def paper(cls, **changes: Any) -> Options:
-        """The paper's own settings: uniform samples, Lipschitz certificate, projected Hessian."""
-        settings = {"sampling": "uniform", "certificate": "lipschitz", "hessian": "projected"}
+        """The paper's own settings: uniform samples, Lipschitz certificate, projected Hessian.
+
+        They start at the identity itself and try no other way.
+        """
+        settings: dict[str, Any] = {
+            "sampling": "uniform",
+            "certificate": "lipschitz",
+            "hessian": "projected",
+            "align": False,
+            "restarts": 0,
+        }
         return cls(**{**settings, **changes})
 
 

@@ -39,7 +39,17 @@ class Iteration:
     panels_split: int
     """Panels split since the iteration before, because they refused a step."""
     time: float
-    """Seconds of this iteration, compilation excluded (shared evenly within one call)."""
+    """Seconds, shared evenly within one compiled call; NaN when that call compiled first."""
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """One of several ways to a minimum."""
+
+    name: str
+    status: Status
+    energy: float
+    iterations: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +70,8 @@ class Result:
     """Seconds spent compiling during this solve."""
     solve_time: float
     """Seconds of the solve without compilation."""
+    attempts: tuple[Attempt, ...] = ()
+    """All ways to a minimum that were tried, when the first was not the only one."""
 
     @property
     def message(self) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,9 +18,11 @@ from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap, cauchy
 from glid_nb.harmonic.basis import Basis
 from glid_nb.solvers import newton, outcome
+from glid_nb.solvers.align import aligned
 from glid_nb.solvers.discretisation import Discretisation, basis_rows, discretise, padded
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose
+from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Iteration, Result
 from glid_nb.solvers.status import Status
 from glid_nb.solvers.unknowns import canonical, unknowns_of
@@ -34,6 +37,9 @@ _RIDGE = 1e-9
 _PATIENCE = 3
 _MOST_ROUNDS = 40
 _MOST_PANELS = 60_000
+# When to put the Hessian on all nodes: many iterations, or a short step that gains little.
+_SLOW_ITERATIONS = 20
+_SLOW_STEP, _SLOW_GAIN = 0.5, 0.05
 # A decrease promised by the Newton decrement that rounding of the energy can hide.
 _ROUNDING = 1e-8
 
@@ -102,13 +108,31 @@ def solve(
     energy = SymmetricDirichlet() if energy is None else energy
     options = Options() if options is None else options
     pose.check_inside(domain)
+    first = descend(domain, pose, energy, options, start, callback)
+    if start is not None:
+        return first
+    return improve(first, functools.partial(descend, domain), callback)
+
+
+@double_precision
+def descend(
+    domain: Domain,
+    pose: Pose,
+    energy: Energy,
+    options: Options,
+    start: HarmonicMap | Result | None = None,
+    callback: Callback | None = None,
+) -> Result:
+    """One descent from one map to the local minimum that it leads to."""
     clock = compilation_clock()
-    compiled_before, began = clock.seconds, time.perf_counter()
+    programs, began = clock.programs, time.perf_counter()
     loop = _Loop(domain, pose, energy, options, start)
+    preparation = time.perf_counter() - began
+    # A stage that compiled anything counts as compilation as a whole: its own work is small.
+    loop.compile_time = preparation if clock.programs > programs else 0.0
     with single_blas_thread():
         status = loop.run(callback)
     elapsed = time.perf_counter() - began
-    compile_time = clock.seconds - compiled_before
     return Result(
         _map_from(loop.discretisation, loop.coefficients),
         status,
@@ -120,8 +144,8 @@ def solve(
         options,
         energy,
         loop.discretisation,
-        compile_time,
-        max(elapsed - compile_time, 0.0),
+        loop.compile_time,
+        elapsed - loop.compile_time,
     )
 
 
@@ -142,6 +166,8 @@ class _Loop:
         self.unknowns = unknowns_of(basis, options.conformal)
         self.constraints = _constraints(basis, pose, options.p2p_weight)
         self.ridge = _RIDGE if len(pose) < 2 else 0.0
+        if options.align:
+            map_ = aligned(map_, pose)
         phi, psi = basis.pad(map_.phi), basis.pad(map_.psi)
         self.coefficients: Any = jnp.asarray(
             np.concatenate([phi.real, phi.imag, psi.real, psi.imag])
@@ -149,19 +175,25 @@ class _Loop:
         self.history: list[Iteration] = []
         self.energy_iso = self.energy_p2p = np.nan
         self.just_split = 0
+        self.full_hessian = False
+        self.compile_time = 0.0
 
     def run(self, callback: Callback | None) -> Status:
         rounds = total_rounds = 0
         clock = compilation_clock()
         while True:
-            began, compiled = time.perf_counter(), clock.seconds
+            began, programs = time.perf_counter(), clock.programs
             state = self._call(may_refine=rounds < _PATIENCE)
             end = int(state.outcome)
             taken = int(state.iteration)
-            seconds = time.perf_counter() - began - (clock.seconds - compiled)
+            seconds = time.perf_counter() - began
+            if clock.programs > programs:
+                self.compile_time += seconds
+                seconds = np.nan
             self._record(state, taken, seconds)
             if taken:
                 rounds = total_rounds = 0
+                self.full_hessian |= self._is_slow()
                 if callback is not None and callback(self._progress(state)):
                     return Status.STOPPED
             if end == outcome.CONVERGED:
@@ -189,9 +221,10 @@ class _Loop:
             np.bool_(may_refine and self.discretisation.can_refine),
             np.float64(self.ridge),
         )
+        disc = self.discretisation
         return newton.run(
-            self.discretisation.matrices,
-            self.discretisation.basis.singularities,
+            disc.full_matrices if self.full_hessian else disc.matrices,
+            disc.basis.singularities,
             self.unknowns,
             self.constraints,
             self.energy,
@@ -227,6 +260,16 @@ class _Loop:
     def _progress(self, state: newton.State) -> Progress:
         bounds = np.asarray(state.sigma2_lower)[: len(self.discretisation.panels)]
         return Progress(tuple(self.history), bounds, self.discretisation, self.coefficients)
+
+    def _is_slow(self) -> bool:
+        """Whether the Hessian's coarser quadrature seems to cost iterations."""
+        if not self.discretisation.can_refine or self.options.hessian == "projected":
+            return False
+        *before, last = self.history
+        if len(self.history) >= _SLOW_ITERATIONS:
+            return True
+        gained = before[-1].energy - last.energy if before else np.inf
+        return last.step < _SLOW_STEP and gained < _SLOW_GAIN * last.energy
 
     def _without_decrease(self, state: newton.State) -> Status:
         promised = float(state.decrement) ** 2 / 2

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from glid_nb.cli import main
+from glid_nb.cli import main, progress
 
 
 class Outcome(NamedTuple):
@@ -26,15 +26,17 @@ Run = Callable[..., Outcome]
 
 
 @pytest.fixture
-def run(capsys: pytest.CaptureFixture[str]) -> Run:
-    """Runs ``glid-nb`` with the given words."""
+def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
+    """Runs ``glid-nb`` with the given words, without a word of progress on a slow machine."""
+    monkeypatch.setattr(progress, "PATIENCE", 1e6)
 
     def run_command(*words: object) -> Outcome:
         try:
             code = main([str(word) for word in words])
         except SystemExit as stop:
             code = int(stop.code or 0)
-        return Outcome(code, *capsys.readouterr())
+        out, err = capsys.readouterr()
+        return Outcome(code, out, err)
 
     return run_command
 

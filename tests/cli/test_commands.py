@@ -168,13 +168,16 @@ def test_render_takes_a_size_and_a_view(run, picture: Path, solved: Path, tmp_pa
     assert outcome.out == f"{out}: 200 x 90 pixels\n"
     with Image.open(out) as warped:
         assert warped.size == (200, 90)
-        left, top, right, bottom = warped.getchannel("A").getbbox()
+        box = warped.getchannel("A").getbbox()
+    assert box is not None
+    left, top, right, bottom = box
     # Nothing is cut off, and one of the two directions is filled but for the margin.
     assert 0 < left < right < 200
     assert 0 < top < bottom < 90
     assert right - left > 170 or bottom - top > 75
 
 
+@pytest.mark.slow
 def test_demo_on_ones_own_picture(run, picture: Path, tmp_path: Path) -> None:
     out = tmp_path / "a" / "b"
     outcome = run("demo", picture, "--out", out)
@@ -193,6 +196,7 @@ def test_demo_on_ones_own_picture(run, picture: Path, tmp_path: Path) -> None:
     assert "chosen automatically" in outcome.out
 
 
+@pytest.mark.slow
 def test_demo_with_a_pose_of_ones_own(run, picture: Path, tmp_path: Path) -> None:
     pose = tmp_path / "pose.json"
     pose.write_text(json.dumps({"handles": [[-7, 0], [7, 0]], "targets": [[-7, 0], [6, 3]]}))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from glid_nb.cli import main as main_module
+from glid_nb.cli import samples
 from glid_nb.cli.errors import is_bad_input, one_line
 from glid_nb.cli.main import main
 from glid_nb.geometry import GeometryError
@@ -33,7 +33,7 @@ def test_a_bug_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(_: object) -> None:
         raise ValueError("a bug")
 
-    monkeypatch.setattr(main_module.samples, "run", broken)
+    monkeypatch.setattr(samples, "run", broken)
     with pytest.raises(ValueError, match="a bug"):
         main(["samples"])
 
@@ -43,7 +43,7 @@ def refusing(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(_: object) -> None:
         raise GeometryError("hole 1 touches hole 2")
 
-    monkeypatch.setattr(main_module.samples, "run", refuse)
+    monkeypatch.setattr(samples, "run", refuse)
 
 
 @pytest.mark.usefixtures("refusing")
@@ -66,6 +66,6 @@ def test_an_interrupt_is_said_quietly(
     def interrupted(_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(main_module.samples, "run", interrupted)
+    monkeypatch.setattr(samples, "run", interrupted)
     assert main(["samples"]) == 130
     assert "interrupted" in capsys.readouterr().err

@@ -18,8 +18,9 @@ from glid_nb.imaging.texture import Texture
 QUAD = np.array([[0, 1, 2], [0, 2, 3]])
 
 
-def corners(width: float, height: float) -> NDArray[np.float64]:
-    return np.array([[0, 0], [width, 0], [width, height], [0, height]], dtype=float)
+def corners(width: float, height: float, x: float = 0, y: float = 0) -> NDArray[np.float64]:
+    """Of a rectangle whose upper left corner is (x, y)."""
+    return np.array([[x, y], [x + width, y], [x + width, y + height], [x, y + height]], dtype=float)
 
 
 def noise(width: int, height: int, seed: int = 0) -> NDArray[np.uint8]:
@@ -63,7 +64,12 @@ def test_the_identity_reproduces_the_picture():
 
 def test_sixteen_bit_grey_and_float_pictures():
     image = noise(40, 30)[..., 0]
-    for picture in (image, image.astype(np.uint16) * 257, image / 255, image[..., None].repeat(3, 2)):
+    for picture in (
+        image,
+        image.astype(np.uint16) * 257,
+        image / 255,
+        image[..., None].repeat(3, 2),
+    ):
         result = render_mesh(picture, corners(40, 30), corners(40, 30), QUAD, (40, 30))
         assert (result[..., 3] == 255).all()
         assert np.abs(result[..., 0].astype(int) - image).max() <= 1
@@ -148,14 +154,16 @@ def test_hidden_colours_never_bleed(scale: float, hidden: int):
 
 
 def test_outlines_show_the_exact_coverage():
-    # The half plane below a line, for many slopes; the exact coverage by integration in closed form.
+    # The half plane below a line, for many slopes, against 256 samples per pixel.
     for angle in np.linspace(0.02, 1.5, 9):
         direction = np.array([np.cos(angle), np.sin(angle)])
         normal = np.array([-direction[1], direction[0]])
         middle = np.array([16.3, 15.8])
         a, b = middle - 200 * direction, middle + 200 * direction
         positions = np.array([a, b, b + 300 * normal, a + 300 * normal])
-        alpha = render_mesh(np.full((4, 4), 255, np.uint8), corners(4, 4), positions, QUAD, (32, 32))
+        alpha = render_mesh(
+            np.full((4, 4), 255, np.uint8), corners(4, 4), positions, QUAD, (32, 32)
+        )
         fine = (np.mgrid[:512, :512] + 0.5) / 16
         inside = (fine[1] - middle[0]) * normal[0] + (fine[0] - middle[1]) * normal[1] > 0
         exact = inside.reshape(32, 16, 32, 16).mean(axis=(1, 3))
@@ -164,7 +172,7 @@ def test_outlines_show_the_exact_coverage():
 
 
 def test_an_outline_that_ends_on_pixel_borders_is_sharp():
-    positions = corners(10, 6) + [3, 2]
+    positions = corners(10, 6, 3, 2)
     result = render_mesh(np.full((5, 5), 255, np.uint8), corners(5, 5), positions, QUAD, (16, 10))
     expected = np.zeros((10, 16))
     expected[2:8, 3:13] = 255
@@ -181,12 +189,17 @@ def test_every_sample_belongs_to_exactly_one_triangle(seed: int, scale: int):
     turn = rng.uniform(-1e-3, 1e-3)
     triangles = Delaunay(points).simplices
     points = 20 + (points - 20) @ [[1, turn], [-turn, 1]] * (1 + 1e-3)
-    spans = scanline.ScanConverter(points[triangles], scale).spans(2 * scale, 28 * scale, 40 * scale)
+    spans = scanline.ScanConverter(points[triangles], scale).spans(
+        2 * scale, 28 * scale, 40 * scale
+    )
     middle = spans.start < 38 * scale
     inside = (np.minimum(spans.stop, 38 * scale) - np.maximum(spans.start, 2 * scale)).clip(0)
     assert inside[middle].sum() == 36 * 26 * scale**2
-    seen = scanline.paint(spans, 2 * scale, 28 * scale, 40 * scale).reshape(-1, 40 * scale)
-    assert (seen[:, 2 * scale : 38 * scale] >= 0).all()
+    layers = scanline.layers(spans, 2 * scale, 28 * scale, 40 * scale)
+    assert len(layers) == 1
+    seen = np.zeros((26 * scale, 40 * scale), dtype=bool)
+    seen.ravel()[layers[0].sample] = True
+    assert seen[:, 2 * scale : 38 * scale].all()
 
 
 def bent_mesh(seed: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]:
@@ -208,7 +221,7 @@ def test_a_deformed_mesh_has_no_seams_and_keeps_its_area(seed: int):
     image = np.full((8, 8), 255, np.uint8)
     alpha = render_mesh(image, points / 6.25, positions, triangles, (70, 70))[..., 3]
     outline = positions[scanline.outline_edges(triangles, positions[triangles])]
-    shape = shapely.polygonize(shapely.linestrings(outline)).geoms[0]
+    (shape,) = shapely.polygonize([shapely.LineString(edge) for edge in outline]).geoms
     assert alpha.sum() / 255 == pytest.approx(shape.area, rel=1e-3)
     x, y = np.mgrid[:70, :70]
     pixels = shapely.box(x, y, x + 1, y + 1).T
@@ -221,8 +234,8 @@ def test_a_deformed_mesh_has_no_seams_and_keeps_its_area(seed: int):
 def test_later_triangles_cover_earlier_ones():
     image = np.zeros((10, 20, 4), np.uint8)
     image[:, :10], image[:, 10:] = (255, 0, 0, 255), (0, 0, 255, 255)
-    left, right = corners(8, 10) + [1, 0], corners(8, 10) + [11, 0]
-    under, over = corners(20, 20) + [4, 4], corners(20, 20) + [13.5, 13.5]
+    left, right = corners(8, 10, 1, 0), corners(8, 10, 11, 0)
+    under, over = corners(20, 20, 4, 4), corners(20, 20, 13.5, 13.5)
     vertices, positions = np.concatenate([left, right]), np.concatenate([under, over])
     both = np.concatenate([QUAD, QUAD + 4])
     result = render_mesh(image, vertices, positions, both, (40, 40))
@@ -232,6 +245,40 @@ def test_later_triangles_cover_earlier_ones():
     assert np.abs(result[20, 13].astype(int) - (128, 0, 128, 255)).max() <= 1
     swapped = render_mesh(image, vertices, positions, both[::-1], (40, 40))
     assert tuple(swapped[20, 20]) == (255, 0, 0, 255)
+
+
+def test_sheets_with_heights_cut_through_one_another_along_a_line():
+    image = np.zeros((10, 20, 4), np.uint8)
+    image[:, :10], image[:, 10:] = (255, 0, 0, 255), (0, 0, 255, 255)
+    triangles = np.concatenate([QUAD, QUAD + 4])
+    vertices = np.concatenate([corners(8, 8) + 1, corners(8, 8, 11, 1)])
+    positions = np.concatenate([corners(30, 30) + 5, corners(30, 30) + 5])
+    # The red sheet lies flat at height 1, the blue one rises from 0 to 3 along x: they meet at
+    # a third of the way.
+    heights = [1, 1, 1, 1, 0, 3, 3, 0]
+    for order in (triangles, triangles[::-1]):
+        result = render_mesh(image, vertices, positions, order, (40, 40), heights)
+        assert (result[5:35, 5:15] == (255, 0, 0, 255)).all()
+        assert (result[5:35, 15:35] == (0, 0, 255, 255)).all()
+
+
+def test_a_lower_sheet_shows_through_transparent_parts_of_an_upper_one():
+    image = np.zeros((20, 40, 4), np.uint8)
+    image[:, :20] = (255, 0, 0, 255)
+    image[5:15, 25:35] = (0, 0, 255, 255)
+    image[5:15, 35:37] = (0, 0, 255, 128)
+    lower, upper = corners(20, 20), corners(20, 20, 20, 0)
+    # The upper sheet's outline runs through the lower sheet, its corners between pixels.
+    positions = np.concatenate([corners(30, 30) + 5, corners(20, 20, 10, 10.4)])
+    result = render_mesh(
+        image, np.concatenate([lower, upper]), positions, np.concatenate([QUAD, QUAD + 4]), (40, 40)
+    )
+    assert (result[6:34, 6:34, 3] == 255).all()
+    ring = np.zeros((40, 40), dtype=bool)
+    ring[6:34, 6:34], ring[13:28, 13:29] = True, False
+    assert (result[ring] == (255, 0, 0, 255)).all()
+    assert tuple(result[20, 20]) == (0, 0, 255, 255)
+    assert np.abs(result[20, 26].astype(int) - (127, 0, 128, 255)).max() <= 1
 
 
 def test_nothing_is_shown_beyond_the_picture():
@@ -312,6 +359,8 @@ def test_the_pyramid_holds_area_averages():
         ({"positions_xy": [[0, 0], [1, 0], [1, np.nan], [0, 1]]}, "positions_xy: vertex 2"),
         ({"triangles": [[0, 1, 4]]}, r"triangle 0 is \[0, 1, 4\], but there are 4 vertices"),
         ({"triangles": [[0.0, 1.0, 2.0]]}, "triangles has shape"),
+        ({"heights": [1.0, 2.0]}, r"heights has shape \(2,\)"),
+        ({"heights": [0, 0, np.nan, 0]}, r"heights\[2\] is nan"),
         ({"texture": np.zeros((0, 3, 4), np.uint8)}, "image is empty"),
         ({"texture": np.zeros((2, 2, 4), np.int64)}, "image has the type int64"),
     ],
@@ -329,6 +378,8 @@ def test_bad_input(change: dict, message: str):
 
 
 def test_no_triangles_give_an_empty_picture():
-    result = render_mesh(noise(4, 4), np.zeros((0, 2)), np.zeros((0, 2)), np.zeros((0, 3), int), (5, 3))
+    result = render_mesh(
+        noise(4, 4), np.zeros((0, 2)), np.zeros((0, 2)), np.zeros((0, 3), int), (5, 3)
+    )
     assert result.shape == (3, 5, 4)
     assert not result.any()

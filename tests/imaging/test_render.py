@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.frame import PixelFrame
-from glid_nb.imaging.mesh import deformed_mesh, painting_order
+from glid_nb.imaging.mesh import deformed_mesh, sheet_heights
 from glid_nb.imaging.render import OutputFrame, render, rendering
 
 
@@ -195,15 +195,17 @@ def test_where_the_shape_overlaps_itself_one_end_lies_on_the_other(bar: Domain):
     assert red.max() < 100 or red.min() > 155
 
 
-def test_the_painting_order_starts_inside_and_ends_at_the_limbs(domain: Domain):
+def test_heights_grow_from_the_trunk_to_the_limbs(domain: Domain):
     mesh = deformed_mesh(HarmonicMap.identity(domain), 800)
-    order = painting_order(domain.cage, mesh.vertices, mesh.triangles)
-    assert sorted(order) == list(range(len(mesh.triangles)))
-    np.testing.assert_array_equal(order, np.arange(len(order)))  # it is in that order already
+    heights = sheet_heights(domain.cage, mesh.vertices, mesh.triangles)
+    np.testing.assert_allclose(heights, mesh.heights)
     # The innermost part of the rectangle with a hole near its top right is its left half.
-    first = mesh.vertices[mesh.triangles[:20]].mean(axis=(0, 1))
-    last = mesh.vertices[mesh.triangles[-20:]].mean(axis=(0, 1))
-    assert first[0] < 0 < last[0]
+    lowest, highest = mesh.vertices[np.argmin(heights)], mesh.vertices[np.argmax(heights)]
+    assert -4 < lowest[0] < 0
+    assert abs(highest[0]) == 6
+    # Triangles come in that order, for those who paint them without heights.
+    means = heights[mesh.triangles].mean(axis=1)
+    assert (np.diff(means) >= 0).all()
 
 
 def test_bad_input(domain: Domain):

@@ -1,0 +1,164 @@
+"""Enclosures of the images of panels: how far the image of a straight panel is from its chord."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from glid_nb._runtime import COMPILER_OPTIONS
+from glid_nb.certificate import rounding
+from glid_nb.certificate.bounds import derivative_bound_weights, modulus
+from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
+from glid_nb.harmonic.cauchy import Singularities
+
+Array = np.ndarray
+
+_CHUNK = 256
+
+# Roundings of the few operations made with the kernel's outputs, relative.
+_FINAL_ROUNDING = 1 + 1e-12
+
+
+class Jets(NamedTuple):
+    """A map to second order at the starts of panels; every field is a (p,) array.
+
+    The errors bound what rounding does to the image and to its first and second derivative in
+    any unit direction. ``third`` bounds the third derivative along the whole panel.
+    """
+
+    f: Array
+    fz: Array
+    fzb: Array
+    dfz: Array
+    dfzb: Array
+    f_error: Array
+    first_error: Array
+    second_error: Array
+    third: Array
+
+    def at(self, index: Any) -> Jets:
+        """Those of the panels that ``index`` selects."""
+        return Jets(*(values[index] for values in self))
+
+    def first(self, direction: Array) -> Array:
+        """Derivative along unit vectors, as a complex number."""
+        return self.fz * direction + np.conj(self.fzb * direction)
+
+    def second(self, direction: Array) -> Array:
+        """Second derivative along unit vectors."""
+        square = direction**2
+        return self.dfz * square + np.conj(self.dfzb * square)
+
+
+class Arcs(NamedTuple):
+    """Images of panels, parametrised by the arc length of the panel; every field is an array.
+
+    ``start`` and ``end`` are the images of the ends, known to within ``error``, ``tangent_start``
+    and ``tangent_end`` the derivatives there, to within ``tangent_error``. ``bend`` bounds the
+    second derivative along the panel of the given ``length``.
+    """
+
+    start: Array
+    end: Array
+    tangent_start: Array
+    tangent_end: Array
+    length: Array
+    bend: Array
+    error: Array
+    tangent_error: Array
+
+    @classmethod
+    def between(cls, start: Array, end: Array, at_start: Jets, at_end: Jets) -> Arcs:
+        """Images of the panels from ``start`` to ``end``; ``at_start.third`` is for these panels."""
+        length = np.abs(end - start)
+        direction = (end - start) / np.where(length > 0, length, 1)
+        # A function whose slope is at most K is at most (|start| + |end| + K l) / 2.
+        bend = (
+            sum(np.abs(jet.second(direction)) + jet.second_error for jet in (at_start, at_end))
+            + at_start.third * length
+        ) / 2
+        return cls(
+            at_start.f,
+            at_end.f,
+            at_start.first(direction),
+            at_end.first(direction),
+            length,
+            bend * _FINAL_ROUNDING,
+            np.maximum(at_start.f_error, at_end.f_error),
+            np.maximum(at_start.first_error, at_end.first_error),
+        )
+
+    def at(self, index: Any) -> Arcs:
+        """Those that ``index`` selects."""
+        return Arcs(*(values[index] for values in self))
+
+    @property
+    def sagitta(self) -> Array:
+        """``M l^2 / 8``: the exact image is so close to the exact chord, at equal parameters."""
+        return self.bend * self.length**2 / 8
+
+    @property
+    def radius(self) -> Array:
+        """The same for the computed chord."""
+        return self.sagitta + self.error
+
+
+class JetEvaluator:
+    """Evaluates one map's :class:`Jets`, in chunks of one size."""
+
+    def __init__(self, map: HarmonicMap) -> None:
+        basis = basis_of(map.domain)
+        self._coefficients = np.stack([basis.pad(map.phi), basis.pad(map.psi)])
+        self._singularities = basis.singularities
+
+    def __call__(self, start: Array, end: Array) -> Jets:
+        """Jets at the (p,) complex points ``start``, ``third`` being for the panels to ``end``."""
+        parts = []
+        for first in range(0, len(start), _CHUNK):
+            ends = [z[first : first + _CHUNK] for z in (start, end)]
+            size = len(ends[0])
+            filled = [np.append(z, np.full(_CHUNK - size, z[0])) for z in ends]
+            outputs = _kernel(*filled, self._coefficients, self._singularities)
+            parts.append([np.asarray(values)[:size] for values in outputs])
+        return Jets(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
+
+
+@functools.partial(jax.jit, compiler_options=COMPILER_OPTIONS)
+def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularities) -> Any:
+    columns = (cauchy.cauchy_coordinates, cauchy.first_derivatives, cauchy.second_derivatives)
+    values, slopes, curvatures = (c(start, singularities) @ coefficients.T for c in columns)
+    jumps = modulus(cauchy.slope_jumps(coefficients, singularities)).sum(axis=0)
+    third = derivative_bound_weights(start, end, singularities, 2) @ jumps
+    # Twice, for the two sums over phi and psi.
+    slack = 2 * rounding.slack_factor(coefficients.shape[1]) * modulus(coefficients).max()
+    first_scale, second_scale = cauchy.rounding_scale(start, singularities)
+    return (
+        values[:, 0] + jnp.conj(values[:, 1]),
+        slopes[:, 0],
+        slopes[:, 1],
+        curvatures[:, 0],
+        curvatures[:, 1],
+        slack * _value_scale(start, singularities),
+        slack * first_scale,
+        slack * second_scale,
+        third,
+    )
+
+
+def _value_scale(z: Any, singularities: Singularities) -> Any:
+    """What ``cauchy.rounding_scale`` is for the derivatives, for ``C(z)``.
+
+    ``|Log(B_{j+1} / B_j)| <= |ln |B_{j+1} / B_j|| + pi``, and 4 roundoffs beside it.
+    """
+    vertices, following, _, rho = singularities
+    b = modulus(vertices - z[:, None])
+    edge = modulus(vertices[following] - vertices)
+    logarithms = jnp.log(b)
+    log = jnp.abs(logarithms[:, following] - logarithms) + np.pi + 4
+    vertex_terms = (b[:, following] + b) * log / (2 * np.pi * edge)
+    hole_terms = jnp.abs(jnp.log(modulus(z[:, None] - rho))) + 1
+    return vertex_terms.sum(axis=1) + hole_terms.sum(axis=1)

@@ -1,0 +1,279 @@
+"""Isometric energies and their five scalars (paper Section 6, Table 1, Appendix E)."""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from glid_nb.energies import (
+    AMIPS,
+    ARAP,
+    ENERGY_NAMES,
+    CustomEnergy,
+    Energy,
+    EnergyError,
+    ExponentialSymmetricDirichlet,
+    SymmetricDirichlet,
+    energy_by_name,
+)
+
+# Table 1's second column, in singular values, written independently of the energies.
+
+
+def iso(a: Any, b: Any) -> Any:
+    return (a**2 + a**-2 + b**2 + b**-2) / 2
+
+
+def amips(a: Any, b: Any, s: float) -> Any:
+    return np.exp(s * (a / b + b / a) + a * b + 1 / (a * b))
+
+
+CLOSED: list[tuple[Energy, Callable[[Any, Any], Any]]] = [
+    (SymmetricDirichlet(), iso),
+    (ExponentialSymmetricDirichlet(0.3), lambda a, b: np.exp(0.3 * iso(a, b))),
+    (ExponentialSymmetricDirichlet(2.0), lambda a, b: np.exp(2 * iso(a, b))),
+    (AMIPS(1.0), lambda a, b: amips(a, b, 1.0)),
+    (AMIPS(0.25), lambda a, b: amips(a, b, 0.25)),
+    (ARAP(), lambda a, b: (a - 1) ** 2 + (b - 1) ** 2),
+]
+IDS = [f"{e.name}-{getattr(e, 's', '')}" for e, _ in CLOSED]
+COUNT = 16
+
+
+@functools.cache
+def compiled(method: str) -> Callable[..., Any]:
+    return jax.jit(lambda energy, x, y: getattr(energy, method)(x, y))
+
+
+@functools.cache
+def automatic(function: Callable[[Any, Any], Any]) -> Callable[..., Any]:
+    gradient = jax.grad(function, argnums=(0, 1))
+    hessian = jax.hessian(function, argnums=(0, 1))
+    return jax.jit(jax.vmap(lambda x, y: (gradient(x, y), hessian(x, y))))
+
+
+@functools.cache
+def density_of(energy: Energy) -> Callable[[Any, Any], Any]:
+    return lambda x, y: energy.density(x, y)
+
+
+def squares(sigma1: Any, sigma2: Any) -> tuple[np.ndarray, np.ndarray]:
+    """x = |f_z|^2 and y = |f_zbar|^2 of singular values."""
+    a, b = np.broadcast_arrays(sigma1, sigma2)
+    return ((a + b) / 2) ** 2, ((a - b) / 2) ** 2
+
+
+# Singular values sigma_2 <= sigma_1 = sigma_2 * ratio; a ratio of 1 is y = 0.
+samples = st.lists(
+    st.tuples(st.floats(-0.7, 0.7), st.one_of(st.just(0.0), st.floats(-8, 1))),
+    min_size=COUNT,
+    max_size=COUNT,
+)
+
+
+def singular_values(drawn: list[tuple[float, float]]) -> tuple[np.ndarray, np.ndarray]:
+    exponent, ratio = np.array(drawn).T
+    sigma2 = 10.0**exponent
+    # Ratios between 1 and 3.
+    return sigma2 * (1 + 2 * np.where(ratio == 0, 0, 10.0 ** np.minimum(ratio, 0))), sigma2
+
+
+@pytest.mark.parametrize(("energy", "formula"), CLOSED, ids=IDS)
+@given(drawn=samples)
+@settings(max_examples=15)
+def test_densities_are_those_of_the_singular_values(
+    energy: Energy, formula: Callable[[Any, Any], Any], drawn: list[tuple[float, float]]
+) -> None:
+    sigma1, sigma2 = singular_values(drawn)
+    x, y = squares(sigma1, sigma2)
+    expected = formula(sigma1, sigma2)
+    with jax.enable_x64(True):
+        got = np.asarray(compiled("density")(energy, x, y))
+    # Exponentials magnify the rounding of their arguments.
+    tolerance = 1e-11 * np.maximum(1, np.log(np.maximum(expected, 1)))
+    np.testing.assert_array_less(np.abs(got - expected), tolerance * (expected + 1e-3))
+
+
+@pytest.mark.parametrize("energy", [e for e, _ in CLOSED], ids=IDS)
+@given(drawn=samples)
+@settings(max_examples=15)
+def test_alphas_and_betas_are_the_derivatives(
+    energy: Energy, drawn: list[tuple[float, float]]
+) -> None:
+    x, y = squares(*singular_values(drawn))
+    with jax.enable_x64(True):
+        got = compiled("differentials")(energy, x, y)
+        (dx, dy), ((dxx, dxy), (dyx, dyy)) = automatic(density_of(energy))(x, y)
+    for value, expected, scale in (
+        (got.alpha1, dx, np.abs(dx) + np.abs(dy)),
+        (got.alpha2, dy, np.abs(dx) + np.abs(dy)),
+        (got.beta1, dxx, np.abs(dxx) + np.abs(dyy)),
+        (got.beta2, dyy, np.abs(dxx) + np.abs(dyy)),
+        (got.beta3, dxy, np.abs(dxx) + np.abs(dyy)),
+        (got.beta3, dyx, np.abs(dxx) + np.abs(dyy)),
+    ):
+        error = np.abs(np.asarray(value) - np.asarray(expected))
+        assert (error <= 1e-10 * np.asarray(scale)).all()
+
+
+@pytest.mark.parametrize("energy", [e for e, _ in CLOSED], ids=IDS)
+@pytest.mark.parametrize("gap", [1e-1, 1e-2])
+def test_near_degenerate_samples(energy: Energy, gap: float) -> None:
+    """x - y small and exactly representable, so that the formulas' own precision is seen."""
+    x = np.full(COUNT, 1.0) + np.arange(COUNT) / 8
+    gap = 2.0 ** np.round(np.log2(gap))
+    y = x - gap
+    with jax.enable_x64(True):
+        density = np.asarray(compiled("density")(energy, x, y))
+        got = compiled("differentials")(energy, x, y)
+        (dx, dy), ((dxx, dxy), (_, dyy)) = automatic(density_of(energy))(x, y)
+    finite = np.isfinite(density) & (density < 1e280)
+    assert finite.any() or isinstance(energy, ExponentialSymmetricDirichlet)
+    for value, expected in zip(got, (dx, dy, dxx, dyy, dxy), strict=True):
+        np.testing.assert_allclose(
+            np.asarray(value)[finite], np.asarray(expected)[finite], rtol=1e-9, atol=1e-10
+        )
+
+
+FORMULAS: list[tuple[Energy, Callable[[Any, Any], Any]]] = [
+    (SymmetricDirichlet(), lambda x, y: (x + y) * (1 + 1 / (x - y) ** 2)),
+    (
+        ExponentialSymmetricDirichlet(0.7),
+        lambda x, y: jnp.exp(0.7 * (x + y) * (1 + 1 / (x - y) ** 2)),
+    ),
+    (AMIPS(0.5), lambda x, y: jnp.exp((2 * 0.5 * (x + y) + 1) / (x - y) + x - y)),
+    (ARAP(), lambda x, y: 2 * (x + y) - 4 * jnp.sqrt(x) + 2),
+]
+
+
+@pytest.mark.parametrize(("energy", "formula"), FORMULAS, ids=[e.name for e, _ in FORMULAS])
+def test_a_custom_energy_of_the_same_formula_is_the_same(
+    energy: Energy, formula: Callable[[Any, Any], Any]
+) -> None:
+    custom = CustomEnergy(formula)
+    assert custom.name == "custom"
+    x, y = squares(np.linspace(0.8, 2.2, COUNT), np.linspace(0.8, 0.6, COUNT))
+    with jax.enable_x64(True):
+        np.testing.assert_allclose(
+            compiled("density")(custom, x, y), compiled("density")(energy, x, y), rtol=1e-12
+        )
+        got, expected = (compiled("differentials")(e, x, y) for e in (custom, energy))
+    for value, other in zip(got, expected, strict=True):
+        np.testing.assert_allclose(value, other, rtol=1e-10, atol=1e-12)
+
+
+def test_a_custom_energy_may_be_unsymmetric_and_of_any_sign() -> None:
+    custom = CustomEnergy(lambda x, y: jnp.sin(x) * y - x * y**3)
+    x, y = np.linspace(0.5, 2, COUNT), np.linspace(0, 0.4, COUNT)
+    with jax.enable_x64(True):
+        d = compiled("differentials")(custom, x, y)
+    expected = (
+        np.cos(x) * y - y**3,
+        np.sin(x) - 3 * x * y**2,
+        -np.sin(x) * y,
+        -6 * x * y,
+        np.cos(x) - 3 * y**2,
+    )
+    for value, other in zip(d, expected, strict=True):
+        np.testing.assert_allclose(value, other, rtol=1e-12, atol=1e-14)
+
+
+@pytest.mark.parametrize("energy", [e for e, _ in CLOSED], ids=IDS)
+def test_the_isometry_is_a_minimum(energy: Energy) -> None:
+    """In the singular values: stationary at (1, 1), and no neighbour is better."""
+    sigma1, sigma2 = (a.ravel() for a in np.meshgrid([0.9, 1, 1.1, 1.3], [0.7, 0.8, 0.9, 1]))
+    x, y = squares(sigma1, sigma2)
+    with jax.enable_x64(True):
+        at_isometry = float(energy.density(np.ones(1), np.zeros(1))[0])
+        around = np.asarray(compiled("density")(energy, x, y))
+    assert (around[(sigma1 != 1) | (sigma2 != 1)] > at_isometry).all()
+
+
+@pytest.mark.parametrize(
+    ("energy", "value"),
+    [
+        (SymmetricDirichlet(), 2.0),
+        (ExponentialSymmetricDirichlet(1.5), math.exp(3.0)),
+        (AMIPS(2.0), math.exp(6.0)),
+        (ARAP(), 0.0),
+    ],
+    ids=ENERGY_NAMES,
+)
+def test_values_at_the_isometry(energy: Energy, value: float) -> None:
+    """E(1, 0): the four terms of (10a) are 1 each."""
+    with jax.enable_x64(True):
+        assert float(energy.density(np.ones(1), np.zeros(1))[0]) == pytest.approx(value, rel=1e-14)
+
+
+def test_a_sharper_energy_runs_the_same_program() -> None:
+    traced = []
+
+    @jax.jit
+    def density(energy: Energy, x: jax.Array, y: jax.Array) -> jax.Array:
+        traced.append(energy)
+        return energy.density(x, y)
+
+    with jax.enable_x64(True):
+        for s in (0.5, 1.0, 2.0):
+            value = density(AMIPS(s), np.array([1.5]), np.array([0.2]))
+            assert float(value[0]) == pytest.approx(math.exp((2 * s * 1.7 + 1) / 1.3 + 1.3))
+    assert len(traced) == 1
+
+
+def test_energies_are_values() -> None:
+    assert SymmetricDirichlet() == SymmetricDirichlet()
+    assert AMIPS(2) == AMIPS(2.0) != AMIPS(1)
+    with pytest.raises(AttributeError):
+        AMIPS(2).s = 3  # type: ignore[misc]
+
+
+def test_energies_by_name() -> None:
+    assert [energy_by_name(name).name for name in ENERGY_NAMES] == list(ENERGY_NAMES)
+    assert energy_by_name("exp") == ExponentialSymmetricDirichlet(1.0)
+    assert energy_by_name("exp", 3) == ExponentialSymmetricDirichlet(3.0)
+    assert energy_by_name("amips", 0.5) == AMIPS(0.5)
+    assert energy_by_name("iso", 4.0) == SymmetricDirichlet()
+
+
+@pytest.mark.parametrize("name", ["", "ISO", "dirichlet", None, 3])
+def test_unknown_names_are_refused(name: object) -> None:
+    with pytest.raises(EnergyError, match=r"unknown energy .*iso, exp, amips, arap"):
+        energy_by_name(name)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("make", [ExponentialSymmetricDirichlet, AMIPS])
+@pytest.mark.parametrize(
+    "s", [0, 0.0, -1, -1e-9, math.nan, math.inf, -math.inf, True, "1", None, np.float64(-2)]
+)
+def test_bad_sharpness_is_refused(make: Callable[[Any], Energy], s: object) -> None:
+    with pytest.raises(EnergyError, match=r"s of the energy '(exp|amips)' must be"):
+        make(s)
+
+
+@pytest.mark.parametrize(
+    "s", [np.array(-1.0), [1.0], 1j, 10**400], ids=["array", "list", "complex", "huge"]
+)
+def test_what_is_no_number_is_refused_as_sharpness(s: object) -> None:
+    with pytest.raises(EnergyError, match="s of the energy 'amips' must be"):
+        AMIPS(s)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("function", [None, 3, "x + y"])
+def test_a_custom_energy_must_be_callable(function: object) -> None:
+    with pytest.raises(EnergyError, match="function E"):
+        CustomEnergy(function)  # type: ignore[arg-type]
+
+
+def test_a_custom_energy_must_be_finite_at_the_isometry() -> None:
+    """As its docstring says."""
+    with pytest.raises(EnergyError, match="isometry"):
+        CustomEnergy(lambda x, y: x / y)

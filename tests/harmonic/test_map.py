@@ -1,0 +1,197 @@
+"""Harmonic maps as values: evaluation, derivatives, chunks."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from glid_nb.harmonic import HarmonicMap, MapError, as_complex
+
+from ..domains import NAMES, domain, random_map, real, reference
+from ..reference_map import points_inside
+
+
+@pytest.mark.parametrize("name", [*NAMES, "annulus"])
+def test_the_identity_is_the_identity(name: str) -> None:
+    d = domain(name)
+    map = HarmonicMap.identity(d)
+    points = np.concatenate([real(points_inside(d.cage_loops_complex, 40)), *d.cage.loops])[:64]
+    np.testing.assert_allclose(map(points), points, atol=1e-12)
+    fz, fzbar = map.wirtinger(points)
+    np.testing.assert_allclose(fz, 1, atol=1e-12)
+    np.testing.assert_allclose(fzbar, 0, atol=1e-12)
+    np.testing.assert_allclose(map.sigma1(points), 1, atol=1e-12)
+    np.testing.assert_allclose(map.sigma2(points), 1, atol=1e-12)
+    np.testing.assert_allclose(map.det(points), 1, atol=1e-12)
+    np.testing.assert_allclose(map.k(points), 0, atol=1e-12)
+    assert map.distance(map) == 0
+
+
+@given(name=st.sampled_from(NAMES), size=st.floats(0.01, 2), seed=st.integers(0, 10**6))
+@settings(max_examples=20)
+def test_a_map_is_that_of_the_paper(name: str, size: float, seed: int) -> None:
+    map = random_map(name, size, seed)
+    yardstick = reference(map)
+    z = points_inside(map.domain.cage_loops_complex, 50, seed)
+    f, (fz, fzbar) = map(real(z)) @ [1, 1j], map.wirtinger(real(z))
+    np.testing.assert_allclose(f, yardstick.f(z), rtol=1e-11, atol=1e-11)
+    np.testing.assert_allclose(fz, yardstick.fz(z), rtol=1e-10, atol=1e-10)
+    np.testing.assert_allclose(fzbar, yardstick.fzbar(z), rtol=1e-10, atol=1e-10)
+    np.testing.assert_allclose(map.sigma1(z), yardstick.sigma1(z), rtol=1e-10, atol=1e-10)
+    np.testing.assert_allclose(map.sigma2(z), yardstick.sigma2(z), rtol=1e-10, atol=1e-10)
+    np.testing.assert_allclose(map.k(z), yardstick.k(z), rtol=1e-8)
+    np.testing.assert_allclose(
+        map.det(z), map.sigma1(z) * map.sigma2(z), rtol=1e-9, atol=1e-9
+    )
+
+
+@pytest.mark.parametrize("name", ["ell", "twin"])
+def test_wirtinger_derivatives_are_those_of_the_map(name: str) -> None:
+    """Fourth-order differences in x and y of the values, singular values of that Jacobian."""
+    map = random_map(name, 0.3, 5)
+    z = points_inside(map.domain.cage_loops_complex, 15, 2)
+    h = 1e-3
+    offsets = np.array([-2, -1, 1, 2])
+    weights = np.array([1, -8, 8, -1]) / (12 * h)
+    along = [
+        (map(real((z[:, None] + direction * h * offsets).ravel())) @ [1, 1j]).reshape(-1, 4)
+        @ weights
+        for direction in (1, 1j)
+    ]
+    fx, fy = along
+    fz, fzbar = map.wirtinger(z)
+    np.testing.assert_allclose(fz, (fx - 1j * fy) / 2, rtol=1e-6, atol=1e-6)
+    np.testing.assert_allclose(fzbar, (fx + 1j * fy) / 2, rtol=1e-6, atol=1e-6)
+    jacobians = np.stack([np.stack([a.real, a.imag], axis=-1) for a in along], axis=-1)
+    sigma = np.linalg.svd(jacobians, compute_uv=False)
+    np.testing.assert_allclose(map.sigma1(z), sigma[:, 0], rtol=1e-6)
+    np.testing.assert_allclose(np.abs(map.sigma2(z)), sigma[:, 1], rtol=1e-5, atol=1e-6)
+    np.testing.assert_allclose(map.det(z), np.linalg.det(jacobians), rtol=1e-5, atol=1e-6)
+
+
+def test_derivatives_of_the_wirtinger_derivatives() -> None:
+    map = random_map("ring", 0.3, 6)
+    z = points_inside(map.domain.cage_loops_complex, 20, 3)
+    h = 1e-4
+    ahead, behind = map.wirtinger(z + h), map.wirtinger(z - h)
+    first = map.wirtinger_derivatives(z, 1)
+    np.testing.assert_allclose(first[0], (ahead[0] - behind[0]) / (2 * h), atol=1e-4)
+    np.testing.assert_allclose(first[1], ((ahead[1] - behind[1]) / (2 * h)).conj(), atol=1e-4)
+    second = map.wirtinger_derivatives(z, 2)
+    ahead, behind = map.wirtinger_derivatives(z + h, 1), map.wirtinger_derivatives(z - h, 1)
+    for k in (0, 1):
+        np.testing.assert_allclose(second[k], (ahead[k] - behind[k]) / (2 * h), atol=1e-3)
+    with pytest.raises(ValueError, match="order is 0"):
+        map.wirtinger_derivatives(z, 0)
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 63, 64, 65, 100_000])
+def test_chunks_do_not_show(count: int) -> None:
+    map = random_map("ring", 0.2, 7)
+    pool = points_inside(map.domain.cage_loops_complex, 97)
+    z = np.resize(pool, count)
+    expected = np.resize(reference(map).f(pool), count)
+    image = map(real(z))
+    assert image.shape == (count, 2)
+    assert image.dtype == np.float64
+    np.testing.assert_allclose(image @ [1, 1j], expected, rtol=0, atol=1e-12)
+    fz, fzbar = map.wirtinger(real(z))
+    assert fz.shape == fzbar.shape == (count,)
+    np.testing.assert_allclose(fzbar, np.resize(reference(map).fzbar(pool), count), atol=1e-12)
+
+
+@pytest.mark.slow
+def test_memory_is_bounded() -> None:
+    """A million points: 300 MB for each of D, its logarithms and so on if taken at once."""
+    source = """
+import resource, numpy as np
+from glid_nb.geometry import Cage, Domain
+from glid_nb.harmonic import HarmonicMap
+angle = 2 * np.pi * np.arange(18) / 18
+loop = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+map = HarmonicMap.identity(Domain.from_cage(Cage(loop)))
+map(np.zeros((100_000, 2)))
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+points = np.random.default_rng(0).uniform(-0.6, 0.6, (1_000_000, 2))
+print(abs(map(points) - points).max() < 1e-12)
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", source], capture_output=True, text=True, check=True, timeout=250
+    )
+    exact, kilobytes = done.stdout.split()
+    assert exact == "True"
+    assert int(kilobytes) < 250_000
+
+
+def test_points_may_be_pairs_or_complex() -> None:
+    map = random_map("ell", 0.1, 1)
+    pairs = [[0.5, -1], [-1, 2], [-2, -2]]
+    z = np.array([0.5 - 1j, -1 + 2j, -2 - 2j])
+    np.testing.assert_array_equal(map(pairs), map(z))
+    np.testing.assert_array_equal(as_complex(pairs), z)
+    np.testing.assert_array_equal(map(np.array([[0, 1]])), map(np.array([[0.0, 1.0]])))
+
+
+@pytest.mark.parametrize("points", [[1.0, 2.0], [[1.0, 2.0, 3.0]], 3.0, [[[1.0, 2.0]]]])
+def test_other_shapes_of_points_are_refused(points: object) -> None:
+    map = HarmonicMap.identity(domain("ell"))
+    with pytest.raises(ValueError, match=re.escape(f"shape {np.shape(points)}")):
+        map(points)
+
+
+def test_a_map_is_immutable() -> None:
+    phi = HarmonicMap.identity(domain("ring")).phi.copy()
+    psi = np.zeros_like(phi)
+    map = HarmonicMap(domain("ring"), phi, psi)
+    phi[0] = 99
+    assert map.phi[0] != 99
+    for array in (map.phi, map.psi):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        map.phi = phi  # type: ignore[misc]
+
+
+def test_distance_is_the_largest_one_on_the_boundary() -> None:
+    map = random_map("ring", 0.2, 8)
+    moved = HarmonicMap(map.domain, map.phi.copy(), map.psi)
+    shifted = moved.phi.copy()
+    shifted[: len(map.domain.offset_loops_complex[0])] += 3 - 4j
+    assert map.distance(HarmonicMap(map.domain, shifted, map.psi)) == pytest.approx(5)
+    d = domain("ring")
+    grown = HarmonicMap(d, 1.5 * HarmonicMap.identity(d).phi, np.zeros(d.n_coefficients))
+    assert HarmonicMap.identity(d).distance(grown) == pytest.approx(1.5, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda phi, psi: (phi[:-1], psi), r"phi has shape \(16,\).* 17 coefficients"),
+        (lambda phi, psi: (phi, psi[None]), r"psi has shape \(1, 17\)"),
+        (lambda phi, psi: (np.where(np.arange(17) == 3, np.nan, phi), psi), r"phi\[3\] is \(nan"),
+        (lambda phi, psi: (phi, np.where(np.arange(17) == 5, np.inf, psi)), r"psi\[5\] is"),
+        (lambda phi, psi: (phi + (np.arange(17) == 16), psi), "hole 1 are not conjugate"),
+        (lambda phi, psi: (phi + 1j * (np.arange(17) == 16), psi + 1j * (np.arange(17) == 16)),
+         "hole 1 are not conjugate"),
+    ],
+)  # fmt: skip
+def test_bad_coefficients_are_refused(change: object, message: str) -> None:
+    map = HarmonicMap.identity(domain("ring"))
+    with pytest.raises(MapError, match=message):
+        HarmonicMap(map.domain, *change(map.phi, map.psi))  # type: ignore[operator]
+
+
+def test_the_hole_that_is_not_conjugate_is_named() -> None:
+    map = HarmonicMap.identity(domain("triple"))
+    phi = map.phi.copy()
+    phi[-2] = 0.5
+    with pytest.raises(MapError, match="hole 2 are not conjugate"):
+        HarmonicMap(map.domain, phi, map.psi)
