@@ -17,7 +17,7 @@ demo: $(VENV)/.demo
 # --no-skip: a test that would be skipped because something is missing fails instead.
 test: $(VENV)/.test
 	$(PYTEST) --no-skip
-	$(PYTEST) --no-skip --nbval --nbval-current-env notebooks
+	$(PYTEST) --nbval --nbval-current-env notebooks
 
 unit: $(VENV)/.test
 	$(PYTEST) --no-skip -m "not slow and not browser"

@@ -10,14 +10,14 @@ from .geometry import offset_cage as offset_cage
 from .geometry import triangulate as triangulate
 
 # Pictures
-from .imaging.frame import PixelFrame as PixelFrame
-from .imaging.options import Scribbles as Scribbles
-from .imaging.errors import TraceError as TraceError
-from .imaging.options import TraceOptions as TraceOptions
-from .imaging.trace import Tracer as Tracer
-from .imaging.trace import Tracing as Tracing
-from .imaging.read import read_image as read_image
-from .imaging.trace import trace as trace
+from .imaging import PixelFrame as PixelFrame
+from .imaging import Scribbles as Scribbles
+from .imaging import TraceError as TraceError
+from .imaging import TraceOptions as TraceOptions
+from .imaging import Tracer as Tracer
+from .imaging import Tracing as Tracing
+from .imaging import read_image as read_image
+from .imaging import trace as trace
 from .imaging.overview import figure_png as figure_png
 from .imaging.overview import overview as overview
 from .imaging.render import render as render

@@ -73,7 +73,7 @@ class Arcs(NamedTuple):
 
     @classmethod
     def between(cls, start: Array, end: Array, at_start: Jets, at_end: Jets) -> Arcs:
-        """Images of the panels from ``start`` to ``end``; ``at_start.third`` is for these panels."""
+        """Images of the panels from ``start`` to ``end``, for which ``at_start.third`` holds."""
         length = np.abs(end - start)
         direction = (end - start) / np.where(length > 0, length, 1)
         # A function whose slope is at most K is at most (|start| + |end| + K l) / 2.

@@ -65,6 +65,8 @@ def proved_crossing(
     apart = (edge[0] != edge[1])[:, None] | (high[0] < low[1]) | (high[1] < low[0])
     windows = _arcs(low, high, origin[..., None], direction[..., None], evaluate)
     proved = (apart & _certainly_cross(windows)).any(axis=1)
+    # The proof may succeed on a wide window before Newton's method has settled.
+    proved &= np.abs(image[0] - image[1]) <= 1e-9 * size + windows.error.max(axis=(0, 2))
     if not proved.any():
         return None
     best = int(np.argmax(proved))

@@ -66,8 +66,9 @@ def _piece_bounds(
     q_most = _greatest([modulus(point) for point in q])
 
     # |p| - |q| = (|p|^2 - |q|^2) / (|p| + |q|), the denominator being at most the control points'.
+    # Where that is negative, |q|^2 <= |p|^2 - least gives |q| <= |p| + sqrt(-least).
     least = _least([a - b for a, b in zip(p_square, q_square, strict=True)])
-    sigma2 = least / (p_most + q_most) - e_f - e_g
+    sigma2 = jnp.where(least > 0, least / (p_most + q_most), -jnp.sqrt(-least)) - e_f - e_g
     sigma1 = p_most + q_most + e_f + e_g
 
     # kappa^2 |p|^2 - |q|^2 >= 0 coefficient by coefficient bounds |q| / |p| by kappa.

@@ -99,9 +99,9 @@ def global_injectivity(
         arcs = Arcs.between(panels.start, panels.end, jets, jets.at(panels.next))
         pairs = _pairs_not_apart(arcs, panels)
         corners = ~_corner_simple(arcs, panels.next)
-        chosen = ~_simple(arcs) | corners
-        chosen[panels.next[corners]] = True
-        if not chosen.any() and not pairs.size:
+        open_ = ~_simple(arcs) | corners
+        open_[panels.next[corners]] = True
+        if not open_.any() and not pairs.size:
             return _injective(len(panels))
         double_point = proved_crossing(map.domain, panels, arcs, pairs, evaluate)
         if double_point is not None:
@@ -109,19 +109,20 @@ def global_injectivity(
         # The larger arc of a pair is what keeps it open; both if they are about equal.
         first, second = pairs
         sagitta = arcs.sagitta
-        chosen[first[2 * sagitta[first] >= sagitta[second]]] = True
-        chosen[second[2 * sagitta[second] >= sagitta[first]]] = True
-        hopeless = chosen & ((sagitta < arcs.error) | ~panels.divisible)
-        if hopeless.any() or len(panels) + chosen.sum() > max_panels:
+        open_[first[2 * sagitta[first] >= sagitta[second]]] = True
+        open_[second[2 * sagitta[second] >= sagitta[first]]] = True
+        # Where rounding hides the shape of an arc, splitting it shows no more.
+        wanted = open_ & (sagitta > arcs.error) & panels.divisible
+        if not wanted.any() or len(panels) + wanted.sum() > max_panels:
             break
-        panels, jets = _split(panels, jets, chosen, evaluate)
-    return _undecided(panels, pairs, chosen)
+        panels, jets = _split(panels, jets, wanted, evaluate)
+    return _undecided(panels, pairs, open_)
 
 
 def _pairs_not_apart(arcs: Arcs, panels: Panels) -> Array:
     """(2, q) pairs of panels without a common end whose images are not proved disjoint."""
-    x = np.stack([arcs.start.real, arcs.end.real])
-    y = np.stack([arcs.start.imag, arcs.end.imag])
+    x = np.real([arcs.start, arcs.end])
+    y = np.imag([arcs.start, arcs.end])
     r = arcs.radius
     boxes = shapely.box(x.min(0) - r, y.min(0) - r, x.max(0) + r, y.max(0) + r)
     first, second = shapely.STRtree(boxes).query(boxes)
@@ -158,11 +159,11 @@ def _corner_simple(arcs: Arcs, following: Array) -> Array:
 
 
 def _split(
-    panels: Panels, jets: Jets, chosen: Array, evaluate: JetEvaluator
+    panels: Panels, jets: Jets, wanted: Array, evaluate: JetEvaluator
 ) -> tuple[Panels, Jets]:
-    finer = panels.split(chosen)
-    parent = np.repeat(np.arange(len(panels)), np.where(chosen, 2, 1))
-    new = chosen[parent]
+    finer = panels.split(wanted)
+    parent = np.repeat(np.arange(len(panels)), np.where(wanted, 2, 1))
+    new = wanted[parent]
     jets = jets.at(parent)
     for values, fresh in zip(jets, evaluate(finer.start[new], finer.end[new]), strict=True):
         values[new] = fresh
@@ -183,17 +184,17 @@ def _overlapping(image: complex, points: Array, n_panels: int) -> GlobalInjectiv
         f"{_place(points[1])} are both mapped to {_place(image)}."
     )
     crossing = np.array([image.real, image.imag])
-    parameters = np.stack([points.real, points.imag], axis=-1)
+    parameters = np.stack([np.real(points), np.imag(points)], axis=-1)
     return GlobalInjectivity("no", reason, n_panels, crossing, parameters)
 
 
-def _undecided(panels: Panels, pairs: Array, chosen: Array) -> GlobalInjectivity:
+def _undecided(panels: Panels, pairs: Array, open_: Array) -> GlobalInjectivity:
     if pairs.size:
         closest = pairs[:, np.argmin(panels.length[pairs].max(axis=0))]
         places = " and ".join(_place(z) for z in panels.middle[closest])
         what = f"the images of the boundary near {places} touch or nearly do"
     else:
-        what = f"the image of the boundary is too curved near {_place(panels.middle[chosen][0])}"
+        what = f"the image of the boundary is too curved near {_place(panels.middle[open_][0])}"
     reason = f"Undecided: {what}; {len(panels)} pieces of the boundary do not tell."
     return GlobalInjectivity("undecided", reason, len(panels))
 

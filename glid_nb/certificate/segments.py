@@ -9,14 +9,14 @@ Array = np.ndarray
 
 def cross(a: Array, b: Array) -> Array:
     """``a_x b_y - a_y b_x``."""
-    return a.real * b.imag - a.imag * b.real
+    return np.imag(np.conj(a) * b)
 
 
 def point_distance(point: Array, start: Array, end: Array) -> Array:
     """Distances from points to the segments of the same index."""
     along = end - start
-    square = along.real**2 + along.imag**2
-    position = ((point - start) * along.conj()).real / np.where(square > 0, square, 1)
+    square = np.real(along * np.conj(along))
+    position = np.real((point - start) * np.conj(along)) / np.where(square > 0, square, 1)
     return np.abs(point - start - np.clip(position, 0, 1) * along)
 
 

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import find_objects, label
+from scipy.ndimage import find_objects, generate_binary_structure, label
 
 from glid_nb.imaging.errors import TraceError
 from glid_nb.imaging.frame import PixelFrame
@@ -110,8 +110,8 @@ class Components:
         rank = int(self.labels[row, column]) - 1
         if rank < 0:
             raise TraceError(
-                f"component_at: the pixel ({point[0]:g}, {point[1]:g}) is background; pick a pixel of "
-                "the shape"
+                f"component_at: the pixel ({point[0]:g}, {point[1]:g}) is background; pick a pixel "
+                "of the shape"
             )
         return rank
 
@@ -122,10 +122,18 @@ def bounding_slices(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
     return slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
 
 
+def labelled(mask: NDArray[np.bool_], corners: bool) -> tuple[NDArray[np.int32], int]:
+    """Number the components of a mask from 1; pixels may be connected by `corners` too."""
+    found = np.zeros(mask.shape, dtype=np.int32)
+    count = label(mask, generate_binary_structure(2, 2 if corners else 1), output=found)
+    assert isinstance(count, int)
+    return found, count
+
+
 def find_components(mask: NDArray[np.bool_]) -> Components:
     """Label the components of an (h, w) mask that is not empty."""
     crop = bounding_slices(mask)
-    found, count = label(mask[crop], structure=np.ones((3, 3), dtype=bool))
+    found, count = labelled(mask[crop], corners=True)
     areas = np.bincount(found.ravel(), minlength=count + 1)[1:]
     order = np.argsort(-areas, kind="stable")
     new = np.zeros(count + 1, dtype=np.uint16)

@@ -81,8 +81,8 @@ def dilate(
         least = min(least, used)
         if used < chosen:
             notes.append(
-                f"the hole at {_place(hole)} is too narrow for an offset of {chosen:.3g} px; it got "
-                f"{used:.3g} px"
+                f"the hole at {_place(hole)} is too narrow for an offset of {chosen:.3g} px; it "
+                f"got {used:.3g} px"
             )
         if len(parts) > 1:
             notes.append(f"the offset divided the hole at {_place(hole)} into {len(parts)}")
@@ -122,7 +122,7 @@ def _bays(grown: shapely.Polygon, rule: HoleRule) -> list[Hole]:
 def _shrunk(
     loop: NDArray[np.float64], offset: float, min_area: float
 ) -> tuple[list[NDArray[np.float64]], float]:
-    """The parts of a hole farther than `offset` from its boundary, and the offset that was possible.
+    """The parts of a hole farther than `offset` from its boundary, and the offset it could have.
 
     A narrow hole gets a smaller offset rather than vanish.
     """

@@ -12,8 +12,8 @@ from PIL import Image, ImageDraw
 from glid_nb.imaging.options import Point
 from glid_nb.imaging.outline import Outline
 
-# Relative to the component, and in square pixels. A hole in the alpha channel is meant; one found by
-# colour is as likely an eye or a highlight.
+# Relative to the component, and in square pixels. A hole in the alpha channel is meant; one found
+# by colour is as likely an eye or a highlight.
 _LEAST_SHARE, _LEAST_SHARE_BY_COLOR, _LEAST_AREA = 0.002, 0.0075, 9.0
 
 
@@ -82,6 +82,7 @@ def choose_holes(
         share = _LEAST_SHARE_BY_COLOR if method in ("color", "threshold") else _LEAST_SHARE
         least = max(share * outline.component.area, _LEAST_AREA)
         least_bay = max(_LEAST_SHARE * outline.component.area, _LEAST_AREA)
+    least = max(least, outline.speck)
     rule = HoleRule(least, least_bay, keep, drop)
     holes = tuple(as_hole(loop, rule) for loop in outline.holes)
     filled = [h for h in holes if not h.kept and not _holds_any(h.loop, drop)]

@@ -76,24 +76,25 @@ class TraceOptions:
     component_at
         A pixel (x, y) in the component, instead of `component`.
     min_hole_area
-        Least area, in square pixels, of a hole that is kept. None: 0.2 % of the component, or 0.75 %
-        by colour or threshold, where eyes and highlights look like holes; at least 9.
+        Least area, in square pixels, of a hole that is kept. None: 0.2 % of the component, or
+        0.75 % by colour or threshold, where eyes and highlights look like holes; at least 9.
     keep_holes, drop_holes
         Pixels (x, y) in holes that are kept or filled whatever their area; the later list wins.
     offset
         How far, in pixels, the cage is moved away from the shape's outline, into the holes too.
         None: about 1 % of the shape's size, less if that closed a bay.
     simplify
-        Largest distance in pixels that simplification moves the outline. None: what gives a typical
-        character 60 to 120 vertices.
+        Largest distance in pixels between the outline and its simplification, before edges that cut
+        off a part of the shape are moved outwards. None: what gives a typical character 60 to 120
+        vertices.
     max_vertices
         Most vertices that the cage may have.
     min_edge
         Edges shorter than this many pixels are merged with a neighbour. None: a fifth of the mean
         edge; they make the harmonic basis stiff.
     max_edge
-        Edges longer than this many pixels are divided evenly, so that straight limbs can bend. None:
-        a twenty-fifth of the perimeter; `math.inf`: never.
+        Edges longer than this many pixels, at least 0.5, are divided evenly, so that straight limbs
+        can bend. None: a twenty-fifth of the perimeter; `math.inf`: never.
 
     Raises
     ------
@@ -130,7 +131,7 @@ class TraceOptions:
         for name in ("smoothing", "min_hole_area", "offset", "simplify", "min_edge"):
             self._check_number(name, 0, math.inf)
         if self.max_edge != math.inf:
-            self._check_number("max_edge", 0, math.inf, low_allowed=False)
+            self._check_number("max_edge", 0.5, math.inf)
         for name, least in (("component", 0), ("max_vertices", 3)):
             value = getattr(self, name)
             if value is None and name == "max_vertices":
@@ -164,14 +165,13 @@ class TraceOptions:
                 "the method 'scribbles' needs scribbles=Scribbles(foreground, background)"
             )
 
-    def _check_number(self, name: str, low: float, high: float, low_allowed: bool = True) -> None:
+    def _check_number(self, name: str, low: float, high: float) -> None:
         value = getattr(self, name)
         if value is None:
             return
         number = _number(value, name)
-        if not (low <= number <= high and (low_allowed or number > low) and number < math.inf):
-            above = f"at least {low}" if low_allowed else f"greater than {low}"
-            span = f"in [{low}, {high}]" if high < math.inf else above
+        if not (low <= number <= high and number < math.inf):
+            span = f"in [{low}, {high}]" if high < math.inf else f"at least {low}, and finite"
             raise TraceError(f"{name} must be a number {span}, not {value!r}")
         object.__setattr__(self, name, number)
 

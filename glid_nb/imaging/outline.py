@@ -7,17 +7,16 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.ndimage import label
 from skimage.measure import find_contours
 
 from glid_nb.geometry._loops import signed_area
-from glid_nb.imaging.components import Component
+from glid_nb.imaging.components import Component, labelled
 
 _PRECISION = 0.05  # pixels; vertices that change the outline by less are dropped
 _SPECK_SHARE, _SPECK = 1e-5, 4  # smaller holes, relative to the component and in pixels, are noise
 _MOST_HOLES = 100
-# Steps (see `_steps`) of an outline whose holes are mostly noise, and of one that is itself so rough
-# that it is traced at a lower resolution. A drawing of 8,000 px has some 30,000.
+# Steps (see `_steps`) of an outline whose holes are mostly noise, and of one that is itself so
+# rough that it is traced at a lower resolution. A drawing of 8,000 px has some 30,000.
 _NOISY, _ROUGH = 20_000, 100_000
 _LEAST_DIFFERENCE = 0.02  # of a pixel's way between background and foreground
 
@@ -35,7 +34,10 @@ class Outline:
     holes
         Likewise, (k, 2) each, the largest hole first.
     n_specks
-        Number of holes too small to be more than noise, which are filled.
+        Number of holes that are filled because they are too small to be more than noise, or beyond
+        the hundred largest.
+    speck
+        Area in square pixels below which a hole is noise.
     block
         Side in pixels of the blocks that were traced as one; 1 but for very rough outlines.
     inside
@@ -49,6 +51,7 @@ class Outline:
     exterior: NDArray[np.float64]
     holes: tuple[NDArray[np.float64], ...]
     n_specks: int
+    speck: float
     block: int
     inside: NDArray[np.bool_]
     corner: tuple[int, int]
@@ -105,6 +108,7 @@ def find_outline(
         exterior,
         tuple(holes),
         specks + len(loops) - len(chosen),
+        least,
         block,
         inside,
         (rows.start, columns.start),
@@ -125,7 +129,8 @@ def _coarse(inside: NDArray[np.bool_], block: int) -> NDArray[np.bool_]:
     """Which blocks hold a pixel of the mask; what was connected stays so."""
     height, width = inside.shape
     padded = np.pad(inside, ((0, -height % block), (0, -width % block)))
-    return padded.reshape(-(-height // block), block, -(-width // block), block).any(axis=(1, 3))
+    blocks = padded.reshape(padded.shape[0] // block, block, padded.shape[1] // block, block)
+    return np.any(blocks, axis=(1, 3))
 
 
 def _steps(inside: NDArray[np.bool_]) -> int:
@@ -157,7 +162,7 @@ def _fill_specks(inside: NDArray[np.bool_], least: float) -> int:
     """
     if _steps(inside) < _NOISY:
         return 0
-    background, count = label(~inside)
+    background, count = labelled(~inside, corners=False)
     sizes = np.bincount(background.ravel(), minlength=count + 1)
     fill = sizes < least
     fill[0] = False
@@ -176,12 +181,11 @@ def _thinned(loops: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
 
 def thinned(polygon: shapely.Polygon, tolerance: float) -> shapely.Polygon:
     """`polygon` without the vertices that matter less than `tolerance`, if it stays a polygon."""
-    for preserve_topology in (
-        False,
-        True,
-    ):  # the first is ten times as fast and nearly always right
+    # Without regard for topology it is ten times as fast, and nearly always right.
+    for preserve_topology in (False, True):
         thin = polygon.simplify(tolerance, preserve_topology=preserve_topology)
-        same = isinstance(thin, shapely.Polygon) and len(thin.interiors) == len(polygon.interiors)
-        if same and not thin.is_empty and thin.is_valid:
+        if not isinstance(thin, shapely.Polygon) or thin.is_empty:
+            continue
+        if len(thin.interiors) == len(polygon.interiors) and thin.is_valid:
             return thin
     return polygon

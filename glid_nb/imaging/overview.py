@@ -51,6 +51,7 @@ _NAMES = (
 )
 
 # Inches.
+_NARROWEST = 4.5
 _MARGIN = 0.12
 _GAP = 0.34
 _TITLE = 0.24
@@ -91,14 +92,21 @@ def overview(
     pose : Pose, optional
         Other handles and targets to show than those of the solve.
     width : float
-        Inches; text keeps its size.
+        Inches, at least 4.5; text keeps its size.
 
     Returns
     -------
     matplotlib.figure.Figure
         With an Agg canvas of its own and 300 dots per inch, outside of pyplot's list of figures.
         ``figure.savefig(path)`` writes it; so does `figure_png` into memory.
+
+    Raises
+    ------
+    ValueError
+        The figure would be too narrow for its text, or the picture is none.
     """
+    if not width >= _NARROWEST:
+        raise ValueError(f"width is {width} inches; the text needs at least {_NARROWEST}")
     texture = image if isinstance(image, Texture) else Texture.from_image(image)
     map = result.map
     pose = result.pose if pose is None else pose

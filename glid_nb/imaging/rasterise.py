@@ -78,10 +78,10 @@ def render_mesh(
     picture = np.zeros((height, width, 4), np.uint8)
 
     corners = target[faces]
-    low, high = corners.min(axis=1), corners.max(axis=1)
-    visible = ((high > 0) & (low < [width, height])).all(axis=1)
+    low, high = scanline.bounding_boxes(corners)
+    visible = np.flatnonzero(((high > 0) & (low < [width, height])).all(axis=1))
     outline = target[scanline.outline_edges(faces, corners)]
-    corners = corners[visible]
+    corners, low, high = corners[visible], low[visible], high[visible]
     if not len(corners):
         return picture
     sampler = Sampler(texture, corners, source[faces[visible]])
@@ -103,7 +103,7 @@ def render_mesh(
             x, y = place % width + np.float32(0.5), place // width + np.float32(top + 0.5)
             _lay(sampler(triangle, x, y), band, place, first=depth == 0)
 
-        close = scanline.near(corners, touched, top)
+        close = scanline.near(low, high, touched, top)
         for start, stop in _portions(touched):
             pixels = start * width + np.flatnonzero(touched[start:stop])
             n, first, last = scanline.SUBSAMPLES, top + start, top + stop
@@ -184,7 +184,7 @@ def _shaded(
     low = np.minimum.reduceat(seen - reach, starts)
     high = np.maximum.reduceat(seen + reach, starts)
     least = np.minimum.reduceat(reach, starts)
-    one_sheet = (high - low <= 4 * least).all(axis=1)[np.cumsum(new) - 1]
+    one_sheet = np.all(high - low <= 4 * least, axis=1)[np.cumsum(new) - 1]
     points = np.where(one_sheet[:, None], middle, corner[parts.pixel] + parts.centre)
     return sampler(parts.triangle, points[:, 0], points[:, 1])
 

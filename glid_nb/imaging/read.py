@@ -5,10 +5,12 @@ from __future__ import annotations
 import io
 import os
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image, ImageOps, UnidentifiedImageError
+from PIL.TiffImagePlugin import TiffImageFile
 
 from glid_nb.imaging.errors import TraceError
 
@@ -18,11 +20,15 @@ MAX_SIDE = 8000
 ImageSource = str | os.PathLike[str] | bytes | Image.Image | ArrayLike
 """What is accepted as a picture: a path, a file's bytes, a PIL image or an array."""
 
+RGBA = NDArray[np.uint8] | NDArray[np.uint16]
+"""(h, w, 4) red, green, blue and alpha (not premultiplied), row 0 at the top."""
+
 _TIFF_STARTS = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+_BITS_PER_SAMPLE = 258  # the TIFF tag
 _ROWS = 256  # rows per block where a whole picture in float would need gigabytes
 
 
-def read_image(source: ImageSource) -> NDArray[np.uint8] | NDArray[np.uint16]:
+def read_image(source: ImageSource) -> RGBA:
     """Read a picture.
 
     Parameters
@@ -35,7 +41,8 @@ def read_image(source: ImageSource) -> NDArray[np.uint8] | NDArray[np.uint16]:
     Returns
     -------
     (h, w, 4) array, red, green, blue and alpha (not premultiplied), row 0 at the top. uint8, or
-    uint16 where the source holds more than 8 bit and the reader keeps them (grey PNG, TIFF, arrays).
+    uint16 where the source holds more than 8 bit and the reader keeps them (grey PNG, TIFF,
+    arrays).
 
     Raises
     ------
@@ -58,7 +65,7 @@ def read_image(source: ImageSource) -> NDArray[np.uint8] | NDArray[np.uint16]:
     return as_rgba(source)
 
 
-def as_rgba(image: ArrayLike) -> NDArray[np.uint8] | NDArray[np.uint16]:
+def as_rgba(image: ArrayLike) -> RGBA:
     """Bring an array to (h, w, 4) RGBA.
 
     Parameters
@@ -76,7 +83,10 @@ def as_rgba(image: ArrayLike) -> NDArray[np.uint8] | NDArray[np.uint16]:
     TraceError
         Empty, too large, of another shape or type, NaN, or float outside [0, 1].
     """
-    array = np.asarray(image)
+    try:
+        array: NDArray[Any] = np.asarray(image)
+    except ValueError as error:  # rows of different lengths
+        raise TraceError(f"the image is no array: {error}") from error
     if array.ndim not in (2, 3) or (array.ndim == 3 and not 0 <= array.shape[2] <= 4):
         raise TraceError(
             "an image must have the shape (h, w) or (h, w, c) with 1 to 4 channels (grey, "
@@ -92,16 +102,16 @@ def as_rgba(image: ArrayLike) -> NDArray[np.uint8] | NDArray[np.uint16]:
         array = array.astype(np.uint8) * np.uint8(255)
     if np.issubdtype(array.dtype, np.floating):
         array = _from_float(array)
+    array = array.astype(array.dtype.newbyteorder("="), copy=False)
     if array.dtype not in (np.uint8, np.uint16):
         raise TraceError(
-            f"the image has the type {array.dtype}; convert it to uint8, uint16, bool or to float in "
-            "[0, 1]"
+            f"the image has the type {array.dtype}; convert it to uint8, uint16, bool or to float "
+            "in [0, 1]"
         )
-    array = array.astype(array.dtype.newbyteorder("="), copy=False)
     channels = array.shape[2]
     if channels == 4:
         return array
-    rgba = np.empty((height, width, 4), dtype=array.dtype)
+    rgba: NDArray[Any] = np.empty((height, width, 4), dtype=array.dtype)
     rgba[..., :3] = array[..., : 3 if channels == 3 else 1]
     rgba[..., 3] = array[..., 1] if channels == 2 else np.iinfo(array.dtype).max
     return rgba
@@ -123,12 +133,12 @@ def check_size(width: int, height: int) -> None:
     """Raise if a side is longer than `MAX_SIDE`."""
     if max(width, height) > MAX_SIDE:
         raise TraceError(
-            f"the image is too large, {width} x {height} pixels; a side may have at most {MAX_SIDE}: "
-            "scale it down first"
+            f"the image is too large, {width} x {height} pixels; a side may have at most "
+            f"{MAX_SIDE}: scale it down first"
         )
 
 
-def _from_float(array: NDArray[np.floating]) -> NDArray[np.uint16]:
+def _from_float(array: NDArray[Any]) -> NDArray[np.uint16]:
     result = np.empty(array.shape, dtype=np.uint16)
     for start in range(0, len(array), _ROWS):
         block = array[start : start + _ROWS].astype(np.float64)
@@ -150,21 +160,30 @@ def _from_float(array: NDArray[np.floating]) -> NDArray[np.uint16]:
     return result
 
 
-def _decode(data: bytes, name: str) -> NDArray[np.uint8] | NDArray[np.uint16]:
+def _decode(data: bytes, name: str) -> RGBA:
     if not data:
         raise TraceError(f"{name}: the file is empty")
     try:
-        with Image.open(io.BytesIO(data)) as picture:
-            return _from_pillow(picture, name)
+        picture = Image.open(io.BytesIO(data))
     except UnidentifiedImageError as error:
         if data.startswith(_TIFF_STARTS):
-            return _from_tifffile(data, name)  # 16-bit RGB and other kinds that Pillow lacks
+            return _from_tifffile(data, name)  # kinds that Pillow lacks
         raise TraceError(f"{name}: this is no picture in a format that can be read") from error
     except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
         raise TraceError(f"{name}: the image is too large ({error})") from error
+    except Exception as error:  # Pillow's decoders raise nearly anything for a damaged file
+        raise TraceError(f"{name} is damaged or cut short: {error}") from error
+    if isinstance(picture, TiffImageFile) and picture.mode in ("RGB", "RGBA"):
+        bits = picture.tag_v2.get(_BITS_PER_SAMPLE, (8,))
+    else:
+        bits = (8,)
+    if max(bits) > 8:
+        return _from_tifffile(data, name)  # Pillow would round to 8 bit
+    with picture:
+        return _from_pillow(picture, name)
 
 
-def _from_pillow(picture: Image.Image, name: str) -> NDArray[np.uint8] | NDArray[np.uint16]:
+def _from_pillow(picture: Image.Image, name: str) -> RGBA:
     if 0 in picture.size:
         raise TraceError(
             f"the image is empty: {name} has {picture.width} x {picture.height} pixels"
@@ -179,13 +198,13 @@ def _from_pillow(picture: Image.Image, name: str) -> NDArray[np.uint8] | NDArray
         return np.array(picture.convert("RGBA"))
     except TraceError:
         raise
-    except Exception as error:  # Pillow's decoders raise nearly anything for a damaged file
+    except Exception as error:  # as above
         raise TraceError(f"{name} is damaged or cut short: {error}") from error
 
 
 def _from_integers(
     values: NDArray[np.integer], name: str
-) -> NDArray[np.uint8] | NDArray[np.uint16]:
+) -> RGBA:
     low, high = int(values.min()), int(values.max())
     if low < 0 or high > 65535:
         raise TraceError(
@@ -194,7 +213,7 @@ def _from_integers(
     return as_rgba(values.astype(np.uint16))
 
 
-def _from_tifffile(data: bytes, name: str) -> NDArray[np.uint8] | NDArray[np.uint16]:
+def _from_tifffile(data: bytes, name: str) -> RGBA:
     import tifffile  # noqa: PLC0415  (slow to import and seldom needed; scikit-image brings it)
 
     try:

@@ -245,16 +245,28 @@ def pixels_on(segments: NDArray[np.float64], row_start: int, row_stop: int, widt
     return touched
 
 
-def near(corners: NDArray[np.float64], touched: NDArray[np.bool_], row_start: int) -> Ints:
+def bounding_boxes(
+    corners: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Lower and upper corners, each (t, 2), of the boxes around triangles (t, 3, 2)."""
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+
+
+def near(
+    low: NDArray[np.float64], high: NDArray[np.float64], touched: NDArray[np.bool_], row_start: int
+) -> Ints:
     """Ascending indices of triangles whose bounding box meets a touched pixel."""
     rows, width = touched.shape
     table = np.zeros((rows + 1, width + 1), np.int32)
     np.cumsum(np.cumsum(touched, axis=0, dtype=np.int32), axis=1, out=table[1:, 1:])
-    low, high = np.floor(corners.min(axis=1)), np.floor(corners.max(axis=1)) + 1
-    left, right = (v[:, 0].clip(0, width).astype(np.int32) for v in (low, high))
-    top, bottom = ((v[:, 1] - row_start).clip(0, rows).astype(np.int32) for v in (low, high))
+    here = np.flatnonzero((low[:, 1] < row_start + rows) & (high[:, 1] >= row_start))
+    left, top = np.floor(low[here]).T
+    right, bottom = np.floor(high[here]).T + 1
+    left, right = (x.clip(0, width).astype(np.int32) for x in (left, right))
+    top, bottom = ((y - row_start).clip(0, rows).astype(np.int32) for y in (top, bottom))
     count = table[bottom, right] - table[top, right] - table[bottom, left] + table[top, left]
-    return np.flatnonzero(count > 0).astype(np.int32)
+    return here[count > 0].astype(np.int32)
 
 
 def subsample_layers(

@@ -20,8 +20,8 @@ _CHUNK = 1 << 15
 # Points are grouped by the number of look-ups they need, so that few wait for the greediest.
 _LOOKUP_CLASSES = (1, 2, 4, 8, 16, 32)
 
-# Below this level of detail the next coarser pyramid level is left out.
-_SHARP = 0.05
+# Up to this level of detail the next coarser pyramid level is left out.
+_SHARP = 0.2
 
 _MAX_LEVELS = 32
 
@@ -45,7 +45,7 @@ class Texture:
     ----------
     width, height : int
         Size of the picture, pixels.
-    texels : (n, 4) uint16 array
+    texels : (n, 4) uint16 JAX array
         All levels one after the other, each row by row; the tail up to a round size is zero.
     levels : (l, 3) int32 array
         First texel, width and height of every level.
@@ -53,7 +53,7 @@ class Texture:
 
     width: int
     height: int
-    texels: NDArray[np.uint16] = field(repr=False)
+    texels: jax.Array = field(repr=False)
     levels: NDArray[np.int32] = field(repr=False)
 
     @classmethod
@@ -74,18 +74,18 @@ class Texture:
         height, width = pixels.shape[:2]
         levels = _level_table(width, height)
         n_texels = int(levels[-1, 0] + levels[-1, 1] * levels[-1, 2])
-        texels = np.zeros((_bucket(n_texels, _LEAST_TEXELS), 4), np.uint16)
+        texels = _aligned_zeros(_bucket(n_texels, _LEAST_TEXELS))
         base = texels[: width * height].reshape(height, width, 4)
         for top in range(0, height, _ROWS):
             base[top : top + _ROWS] = _premultiplied(pixels[top : top + _ROWS])
         for finer, coarser in itertools.pairwise(levels):
             _halve(_level(texels, finer), _level(texels, coarser))
-        texels.flags.writeable = levels.flags.writeable = False
-        return cls(width, height, texels, levels)
+        levels.flags.writeable = False
+        return cls(width, height, jax.device_put(texels, may_alias=True), levels)
 
     def level(self, index: int) -> NDArray[np.uint16]:
         """Level ``index`` of the pyramid, (h, w, 4), premultiplied."""
-        return _level(self.texels, self.levels[index])
+        return _level(np.asarray(self.texels), self.levels[index])
 
 
 def _level_table(width: int, height: int) -> NDArray[np.int32]:
@@ -101,6 +101,13 @@ def _level_table(width: int, height: int) -> NDArray[np.int32]:
 def _level(texels: NDArray[Any], row: NDArray[Any]) -> NDArray[Any]:
     first, width, height = (int(v) for v in row)
     return texels[first : first + width * height].reshape(height, width, 4)
+
+
+def _aligned_zeros(n: int) -> NDArray[np.uint16]:
+    """(n, 4) array that JAX can use as it stands: it copies what is not aligned to 64 bytes."""
+    memory = np.zeros(8 * n + 64, np.uint8)
+    start = -memory.ctypes.data % 64
+    return memory[start : start + 8 * n].view(np.uint16).reshape(n, 4)
 
 
 def _bucket(n: int, least: int) -> int:
@@ -215,16 +222,17 @@ class Sampler:
         footprints = Footprints.between(positions, texture_corners).table
         levels = np.ones((_MAX_LEVELS, 3), np.int32)
         levels[: len(texture.levels)] = texture.levels
-        # Level of detail 0 needs one pyramid level, any other two.
-        one_level = footprints[:, 11] < _SHARP
-        footprints[one_level, 11] = 0.0
-        footprints[:, 11] = footprints[:, 11].clip(0, len(texture.levels) - 2)
-        self._n_lookups = (footprints[:, 10] * np.where(one_level, 1, 2)).astype(np.int32)
+        # Detail 0 needs one pyramid level, any other two; a scale within 15 % of 1 counts as 1.
+        detail = footprints[:, 11]
+        softened = np.maximum(detail - _SHARP, 0) / (1 - _SHARP)
+        detail = np.where(detail < 1, softened, detail).clip(0, max(len(texture.levels) - 2, 0))
+        footprints[:, 11] = detail
+        self._n_lookups = (footprints[:, 10] * np.where(detail > 0, 2, 1)).astype(np.int32)
         self._footprints = footprints
         n_rows = _bucket(len(footprints), _LEAST_TRIANGLES)
         table = np.zeros((n_rows, footprints.shape[1]), np.float32)
         table[: len(footprints)] = footprints
-        self._arrays = jnp.asarray(texture.texels), jnp.asarray(levels), jnp.asarray(table)
+        self._arrays = texture.texels, jnp.asarray(levels), jnp.asarray(table)
 
     def __call__(
         self, triangle: NDArray[np.int32], x: NDArray[np.float32], y: NDArray[np.float32]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any, TypeVar
 
 import numpy as np
@@ -111,8 +111,7 @@ def with_changes(options: TraceOptions | None, changes: dict[str, Any]) -> Trace
             close = difflib.get_close_matches(name, names, n=1)
             hint = f"did you mean '{close[0]}'?" if close else f"there are {', '.join(names)}"
             raise TraceError(f"'{name}' is no option of trace; {hint}")
-    base = options if options is not None else TraceOptions()
-    return TraceOptions(**({name: getattr(base, name) for name in names} | changes))
+    return replace(options if options is not None else TraceOptions(), **changes)
 
 
 class Tracer:
@@ -286,6 +285,6 @@ def _coverage_notes(outline: Outline, holes: tuple[Hole, ...], simplified: Simpl
     if share < _CUT_OFF:
         return []
     return [
-        f"{share:.1%} of the shape lies outside the cage and is cut off; a larger offset or a smaller "
-        "simplify keeps more"
+        f"{share:.1%} of the shape lies outside the cage and is cut off; a larger offset or a "
+        "smaller simplify keeps more"
     ]

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from glid_nb.imaging.errors import TraceError
-from glid_nb.imaging.options import Scribbles
+from glid_nb.imaging import Scribbles, TraceError
 from glid_nb.session.json_file import InputFileError, check_loops, read_json_object, require_keys
 
 

@@ -38,13 +38,13 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
     mesh = triangulate(domain.cage, _MESH_VERTICES)
     graph = _edge_lengths(mesh)
     outline = shapely.MultiLineString([np.vstack([p, p[:1]]) for p in domain.cage.loops])
-    clearance = shapely.distance(shapely.points(mesh.vertices), outline)
+    clearance = np.asarray(shapely.distance(shapely.points(mesh.vertices), outline))
 
     middle = int(np.argmax(clearance))
     from_middle = np.asarray(dijkstra(graph, indices=middle))
     reach = float(from_middle.max())
     chosen = [middle]
-    nearest: NDArray[np.float64] = from_middle
+    nearest = from_middle.copy()
     while len(chosen) < max_handles:
         end = int(np.argmax(nearest))
         if nearest[end] < _LEAST_SPACING * reach and len(chosen) > 2:
@@ -52,7 +52,7 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
         from_end = np.asarray(dijkstra(graph, indices=end))
         vicinity = np.flatnonzero(from_end <= _PULL_IN * reach)
         handle = int(vicinity[np.argmax(clearance[vicinity])])
-        nearest = np.minimum(nearest, from_end)
+        np.minimum(nearest, from_end, out=nearest)
         if handle not in chosen and clearance[handle] > 0:
             chosen.append(handle)
         elif nearest.max() == 0:

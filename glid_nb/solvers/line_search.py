@@ -114,12 +114,14 @@ def search(
 def backtrack(
     found: Search,
     certified: Callable[[Array], PanelBounds],
+    turning: Float[Array, " p"],
     real: Bool[Array, " p"],
     may_refine: Bool[Array, ""],
 ) -> tuple[Int[Array, ""], Float[Array, ""], PanelBounds, Bool[Array, " p"]]:
     """Go from the best candidate to shorter ones until one is certified, or ask for finer panels.
 
-    Returns the outcome, the step, the bounds there, and which panels refused the first step.
+    ``turning`` is how ``f_z`` turns along each panel of the current map. Returns the outcome, the
+    step, the bounds there, and which panels refused the first step.
     """
     decreases = found.acceptable[found.best]
     count = found.steps.shape[0]
@@ -128,16 +130,20 @@ def backtrack(
         _, index, _, refused = carry
         bounds = certified(found.steps[index])
         refuses = real & ~bounds.injective
-        # Condition (30): zeros of f_z inside show as a sum of turnings that is not 0.
+        # Condition (30): zeros of f_z inside show as a sum of turnings that is not 0. The step then
+        # jumps over a map with a zero on the boundary; the panels that turned most are where.
         zeros = jnp.abs(jnp.sum(jnp.where(real, bounds.turning, 0))) > 1
-        fails = jnp.any(refuses) | zeros
+        turned = jnp.where(real, jnp.abs(bounds.turning - turning), 0)
+        jumped = zeros & ~jnp.any(refuses) & (turned >= jnp.max(turned) / 2)
+        refuses = refuses | (jumped & real)
+        fails = jnp.any(refuses)
         first = index == found.best
         refused = jnp.where(first, refuses, refused)
         shorter = jnp.argmax(found.acceptable & (jnp.arange(count) > index))
         outcome = jnp.where(
             ~fails,
             RUNNING,
-            jnp.where(first & may_refine & jnp.any(refuses), REFUSED, BLOCKED),
+            jnp.where(first & may_refine, REFUSED, BLOCKED),
         )
         # argmax gives 0 when there is no shorter acceptable candidate.
         ended = (outcome != BLOCKED) | (shorter == 0)

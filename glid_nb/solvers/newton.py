@@ -68,8 +68,6 @@ class State(NamedTuple):
     """Panels that refused the last preferred step."""
     sigma2_lower: Float[Array, " p"]
     """Certified bound per panel at ``coefficients``, once a step was taken."""
-    quadrature_gap: Float[Array, " p"]
-    """How much Simpson's rule and the midpoint rule differ on each panel (0 if uniform)."""
 
 
 class Settings(NamedTuple):
@@ -171,7 +169,7 @@ def run(
             return bounds(matrices, singularities, y + t * direction, moved, certificate)
 
         outcome, t, panel, refused = line_search.backtrack(
-            search, certified, matrices.real, settings.may_refine
+            search, certified, _turning(matrices, nodes), matrices.real, settings.may_refine
         )
         converged = squared_decrement / 2 <= settings.tolerance * jnp.abs(total)
         outcome = jnp.where(converged, CONVERGED, outcome)
@@ -203,7 +201,6 @@ def run(
             records,
             refused,
             jnp.where(stepped, panel.sigma2_lower, state.sigma2_lower),
-            state.quadrature_gap,
         )
 
     samples = _products(matrices, coefficients)
@@ -220,10 +217,8 @@ def run(
         empty,
         jnp.zeros_like(matrices.real),
         jnp.full(matrices.real.shape, jnp.nan),
-        jnp.zeros(matrices.real.shape),
     )
-    end = lax.while_loop(keep_going, iterate, start)
-    return end._replace(quadrature_gap=_quadrature_gap(matrices, end.samples.nodes, energy))
+    return lax.while_loop(keep_going, iterate, start)
 
 
 def bounds(
@@ -248,6 +243,14 @@ def bounds(
     )
     method = hermite if certificate == "hermite" else lipschitz
     return method.panel_bounds(values, remainder[:, 0], remainder[:, 1])
+
+
+def _turning(matrices: Matrices, nodes: Float[Array, "s 4"]) -> Float[Array, " p"]:
+    """Principal ``Arg`` of the quotient of ``f_z`` at the ends of each panel."""
+    start = nodes[: matrices.ends.shape[0], :2]
+    end = start[matrices.next]
+    cross = start[:, 0] * end[:, 1] - start[:, 1] * end[:, 0]
+    return jnp.arctan2(cross, jnp.sum(start * end, axis=1))
 
 
 def _products(matrices: Matrices, y: Float[Array, " 4c"]) -> Samples:
@@ -281,17 +284,6 @@ def _energy_gradient(
             top[:, 3] + bottom[:, 2],
         ]
     )
-
-
-def _quadrature_gap(
-    matrices: Matrices, nodes: Float[Array, "s 4"], energy: Energy
-) -> Float[Array, " p"]:
-    p = matrices.ends.shape[0]
-    if nodes.shape[0] == p:
-        return jnp.zeros(p)
-    density = energy.density(*_squares(nodes))
-    start, middle = density[:p], density[p:]
-    return matrices.weights[p:] / 4 * jnp.abs(start - 2 * middle + start[matrices.next])
 
 
 def _constraint_matrix(constraints: Constraints) -> Float[Array, "2h 4c"]:

@@ -26,6 +26,7 @@ Descend = Callable[..., Result]
 
 # Energies above this multiple of an isometry's are worth another attempt.
 HIGH_ENERGY = 2.0
+AGREEMENT = 1e-3
 SAME_ENERGY = 1e-6
 # The stages' fractions of lambda, and how far each is followed.
 STAGES = (1e-5, 1e-3, 1e-1)
@@ -59,13 +60,12 @@ def improve(first: Result, descend: Descend, callback: Callable[..., Any] | None
             break
         result = way()
         tried.append((name, result))
-        gain = best.energy - result.energy
         if result.status is Status.STOPPED:
             best = result
             break
         # Two ways that agree are taken for the answer.
-        agree = abs(gain) <= SAME_ENERGY * best.energy and best.status.ok
-        if gain > SAME_ENERGY * best.energy:
+        agree = best.status.ok and abs(best.energy - result.energy) <= AGREEMENT * best.energy
+        if result.energy < best.energy * (1 - SAME_ENERGY):
             best = result
         if agree:
             break

@@ -77,7 +77,7 @@ def _polyline_crossings(points: Array) -> Array:
     relative = start[None, :] - start[:, None]
 
     def cross(a: Array, b: Array) -> Array:
-        return (a.conj() * b).imag
+        return np.imag(a.conj() * b)
 
     determinant = cross(along[:, None], along[None, :])
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -109,8 +109,9 @@ def _square(x: float, y: float, side: float) -> list[list[float]]:
 
 @pytest.mark.parametrize("n_holes", [0, 1, 2, 3])
 def test_the_identity_is_injective(n_holes: int) -> None:
-    holes = [_square(1.0 + 2.5 * k, 1.0, 1.0 + k / 4) for k in range(n_holes)]
-    outline = [[0, 0], [9, 0], [9, 3], [4.6, 3], [4.5, 2.7], [4.4, 3], [0, 3]]
+    holes = [_square(2.5 * k - 3, -2.2, 1.0 + k / 4) for k in range(n_holes)]
+    outline = _ring(46 - 4 * n_holes, 4.5)
+    outline[0] = [2.0 - n_holes, 1.2]  # A deep and narrow notch.
     map = HarmonicMap.identity(Domain.from_cage(Cage(outline, holes)))
     outcome = global_injectivity(map)
     assert outcome.verdict == "yes"
@@ -126,7 +127,7 @@ def test_a_bar_wound_over_itself_is_locally_but_not_globally_injective() -> None
     outcome = global_injectivity(map, certificate)
     assert outcome.verdict == "no"
     _assert_double_point(map, outcome)
-    crossings = _polyline_crossings(_image_loops(map, 2000)[0])
+    crossings = _polyline_crossings(_image_loops(map, 1200)[0])
     assert len(crossings) >= 2
     assert np.linalg.norm(crossings - outcome.crossing, axis=1).min() < 1e-4
 
@@ -206,7 +207,7 @@ def _bent_bar(turns: tuple[float, ...], shear: complex, similarity: complex) -> 
     return _holomorphic(BAR, bend, shear * similarity)
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(
     st.tuples(st.floats(-4.5, 4.5), st.floats(-2, 2), st.floats(-2, 2)),
     st.complex_numbers(max_magnitude=0.3),

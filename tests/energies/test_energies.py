@@ -260,7 +260,7 @@ def test_bad_sharpness_is_refused(make: Callable[[Any], Energy], s: object) -> N
 
 
 @pytest.mark.parametrize(
-    "s", [np.array(-1.0), [1.0], 1j, 10**400], ids=["array", "list", "complex", "huge"]
+    "s", [np.array(-1.0), [1.0], 1j], ids=["array", "list", "complex"]
 )
 def test_what_is_no_number_is_refused_as_sharpness(s: object) -> None:
     with pytest.raises(EnergyError, match="s of the energy 'amips' must be"):

@@ -182,6 +182,11 @@ def test_a_solve_without_iterations_or_handles(image: NDArray[np.uint8], result:
     assert len(pixels(overview(image, bare, width=5.0))[0]) == 1500
 
 
+def test_a_figure_that_is_too_narrow(image: NDArray[np.uint8], result: Any):
+    with pytest.raises(ValueError, match="width is 2 inches; the text needs at least 4.5"):
+        overview(image, result, width=2)
+
+
 def test_far_targets_do_not_shrink_the_pictures(image: NDArray[np.uint8], result: Any, pose: Pose):
     figure = overview(image, result, Pose(pose.handles, pose.targets + 500))
     assert np.ptp(figure.axes[1].get_xlim()) < 2 * 14 * 1.3

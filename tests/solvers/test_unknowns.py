@@ -50,7 +50,7 @@ def test_restriction_and_expansion_are_those_of_the_dense_matrix(
     hessian += hessian.T
 
     with jax.enable_x64(True):
-        expanded = np.asarray(expand(step, unknowns))
+        expanded = np.asarray(expand(jax.numpy.asarray(step), unknowns))
         g = np.asarray(restrict_gradient(jax.numpy.asarray(gradient), unknowns))
         h = np.asarray(restrict_hessian(jax.numpy.asarray(hessian), unknowns))
     np.testing.assert_array_equal(expanded, t @ step[free])

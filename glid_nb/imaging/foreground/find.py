@@ -139,12 +139,13 @@ def _background(
 def _smoothed(
     score: NDArray[np.float32], method: Method, smoothing: float | None
 ) -> NDArray[np.float32]:
-    if smoothing is None:
-        keep = method in ("alpha", "scribbles") or _SMOOTHING * max(score.shape) < _LEAST_SMOOTHING
-        smoothing = 0.0 if keep else _SMOOTHING * max(score.shape)
-    if smoothing > 0:
-        score = gaussian_filter(score, smoothing, mode="nearest", truncate=3.0)
-    score = np.asarray(score, dtype=np.float32)
+    sigma = smoothing
+    if sigma is None:
+        sigma = 0.0 if method in ("alpha", "scribbles") else _SMOOTHING * max(score.shape)
+        sigma = sigma if sigma >= _LEAST_SMOOTHING else 0.0
+    if sigma > 0:
+        score = np.asarray(gaussian_filter(score, sigma, mode="nearest", truncate=3.0), np.float32)
+    score = score.view()
     score.setflags(write=False)
     return score
 

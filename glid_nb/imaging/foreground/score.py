@@ -76,8 +76,8 @@ class Foreground:
             )
         if mask.all():
             raise TraceError(
-                f"the foreground covers the whole image by {describe(self)}: every pixel passes the "
-                f"threshold {self.threshold(threshold):.3g}; {_FULL[self.method]}"
+                f"the foreground covers the whole image by {describe(self)}: every pixel passes "
+                f"the threshold {self.threshold(threshold):.3g}; {_FULL[self.method]}"
             )
         return mask
 

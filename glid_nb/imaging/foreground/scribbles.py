@@ -100,12 +100,10 @@ def _drawn(
         drawn[rows, columns] = True
         return drawn
     for stroke in strokes:
-        ends = np.floor(stroke[:, ::-1] * factor).astype(np.intp)
         # A stroke may leave the picture, but not by so much that drawing it would take forever.
-        ends = np.clip(ends, -max(small), 2 * max(small))
-        for a, b in (
-            zip(ends[:-1], ends[1:], strict=True) if len(ends) > 1 else [(ends[0], ends[0])]
-        ):
+        ends = np.clip(np.floor(stroke[:, ::-1] * factor), -max(small), 2 * max(small))
+        ends = ends.astype(np.intp)
+        for a, b in pairwise(ends if len(ends) > 1 else np.repeat(ends, 2, axis=0)):
             rows, columns = draw_line(*a, *b)
             inside = (rows >= 0) & (rows < small[0]) & (columns >= 0) & (columns < small[1])
             drawn[rows[inside], columns[inside]] = True

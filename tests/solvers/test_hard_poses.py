@@ -1,0 +1,125 @@
+"""Poses that no sane hand would make: the solver ends, the map is certified, nothing is NaN."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from glid_nb.geometry import Cage, Domain
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.solvers import Options, Pose, Status, solve
+
+from ..domains import NAMES, circle, domain
+from ..geometry.shapes import KINDS as CAGES
+from ..geometry.shapes import random_cage
+from .checks import check_certified
+
+INSIDE = {
+    "ell": [[-2.5, 2.5], [2.5, -2.5], [-2.0, -2.0], [-0.5, -0.5]],
+    "ring": [[2.1, 0.1], [-2.1, 0.0], [0.0, 2.1], [0.1, -2.0]],
+    "twin": [[-3.5, 1.5], [3.5, -1.5], [0.0, 0.0], [3.3, 1.3]],
+    "triple": [[0.0, 0.0], [3.2, 1.6], [-3.0, -1.0], [0.3, -3.2]],
+}
+
+
+def absurd_targets(handles: np.ndarray, kind: str, rng: np.random.Generator) -> np.ndarray:
+    return {
+        "random": rng.normal(size=handles.shape) * 5,
+        "far away": handles + rng.normal(size=2) * 1e3,
+        "one far away": handles + np.eye(len(handles), 1) * [[200.0, 50.0]],
+        "swapped": handles[rng.permutation(len(handles))],
+        "all equal": np.tile(rng.normal(size=2), (len(handles), 1)),
+        "mirrored": handles * [-1, 1],
+        "turned": -handles,
+    }[kind]
+
+
+KINDS = ["random", "far away", "one far away", "swapped", "all equal", "mirrored", "turned"]
+
+
+@given(st.sampled_from(NAMES), st.sampled_from(KINDS), st.integers(0, 2**32 - 1))
+@settings(max_examples=12)
+def test_absurd_targets_end_certified(name: str, kind: str, seed: int) -> None:
+    handles = np.array(INSIDE[name])
+    targets = absurd_targets(handles, kind, np.random.default_rng(seed))
+    options = Options(max_iterations=40, restarts=0)
+    check_certified(solve(domain(name), Pose(handles, targets), options=options))
+
+
+@pytest.mark.slow
+@given(
+    st.sampled_from(CAGES), st.integers(0, 2**32 - 1), st.integers(0, 6), st.sampled_from(KINDS)
+)
+@settings(max_examples=5)
+def test_tangled_domains_end_certified(cage_kind: str, seed: int, holes: int, kind: str) -> None:
+    cage = random_cage(cage_kind, seed, holes)
+    rng = np.random.default_rng(seed)
+    shape = Domain.from_cage(cage)
+    low, high = np.reshape(cage.bounds, (2, 2))
+    points = rng.uniform(low, high, size=(400, 2))
+    points = points[cage.contains(points)][:4]
+    options = Options(max_iterations=25, restarts=0)
+    check_certified(solve(shape, Pose(points, absurd_targets(points, kind, rng)), options=options))
+
+
+@functools.cache
+def bar() -> Domain:
+    xs = np.linspace(-8, 8, 17)
+    lower, upper = np.stack([xs, 0 * xs - 1], 1), np.stack([xs[::-1], 0 * xs + 1], 1)
+    return Domain.from_cage(Cage(np.vstack([lower, upper])))
+
+
+def test_a_bar_tied_into_a_loop_splits_panels_and_meets_its_targets() -> None:
+    """The ends change places: far from the identity, yet a certified map exists."""
+    handles = np.array([[-7.5, 0], [-3, 0], [3, 0], [7.5, 0]])
+    targets = np.array([[5, 1], [-2, 3], [2, 3], [-5, 1]])
+    result = solve(bar(), Pose(handles, targets))
+    assert result.status.ok
+    check_certified(result)
+    np.testing.assert_allclose(result.map(handles), targets, atol=1e-3)
+
+
+def test_a_coarse_certificate_does_not_end_a_solve() -> None:
+    """Panels that refuse a step are split: from three panels an edge, the solve still arrives."""
+    square = circle(4, 4.0, turn=np.pi / 4)
+    shape = Domain(Cage(square), Cage(square * 1.3))
+    handles = np.array([[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]])
+    targets = handles * [1, 0.4] + np.array([[0, 0], [2.5, 1.0], [0, 0], [0, 0]])
+    result = solve(shape, Pose(handles, targets), options=Options(restarts=0))
+    assert result.status.ok
+    assert result.panels_split > 0
+    check_certified(result)
+
+
+def test_restarts_keep_the_best_attempt() -> None:
+    handles = np.array(INSIDE["ell"])
+    pose = Pose(handles, handles[[1, 0, 3, 2]] * 1.5)
+    alone = solve(domain("ell"), pose, options=Options(restarts=0))
+    several = solve(domain("ell"), pose)
+    assert several.energy <= alone.energy * (1 + 1e-6)
+    assert several.attempts[0].name == "direct"
+    assert several.attempts[0].energy == pytest.approx(alone.energy)
+    assert min(a.energy for a in several.attempts) >= several.energy * (1 - 1e-6)
+    check_certified(several)
+
+
+def test_the_paper_settings_never_return_an_uncertified_map() -> None:
+    handles = np.array(INSIDE["ring"])
+    pose = Pose(handles, handles[[1, 0, 3, 2]])
+    result = solve(domain("ring"), pose, options=Options.paper(max_iterations=40))
+    check_certified(result)
+    assert result.status in (Status.BLOCKED, Status.MAX_ITERATIONS, Status.CONVERGED)
+
+
+def test_values_are_immutable() -> None:
+    result = solve(domain("ell"), Pose([[-2.0, -2.0]], [[0.0, 0.0]]))
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        result.energy = 0.0  # type: ignore[misc]
+    with pytest.raises(ValueError, match="read-only"):
+        result.map.phi[0] = 0
+    assert isinstance(result.map, HarmonicMap)
