@@ -37,9 +37,7 @@ def domain(name: str) -> Domain:
         return Domain.from_cage(Cage(_ELL), 0.3)
     if name == "ring":
         exterior, hole = circle(8, 3.0, turn=0.1), circle(8, 1.2, turn=0.3)
-        return Domain(
-            Cage(exterior, [hole]), Cage(exterior * 1.1, [hole * 0.8]), [[0.05, -0.03]]
-        )
+        return Domain(Cage(exterior, [hole]), Cage(exterior * 1.1, [hole * 0.8]), [[0.05, -0.03]])
     if name == "twin":
         exterior = np.array(
             [[-4, -2], [0, -2.2], [4, -2], [4.2, 0], [4, 2], [0, 1.7], [-4, 2], [-4.1, 0.1]]

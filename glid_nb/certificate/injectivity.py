@@ -90,7 +90,7 @@ def global_injectivity(
         raise ValueError(f"max_panels is {max_panels}; it must be at least 1")
     certificate = certify(map) if certificate is None else certificate
     if not certificate.certified:
-        reason = f"Undecided: the map is not proved locally injective. {certificate.reason}"
+        reason = f"Undecided, because local injectivity is not certified: {certificate.reason}"
         return GlobalInjectivity("undecided", reason, 0)
     evaluate = JetEvaluator(map)
     panels = graded_panels(map.domain)

@@ -17,7 +17,7 @@ _SHARE = 0.01  # of the square root of the shape's area
 _LEAST, _LEAST_SHARE = 2.0, 0.05  # pixels, but on tiny shapes no more than this share
 _SLIT = 0.5  # slits narrower than this times the offset on each side are closed
 _ROUGH, _FINE = 0.05, 0.03  # how far vertices may be dropped before and after, times the offset
-_SHRUNK = 0.3  # a hole that would keep less than this share of its area is moved less
+_SHRUNK = 0.2  # a hole that would keep less than this share of its area is moved less
 
 
 @dataclass(frozen=True, eq=False)

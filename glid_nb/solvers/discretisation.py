@@ -219,9 +219,9 @@ def _panel_arrays(panels: Panels, rows: _Rows, p: int) -> dict[str, Any]:
 
 
 def bucket(count: int) -> int:
-    """The padded size for ``count`` items: eight sizes per octave, a little room included."""
-    wanted = max(count + count // 64, 64)
-    step = max(8, 1 << (wanted.bit_length() - 4))
+    """The padded size for ``count`` items: multiples of 64, from 1,024 on eight sizes an octave."""
+    wanted = count + count // 64
+    step = max(64, 1 << (wanted.bit_length() - 4))
     return -(-wanted // step) * step
 
 

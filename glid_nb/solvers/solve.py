@@ -40,6 +40,8 @@ _MOST_PANELS = 60_000
 # When to put the Hessian on all nodes: many iterations, or a short step that gains little.
 _SLOW_ITERATIONS = 20
 _SLOW_STEP, _SLOW_GAIN = 0.5, 0.05
+# Steps in a row that together gain less than this fraction of the energy end a solve.
+_STALLED, _STALL_GAIN = 4, 1e-10
 # A decrease promised by the Newton decrement that rounding of the energy can hide.
 _ROUNDING = 1e-8
 
@@ -194,6 +196,8 @@ class _Loop:
             if taken:
                 rounds = total_rounds = 0
                 self.full_hessian |= self._is_slow()
+                if self._has_stalled():
+                    return self._without_decrease(state)
                 if callback is not None and callback(self._progress(state)):
                     return Status.STOPPED
             if end == outcome.CONVERGED:
@@ -270,6 +274,11 @@ class _Loop:
             return True
         gained = before[-1].energy - last.energy if before else np.inf
         return last.step < _SLOW_STEP and gained < _SLOW_GAIN * last.energy
+
+    def _has_stalled(self) -> bool:
+        """Whether the last steps gained nothing: without a barrier, a map can creep to folding."""
+        recent = [entry.energy for entry in self.history[-1 - _STALLED :]]
+        return len(recent) > _STALLED and recent[0] - recent[-1] <= _STALL_GAIN * abs(recent[-1])
 
     def _without_decrease(self, state: newton.State) -> Status:
         promised = float(state.decrement) ** 2 / 2

@@ -16,7 +16,9 @@ PANELS = 8
 T = np.linspace(0, 1, 401)
 
 # Coefficients of f_z and conj(f_zbar) over t in [0, 1]; f_z is mostly the larger one.
-seeds = st.tuples(st.integers(0, 10**6), st.floats(0.05, 3), st.integers(0, 200).map(lambda i: i / 100))
+seeds = st.tuples(
+    st.integers(0, 10**6), st.floats(0.05, 3), st.integers(0, 200).map(lambda i: i / 100)
+)
 
 
 def polynomials(drawn: tuple[int, float, float], degree: int) -> tuple[Array, Array]:

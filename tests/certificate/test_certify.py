@@ -228,7 +228,7 @@ def test_a_folded_map_is_reported_where_it_folds(method: Any) -> None:
 @pytest.mark.parametrize("excess", [1e-3, -1e-3])
 def test_a_dent_between_the_ends_of_panels_is_seen(method: Any, excess: float) -> None:
     """The least sigma_2 is just below or above 0, at a point that ends no panel."""
-    map = random_map("ell", 0.3, 4)
+    map = random_map("ell", 0.3, 3)
     check = dense_check("ell")
     f, g = (np.abs(check.d_boundary[0] @ v) for v in (map.phi, map.psi))
     worst = int(np.argmax(g / f))

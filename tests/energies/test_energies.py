@@ -259,9 +259,7 @@ def test_bad_sharpness_is_refused(make: Callable[[Any], Energy], s: object) -> N
         make(s)
 
 
-@pytest.mark.parametrize(
-    "s", [np.array(-1.0), [1.0], 1j], ids=["array", "list", "complex"]
-)
+@pytest.mark.parametrize("s", [np.array(-1.0), [1.0], 1j], ids=["array", "list", "complex"])
 def test_what_is_no_number_is_refused_as_sharpness(s: object) -> None:
     with pytest.raises(EnergyError, match="s of the energy 'amips' must be"):
         AMIPS(s)  # type: ignore[arg-type]

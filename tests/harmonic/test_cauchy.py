@@ -117,7 +117,9 @@ def test_derivatives_are_those_of_the_coordinates(name: str) -> None:
     first = own_columns(cauchy.first_derivatives, name, z)
     second = own_columns(cauchy.second_derivatives, name, z)
     for j in range(n_vertices):
-        slope = holomorphic_derivative(lambda w, j=j: c_reference(w, loops, rho)[:, j], z, 1, radius)
+        slope = holomorphic_derivative(
+            lambda w, j=j: c_reference(w, loops, rho)[:, j], z, 1, radius
+        )
         curvature = holomorphic_derivative(
             lambda w, j=j: cauchy_first(w, loops, rho)[:, j], z, 1, radius
         )
@@ -206,9 +208,7 @@ def test_slope_jumps_run_around_each_loop() -> None:
         for loop in loops:
             size = len(loop)
             values = row[first : first + size]
-            slopes = [
-                (values[j] - values[j - 1]) / (loop[j] - loop[j - 1]) for j in range(size)
-            ]
+            slopes = [(values[j] - values[j - 1]) / (loop[j] - loop[j - 1]) for j in range(size)]
             expected += [slopes[j] - slopes[(j + 1) % size] for j in range(size)]
             first += size
         np.testing.assert_allclose(jumps, [*expected, *row[n - len(rho) :]], rtol=1e-12)

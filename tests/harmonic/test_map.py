@@ -47,9 +47,7 @@ def test_a_map_is_that_of_the_paper(name: str, size: float, seed: int) -> None:
     np.testing.assert_allclose(map.sigma1(z), yardstick.sigma1(z), rtol=1e-10, atol=1e-10)
     np.testing.assert_allclose(map.sigma2(z), yardstick.sigma2(z), rtol=1e-10, atol=1e-10)
     np.testing.assert_allclose(map.k(z), yardstick.k(z), rtol=1e-8)
-    np.testing.assert_allclose(
-        map.det(z), map.sigma1(z) * map.sigma2(z), rtol=1e-9, atol=1e-9
-    )
+    np.testing.assert_allclose(map.det(z), map.sigma1(z) * map.sigma2(z), rtol=1e-9, atol=1e-9)
 
 
 @pytest.mark.parametrize("name", ["ell", "twin"])

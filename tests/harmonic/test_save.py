@@ -97,9 +97,7 @@ BAD: list[tuple[str, Callable[[Data], Any], str]] = [
     ("a version as text", changed(version="1"), "version '1'"),
     *[
         (f"no {key}", without(key), f'"{key}"')
-        for key in (
-            *("cage", "holes", "offset_cage", "offset_holes", "hole_points", "phi", "psi"),
-        )
+        for key in (*("cage", "holes", "offset_cage", "offset_holes", "hole_points", "phi", "psi"),)
     ],
     ("too few phi", lambda d: {**d, "phi": d["phi"][:-1]}, "phi"),
     ("too many psi", lambda d: {**d, "psi": [*d["psi"], [0, 0]]}, "psi"),
@@ -228,9 +226,7 @@ def test_a_missing_file_is_an_os_error(tmp_path: Path) -> None:
         HarmonicMap.load(tmp_path / "nowhere.json")
 
 
-def test_a_failed_save_leaves_the_old_file(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_failed_save_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "map.json"
     old = HarmonicMap.identity(domain("ring"))
     old.save(path)

@@ -52,9 +52,7 @@ def test_absurd_targets_end_certified(name: str, kind: str, seed: int) -> None:
 
 
 @pytest.mark.slow
-@given(
-    st.sampled_from(CAGES), st.integers(0, 2**32 - 1), st.integers(0, 6), st.sampled_from(KINDS)
-)
+@given(st.sampled_from(CAGES), st.integers(0, 2**32 - 1), st.integers(0, 6), st.sampled_from(KINDS))
 @settings(max_examples=5)
 def test_tangled_domains_end_certified(cage_kind: str, seed: int, holes: int, kind: str) -> None:
     cage = random_cage(cage_kind, seed, holes)

@@ -29,9 +29,7 @@ def test_a_pose_keeps_what_it_is_given(
     handles: list[tuple[float, float]], data: st.DataObject
 ) -> None:
     targets = data.draw(
-        st.lists(
-            st.tuples(coordinates, coordinates), min_size=len(handles), max_size=len(handles)
-        )
+        st.lists(st.tuples(coordinates, coordinates), min_size=len(handles), max_size=len(handles))
     )
     pose = Pose(handles, targets)
     assert len(pose) == len(handles)

@@ -43,9 +43,7 @@ def solved(folder: Path, name: str, key: str, paper: bool) -> tuple[Result, dict
 
 @pytest.mark.parametrize("key", ENERGIES)
 @pytest.mark.parametrize("name", NAMES)
-def test_defaults_reach_the_reference_energy(
-    reference_folder: Path, name: str, key: str
-) -> None:
+def test_defaults_reach_the_reference_energy(reference_folder: Path, name: str, key: str) -> None:
     result, reference = solved(reference_folder, name, key, False)
     # The quadratures differ: graded panels against 10^4 uniform samples.
     assert result.energy <= reference["E"] * (1 + 1e-3)

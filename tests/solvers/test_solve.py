@@ -252,9 +252,7 @@ def test_callback_sees_certified_maps_and_stops_the_solve() -> None:
 
 def test_exact_hessian_halts_where_it_is_indefinite() -> None:
     far = Pose(ELL_HANDLES, ELL_HANDLES * [[1, -1]] * 1.5)
-    result = solve(
-        domain("ell"), far, options=Options(hessian="exact", align=False, restarts=0)
-    )
+    result = solve(domain("ell"), far, options=Options(hessian="exact", align=False, restarts=0))
     assert result.status is Status.INDEFINITE
     assert "not positive definite" in result.message
     check_certified(result)

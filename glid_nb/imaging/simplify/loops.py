@@ -81,23 +81,28 @@ def simplify(
         limits = np.minimum(tolerance, _LOOP_SHARE * np.sqrt(areas))
     else:
         limits = np.full(len(loops), tolerance)
-    forced = [_largest_three(values) for values in importance]
-    kept = [(v > t) | f for v, t, f in zip(importance, limits, forced, strict=True)]
-    notes: list[str] = []
-    if max_vertices is not None and sum(map(np.count_nonzero, kept)) > max_vertices:
-        free = np.concatenate([v[~f] for v, f in zip(importance, forced, strict=True)])
-        most = max(max_vertices - 3 * len(loops), 0)
-        tolerance = float(np.sort(free)[::-1][most])
-        kept = [(v > tolerance) | f for v, f in zip(importance, forced, strict=True)]
-
     gap = max(_GAP * room, _LEAST_GAP)
-    notes += repair(loops, importance, kept, gap)
-    merge_short_edges(loops, kept, min_edge, gap)
-    count = sum(map(np.count_nonzero, kept))
-    if max_vertices is not None and count > max_vertices:
-        notes.append(
-            f"max_vertices={max_vertices} is too few: the loops need {count} to keep apart"
-        )
+
+    def chosen() -> tuple[list[NDArray[np.bool_]], list[str]]:
+        kept = _above(importance, limits)
+        notes = repair(loops, importance, kept, gap)
+        merge_short_edges(loops, kept, min_edge, gap)
+        return kept, notes
+
+    kept, notes = chosen()
+    aim = max_vertices
+    while max_vertices is not None and aim is not None and _count(kept) > max_vertices:
+        tolerance = _tolerance_for_count(importance, aim)
+        limits = np.full(len(loops), tolerance)
+        kept, notes = chosen()
+        excess = _count(kept) - max_vertices
+        if excess > 0 and aim <= 3 * len(loops):
+            notes.append(
+                f"max_vertices={max_vertices} is too few: the loops need {_count(kept)} to keep "
+                "apart"
+            )
+            break
+        aim = max(aim - excess, 3 * len(loops))  # repairs need some
     result = enclosing(loops, kept, _MARGIN * offset, gap)
     result = divide_long_edges(result, max_edge, max_vertices)
     for loop in result:
@@ -120,7 +125,22 @@ def _automatic_tolerance(
     return max(tolerance, for_count(_MOST))
 
 
-def _largest_three(values: NDArray[np.float64]) -> NDArray[np.bool_]:
-    chosen = np.zeros(len(values), dtype=bool)
-    chosen[np.argsort(-values, kind="stable")[:3]] = True
-    return chosen
+def _above(
+    importance: list[NDArray[np.float64]], limits: NDArray[np.float64]
+) -> list[NDArray[np.bool_]]:
+    """The vertices above each loop's limit, and at least the three most important ones."""
+    kept = [values > limit for values, limit in zip(importance, limits, strict=True)]
+    for keep, values in zip(kept, importance, strict=True):
+        keep[np.argsort(-values, kind="stable")[:3]] = True
+    return kept
+
+
+def _count(kept: list[NDArray[np.bool_]]) -> int:
+    return int(sum(map(np.count_nonzero, kept)))
+
+
+def _tolerance_for_count(importance: list[NDArray[np.float64]], count: int) -> float:
+    """The least tolerance for which `_above` keeps at most `count` vertices, if three a loop may."""
+    rest = np.concatenate([np.sort(values)[:-3] for values in importance])
+    room = min(max(count - 3 * len(importance), 0), len(rest) - 1)
+    return float(np.sort(rest)[::-1][room]) if len(rest) else 0.0

@@ -1,0 +1,228 @@
+"""How the package runs JAX: nothing leaks into the user's program."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+import threadpoolctl
+
+from glid_nb import _runtime
+from glid_nb.certificate import certify
+from glid_nb.harmonic import HarmonicMap
+
+from .domains import domain
+
+
+def run_python(source: str) -> list[str]:
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", source],
+        capture_output=True,
+        text=True,
+        timeout=200,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.split("\n")[:-1]
+
+
+def test_a_float32_program_beside_the_package_is_unchanged() -> None:
+    """In one process, in the main thread and in others, before, during and after the work."""
+    lines = run_python("""
+import threading
+import jax, jax.numpy as jnp, numpy as np
+before = dict(jax.config.values)
+
+@jax.jit
+def step(x):
+    return jnp.sin(x) * 3 + jnp.arange(x.shape[0])
+
+def float32_program():
+    x = jnp.linspace(0, 1, 7)
+    y = step(x)
+    assert x.dtype == y.dtype == jnp.ones(3).dtype == jnp.float32, (x.dtype, y.dtype)
+    assert jnp.arange(3).dtype == jnp.int32
+    assert jnp.asarray(np.ones(2)).dtype == jnp.float32
+    assert jax.random.normal(jax.random.key(0)).dtype == jnp.float32
+    return np.asarray(y).tobytes(), step._cache_size()
+
+first = float32_program()
+import glid_nb
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.certificate import certify
+from glid_nb.geometry import Cage, Domain
+assert float32_program() == first
+
+seen, errors, stop = [], [], threading.Event()
+def watch():
+    while not stop.is_set():
+        try:
+            seen.append(float32_program())
+        except BaseException as error:
+            errors.append(error)
+            break
+watcher = threading.Thread(target=watch)
+watcher.start()
+map = HarmonicMap.identity(Domain.from_cage(Cage([[0, 0], [2, 0], [2, 1], [0, 1]])))
+c = certify(map)
+assert c.certified
+assert map([[0.5, 0.5]]).dtype == np.float64
+stop.set()
+watcher.join()
+assert not errors, errors
+assert set(seen) == {first} and len(seen) > 1, len(seen)
+assert float32_program() == first
+try:
+    certify(map, "no such method")
+except ValueError:
+    pass
+assert float32_program() == first
+after = dict(jax.config.values)
+print(sorted(key for key in after if after[key] != before.get(key)))
+""")
+    assert lines == ["[]"]
+
+
+def test_double_precision_is_a_scope() -> None:
+    @_runtime.double_precision
+    def add(a: float, *, b: float = 1.0) -> jax.Array:
+        """Docstring."""
+        return jnp.asarray(a) + b
+
+    assert add(2.0, b=3.0).dtype == jnp.float64
+    assert add.__name__ == "add"
+    assert add.__doc__ == "Docstring."
+    assert jnp.asarray(1.0).dtype == jnp.float32
+
+    @_runtime.double_precision
+    def fail() -> None:
+        add(1.0)
+        raise RuntimeError("inside")
+
+    with pytest.raises(RuntimeError, match="inside"):
+        fail()
+    assert jnp.asarray(1.0).dtype == jnp.float32
+
+
+def test_results_are_double_inside_a_users_own_settings() -> None:
+    map = HarmonicMap.identity(domain("ring"))
+    points = domain("ring").cage.exterior
+    with jax.enable_x64(True):
+        inside = map(points)
+        assert jnp.asarray(1.0).dtype == jnp.float64
+    assert inside.dtype == np.float64
+    np.testing.assert_array_equal(inside, map(points))
+    with jax.debug_nans(True):
+        assert certify(map).certified
+
+
+def test_threads_may_evaluate_at_once() -> None:
+    map = HarmonicMap.identity(domain("ring"))
+    points = domain("ring").cage.exterior
+
+    def work(i: int) -> bool:
+        ours = np.array_equal(map(points + 1e-9 * i), expected[i])
+        return ours and jnp.ones(1).dtype == jnp.float32
+
+    expected = [map(points + 1e-9 * i) for i in range(8)]
+    with ThreadPoolExecutor(4) as pool:
+        assert all(pool.map(work, range(8)))
+
+
+def blas_threads() -> list[int]:
+    return [
+        info["num_threads"]
+        for info in threadpoolctl.threadpool_info()
+        if info["user_api"] == "blas"
+    ]
+
+
+def test_blas_is_limited_and_set_back() -> None:
+    with threadpoolctl.threadpool_limits(2, user_api="blas"):
+        before = blas_threads()
+        assert before
+        with _runtime.single_blas_thread():
+            assert set(blas_threads()) == {1}
+            with _runtime.single_blas_thread():
+                assert set(blas_threads()) == {1}
+            assert set(blas_threads()) == {1}
+        assert blas_threads() == before
+        with pytest.raises(RuntimeError, match="inside"), _runtime.single_blas_thread():
+            raise RuntimeError("inside")
+        assert blas_threads() == before
+
+
+def test_the_last_of_several_threads_sets_blas_back() -> None:
+    with threadpoolctl.threadpool_limits(2, user_api="blas"):
+        before = blas_threads()
+        entered, leave = threading.Barrier(3), [threading.Event(), threading.Event()]
+        inside: list[set[int]] = []
+
+        def work(i: int) -> None:
+            with _runtime.single_blas_thread():
+                entered.wait()
+                leave[i].wait()
+
+        threads = [threading.Thread(target=work, args=(i,)) for i in (0, 1)]
+        for thread in threads:
+            thread.start()
+        entered.wait()
+        leave[0].set()
+        threads[0].join()
+        inside.append(set(blas_threads()))
+        leave[1].set()
+        threads[1].join()
+        assert inside == [{1}]
+        assert blas_threads() == before
+
+
+def test_cache_directory(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("GLID_NB_CACHE", str(tmp_path / "named"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "xdg"))
+    assert _runtime.cache_directory() == tmp_path / "named"
+    monkeypatch.delenv("GLID_NB_CACHE")
+    assert _runtime.cache_directory() == tmp_path / "xdg" / "glid_nb"
+    monkeypatch.delenv("XDG_CACHE_HOME")
+    monkeypatch.setattr(Path, "home", lambda: tmp_path)
+    assert _runtime.cache_directory() == tmp_path / ".cache" / "glid_nb"
+
+
+def test_the_compilation_cache_is_used_when_it_is_asked_for(tmp_path: Path) -> None:
+    source = f"""
+import os
+os.environ["GLID_NB_CACHE"] = {str(tmp_path)!r}
+from glid_nb import _runtime
+from glid_nb.certificate import certify
+from glid_nb.geometry import Cage, Domain
+from glid_nb.harmonic import HarmonicMap
+print(_runtime.enable_compilation_cache())
+clock = _runtime.compilation_clock()
+assert clock is _runtime.compilation_clock()
+certify(HarmonicMap.identity(Domain.from_cage(Cage([[0, 0], [2, 0], [2, 1], [0, 1]]))))
+print(clock.programs > 0 and clock.seconds > 0)
+"""
+    assert run_python(source) == [str(tmp_path / "compiled"), "True"]
+    kept = {path.name for path in (tmp_path / "compiled").iterdir()}
+    assert kept
+    assert run_python(source) == [str(tmp_path / "compiled"), "True"]
+    assert {p.name for p in (tmp_path / "compiled").iterdir() if p.name.endswith("-cache")} == {
+        name for name in kept if name.endswith("-cache")
+    }
+
+
+def test_a_users_own_compilation_cache_stays(tmp_path: Path) -> None:
+    lines = run_python(f"""
+import jax
+jax.config.update("jax_compilation_cache_dir", {str(tmp_path)!r})
+before = dict(jax.config.values)
+from glid_nb import _runtime
+print(_runtime.enable_compilation_cache())
+print(dict(jax.config.values) == before)
+""")
+    assert lines == [str(tmp_path), "True"]
