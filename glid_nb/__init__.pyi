@@ -52,6 +52,7 @@ from .solvers import Result as Result
 from .solvers import StartError as StartError
 from .solvers import Status as Status
 from .solvers import solve as solve
+from ._runtime import enable_compilation_cache as enable_compilation_cache
 
 # Files and reports
 from .session import InputFileError as InputFileError

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import subprocess
 import sys
-import threading
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -12,7 +11,6 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-import threadpoolctl
 
 from glid_nb import _runtime
 from glid_nb.certificate import certify
@@ -135,51 +133,74 @@ def test_threads_may_evaluate_at_once() -> None:
         assert all(pool.map(work, range(8)))
 
 
-def blas_threads() -> list[int]:
-    return [
-        info["num_threads"]
-        for info in threadpoolctl.threadpool_info()
-        if info["user_api"] == "blas"
-    ]
+BLAS = """
+import threading
+import pytest, threadpoolctl
+import numpy, scipy.linalg
+from glid_nb._runtime import single_blas_thread
+
+def threads():
+    return {i["num_threads"] for i in threadpoolctl.threadpool_info() if i["user_api"] == "blas"}
+
+assert threads() == {2}, threads()
+"""
 
 
-def test_blas_is_limited_and_set_back() -> None:
-    with threadpoolctl.threadpool_limits(2, user_api="blas"):
-        before = blas_threads()
-        assert before
-        with _runtime.single_blas_thread():
-            assert set(blas_threads()) == {1}
-            with _runtime.single_blas_thread():
-                assert set(blas_threads()) == {1}
-            assert set(blas_threads()) == {1}
-        assert blas_threads() == before
-        with pytest.raises(RuntimeError, match="inside"), _runtime.single_blas_thread():
-            raise RuntimeError("inside")
-        assert blas_threads() == before
+def test_blas_is_limited_and_set_back(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
+    run_python(
+        BLAS
+        + """
+with single_blas_thread():
+    assert threads() == {1}
+    with single_blas_thread():
+        assert threads() == {1}
+    assert threads() == {1}
+assert threads() == {2}
+with pytest.raises(RuntimeError, match="inside"), single_blas_thread():
+    raise RuntimeError("inside")
+assert threads() == {2}
+"""
+    )
 
 
-def test_the_last_of_several_threads_sets_blas_back() -> None:
-    with threadpoolctl.threadpool_limits(2, user_api="blas"):
-        before = blas_threads()
-        entered, leave = threading.Barrier(3), [threading.Event(), threading.Event()]
-        inside: list[set[int]] = []
+def test_the_last_of_several_threads_sets_blas_back(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As when an editor's solver thread and a cell's solve overlap, and both threads live on."""
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
+    run_python(
+        BLAS
+        + """
+entered, may_leave, left, end = (threading.Event() for _ in range(4))
+seen = {}
 
-        def work(i: int) -> None:
-            with _runtime.single_blas_thread():
-                entered.wait()
-                leave[i].wait()
+def editor():
+    with single_blas_thread():
+        seen["in the thread"] = threads()
+        entered.set()
+        may_leave.wait()
+    left.set()
+    end.wait()
 
-        threads = [threading.Thread(target=work, args=(i,)) for i in (0, 1)]
-        for thread in threads:
-            thread.start()
-        entered.wait()
-        leave[0].set()
-        threads[0].join()
-        inside.append(set(blas_threads()))
-        leave[1].set()
-        threads[1].join()
-        assert inside == [{1}]
-        assert blas_threads() == before
+thread = threading.Thread(target=editor)
+thread.start()
+entered.wait()
+with single_blas_thread():
+    seen["in both"] = threads()
+    may_leave.set()
+    left.wait()
+    seen["in the last"] = threads()
+seen["after"] = threads()
+with single_blas_thread():
+    seen["again"] = threads()
+seen["at last"] = threads()
+end.set()
+thread.join()
+one, two = {1}, {2}
+expected = {"in the thread": one, "in both": one, "in the last": one, "after": two,
+            "again": one, "at last": two}
+assert seen == expected, seen
+"""
+    )
 
 
 def test_cache_directory(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -193,7 +214,11 @@ def test_cache_directory(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Non
     assert _runtime.cache_directory() == tmp_path / ".cache" / "glid_nb"
 
 
-def test_the_compilation_cache_is_used_when_it_is_asked_for(tmp_path: Path) -> None:
+@pytest.mark.slow
+def test_the_compilation_cache_is_used_when_it_is_asked_for(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.delenv("JAX_COMPILATION_CACHE_DIR", raising=False)
     source = f"""
 import os
 os.environ["GLID_NB_CACHE"] = {str(tmp_path)!r}

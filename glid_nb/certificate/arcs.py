@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
+from numpy.typing import NDArray
 
 from glid_nb._runtime import COMPILER_OPTIONS
 from glid_nb.certificate import rounding
@@ -15,7 +16,7 @@ from glid_nb.certificate.bounds import derivative_bound_weights, modulus
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.harmonic.cauchy import Singularities
 
-Array = np.ndarray
+Array = NDArray[Any]
 
 _CHUNK = 256
 

@@ -64,7 +64,9 @@ def distances(
     along = (end - start)[:, None]
     relative = points - start[:, None]
     length_squared = jnp.real(along) ** 2 + jnp.imag(along) ** 2
-    position = jnp.real(relative * jnp.conj(along)) / jnp.where(length_squared > 0, length_squared, 1)
+    position = jnp.real(relative * jnp.conj(along)) / jnp.where(
+        length_squared > 0, length_squared, 1
+    )
     return modulus(relative - jnp.clip(position, 0, 1) * along)
 
 

@@ -9,6 +9,7 @@ from typing import Any, Literal
 import jax
 import jax.numpy as jnp
 import numpy as np
+from numpy.typing import NDArray
 
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision
 from glid_nb.certificate import hermite, lipschitz, rounding
@@ -17,7 +18,7 @@ from glid_nb.geometry import Panels, graded_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.harmonic.basis import Basis
 
-Array = np.ndarray
+Array = NDArray[Any]
 Method = Literal["hermite", "lipschitz"]
 
 _METHODS = {"hermite": hermite, "lipschitz": lipschitz}
@@ -254,7 +255,7 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Any, method:
 
 
 def _real(z: Array) -> Array:
-    return np.stack([z.real, z.imag], axis=-1)
+    return np.stack([np.real(z), np.imag(z)], axis=-1)
 
 
 def _place(z: complex) -> str:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from glid_nb.certificate.arcs import Arcs, JetEvaluator
 from glid_nb.certificate.segments import cross, point_distance, segments_cross
 from glid_nb.geometry import Domain, Panels, edge_panels
 
-Array = np.ndarray
+Array = NDArray[Any]
 
 _PLACES = 32
 _NEWTON_STEPS = 8

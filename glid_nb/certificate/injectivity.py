@@ -19,10 +19,11 @@ until that decides.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from glid_nb._runtime import double_precision
 from glid_nb.certificate.arcs import Arcs, JetEvaluator, Jets
@@ -32,7 +33,7 @@ from glid_nb.certificate.segments import segment_distance
 from glid_nb.geometry import Panels, graded_panels
 from glid_nb.harmonic import HarmonicMap
 
-Array = np.ndarray
+Array = NDArray[Any]
 Verdict = Literal["yes", "no", "undecided"]
 
 _MAX_ROUNDS = 40

@@ -17,7 +17,6 @@ from jaxtyping import Array, Complex, Float
 from glid_nb.certificate.bounds import UNIT_ROUNDOFF
 from glid_nb.harmonic.cauchy import Singularities, rounding_scale
 
-
 CARRIED = 8
 """How many values' rounding errors may have added up; a solver's calls stay below it."""
 

@@ -63,7 +63,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         chosen.run(chosen)
     except KeyboardInterrupt:
-        print("glid-nb: interrupted; nothing was written", file=sys.stderr)
+        print("glid-nb: interrupted", file=sys.stderr)
         return EXIT_INTERRUPTED
     except (OSError, ValueError) as error:
         if chosen.debug or not is_bad_input(error):

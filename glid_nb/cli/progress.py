@@ -12,6 +12,8 @@ from typing import TextIO
 PATIENCE = 1.0
 """Seconds that a step may take unannounced."""
 
+_REFRESH = 0.2
+
 
 class Progress:
     """Says what is going on, but only where it takes longer than a second.
@@ -37,55 +39,49 @@ class Progress:
         """Run a step called ``doing``; yields a function that takes what is known meanwhile."""
         step = _Step(doing, self._stream, self._live)
         # The step may be one long call into compiled code, so another thread has to speak up.
-        timer = threading.Timer(self._patience, step.announce)
-        timer.daemon = True
-        timer.start()
+        speaker = threading.Thread(target=step.speak, args=(self._patience,), daemon=True)
+        speaker.start()
         try:
             yield step.detail
         finally:
-            timer.cancel()
-            timer.join()
-            step.end()
+            step.done.set()
+            speaker.join()
+            step.sum_up()
 
 
 class _Step:
-    """One step; its lock keeps the timer's announcement and the details from mixing."""
+    """One step. All writing is done by one thread, and by the main thread after it has ended."""
 
     def __init__(self, doing: str, stream: TextIO, live: bool) -> None:
         self._doing, self._stream, self._live = doing, stream, live
         self._detail, self._announced = "", False
         self._start = time.perf_counter()
-        self._lock = threading.Lock()
+        self.done = threading.Event()
 
-    def announce(self) -> None:
-        with self._lock:
-            self._announced = True
-            if self._live:
-                self._rewrite()
-            else:
-                self._write(f"glid-nb: {self._doing} ...\n")
+    def speak(self, patience: float) -> None:
+        """Announce the step when it takes too long, then keep a terminal's line up to date."""
+        if self.done.wait(patience):
+            return
+        self._announced = True
+        if not self._live:
+            self._write(f"glid-nb: {self._doing} ...\n")
+            return
+        self._write(f"\r\x1b[K{self._line()}")
+        while not self.done.wait(_REFRESH):
+            self._write(f"\r\x1b[K{self._line()}")
 
     def detail(self, text: str) -> None:
-        with self._lock:
-            self._detail = text
-            if self._announced and self._live:
-                self._rewrite()
+        self._detail = text
 
-    def end(self) -> None:
-        if not self._announced:
-            return
-        if self._live:
-            self._write("\r\x1b[K")
-        else:
-            self._write(f"glid-nb: {self._line()}\n")
+    def sum_up(self) -> None:
+        """Erase the terminal's line, or say how long the step took."""
+        if self._announced:
+            self._write("\r\x1b[K" if self._live else f"glid-nb: {self._line()}\n")
 
     def _line(self) -> str:
         seconds = time.perf_counter() - self._start
         detail = f", {self._detail}" if self._detail else ""
         return f"{self._doing}: {seconds:.1f} s{detail}"
-
-    def _rewrite(self) -> None:
-        self._write(f"\r\x1b[K{self._line()}")
 
     def _write(self, text: str) -> None:
         self._stream.write(text)

@@ -17,6 +17,7 @@ def run_solver(
     start: glid_nb.HarmonicMap | None = None,
 ) -> tuple[glid_nb.Result, dict[str, Any]]:
     """The result and its report."""
+    glid_nb.enable_compilation_cache()
     with progress.step("solving (new shapes are compiled first)") as detail:
 
         def show(state: glid_nb.Progress) -> None:

@@ -52,10 +52,14 @@ def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     winding = f"{report['winding']}"
     if any(report["windings"]):
         winding += f"  (loops: {', '.join(f'{w:+d}' if w else '0' for w in report['windings'])})"
-    injective = report["globally_injective"]
+    injective = {
+        "yes": "locally and globally",
+        "no": "locally only",
+        "undecided": "locally; globally undecided",
+    }[report["globally_injective"]]
     if report["crossing"] is not None:
         x, y = report["crossing"]
-        injective += f", the boundary's image crosses itself at ({x:.3g}, {y:.3g})"
+        injective += f"; the boundary's image crosses itself at ({x:.3g}, {y:.3g})"
     split = f", {report['panels_split']} split" if report["panels_split"] else ""
     return [
         ("status", report["message"]),
@@ -72,7 +76,7 @@ def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("sigma_1", f"<= {_number(report['sigma1_upper'])}"),
         ("k", f"<= {_number(report['k_upper'])}"),
         ("winding number", winding),
-        ("injective", injective),
+        ("injective", injective if report["certified"] else "not proved"),
         (
             "times",
             f"compile {report['compile_time']:.2f} s, solve {report['solve_time']:.3f} s, "

@@ -25,7 +25,7 @@ class ARAP(Energy):
     def density(self, x: Scalars, y: Scalars) -> Scalars:
         return 2 * (x + y) - 4 * jnp.sqrt(x) + 2
 
-    def differentials(self, x: Scalars, y: Scalars) -> Differentials:
+    def differentials(self, x: Scalars, y: Scalars) -> Differentials:  # noqa: ARG002
         root = 1 / jnp.sqrt(x)
         zero = jnp.zeros_like(x)
         return Differentials(2 - 2 * root, zero + 2, root**3, zero, zero)

@@ -13,9 +13,7 @@ import jax.numpy as jnp
 from glid_nb.energies.energy import Differentials, Energy, EnergyError, Scalars
 
 
-@functools.partial(
-    jax.tree_util.register_dataclass, data_fields=[], meta_fields=["function"]
-)
+@functools.partial(jax.tree_util.register_dataclass, data_fields=[], meta_fields=["function"])
 @dataclass(frozen=True)
 class CustomEnergy(Energy):
     """An energy given as one function ``E(x, y)`` of scalars, written with ``jax.numpy``.

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from glid_nb.geometry.domain import Domain
 
-Array = np.ndarray
+Array = NDArray[Any]
 
 # Bisecting a panel this often brings it below rounding for any domain of sane proportions.
 _MAX_BISECTIONS = 48
@@ -125,7 +126,7 @@ def distance_to_segments(points: Array, start: Array, end: Array) -> Array:
     along = end - start
     relative = points - start[:, None]
     length_squared = np.abs(along) ** 2
-    position = (relative * along.conj()[:, None]).real / length_squared[:, None]
+    position = np.real(relative * along.conj()[:, None]) / length_squared[:, None]
     np.clip(position, 0, 1, out=position)
     return np.abs(relative - position * along[:, None])
 

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+import itertools
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Complex, Int
+from numpy.typing import NDArray
 
 from glid_nb.harmonic.cauchy import Singularities
 
 if TYPE_CHECKING:
     from glid_nb.geometry import Domain
 
-Array = np.ndarray
+Array = NDArray[Any]
 
 _VERTEX_BUCKET = 8
 _HOLE_BUCKETS = (0, 1, 2, 4, 8, 16, 32, 64)
@@ -76,7 +78,7 @@ def build_basis(domain: Domain) -> Basis:
 
     starts = np.cumsum([0, *sizes, padding])
     following, preceding = [], []
-    for start, stop in zip(starts[:-1], starts[1:], strict=True):
+    for start, stop in itertools.pairwise(starts):
         index = np.arange(start, stop)
         following.append(np.roll(index, -1))
         preceding.append(np.roll(index, 1))

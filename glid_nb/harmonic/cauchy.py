@@ -13,16 +13,18 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Complex, Float, Int
 
+from glid_nb._arrays import AnyArray
+
 _TWO_PI_I = 2j * np.pi
 
 
 class Singularities(NamedTuple):
     """Where the basis functions are singular: the offset cage's vertices and the hole points."""
 
-    vertices: Complex[Array, " m"]
-    next: Int[Array, " m"]
-    previous: Int[Array, " m"]
-    hole_points: Complex[Array, " N"]
+    vertices: Complex[AnyArray, " m"]
+    next: Int[AnyArray, " m"]
+    previous: Int[AnyArray, " m"]
+    hole_points: Complex[AnyArray, " N"]
 
 
 def cauchy_coordinates(
@@ -122,9 +124,7 @@ def rounding_scale(
     return first + jnp.sum(1 / to_hole, axis=1), second + jnp.sum(to_hole**-2, axis=1)
 
 
-def _log_over_edge(
-    b: Complex[Array, "k m"], singularities: Singularities
-) -> Complex[Array, "k m"]:
+def _log_over_edge(b: Complex[AnyArray, "k m"], singularities: Singularities) -> Complex[Array, "k m"]:
     """``Log(B_{j+1} / B_j) / A_{j+1}``, one column per edge from vertex ``j`` to ``j + 1``.
 
     The principal branch is right: an edge is seen under less than pi from any point off it.

@@ -12,7 +12,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._files import write_text_atomically
 from glid_nb._runtime import double_precision
@@ -21,7 +21,7 @@ from glid_nb.harmonic import cauchy
 from glid_nb.harmonic.basis import Basis, build_basis
 from glid_nb.harmonic.cauchy import Singularities
 
-Array = np.ndarray
+Array = NDArray[Any]
 
 FORMAT = "glid_nb-map"
 FORMAT_VERSION = 1
@@ -41,7 +41,7 @@ def basis_of(domain: Domain) -> Basis:
     return build_basis(domain)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class HarmonicMap:
     """A planar harmonic map on a multiply-connected domain (paper Equation (8)).
 
@@ -67,10 +67,11 @@ class HarmonicMap:
     phi: Array = field(repr=False)
     psi: Array = field(repr=False)
 
-    def __post_init__(self) -> None:
-        n = self.domain.n_coefficients
-        for name in ("phi", "psi"):
-            values = np.array(getattr(self, name), dtype=complex)
+    def __init__(self, domain: Domain, phi: ArrayLike, psi: ArrayLike) -> None:
+        object.__setattr__(self, "domain", domain)
+        n = domain.n_coefficients
+        for name, given in (("phi", phi), ("psi", psi)):
+            values = np.array(given, dtype=complex)
             if values.shape != (n,):
                 raise MapError(
                     f"{name} has shape {values.shape}, but the domain has {n} coefficients "
@@ -81,7 +82,7 @@ class HarmonicMap:
                 raise MapError(f"{name}[{bad[0]}] is {values[bad[0]]}; it must be finite")
             values.flags.writeable = False
             object.__setattr__(self, name, values)
-        holes = slice(n - self.domain.n_holes, n)
+        holes = slice(n - domain.n_holes, n)
         gap = np.abs(self.phi[holes] - self.psi[holes].conj())
         scale = 1 + np.abs(self.phi[holes])
         if (gap > 1e-9 * scale).any():
@@ -112,7 +113,7 @@ class HarmonicMap:
         (k, 2) array
         """
         (f,) = self._evaluate(_values, points)
-        return np.stack([f.real, f.imag], axis=-1)
+        return np.stack([np.real(f), np.imag(f)], axis=-1)
 
     def wirtinger(self, points: ArrayLike) -> tuple[Array, Array]:
         """Wirtinger derivatives ``f_z`` and ``f_zbar``, each (k,) complex (Equation (9))."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,8 +52,8 @@ class HoleRule:
 
     min_area: float
     min_bay_area: float  # for holes that the offset makes: these are gaps for sure
-    keep: tuple[Point, ...]
-    drop: tuple[Point, ...]
+    keep: Sequence[Point]
+    drop: Sequence[Point]
 
     def keeps(self, loop: NDArray[np.float64], area: float, by_offset: bool = False) -> bool:
         """Whether a hole is kept."""
@@ -66,8 +67,8 @@ def choose_holes(
     outline: Outline,
     method: str,
     min_hole_area: float | None = None,
-    keep: tuple[Point, ...] = (),
-    drop: tuple[Point, ...] = (),
+    keep: Sequence[Point] = (),
+    drop: Sequence[Point] = (),
 ) -> tuple[tuple[Hole, ...], HoleRule, tuple[str, ...]]:
     """Apply the rule to the holes of an outline.
 
@@ -131,7 +132,7 @@ def filled_mask(
     return mask
 
 
-def _holds_any(loop: NDArray[np.float64], points: tuple[Point, ...]) -> bool:
+def _holds_any(loop: NDArray[np.float64], points: Sequence[Point]) -> bool:
     """Whether a loop goes around one of the points."""
     if not points:
         return False

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -112,8 +112,8 @@ class TraceOptions:
     component: int = 0
     component_at: Point | None = None
     min_hole_area: float | None = None
-    keep_holes: tuple[Point, ...] = ()
-    drop_holes: tuple[Point, ...] = ()
+    keep_holes: Sequence[Point] = ()
+    drop_holes: Sequence[Point] = ()
     offset: float | None = None
     simplify: float | None = None
     max_vertices: int | None = None

@@ -40,7 +40,7 @@ _LOG_FROM = 20.0
 _DECADES = 12
 
 # A loop's name is written where the loop makes up this share of the boundary.
-_NAMED = 0.1
+_NAMED = 0.18
 
 # The certificate's axis ends at this multiple of what nine tenths of the boundary stay below.
 _PEAK = 1.5
@@ -316,8 +316,8 @@ def _log_limits(axes: Axes, positive: NDArray[np.float64]) -> None:
     if not len(positive):
         axes.set_ylim(0.1, 1.0)
         return
-    high = np.ceil(np.log10(positive.max()) + 0.05)
-    low = np.floor(np.log10(positive.min()))
+    high = np.ceil(np.log10(positive.max()) + 0.1)
+    low = np.floor(np.log10(positive.min()) - 0.1)
     axes.set_ylim(10.0 ** max(low, high - _DECADES), 10.0**high)
 
 

@@ -202,9 +202,7 @@ def _from_pillow(picture: Image.Image, name: str) -> RGBA:
         raise TraceError(f"{name} is damaged or cut short: {error}") from error
 
 
-def _from_integers(
-    values: NDArray[np.integer], name: str
-) -> RGBA:
+def _from_integers(values: NDArray[np.integer], name: str) -> RGBA:
     low, high = int(values.min()), int(values.max())
     if low < 0 or high > 65535:
         raise TraceError(

@@ -312,8 +312,9 @@ def _colours(
     levels_used = jnp.where(detail > 0, 2.0, 1.0)
 
     def lookup(i: jax.Array, total: jax.Array) -> jax.Array:
-        probe = jnp.floor(i / levels_used)
-        coarser = i - probe * levels_used
+        number = i.astype(jnp.float32)
+        probe = jnp.floor(number / levels_used)
+        coarser = number - probe * levels_used
         weight = jnp.where(coarser > 0, fraction, 1 - fraction) / probes
         weight = jnp.where(probe < probes, weight, 0.0)
         level = (base + coarser).astype(jnp.int32)
@@ -325,7 +326,7 @@ def _colours(
     total = jnp.zeros((points.shape[1], 4), jnp.float32)
     total = jax.lax.fori_loop(0, n_lookups, lookup, total) * np.float32(1 / 65535)
     # Distance by which the point lies outside of the picture, in output pixels.
-    width, height = levels[0, 1], levels[0, 2]
+    width, height = levels[0, 1].astype(jnp.float32), levels[0, 2].astype(jnp.float32)
     outside = jnp.maximum(jnp.maximum(-u, u - width), jnp.maximum(-v, v - height))
     outside = outside / jnp.maximum(probes * jnp.hypot(step_u, step_v), 1e-6)
     total = total * jnp.clip(1 - outside, 0, 1)[:, None]

@@ -40,24 +40,7 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
     outline = shapely.MultiLineString([np.vstack([p, p[:1]]) for p in domain.cage.loops])
     clearance = np.asarray(shapely.distance(shapely.points(mesh.vertices), outline))
 
-    middle = int(np.argmax(clearance))
-    from_middle = np.asarray(dijkstra(graph, indices=middle))
-    reach = float(from_middle.max())
-    chosen = [middle]
-    nearest = from_middle.copy()
-    while len(chosen) < max_handles:
-        end = int(np.argmax(nearest))
-        if nearest[end] < _LEAST_SPACING * reach and len(chosen) > 2:
-            break
-        from_end = np.asarray(dijkstra(graph, indices=end))
-        vicinity = np.flatnonzero(from_end <= _PULL_IN * reach)
-        handle = int(vicinity[np.argmax(clearance[vicinity])])
-        np.minimum(nearest, from_end, out=nearest)
-        if handle not in chosen and clearance[handle] > 0:
-            chosen.append(handle)
-        elif nearest.max() == 0:
-            break
-
+    chosen = _spread_out(graph, clearance, max_handles)
     handles = mesh.vertices[chosen]
     paths = np.asarray(dijkstra(graph, indices=chosen))
     between = paths[:, chosen]
@@ -70,6 +53,25 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
     for i in moved:
         targets[i] = _swung(handles[i], handles[0], mesh.vertices, paths[i])
     return Pose(handles, targets)
+
+
+def _spread_out(graph: csr_array, clearance: NDArray[np.float64], count: int) -> list[int]:
+    """At most ``count`` vertices: the one deepest inside, and those at the ends of limbs."""
+    middle = int(np.argmax(clearance))
+    nearest = np.asarray(dijkstra(graph, indices=middle))
+    reach = float(nearest.max())
+    chosen = [middle]
+    while len(chosen) < count and nearest.max() > 0:
+        end = int(np.argmax(nearest))
+        if nearest[end] < _LEAST_SPACING * reach and len(chosen) > 2:
+            break
+        from_end = np.asarray(dijkstra(graph, indices=end))
+        vicinity = np.flatnonzero(from_end <= _PULL_IN * reach)
+        handle = int(vicinity[np.argmax(clearance[vicinity])])
+        if handle not in chosen and clearance[handle] > 0:
+            chosen.append(handle)
+        nearest = np.fmin(nearest, from_end)
+    return chosen
 
 
 def _edge_lengths(mesh: Triangulation) -> csr_array:

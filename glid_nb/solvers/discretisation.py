@@ -212,7 +212,7 @@ def _panel_arrays(panels: Panels, rows: _Rows, p: int) -> dict[str, Any]:
     return {
         "remainder": jnp.asarray(padded(rows.remainder, p)),
         "rounding": jnp.asarray(padded(rows.rounding, p)),
-        "chord": jnp.asarray(padded(np.stack([chord.real, chord.imag], axis=-1), p)),
+        "chord": jnp.asarray(padded(np.stack([np.real(chord), np.imag(chord)], axis=-1), p)),
         "next": jnp.asarray(padded(panels.next, p)),
         "real": jnp.asarray(np.arange(p) < len(panels)),
     }

@@ -2,8 +2,8 @@
 
 At one sample ``nabla^2 E = B^T K B`` (18). In the orthonormal frame ``f/|f|, i f/|f|`` for ``f_z``
 and likewise for ``g = conj(f_zbar)``, the 4 x 4 matrix ``K`` (19) splits into two 1 x 1 blocks,
-the eigenvalues ``lambda_1 = 2 alpha_1`` and ``lambda_2 = 2 alpha_2`` across ``f`` and ``g``, and one
-symmetric 2 x 2 block along them, whose eigenvalues are ``lambda_3,4`` (23). Written so, the
+the eigenvalues ``lambda_1 = 2 alpha_1`` and ``lambda_2 = 2 alpha_2`` across ``f`` and ``g``, and
+one symmetric 2 x 2 block along them, whose eigenvalues are ``lambda_3,4`` (23). Written so, the
 eigenvectors (24) need no division by ``|f_zbar|`` and a zero of ``f_zbar`` is no special case.
 """
 

@@ -9,14 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-import jax
 import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
+from glid_nb._arrays import AnyArray
 from glid_nb.certificate import PanelBounds
 from glid_nb.energies import Energy
-
 from glid_nb.solvers.outcome import BLOCKED, NO_DECREASE, PENDING, REFUSED, RUNNING
 
 CANDIDATES = 24
@@ -56,9 +55,7 @@ def isometric_energy(
     return jnp.sum(jnp.where(weights > 0, weights * density, 0), axis=-1)
 
 
-def largest_step(
-    nodes: Float[Array, "s 4"], change: Float[Array, "s 4"]
-) -> Float[Array, ""]:
+def largest_step(nodes: Float[Array, "s 4"], change: Float[Array, "s 4"]) -> Float[Array, ""]:
     """The step at which the first sample becomes inverted, or infinity, in closed form.
 
     ``|f + t df|^2 - |g + t dg|^2`` is a quadratic in ``t`` that is positive at 0.
@@ -116,7 +113,7 @@ def backtrack(
     certified: Callable[[Array], PanelBounds],
     turning: Float[Array, " p"],
     real: Bool[Array, " p"],
-    may_refine: Bool[Array, ""],
+    may_refine: Bool[AnyArray, ""],
 ) -> tuple[Int[Array, ""], Float[Array, ""], PanelBounds, Bool[Array, " p"]]:
     """Go from the best candidate to shorter ones until one is certified, or ask for finer panels.
 

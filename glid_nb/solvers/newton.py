@@ -10,17 +10,17 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
+from glid_nb._arrays import AnyArray
 from glid_nb._runtime import COMPILER_OPTIONS
 from glid_nb.certificate import EndValues, PanelBounds, hermite, lipschitz
-from glid_nb.energies import Energy
+from glid_nb.energies import Differentials, Energy
 from glid_nb.harmonic.cauchy import Singularities, slope_jumps
 from glid_nb.solvers import line_search
 from glid_nb.solvers.discretisation import CertificateKind, Matrices
 from glid_nb.solvers.hessian import assemble, local_hessian, positive_part
-from glid_nb.solvers.outcome import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.options import HessianKind
+from glid_nb.solvers.outcome import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.unknowns import Unknowns, expand, restrict_gradient, restrict_hessian
-
 
 _ATTEMPTS = {"exact": (0, 0), "projected": (1, 1), "adaptive": (0, 1)}
 
@@ -28,10 +28,10 @@ _ATTEMPTS = {"exact": (0, 0), "projected": (1, 1), "adaptive": (0, 1)}
 class Constraints(NamedTuple):
     """Handles and targets, padded to a bucket (paper Section 6.1, Appendix F)."""
 
-    handles: Float[Array, "h 2c"]
+    handles: Float[AnyArray, "h 2c"]
     """``C`` at the handles as ``[Re C, -Im C]``."""
-    targets: Float[Array, "h 2"]
-    weights: Float[Array, " h"]
+    targets: Float[AnyArray, "h 2"]
+    weights: Float[AnyArray, " h"]
     """``lambda`` for a handle, 0 for padding."""
 
 
@@ -45,12 +45,12 @@ class Samples(NamedTuple):
 class Record(NamedTuple):
     """History of one iteration, the state after its step."""
 
-    energy_iso: Float[Array, ""]
-    energy_p2p: Float[Array, ""]
-    step: Float[Array, ""]
-    decrement: Float[Array, ""]
-    sigma2_lower: Float[Array, ""]
-    modified: Bool[Array, ""]
+    energy_iso: Float[AnyArray, ""]
+    energy_p2p: Float[AnyArray, ""]
+    step: Float[AnyArray, ""]
+    decrement: Float[AnyArray, ""]
+    sigma2_lower: Float[AnyArray, ""]
+    modified: Bool[AnyArray, ""]
 
 
 class State(NamedTuple):
@@ -73,11 +73,11 @@ class State(NamedTuple):
 class Settings(NamedTuple):
     """Numbers that may change without compiling again."""
 
-    tolerance: Float[Array, ""]
-    iterations: Int[Array, ""]
-    may_refine: Bool[Array, ""]
+    tolerance: Float[AnyArray, ""]
+    iterations: Int[AnyArray, ""]
+    may_refine: Bool[AnyArray, ""]
     """Whether to return as soon as a panel refuses a step, so that it can be split."""
-    ridge: Float[Array, ""]
+    ridge: Float[AnyArray, ""]
     """Added to the Hessian's diagonal, relative to its mean (Section 9.1's epsilon)."""
 
 
@@ -123,7 +123,7 @@ def run(
         gradient = restrict_gradient(gradient, unknowns)
 
         index = matrices.hessian_index
-        local = local_hessian(type(d)(*(a[index] for a in d)), x[index], yy[index])
+        local = local_hessian(jax.tree.map(lambda a: a[index], d), x[index], yy[index])
         f, g = _directions(nodes[index])
 
         def factor(carry: tuple[Array, Array]) -> tuple[Array, Array]:
@@ -205,7 +205,8 @@ def run(
 
     samples = _products(matrices, coefficients)
     iso, p2p = energies(samples, coefficients)
-    empty = Record(*(jnp.full(capacity, jnp.nan) for _ in range(5)), jnp.zeros(capacity, bool))
+    blank = jnp.full(capacity, jnp.nan)
+    empty = Record(blank, blank, blank, blank, blank, jnp.zeros(capacity, bool))
     start = State(
         coefficients,
         samples,

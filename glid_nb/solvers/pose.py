@@ -7,18 +7,18 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from glid_nb.geometry import Domain
 
-Array = np.ndarray
+Array = NDArray[Any]
 
 
 class PoseError(ValueError):
     """The handles or their targets are not valid."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class Pose:
     """Positional constraints (paper Section 6.1): handle ``i`` should map to target ``i``.
 
@@ -38,9 +38,9 @@ class Pose:
     handles: Array
     targets: Array
 
-    def __post_init__(self) -> None:
-        for name in ("handles", "targets"):
-            object.__setattr__(self, name, _checked_points(getattr(self, name), name))
+    def __init__(self, handles: ArrayLike, targets: ArrayLike) -> None:
+        object.__setattr__(self, "handles", _checked_points(handles, "handles"))
+        object.__setattr__(self, "targets", _checked_points(targets, "targets"))
         n_handles, n_targets = len(self.handles), len(self.targets)
         if n_handles != n_targets:
             raise PoseError(
@@ -70,7 +70,7 @@ class Pose:
 
     def with_targets(self, targets: ArrayLike) -> Pose:
         """The same handles with other targets."""
-        return Pose(self.handles, np.asarray(targets))
+        return Pose(self.handles, targets)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON values with the keys ``handles`` and ``targets``."""

@@ -19,7 +19,7 @@ import jax.numpy as jnp
 from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy
 from glid_nb.solvers.options import Options
-from glid_nb.solvers.result import Attempt, Result
+from glid_nb.solvers.result import Attempt, Iteration, Result
 from glid_nb.solvers.status import Status
 
 Descend = Callable[..., Result]
@@ -99,7 +99,8 @@ def _staged(
     first: Result, descend: Descend, options: Options, callback: Callable[..., Any] | None
 ) -> Result:
     """Descend with a rising weight of the targets; the history holds all stages."""
-    result, history = None, ()
+    result: Result | None = None
+    history: tuple[Iteration, ...] = ()
     for fraction in STAGES:
         stage = replace(
             options,
@@ -111,12 +112,10 @@ def _staged(
         result = descend(first.pose, first.energy_measure, stage, result, callback)
         if result.status is Status.STOPPED:
             return result
-        history += result.history
+        # As the full weight counts them, so that all energies of the history compare.
+        history += tuple(_at_weight(entry, 1 / fraction) for entry in result.history)
     final = descend(
         first.pose, first.energy_measure, replace(options, align=False), result, callback
     )
     offset = len(history)
-    history += tuple(
-        replace(entry, iteration=entry.iteration + offset) for entry in final.history
-    )
     return replace(final, history=history)

@@ -10,6 +10,7 @@ from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
+from numpy.typing import NDArray
 
 from glid_nb._runtime import compilation_clock, double_precision, single_blas_thread
 from glid_nb.certificate import certify
@@ -27,7 +28,7 @@ from glid_nb.solvers.result import Iteration, Result
 from glid_nb.solvers.status import Status
 from glid_nb.solvers.unknowns import canonical, unknowns_of
 
-Array = np.ndarray
+Array = NDArray[Any]
 
 _HANDLE_BUCKET = 8
 # Without two handles a rotation costs nothing and the Hessian is singular (Appendix I).
@@ -172,7 +173,7 @@ class _Loop:
             map_ = aligned(map_, pose)
         phi, psi = basis.pad(map_.phi), basis.pad(map_.psi)
         self.coefficients: Any = jnp.asarray(
-            np.concatenate([phi.real, phi.imag, psi.real, psi.imag])
+            np.concatenate([np.real(phi), np.imag(phi), np.real(psi), np.imag(psi)])
         )
         self.history: list[Iteration] = []
         self.energy_iso = self.energy_p2p = np.nan
@@ -220,10 +221,10 @@ class _Loop:
         left = options.max_iterations - len(self.history)
         # With no iterations left, one call still evaluates the energies.
         settings = newton.Settings(
-            np.float64(options.tolerance),
-            np.int64(min(options.iterations_per_call, left)),
-            np.bool_(may_refine and self.discretisation.can_refine),
-            np.float64(self.ridge),
+            np.asarray(options.tolerance),
+            np.asarray(min(options.iterations_per_call, left)),
+            np.asarray(may_refine and self.discretisation.can_refine),
+            np.asarray(self.ridge),
         )
         disc = self.discretisation
         return newton.run(
@@ -305,7 +306,9 @@ def _starting_point(
         return HarmonicMap.identity(domain), fresh
     map_ = start.map if isinstance(start, Result) else start
     if map_.domain is not domain and map_.domain.to_dict() != domain.to_dict():
-        raise StartError("the map to start from belongs to another domain; start from a map of this one")
+        raise StartError(
+            "the map to start from belongs to another domain; start from a map of this one"
+        )
     if options.conformal and np.abs(map_.psi - map_.psi[0]).max() > 0:
         raise StartError(
             "the map to start from is not conformal (psi is not constant); start from a conformal "

@@ -14,6 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from glid_nb._arrays import AnyArray
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.basis import Basis
 
@@ -21,9 +22,9 @@ from glid_nb.harmonic.basis import Basis
 class Unknowns(NamedTuple):
     """The unknowns of one domain, as data for compiled programs."""
 
-    free: Float[Array, " 4c"]
+    free: Float[AnyArray, " 4c"]
     """1 for an unknown, 0 for a fixed or tied one."""
-    holes: Float[Array, " N"]
+    holes: Float[AnyArray, " N"]
     """One entry per padded hole column (its length is what matters)."""
 
 

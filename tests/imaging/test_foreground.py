@@ -11,6 +11,7 @@ from glid_nb.imaging import Scribbles, TraceError, TraceOptions, as_rgba
 from glid_nb.imaging.foreground import Foreground, find_foreground
 from glid_nb.imaging.foreground.border import border_color
 from glid_nb.imaging.foreground.levels import histogram, otsu
+from glid_nb.imaging.options import Method
 
 SIZE = 80
 RNG = np.random.default_rng(3)
@@ -28,7 +29,7 @@ def blended(shape, background, coverage: NDArray[np.float64] | None = None):
     return a * np.array(shape) + (1 - a) * np.array(background)
 
 
-def find(image, method="auto", **options) -> Foreground:
+def find(image, method: Method = "auto", **options) -> Foreground:
     return find_foreground(as_rgba(image), method, **options)
 
 

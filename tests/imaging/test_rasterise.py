@@ -305,13 +305,17 @@ def test_bands_and_portions_change_nothing(monkeypatch: pytest.MonkeyPatch):
     np.testing.assert_array_equal(pieces, whole)
 
 
-def test_double_precision_mode_of_jax_changes_nothing():
+def test_the_users_settings_of_jax_change_nothing():
     image = noise(30, 30)
     points, triangles = irregular_mesh(30, 30, 30)
-    single = render_mesh(image, points, points * 1.3, triangles, (39, 39))
-    with jax.enable_x64(True):
-        double = render_mesh(image, points, points * 1.3, triangles, (39, 39))
-    assert np.abs(single.astype(int) - double).max() <= 1
+    plain = render_mesh(image, points, points * 1.3, triangles, (39, 39))
+    with (
+        jax.enable_x64(True),
+        jax.numpy_dtype_promotion("strict"),
+        jax.numpy_rank_promotion("raise"),
+    ):
+        strict = render_mesh(image, points, points * 1.3, triangles, (39, 39))
+    assert np.abs(plain.astype(int) - strict).max() <= 1
 
 
 def test_vertices_far_away_leave_the_rest_exact():

@@ -112,9 +112,7 @@ class TestWrongArrays:
 
     def test_too_large(self):
         image = np.broadcast_to(np.uint8(3), (2, MAX_SIDE + 1))
-        with pytest.raises(
-            TraceError, match=f"too large, {MAX_SIDE + 1} x 2 .* most {MAX_SIDE}"
-        ):
+        with pytest.raises(TraceError, match=f"too large, {MAX_SIDE + 1} x 2 .* most {MAX_SIDE}"):
             as_rgba(image)
 
 

@@ -55,10 +55,10 @@ def polygon(tracing: Tracing) -> shapely.Polygon:
     return shapely.Polygon(exterior, holes)
 
 
-def contained(tracing: Tracing) -> float:
-    """The part of the mask's pixels whose centres are in the cage."""
+def contained(tracing: Tracing, tolerance: float = 0.0) -> float:
+    """The part of the mask's pixels whose centres are in the cage, or as near as this to it."""
     rows, columns = np.nonzero(tracing.mask)
-    region = polygon(tracing)
+    region = polygon(tracing).buffer(tolerance) if tolerance else polygon(tracing)
     shapely.prepare(region)
     return float(shapely.contains_xy(region, columns + 0.5, rows + 0.5).mean())
 
@@ -256,7 +256,8 @@ class TestAwkwardPictures:
         if most is not None and not any("max_vertices" in note for note in tracing.notes):
             assert tracing.cage.n_vertices <= most
         if tolerance in (None, 0.0, 0.5) and most is None:
-            missing = 1 - contained(tracing)
+            # Half a pixel: the outline of a smooth field may pass right beside a pixel's centre.
+            missing = 1 - contained(tracing, 0.5)
             assert missing < 0.02 or any("cut off" in note for note in tracing.notes)
 
 
@@ -461,12 +462,14 @@ class TestOptions:
         assert np.quantile(pixels, 0.05) > 7
 
     def test_what_is_cut_off_is_said(self):
-        bump = np.zeros((80, 120))
-        bump[40:70, 10:110] = 1
-        bump[10:40, 58:61] = 1
-        tracing = trace(with_alpha(bump), offset=0, max_vertices=4)
-        share = next(note for note in tracing.notes if "cut off" in note)
-        assert "of the shape lies outside the cage" in share
+        values = gaussian_filter(np.random.default_rng(14).random((60, 60)), 2)
+        blob = with_alpha((values > np.quantile(values, 0.4)).astype(float))
+        tracing = trace(blob, offset=0, max_vertices=12)
+        assert tracing.cage.n_vertices <= 12
+        note = next(note for note in tracing.notes if "outside the cage and is cut off" in note)
+        stated = float(note.partition("%")[0]) / 100
+        assert stated > 0.1
+        assert 1 - contained(tracing) == pytest.approx(stated, abs=0.03)
 
     def test_the_values_used_are_reported(self):
         picture = 1 - 0.8 * disc(40, 100)

@@ -83,31 +83,42 @@ def simplify(
         limits = np.full(len(loops), tolerance)
     gap = max(_GAP * room, _LEAST_GAP)
 
-    def chosen() -> tuple[list[NDArray[np.bool_]], list[str]]:
-        kept = _above(importance, limits)
-        notes = repair(loops, importance, kept, gap)
-        merge_short_edges(loops, kept, min_edge, gap)
-        return kept, notes
-
-    kept, notes = chosen()
-    aim = max_vertices
-    while max_vertices is not None and aim is not None and _count(kept) > max_vertices:
-        tolerance = _tolerance_for_count(importance, aim)
-        limits = np.full(len(loops), tolerance)
-        kept, notes = chosen()
-        excess = _count(kept) - max_vertices
-        if excess > 0 and aim <= 3 * len(loops):
+    kept, notes = _choose(loops, importance, limits, min_edge, gap)
+    if max_vertices is not None and _count(kept) > max_vertices:
+        fewest = 3 * len(loops)
+        aim, excess = max(max_vertices, fewest), 0
+        while True:
+            aim = max(aim - excess, fewest)  # repairs put some vertices back
+            tolerance = _tolerance_for_count(importance, aim)
+            limits = np.full(len(loops), tolerance)
+            kept, notes = _choose(loops, importance, limits, min_edge, gap)
+            excess = _count(kept) - max_vertices
+            if excess <= 0 or aim == fewest:
+                break
+        if excess > 0:
             notes.append(
                 f"max_vertices={max_vertices} is too few: the loops need {_count(kept)} to keep "
                 "apart"
             )
-            break
-        aim = max(aim - excess, 3 * len(loops))  # repairs need some
     result = enclosing(loops, kept, _MARGIN * offset, gap)
     result = divide_long_edges(result, max_edge, max_vertices)
     for loop in result:
         loop.setflags(write=False)
     return Simplified(result[0], tuple(result[1:]), float(tolerance), tuple(notes))
+
+
+def _choose(
+    loops: tuple[Loop, ...],
+    importance: list[NDArray[np.float64]],
+    limits: NDArray[np.float64],
+    min_edge: float | None,
+    gap: float,
+) -> tuple[list[NDArray[np.bool_]], list[str]]:
+    """Which vertices to keep with a tolerance for each loop, and notes."""
+    kept = _above(importance, limits)
+    notes = repair(loops, importance, kept, gap)
+    merge_short_edges(loops, kept, min_edge, gap)
+    return kept, notes
 
 
 def _automatic_tolerance(
@@ -140,7 +151,7 @@ def _count(kept: list[NDArray[np.bool_]]) -> int:
 
 
 def _tolerance_for_count(importance: list[NDArray[np.float64]], count: int) -> float:
-    """The least tolerance for which `_above` keeps at most `count` vertices, if three a loop may."""
+    """The least tolerance with which `_above` keeps `count` vertices, or three a loop."""
     rest = np.concatenate([np.sort(values)[:-3] for values in importance])
     room = min(max(count - 3 * len(importance), 0), len(rest) - 1)
     return float(np.sort(rest)[::-1][room]) if len(rest) else 0.0

@@ -26,8 +26,9 @@ def significance(loop: Loop) -> NDArray[np.float64]:
     n = len(loop)
     start = int(np.argmax(np.hypot(*(loop - loop.mean(axis=0)).T)))
     points = np.roll(loop, -start, axis=0)
-    middle = int(np.argmax(np.hypot(*(points - points[0]).T)))
-    closed = np.concatenate([points, points[:1]])
+    z = points[:, 0] + 1j * points[:, 1]
+    middle = int(np.argmax(np.abs(z - z[0])))
+    z = np.append(z, z[0])
     result = np.zeros(n + 1)
     result[[0, middle]] = np.inf
     stack = [(0, middle, np.inf), (middle, n, np.inf)]
@@ -35,13 +36,24 @@ def significance(loop: Loop) -> NDArray[np.float64]:
         low, high, limit = stack.pop()
         if high - low < 2:
             continue
-        distance = distances_from_segments(closed[low + 1 : high], closed[low], closed[high])
-        split = int(np.argmax(distance))
-        limit = min(limit, float(distance[split]))
+        split, distance = _farthest(z[low + 1 : high], complex(z[low]), complex(z[high]))
         split += low + 1
+        limit = min(limit, distance)
         result[split] = limit
         stack += [(low, split, limit), (split, high, limit)]
     return np.roll(result[:-1], start)
+
+
+def _farthest(z: NDArray[np.complex128], a: complex, b: complex) -> tuple[int, float]:
+    """The point with the largest distance from the segment from a to b, and that distance."""
+    length = abs(b - a)
+    # In a frame in which the segment runs from 0 along the real axis.
+    turned = (z - a) * ((b - a).conjugate() / length if length > 0 else 1.0)
+    along, across = turned.real, turned.imag
+    beyond = np.maximum(np.maximum(-along, along - length), 0)
+    square = across * across + beyond * beyond
+    index = int(square.argmax())
+    return index, float(square[index]) ** 0.5
 
 
 def distances_from_segments(
