@@ -124,7 +124,9 @@ def rounding_scale(
     return first + jnp.sum(1 / to_hole, axis=1), second + jnp.sum(to_hole**-2, axis=1)
 
 
-def _log_over_edge(b: Complex[AnyArray, "k m"], singularities: Singularities) -> Complex[Array, "k m"]:
+def _log_over_edge(
+    b: Complex[AnyArray, "k m"], singularities: Singularities
+) -> Complex[Array, "k m"]:
     """``Log(B_{j+1} / B_j) / A_{j+1}``, one column per edge from vertex ``j`` to ``j + 1``.
 
     The principal branch is right: an edge is seen under less than pi from any point off it.

@@ -117,5 +117,11 @@ def _staged(
     final = descend(
         first.pose, first.energy_measure, replace(options, align=False), result, callback
     )
-    offset = len(history)
-    return replace(final, history=history)
+    history += final.history
+    numbered = tuple(replace(entry, iteration=i) for i, entry in enumerate(history, start=1))
+    return replace(final, history=numbered)
+
+
+def _at_weight(entry: Iteration, factor: float) -> Iteration:
+    p2p = entry.energy_p2p * factor
+    return replace(entry, energy_p2p=p2p, energy=entry.energy_iso + p2p)

@@ -178,7 +178,7 @@ class _Loop:
         self.history: list[Iteration] = []
         self.energy_iso = self.energy_p2p = np.nan
         self.just_split = 0
-        self.full_hessian = False
+        self.full_since: int | None = None
         self.compile_time = 0.0
 
     def run(self, callback: Callback | None) -> Status:
@@ -196,16 +196,16 @@ class _Loop:
             self._record(state, taken, seconds)
             if taken:
                 rounds = total_rounds = 0
-                self.full_hessian |= self._is_slow()
-                if self._has_stalled():
-                    return self._without_decrease(state)
+                if self._is_slow():
+                    self._take_full_hessian()
                 if callback is not None and callback(self._progress(state)):
                     return Status.STOPPED
             if end == outcome.CONVERGED:
                 return Status.CONVERGED
             if end == outcome.INDEFINITE:
                 return Status.INDEFINITE
-            if end == outcome.NO_DECREASE:
+            stalled = end == outcome.NO_DECREASE or (taken and self._has_stalled())
+            if stalled and not self._take_full_hessian():
                 return self._without_decrease(state)
             if len(self.history) >= self.options.max_iterations:
                 return Status.MAX_ITERATIONS
@@ -228,7 +228,7 @@ class _Loop:
         )
         disc = self.discretisation
         return newton.run(
-            disc.full_matrices if self.full_hessian else disc.matrices,
+            disc.matrices if self.full_since is None else disc.full_matrices,
             disc.basis.singularities,
             self.unknowns,
             self.constraints,
@@ -266,10 +266,17 @@ class _Loop:
         bounds = np.asarray(state.sigma2_lower)[: len(self.discretisation.panels)]
         return Progress(tuple(self.history), bounds, self.discretisation, self.coefficients)
 
+    def _take_full_hessian(self) -> bool:
+        """From now on put the Hessian on all nodes; False when it is there or may not be."""
+        if self.full_since is not None or not self.discretisation.can_refine:
+            return False
+        if self.options.hessian == "projected":
+            return False
+        self.full_since = len(self.history)
+        return True
+
     def _is_slow(self) -> bool:
         """Whether the Hessian's coarser quadrature seems to cost iterations."""
-        if not self.discretisation.can_refine or self.options.hessian == "projected":
-            return False
         *before, last = self.history
         if len(self.history) >= _SLOW_ITERATIONS:
             return True
@@ -278,7 +285,8 @@ class _Loop:
 
     def _has_stalled(self) -> bool:
         """Whether the last steps gained nothing: without a barrier, a map can creep to folding."""
-        recent = [entry.energy for entry in self.history[-1 - _STALLED :]]
+        history = self.history[self.full_since or 0 :]
+        recent = [entry.energy for entry in history[-1 - _STALLED :]]
         return len(recent) > _STALLED and recent[0] - recent[-1] <= _STALL_GAIN * abs(recent[-1])
 
     def _without_decrease(self, state: newton.State) -> Status:

@@ -190,7 +190,7 @@ class TestBorderColor:
         image = np.full((60, 60, 3), 0.5) + RNG.normal(0, 0.01, (60, 60, 3))
         found = border_color(as_rgba(image.clip(0, 1)))
         assert found is not None
-        np.testing.assert_allclose(found.color, 0.5, atol=0.01)
+        np.testing.assert_allclose(found.color, 0.5, atol=0.003)
         assert found.share == 1
         assert found.spread < 0.05
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import itertools
+from collections.abc import Callable
 
 import jax
 import jax.numpy as jnp
@@ -54,7 +55,7 @@ def ring(options: Options | None = None) -> Result:
 
 
 @pytest.mark.parametrize("solved", [ell, ring], ids=["no hole", "one hole"])
-def test_converges_to_a_certified_map_on_its_targets(solved: functools.cache) -> None:
+def test_converges_to_a_certified_map_on_its_targets(solved: Callable[[], Result]) -> None:
     result = solved()
     assert result.status is Status.CONVERGED
     check_certified(result)

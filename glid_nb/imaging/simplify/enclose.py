@@ -27,8 +27,10 @@ def enclosing(
         moved = [loop + shift for loop, shift in zip(simplified, shifts, strict=True)]
         changed = False
         for number, (before, after) in enumerate(zip(simplified, moved, strict=True)):
+            # A hole may neither vanish nor turn inside out.
+            low, high = (0.3, 1.2) if number > 0 else (0.5, np.inf)
             ratio = signed_area(after) / signed_area(before)
-            if not 0.5 < ratio < 2 and shifts[number].any():
+            if not low < ratio < high and shifts[number].any():
                 shifts[number][:] = 0
                 changed = True
         for number, edge in [] if changed else edges_in_conflict(moved, gap):
