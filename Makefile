@@ -20,7 +20,7 @@ test: $(VENV)/.test
 	$(PYTEST) --nbval --nbval-current-env notebooks
 
 unit: $(VENV)/.test
-	$(PYTEST) --no-skip -m "not slow and not browser"
+	$(PYTEST) --no-skip -m "not slow and not browser" -n auto
 
 lint: $(VENV)/.dev
 	$(VENV)/bin/ruff check .

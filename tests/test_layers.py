@@ -12,7 +12,7 @@ PACKAGE = Path(__file__).resolve().parent.parent / "glid_nb"
 
 # Lowest first; the members of one row know nothing of each other.
 LAYERS = (
-    ("_files", "_runtime"),
+    ("_arrays", "_files", "_runtime"),
     ("geometry",),
     ("harmonic",),
     ("energies",),

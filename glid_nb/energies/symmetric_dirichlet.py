@@ -15,7 +15,7 @@ from glid_nb.energies.energy import Differentials, Energy, Scalars
 class SymmetricDirichlet(Energy):
     """``E_iso = (sigma_1^2 + sigma_1^-2 + sigma_2^2 + sigma_2^-2) / 2`` (Equation (10a)).
 
-    In Wirtinger terms ``(x + y) (1 + (x - y)^-2)`` (Table 1, first row). It is 1 at an isometry
+    In Wirtinger terms ``(x + y) (1 + (x - y)^-2)`` (Table 1, first row). It is 2 at an isometry
     and infinite where the map degenerates.
     """
 

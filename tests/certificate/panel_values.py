@@ -38,7 +38,7 @@ def polynomials(drawn: tuple[int, float, float], degree: int) -> tuple[Array, Ar
 
 def values(coefficients: Array, t: Array = T) -> Array:
     """(PANELS, t) values."""
-    return sum(c[:, None] * t**k for k, c in enumerate(coefficients.T))
+    return coefficients @ t ** np.arange(coefficients.shape[1])[:, None]
 
 
 def derivative(coefficients: Array) -> Array:

@@ -55,7 +55,7 @@ def test_the_scale_bounds_the_sum_of_all_terms(name: str) -> None:
     shift=st.sampled_from([0, 1e3, 1e6j, -1e9]),
     seed=st.integers(0, 10**6),
 )
-@settings(max_examples=12)
+@settings(max_examples=8)
 def test_the_slack_bounds_the_actual_rounding(
     name: str, size: float, shift: complex, seed: int
 ) -> None:

@@ -85,7 +85,7 @@ def test_targets_may_coincide() -> None:
         (np.array([1 + 2j]), [[1, 2]], "handles"),
         ([[], []], [[], []], "handles"),
     ],
-    ids=str,
+    ids=lambda value: str(value)[:24],
 )
 def test_bad_poses_are_refused(handles: Any, targets: Any, message: str) -> None:
     with pytest.raises(PoseError, match=message):
