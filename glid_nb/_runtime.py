@@ -12,10 +12,10 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeVar
 
 import jax
-from threadpoolctl import ThreadpoolController
+from threadpoolctl import OpenBLASController, ThreadpoolController
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -25,7 +25,7 @@ COMPILER_OPTIONS = {"xla_cpu_use_fusion_emitters": False}
 
 _lock = threading.Lock()
 _depth = 0
-_limiter: object | None = None
+_limiter: Any = None
 
 
 @contextmanager
@@ -39,8 +39,11 @@ def single_blas_thread() -> Iterator[None]:
     global _depth, _limiter
     with _lock:
         if _depth == 0:
+            # threadpoolctl lets one Python thread at a time control OpenBLAS. Ours may end in
+            # another thread than it began in, so control is taken for the moment of each change.
+            OpenBLASController.clear_controlling_thread(force=True)
             _limiter = _controller().limit(limits=1, user_api="blas")
-            _limiter.__enter__()
+            OpenBLASController.clear_controlling_thread(force=True)
         _depth += 1
     try:
         yield
@@ -48,7 +51,8 @@ def single_blas_thread() -> Iterator[None]:
         with _lock:
             _depth -= 1
             if _depth == 0 and _limiter is not None:
-                _limiter.__exit__(None, None, None)  # type: ignore[attr-defined]
+                _limiter.restore_original_limits()
+                OpenBLASController.clear_controlling_thread(force=True)
                 _limiter = None
 
 

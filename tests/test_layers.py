@@ -10,9 +10,10 @@ import pytest
 
 PACKAGE = Path(__file__).resolve().parent.parent / "glid_nb"
 
+FOUNDATION = "private modules at the top, such as _files"
 # Lowest first; the members of one row know nothing of each other.
 LAYERS = (
-    ("_arrays", "_files", "_runtime"),
+    (FOUNDATION,),
     ("geometry",),
     ("harmonic",),
     ("energies",),
@@ -34,8 +35,12 @@ def modules() -> list[Path]:
     return sorted(p for p in PACKAGE.rglob("*.py*") if p.suffix in (".py", ".pyi"))
 
 
+def layer_called(name: str) -> str:
+    return FOUNDATION if name.startswith("_") and not name.startswith("__") else name
+
+
 def layer_of(path: Path) -> str:
-    return path.relative_to(PACKAGE).with_suffix("").parts[0]
+    return layer_called(path.relative_to(PACKAGE).with_suffix("").parts[0])
 
 
 def imported(source: str, package: tuple[str, ...]) -> Iterator[tuple[int, str]]:
@@ -53,13 +58,16 @@ def imported(source: str, package: tuple[str, ...]) -> Iterator[tuple[int, str]]
             module = ".".join((*base, *([node.module] if node.module else [])))
             # `from glid_nb import geometry` is an import of the layer, `... import Cage` is not.
             if module == "glid_nb":
-                names = [f"glid_nb.{a.name}" if a.name in HEIGHT else module for a in node.names]
+                names = [
+                    f"glid_nb.{a.name}" if layer_called(a.name) in HEIGHT else module
+                    for a in node.names
+                ]
             else:
                 names = [module]
         for name in names:
             head, *rest = name.split(".")
             if head == "glid_nb":
-                yield node.lineno, rest[0] if rest else ""
+                yield node.lineno, layer_called(rest[0]) if rest else ""
 
 
 def violations(source: str, layer: str, package: tuple[str, ...]) -> list[str]:

@@ -133,7 +133,11 @@ def certify(
     known = _evaluate(panels, coefficients, basis, method)
     for _ in range(_MAX_ROUNDS if refine else 0):
         wanted = _to_split(known, tightness) & panels.divisible
-        if (known["sigma2_seen"] <= 0).any() or not wanted.any() or len(panels) > _MAX_PANELS:
+        if (
+            (known["sigma2_seen"] <= -2 * known["slack"]).any()
+            or not wanted.any()
+            or len(panels) > _MAX_PANELS
+        ):
             break
         finer = panels.split(wanted)
         parent = np.repeat(np.arange(len(panels)), np.where(wanted, 2, 1))
@@ -154,11 +158,20 @@ def _to_split(known: dict[str, Array], tightness: float) -> Array:
         known["k_seen"].max(),
     )
     k_slack = tightness * max(worst, 1e-3)
-    return (
-        ~known["injective"]
-        | (known["sigma2_lower"] < least * (1 - tightness))
-        | (known["sigma1_upper"] > most * (1 + tightness))
-        | (known["k_upper"] > worst + k_slack)
+    # Splitting shortens panels; it does not lessen what rounding takes from the bounds.
+    slack = known["slack"]
+    least_gain = 4 * slack
+    failed = ~known["injective"] & (known["sigma2_seen"] > least_gain)
+    loose_sigma2 = known["sigma2_seen"] - known["sigma2_lower"] > least_gain
+    loose_sigma1 = known["sigma1_upper"] - known["sigma1_seen"] > least_gain
+    # An unknown k belongs to a failed panel; elsewhere k is bounded and f_z is not 0.
+    k_known = np.isfinite(known["k_upper"]) & (known["fz_seen"] > 0)
+    k_gap = np.where(k_known, known["k_upper"], 0) - np.where(k_known, known["k_seen"], 0)
+    loose_k = ~k_known | (k_gap * known["fz_seen"] > 2 * least_gain)
+    return failed | (
+        (loose_sigma2 & (known["sigma2_lower"] < least * (1 - tightness)))
+        | (loose_sigma1 & (known["sigma1_upper"] > most * (1 + tightness)))
+        | (loose_k & known["injective"] & (known["k_upper"] > worst + k_slack))
     )
 
 
@@ -168,7 +181,7 @@ def _conclude(
     n_loops = 1 + map.domain.n_holes
     turns = np.bincount(panels.loop, weights=known["turning"], minlength=n_loops) / (2 * np.pi)
     windings = tuple(int(w) for w in np.round(np.nan_to_num(turns)))
-    folded = known["sigma2_seen"] <= 0
+    folded = known["sigma2_seen"] <= -2 * known["slack"]
     open_ = ~known["injective"]
     if folded.any():
         i = int(np.argmin(known["sigma2_seen"]))
@@ -197,11 +210,11 @@ def _conclude(
         float(known["k_upper"].max()),
         windings,
         PanelCertificate(
-            _real(panels.start),
-            _real(panels.end),
+            _frozen(_real(panels.start)),
+            _frozen(_real(panels.end)),
             panels.loop,
             panels.depth,
-            *(known[name] for name in ("sigma2_lower", "sigma1_upper", "k_upper")),
+            *(_frozen(known[name]) for name in ("sigma2_lower", "sigma1_upper", "k_upper")),
         ),
         method,
         reason,
@@ -238,8 +251,9 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Any, method:
     jumps = jnp.abs(cauchy.slope_jumps(coefficients, singularities))
     weights = derivative_bound_weights(start, end, singularities, module.DERIVATIVE_ORDER)
     remainder = module.remainder_factor(jnp.abs(chord))[:, None] * (weights @ jumps.T)
-    slack = rounding.slack_factor(coefficients.shape[1]) * jnp.abs(coefficients).max()
-    remainder = remainder + slack * rounding.panel_scale(start, end, singularities)[:, None]
+    factor = rounding.slack_factor(coefficients.shape[1]) * jnp.abs(coefficients).max()
+    slack = factor * rounding.panel_scale(start, end, singularities)
+    remainder = remainder + slack[:, None]
     bounds = module.panel_bounds(ends, remainder[:, 0], remainder[:, 1])
     f, g = (modulus(values[0][:, k]) for k in (0, 1))
     return {
@@ -251,7 +265,14 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Any, method:
         "sigma2_seen": f - g,
         "sigma1_seen": f + g,
         "k_seen": g / f,
+        "fz_seen": f,
+        "slack": slack,
     }
+
+
+def _frozen(values: Array) -> Array:
+    values.flags.writeable = False
+    return values
 
 
 def _real(z: Array) -> Array:

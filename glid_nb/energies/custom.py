@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import functools
+import weakref
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 
 from glid_nb.energies.energy import Differentials, Energy, EnergyError, Scalars
+
+# JAX rebuilds energies often; each function is tried out once.
+_checked: weakref.WeakSet[Callable[..., Any]] = weakref.WeakSet()
 
 
 @functools.partial(jax.tree_util.register_dataclass, data_fields=[], meta_fields=["function"])
@@ -44,6 +49,9 @@ class CustomEnergy(Energy):
     def __post_init__(self) -> None:
         if not callable(self.function):
             raise EnergyError(f"a custom energy must be a function E(x, y), got {self.function!r}")
+        if self.function not in _checked:
+            _check_isometry(self)
+            _checked.add(self.function)
 
     def density(self, x: Scalars, y: Scalars) -> Scalars:
         return jnp.vectorize(self.function)(x, y)
@@ -56,4 +64,17 @@ class CustomEnergy(Energy):
             (beta1, beta3), (_, beta2) = jax.jacfwd(gradient, argnums=(0, 1))(x, y)
             return Differentials(alpha1, alpha2, beta1, beta2, beta3)
 
-        return jnp.vectorize(at_one_sample)(x, y)
+        return Differentials(*jnp.vectorize(at_one_sample)(x, y))
+
+
+def _check_isometry(energy: CustomEnergy) -> None:
+    """Refuse an energy without finite value and derivatives at ``E(1, 0)``, where solves start."""
+    with jax.ensure_compile_time_eval(), jax.enable_x64(True):
+        one, zero = jnp.ones(1), jnp.zeros(1)
+        values = {"value": energy.density(one, zero), **energy.differentials(one, zero)._asdict()}
+    for name, value in values.items():
+        if not np.isfinite(np.asarray(value)).all():
+            raise EnergyError(
+                f"the custom energy's {name} at the isometry E(1, 0) is {float(value[0])}; it must "
+                "be finite there, with finite first and second derivatives"
+            )

@@ -6,6 +6,7 @@ from glid_nb.energies.amips import AMIPS
 from glid_nb.energies.arap import ARAP
 from glid_nb.energies.energy import Energy, EnergyError
 from glid_nb.energies.exponential import ExponentialSymmetricDirichlet
+from glid_nb.energies.parameters import checked_sharpness
 from glid_nb.energies.symmetric_dirichlet import SymmetricDirichlet
 
 ENERGY_NAMES: tuple[str, ...] = ("iso", "exp", "amips", "arap")
@@ -16,14 +17,14 @@ def energy_by_name(name: str, s: float | None = None) -> Energy:
     """The energy called ``name``: one of :data:`ENERGY_NAMES`.
 
     ``s`` is the parameter of ``exp`` and ``amips`` (default 1); ``iso`` and ``arap`` have none
-    and ignore it.
+    and ignore it, but it must be positive all the same.
 
     Raises
     ------
     EnergyError
         For an unknown name, or an ``s`` that is not positive.
     """
-    sharpness = 1.0 if s is None else s
+    sharpness = 1.0 if s is None else checked_sharpness(name, s)
     if name == "iso":
         return SymmetricDirichlet()
     if name == "exp":

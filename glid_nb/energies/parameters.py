@@ -6,6 +6,8 @@ import math
 import numbers
 from typing import Any
 
+import jax
+
 from glid_nb.energies.energy import EnergyError
 
 
@@ -17,8 +19,13 @@ def checked_sharpness(energy: str, s: Any) -> Any:
     """
     if isinstance(s, bool | str) or s is None:
         raise EnergyError(f"s of the energy {energy!r} must be a positive number, got {s!r}")
-    if not isinstance(s, numbers.Real):
+    if isinstance(s, jax.Array):
         return s
+    if not isinstance(s, numbers.Real):
+        # JAX rebuilds values around placeholders of its own, which are plain objects.
+        if type(s) is object or isinstance(s, jax.ShapeDtypeStruct):
+            return s
+        raise EnergyError(f"s of the energy {energy!r} must be a positive number, got {s!r}")
     value = float(s)
     if not (math.isfinite(value) and value > 0):
         raise EnergyError(f"s of the energy {energy!r} must be positive and finite, got {value}")

@@ -6,6 +6,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._numbers import real_array
 from glid_nb.geometry._loops import GeometryError, loop_name, place, point_objects, segments
 
 # Two parts of the boundary closer than this share of the cage's size count as touching. It is a few
@@ -28,7 +29,7 @@ def check_loops(loops: list[NDArray[np.float64]]) -> None:
 def checked_vertices(vertices: ArrayLike, name: str) -> NDArray[np.float64]:
     """Shape, numbers and count; a float64 copy."""
     try:
-        loop = np.array(vertices, dtype=np.float64)
+        loop = real_array(vertices)
     except (TypeError, ValueError) as error:
         raise GeometryError(
             f"{name}: vertices must be pairs of numbers [[x, y], ...] ({error})"

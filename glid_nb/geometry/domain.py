@@ -11,6 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._numbers import real_array
 from glid_nb.geometry._loops import GeometryError, loop_list, loop_name, place
 from glid_nb.geometry.cage import Cage
 from glid_nb.geometry.offset import hole_points as choose_hole_points
@@ -163,12 +164,12 @@ def _checked_notes(notes: Any) -> tuple[str, ...]:
 
 def _checked_hole_points(hole_points: ArrayLike, n_holes: int) -> NDArray[np.float64]:
     try:
-        points = np.array(hole_points, dtype=np.float64)
+        points = real_array(hole_points)
     except (TypeError, ValueError) as error:
         raise GeometryError(
             f"hole points must be pairs of numbers [[x, y], ...] ({error})"
         ) from error
-    points = points.reshape(0, 2) if points.size == 0 else points
+    points = points.reshape(0, 2) if points.shape == (0,) else points
     if points.ndim != 2 or points.shape[1] != 2:
         raise GeometryError(f"hole points must have the shape (N, 2), not {points.shape}")
     if len(points) != n_holes:

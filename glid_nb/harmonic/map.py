@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._files import write_text_atomically
+from glid_nb._numbers import real_array
 from glid_nb._runtime import double_precision
-from glid_nb.geometry import Domain, GeometryError
+from glid_nb.geometry import Cage, Domain, GeometryError
 from glid_nb.harmonic import cauchy
 from glid_nb.harmonic.basis import Basis, build_basis
 from glid_nb.harmonic.cauchy import Singularities
@@ -179,12 +180,18 @@ class HarmonicMap:
             raise MapError(f"map version {version!r} is not supported; expected {FORMAT_VERSION}")
         required = ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "phi", "psi")
         for key in required:
-            if key not in data:
+            if data.get(key) is None:
                 raise MapError(f'the map lacks the key "{key}"')
         try:
             domain = Domain.from_dict(data)
         except GeometryError as error:
             raise MapError(f"the map's domain is not valid: {error}") from error
+        given = [data["offset_cage"], *data["offset_holes"]]
+        for i, (loop, kept) in enumerate(zip(given, domain.offset_cage.loops, strict=True)):
+            # The coefficients are in the file's order of vertices.
+            if not np.array_equal(real_array(loop), kept):
+                wanted = "counter-clockwise" if i == 0 else "clockwise"
+                raise MapError(f"the offset cage's {Cage.loop_name(i)} must run {wanted}")
         return cls(domain, _complex_list(data["phi"], "phi"), _complex_list(data["psi"], "psi"))
 
     def save(self, path: str | Path) -> None:
@@ -204,7 +211,7 @@ class HarmonicMap:
         """
         try:
             data = json.loads(Path(path).read_text(encoding="utf-8"))
-        except ValueError as error:
+        except (ValueError, RecursionError) as error:
             raise MapError(f"{path} is not a JSON file: {error}") from error
         try:
             return cls.from_dict(data)
@@ -266,7 +273,7 @@ def _compiled(kernel: Callable[..., Any]) -> Callable[..., Any]:
 
 def _complex_list(values: Any, name: str) -> Array:
     try:
-        array = np.asarray(values, dtype=float)
+        array = real_array(values)
     except (TypeError, ValueError) as error:
         raise MapError(f'"{name}" must be a list of [re, im] pairs of numbers') from error
     if array.ndim != 2 or array.shape[1] != 2:

@@ -46,7 +46,10 @@ def positive_part(k: LocalHessian) -> LocalHessian:
     """``K+``, the closest positive semidefinite matrix to ``K`` (Section 7.1)."""
     mean = (k.along_ff + k.along_gg) / 2
     half = (k.along_ff - k.along_gg) / 2
-    radius = jnp.sqrt(half**2 + k.along_fg**2)
+    # Scaled, for the squares of an exponential energy's entries can overflow.
+    scale = jnp.maximum(jnp.abs(half), jnp.abs(k.along_fg))
+    safe = jnp.where(scale > 0, scale, 1)
+    radius = scale * jnp.sqrt((half / safe) ** 2 + (k.along_fg / safe) ** 2)
     large, small = jnp.maximum(mean + radius, 0), jnp.maximum(mean - radius, 0)
     # K+ of the block is `centre` I + `stretch` (block - mean I), with the clipped eigenvalues.
     centre = (large + small) / 2

@@ -7,6 +7,8 @@ import numbers
 from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
+import numpy as np
+
 from glid_nb.certificate.rounding import CARRIED
 from glid_nb.solvers.discretisation import CertificateKind, Sampling
 
@@ -76,6 +78,9 @@ class Options:
             value, allowed = getattr(self, name), get_args(kinds)
             if value not in allowed:
                 raise OptionError(f"unknown {name} {value!r}; choose one of {', '.join(allowed)}")
+        for name in ("conformal", "align"):
+            if not isinstance(getattr(self, name), bool | np.bool_):
+                raise OptionError(f"{name} must be True or False, got {getattr(self, name)!r}")
         _check_number("p2p_weight", self.p2p_weight, 0.0, strict=True)
         _check_number("tolerance", self.tolerance, 0.0, strict=False)
         _check_integer("restarts", self.restarts, 0)

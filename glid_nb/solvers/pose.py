@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._numbers import real_array
 from glid_nb.geometry import Domain
 
 Array = NDArray[Any]
@@ -89,10 +90,10 @@ class Pose:
 
 def _checked_points(points: Any, name: str) -> Array:
     try:
-        array = np.array(points, dtype=float)
+        array = real_array(points)
     except (TypeError, ValueError) as error:
         raise PoseError(f"{name} must be a list of [x, y] pairs of numbers") from error
-    if array.size == 0:
+    if array.shape == (0,):
         array = array.reshape(0, 2)
     if array.ndim != 2 or array.shape[1] != 2:
         raise PoseError(f"{name} must be a list of [x, y] pairs; the shape is {array.shape}")

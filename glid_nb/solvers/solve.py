@@ -32,7 +32,7 @@ Array = NDArray[Any]
 
 _HANDLE_BUCKET = 8
 # Without two handles a rotation costs nothing and the Hessian is singular (Appendix I).
-_RIDGE = 1e-9
+_RIDGE, _LARGEST_RIDGE = 1e-9, 1e-2
 # How often panels are split in a row before a shorter step is tried instead, and in all before a
 # solve that gets nowhere ends.
 _PATIENCE = 3
@@ -203,7 +203,13 @@ class _Loop:
             if end == outcome.CONVERGED:
                 return Status.CONVERGED
             if end == outcome.INDEFINITE:
-                return Status.INDEFINITE
+                if self.options.hessian == "exact":
+                    return Status.INDEFINITE
+                # Singular to rounding (two handles in one place, say): a larger epsilon helps.
+                self.ridge = max(100 * self.ridge, _RIDGE)
+                if self.ridge > _LARGEST_RIDGE:
+                    return Status.BLOCKED
+                continue
             stalled = end == outcome.NO_DECREASE or (taken and self._has_stalled())
             if stalled and not self._take_full_hessian():
                 return self._without_decrease(state)
