@@ -16,7 +16,7 @@ demo: $(VENV)/.demo
 
 # --no-skip: a test that would be skipped because something is missing fails instead.
 test: $(VENV)/.test
-	$(PYTEST) --no-skip
+	$(PYTEST) --no-skip -n auto
 	$(PYTEST) --nbval --nbval-current-env notebooks
 
 unit: $(VENV)/.test
