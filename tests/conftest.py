@@ -13,11 +13,6 @@ import pytest
 Report = TypeVar("Report", pytest.CollectReport, pytest.TestReport)
 
 os.environ.setdefault("MPLBACKEND", "agg")
-# Programs compiled by one run of the tests serve the next.
-_CACHE = Path(__file__).resolve().parent.parent / ".pytest_cache" / "compiled"
-os.environ.setdefault("JAX_COMPILATION_CACHE_DIR", str(_CACHE))
-os.environ.setdefault("JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS", "0.3")
-
 # Compiling a JAX program can take longer than hypothesis' deadline for one example. In
 # continuous integration the examples are the same on every run.
 hypothesis.settings.register_profile("default", deadline=None)

@@ -180,7 +180,9 @@ class HarmonicMap:
             raise MapError(f"map version {version!r} is not supported; expected {FORMAT_VERSION}")
         required = ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "phi", "psi")
         for key in required:
-            if data.get(key) is None:
+            # Without its offset cage or hole points a domain would choose others: another basis.
+            chosen = key in ("offset_cage", "offset_holes", "hole_points")
+            if key not in data or (chosen and data[key] is None):
                 raise MapError(f'the map lacks the key "{key}"')
         try:
             domain = Domain.from_dict(data)
