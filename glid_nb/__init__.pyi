@@ -11,6 +11,7 @@ from .geometry import triangulate as triangulate
 
 # Pictures
 from .imaging import PixelFrame as PixelFrame
+from .imaging import RenderError as RenderError
 from .imaging import Scribbles as Scribbles
 from .imaging import TraceError as TraceError
 from .imaging import TraceOptions as TraceOptions

@@ -99,8 +99,18 @@ def enable_compilation_cache() -> Path:
     return folder
 
 
+_COMPILING = (
+    "/jax/core/compile/jaxpr_trace_duration",
+    "/jax/core/compile/jaxpr_to_mlir_module_duration",
+    "/jax/core/compile/backend_compile_duration",
+)
+
+
 class CompilationClock:
-    """Counts what JAX compiles (or loads) in this process: the programs, and the seconds."""
+    """Counts what JAX compiles (or loads) in this process: the programs, and the seconds.
+
+    The seconds are those of tracing, lowering and compiling, which happen one after the other.
+    """
 
     def __init__(self) -> None:
         self.programs = 0
@@ -108,9 +118,9 @@ class CompilationClock:
         jax.monitoring.register_event_duration_secs_listener(self._listen)
 
     def _listen(self, event: str, duration_secs: float, **_: str | int) -> None:
-        if event.endswith("/backend_compile_duration"):
+        if event in _COMPILING:
             self.seconds += duration_secs
-            self.programs += 1
+            self.programs += event == _COMPILING[-1]
 
 
 @functools.cache

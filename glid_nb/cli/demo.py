@@ -21,7 +21,7 @@ from glid_nb.cli import summary
 from glid_nb.cli.errors import BadFileError, about
 from glid_nb.cli.output import check_folder, json_text, png_bytes, write_all
 from glid_nb.cli.progress import Progress
-from glid_nb.cli.run_solver import run_solver
+from glid_nb.cli.run_solver import check_interrupted, run_solver
 from glid_nb.cli.solver_arguments import add_solver_arguments, energy_of, options_of
 from glid_nb.cli.trace import add_trace_arguments, cage_data, size_in_words, trace_options_of
 
@@ -93,6 +93,7 @@ def run(chosen: argparse.Namespace) -> None:
         print(summary.as_json(report, files, **extra))
     else:
         print(summary.as_text(report, files, _rows(source, image, tracing, pose, origin, notes)))
+    check_interrupted(result)
 
 
 def _source(image: str) -> tuple[Path, str | None]:

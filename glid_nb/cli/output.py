@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from glid_nb._files import write_bytes_atomically, write_text_atomically
+from glid_nb.cli.errors import BadFileError
 
 
 def check_file(path: Path) -> Path:
@@ -21,6 +22,13 @@ def check_file(path: Path) -> Path:
     if not path.parent.is_dir():
         raise FileNotFoundError(2, "there is no such folder to write to", str(path.parent))
     return path
+
+
+def check_png(path: Path) -> Path:
+    """:func:`check_file`, and a ValueError unless the name ends in .png."""
+    if path.suffix.lower() != ".png":
+        raise BadFileError(f"{path}: pictures are written as PNG; name a file that ends in .png")
+    return check_file(path)
 
 
 def check_folder(path: Path) -> Path:

@@ -13,13 +13,15 @@ PATIENCE = 1.0
 """Seconds that a step may take unannounced."""
 
 _REFRESH = 0.2
+# Where lines pile up, in a log file say, one in so many seconds is enough.
+_REPEAT = 15.0
 
 
 class Progress:
     """Says what is going on, but only where it takes longer than a second.
 
     On a terminal one line is rewritten as details come in and erased at the end; elsewhere a line
-    is written when a step turns out to be long and another when it has ended.
+    is written when a step turns out to be long, every 15 seconds, and when it has ended.
 
     Parameters
     ----------
@@ -65,6 +67,8 @@ class _Step:
         self._announced = True
         if not self._live:
             self._write(f"glid-nb: {self._doing} ...\n")
+            while not self.done.wait(_REPEAT):
+                self._write(f"glid-nb: {self._line()} ...\n")
             return
         self._write(f"\r\x1b[K{self._line()}")
         while not self.done.wait(_REFRESH):

@@ -10,7 +10,8 @@ import argparse
 from pathlib import Path
 
 import glid_nb
-from glid_nb.cli.output import check_file, png_bytes, write_all
+from glid_nb.cli.errors import about
+from glid_nb.cli.output import check_png, png_bytes, write_all
 from glid_nb.cli.progress import Progress
 
 MAX_SIDE = 20_000
@@ -38,12 +39,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(chosen: argparse.Namespace) -> None:
     """Run the command."""
-    check_file(chosen.out)
+    check_png(chosen.out)
     glid_nb.enable_compilation_cache()
     progress = Progress()
     harmonic_map = glid_nb.HarmonicMap.load(chosen.map)
     image = glid_nb.read_image(chosen.image)
-    with progress.step("rendering"):
+    with about(chosen.map), progress.step("rendering"):
         size = tuple(chosen.size) if chosen.size else None
         picture = glid_nb.render(image, harmonic_map, size=size, view=chosen.view)
     write_all({chosen.out: png_bytes(picture)})

@@ -15,7 +15,7 @@ from glid_nb.cli import summary
 from glid_nb.cli.errors import about
 from glid_nb.cli.output import check_file, json_text, write_all
 from glid_nb.cli.progress import Progress
-from glid_nb.cli.run_solver import run_solver
+from glid_nb.cli.run_solver import check_interrupted, run_solver
 from glid_nb.cli.solver_arguments import add_solver_arguments, energy_of, options_of
 
 
@@ -28,7 +28,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--start",
         type=Path,
         metavar="map.json",
-        help="a certified map of the same domain to start from, instead of the identity",
+        help="a certified map of the same domain to start from (default: the identity, moved "
+        "rigidly towards the targets)",
     )
     parser.add_argument("--json", action="store_true", help="print the summary as JSON")
     add_solver_arguments(parser)
@@ -53,3 +54,4 @@ def run(chosen: argparse.Namespace) -> None:
         files[chosen.report] = json_text(report)
     write_all(files)
     print(summary.as_json(report, files) if chosen.json else summary.as_text(report, files))
+    check_interrupted(result)

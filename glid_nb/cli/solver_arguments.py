@@ -49,6 +49,17 @@ def add_solver_arguments(parser: argparse.ArgumentParser) -> None:
         help="exact where positive definite (default), the paper's projection, or always exact",
     )
     group.add_argument(
+        "--no-align",
+        action="store_true",
+        help="begin at the identity itself, not at its best rigid motion to the targets",
+    )
+    group.add_argument(
+        "--restarts",
+        type=int,
+        metavar="N",
+        help="other ways to try where the first ends at a high energy (default 3)",
+    )
+    group.add_argument(
         "--max-iterations", type=int, metavar="K", help="most Newton iterations (default 200)"
     )
 
@@ -60,6 +71,6 @@ def energy_of(chosen: argparse.Namespace) -> Energy:
 
 def options_of(chosen: argparse.Namespace) -> Options:
     """The solver's options that the flags name."""
-    names = ("sampling", "certificate", "hessian", "p2p_weight", "max_iterations")
+    names = ("sampling", "certificate", "hessian", "p2p_weight", "restarts", "max_iterations")
     given = {name: getattr(chosen, name) for name in names if getattr(chosen, name) is not None}
-    return glid_nb.Options(conformal=chosen.conformal, **given)
+    return glid_nb.Options(conformal=chosen.conformal, align=not chosen.no_align, **given)

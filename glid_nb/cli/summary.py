@@ -44,7 +44,8 @@ def _written(files: Iterable[Path]) -> list[tuple[str, str]]:
     folders: dict[Path, list[str]] = {}
     for path in files:
         folders.setdefault(path.parent, []).append(path.name)
-    return [("written", f"{folder}: {', '.join(names)}") for folder, names in folders.items()]
+    rows = [("written", f"{folder}: {', '.join(names)}") for folder, names in folders.items()]
+    return rows or [("written", "nothing; name files with --out and --report")]
 
 
 def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
@@ -61,6 +62,8 @@ def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         x, y = report["crossing"]
         injective += f"; the boundary's image crosses itself at ({x:.3g}, {y:.3g})"
     split = f", {report['panels_split']} split" if report["panels_split"] else ""
+    if report["proof_panels"] != report["panels"]:
+        split += f"; {report['proof_panels']} in the final proof"
     return [
         ("status", report["message"]),
         ("unknowns", f"{report['n_unknowns']}"),

@@ -5,7 +5,7 @@ from glid_nb.energies.arap import ARAP
 from glid_nb.energies.custom import CustomEnergy
 from glid_nb.energies.energy import Differentials, Energy, EnergyError
 from glid_nb.energies.exponential import ExponentialSymmetricDirichlet
-from glid_nb.energies.named import ENERGY_NAMES, energy_by_name
+from glid_nb.energies.named import ENERGY_NAMES, as_energy, energy_by_name
 from glid_nb.energies.symmetric_dirichlet import SymmetricDirichlet
 
 __all__ = [
@@ -18,5 +18,6 @@ __all__ = [
     "EnergyError",
     "ExponentialSymmetricDirichlet",
     "SymmetricDirichlet",
+    "as_energy",
     "energy_by_name",
 ]

@@ -21,6 +21,8 @@ class ARAP(Energy):
     """
 
     name: ClassVar[str] = "arap"
+    is_barrier: ClassVar[bool] = False
+    indefinite_across_f_only: ClassVar[bool] = True
 
     def density(self, x: Scalars, y: Scalars) -> Scalars:
         return 2 * (x + y) - 4 * jnp.sqrt(x) + 2

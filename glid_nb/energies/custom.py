@@ -45,6 +45,7 @@ class CustomEnergy(Energy):
     function: Callable[[Scalars, Scalars], Scalars] = field()
 
     name: ClassVar[str] = "custom"
+    is_barrier: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         if not callable(self.function):

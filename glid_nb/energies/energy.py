@@ -35,6 +35,11 @@ class Energy(ABC):
     """
 
     name: ClassVar[str]
+    is_barrier: ClassVar[bool] = True
+    """Whether it grows without bound where a map degenerates, and so keeps a solve from there."""
+    indefinite_across_f_only: ClassVar[bool] = False
+    """Whether, of the eigenvalues of ``K`` (23), ``lambda_1 = 2 alpha_1`` alone can be negative: a
+    Hessian is then projected by a correction at a fifth of its own cost."""
 
     @abstractmethod
     def density(self, x: Scalars, y: Scalars) -> Scalars:

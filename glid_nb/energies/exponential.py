@@ -33,6 +33,7 @@ class ExponentialSymmetricDirichlet(Energy):
     s: float = 1.0
 
     name: ClassVar[str] = "exp"
+    indefinite_across_f_only: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "s", checked_sharpness(self.name, self.s))

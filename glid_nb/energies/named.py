@@ -34,3 +34,23 @@ def energy_by_name(name: str, s: float | None = None) -> Energy:
     if name == "arap":
         return ARAP()
     raise EnergyError(f"unknown energy {name!r}; choose one of {', '.join(ENERGY_NAMES)}")
+
+
+def as_energy(energy: Energy | str | None) -> Energy:
+    """An energy, or the one of that name, or the symmetric Dirichlet energy for None.
+
+    Raises
+    ------
+    EnergyError
+        For an unknown name, or something that is no energy.
+    """
+    if energy is None:
+        return SymmetricDirichlet()
+    if isinstance(energy, str):
+        return energy_by_name(energy)
+    if not isinstance(energy, Energy):
+        raise EnergyError(
+            f"energy is {energy!r}; pass an energy, such as SymmetricDirichlet() or "
+            f"CustomEnergy(function), or one of the names {', '.join(ENERGY_NAMES)}"
+        )
+    return energy

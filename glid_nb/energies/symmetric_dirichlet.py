@@ -20,6 +20,7 @@ class SymmetricDirichlet(Energy):
     """
 
     name: ClassVar[str] = "iso"
+    indefinite_across_f_only: ClassVar[bool] = True
 
     def density(self, x: Scalars, y: Scalars) -> Scalars:
         return (x + y) * (1 + (x - y) ** -2)

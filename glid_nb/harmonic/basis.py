@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[Any]
 
-_VERTEX_BUCKET = 8
+_COLUMN_BUCKET = 8
 _HOLE_BUCKETS = (0, 1, 2, 4, 8, 16, 32, 64)
 
 
@@ -69,8 +69,8 @@ def build_basis(domain: Domain) -> Basis:
     rho = domain.hole_points @ np.array([1, 1j])
     m, n_holes = len(vertices), len(rho)
 
-    padding = _padding_size(m, _VERTEX_BUCKET)
     hole_padding = next(b for b in (*_HOLE_BUCKETS, n_holes) if b >= n_holes) - n_holes
+    padding = _padding_size(m + n_holes + hole_padding, _COLUMN_BUCKET)
     center = vertices.mean()
     far = 1e3 * np.abs(vertices - center).max()
     ring = center + far * np.exp(2j * np.pi * np.arange(padding) / max(padding, 1))

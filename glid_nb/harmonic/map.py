@@ -107,7 +107,8 @@ class HarmonicMap:
         Parameters
         ----------
         points : (k, 2) array_like
-            Points of the domain, in world coordinates.
+            Points of the domain, in world coordinates. Outside of the cage the formula still
+            gives numbers, but nothing is proved of them; ``domain.cage.contains`` tells.
 
         Returns
         -------
@@ -243,11 +244,16 @@ def as_complex(points: ArrayLike) -> Array:
     """(k, 2) real points as a (k,) complex array; complex input passes through."""
     array = np.asarray(points)
     if np.iscomplexobj(array):
-        return array.astype(complex).ravel()
-    array = np.asarray(array, dtype=float)
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise ValueError(f"points have shape {array.shape}; expected (k, 2)")
-    return array[:, 0] + 1j * array[:, 1]
+        z = array.astype(complex).ravel()
+    else:
+        array = np.asarray(array, dtype=float)
+        if array.ndim != 2 or array.shape[1] != 2:
+            raise ValueError(f"points have shape {array.shape}; expected (k, 2)")
+        z = array[:, 0] + 1j * array[:, 1]
+    bad = np.flatnonzero(~np.isfinite(z))
+    if bad.size:
+        raise MapError(f"point {bad[0]} is {z[bad[0]]}; coordinates must be finite")
+    return z
 
 
 def _values(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any]:

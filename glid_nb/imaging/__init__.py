@@ -1,6 +1,7 @@
 """Pictures to cages, maps to pictures."""
 
 from glid_nb.imaging.components import Component as Component
+from glid_nb.imaging.errors import RenderError as RenderError
 from glid_nb.imaging.errors import TraceError as TraceError
 from glid_nb.imaging.frame import PixelFrame as PixelFrame
 from glid_nb.imaging.holes import Hole as Hole

@@ -142,7 +142,7 @@ def overview(
     energy, steps, certificate = (
         page.axes(left + _AXIS_LEFT, below, column - _AXIS_LEFT, _PLOT) for left in lefts
     )
-    EnergyPlot(energy).update(result.history)
+    EnergyPlot(energy).update(result.history, result.start_energy)
     StepPlot(steps).update(result.history)
     CertificatePlot(certificate, cage).update(result.certificate, map)
 

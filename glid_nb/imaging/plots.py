@@ -34,6 +34,7 @@ from glid_nb.imaging.style import (
 )
 
 # An energy is drawn on a logarithmic axis when it falls by this factor or more.
+_BEHIND_TEXT: dict[str, Any] = {"facecolor": "white", "alpha": 0.8, "linewidth": 0, "pad": 0.5}
 _LOG_FROM = 20.0
 
 # Decades that a logarithmic axis shows at most below the largest value.
@@ -93,15 +94,21 @@ class EnergyPlot:
         """What ``update`` changes."""
         return self._p2p, self._iso, self._total, self._text
 
-    def update(self, history: Sequence[IterationRecord]) -> bool:
-        """Show these iterations; True when the limits or the scale of the axes changed."""
+    def update(self, history: Sequence[IterationRecord], start_energy: float | None = None) -> bool:
+        """Show these iterations; True when the limits or the scale of the axes changed.
+
+        ``start_energy`` is the total before the first of them, drawn at iteration 0.
+        """
         before = _view(self.axes)
-        x = np.array([record.iteration for record in history], dtype=float)
+        x = np.array([0, *(record.iteration for record in history)], dtype=float)
+        start = np.nan if start_energy is None else start_energy
         series = {
-            self._p2p: np.array([record.energy_p2p for record in history]),
-            self._iso: np.array([record.energy_iso for record in history]),
-            self._total: np.array([record.energy for record in history]),
+            self._p2p: np.array([np.nan, *(record.energy_p2p for record in history)]),
+            self._iso: np.array([np.nan, *(record.energy_iso for record in history)]),
+            self._total: np.array([start, *(record.energy for record in history)]),
         }
+        if start_energy is None:
+            x, series = x[1:], {line: values[1:] for line, values in series.items()}
         for line, values in series.items():
             line.set_data(x, values)
         self._text.set_text(f"E = {history[-1].energy:.4g}" if len(history) else "no iterations")
@@ -219,6 +226,8 @@ class CertificatePlot:
                 va="top",
                 fontsize=SMALL,
                 color=INK,
+                bbox=_BEHIND_TEXT,
+                zorder=6,
             )
 
     def update(self, certificate: Certificate, map: HarmonicMap | None = None) -> bool:
@@ -275,7 +284,7 @@ def _note(axes: Axes, animated: bool) -> Text:
     """An empty line of text in the upper right corner."""
     style: dict[str, Any] = {"ha": "right", "va": "top", "fontsize": SMALL, "color": INK}
     text = axes.text(0.99, 0.99, "", transform=axes.transAxes, **style)
-    text.set_bbox({"facecolor": "white", "alpha": 0.8, "linewidth": 0, "pad": 0.5})
+    text.set_bbox(_BEHIND_TEXT)
     text.set_zorder(6)
     text.set_animated(animated)
     return text

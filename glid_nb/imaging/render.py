@@ -10,6 +10,7 @@ import shapely
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging.errors import RenderError
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.mesh import DeformedMesh, deformed_mesh
 from glid_nb.imaging.rasterise import render_mesh
@@ -26,6 +27,8 @@ _EVEN_VERTICES = 1000, 8000
 
 # With view="fit", room around the shape, as a share of the output's sides.
 _MARGIN = 0.04
+# World units by which a cage may reach beyond its picture: traced outlines are dilated.
+_OVERHANG = 2.0
 
 
 @dataclass(frozen=True)
@@ -127,23 +130,29 @@ def rendering(
 
     Raises
     ------
-    ValueError
-        When an argument is out of range; the message names it.
+    RenderError
+        When an argument is out of range, the map's cage does not fit the picture, or the map
+        collapses the shape; the message says which.
     """
     if view not in get_args(View):
-        raise ValueError(f"unknown view {view!r}; choose one of {', '.join(get_args(View))}")
+        raise RenderError(f"unknown view {view!r}; choose one of {', '.join(get_args(View))}")
     texture = image if isinstance(image, Texture) else Texture.from_image(image)
     source = PixelFrame(texture.width, texture.height)
     width, height = (texture.width, texture.height) if size is None else size
     if min(width, height) < 1:
-        raise ValueError(f"size is {width} x {height} pixels; both sides must be at least 1")
+        raise RenderError(f"size is {width} x {height} pixels; both sides must be at least 1")
 
+    _check_fits(source, map)
     xmin, ymin, xmax, ymax = source.bounds
     margin = 0.0
     if view == "fit":
         outline = map(_outline_points(map))
         (xmin, ymin), (xmax, ymax) = outline.min(axis=0), outline.max(axis=0)
         margin = _MARGIN
+    if xmax <= xmin or ymax <= ymin:
+        raise RenderError(
+            "the map collapses the shape to a point or a line; there is nothing to show"
+        )
     scale = float(min(width / (xmax - xmin), height / (ymax - ymin))) * (1 - 2 * margin)
     centre = float(xmin + xmax) / 2, float(ymin + ymax) / 2
     frame = OutputFrame((int(width), int(height)), scale, centre)
@@ -162,6 +171,20 @@ def rendering(
         mesh.heights,
     )
     return Rendering(picture, frame, mesh, _share_outside(mesh, frame), mesh.error * scale)
+
+
+def _check_fits(frame: PixelFrame, map: HarmonicMap) -> None:
+    """Raise a RenderError when the cage was traced from a picture of other proportions."""
+    xmin, ymin, xmax, ymax = frame.bounds
+    low, high = map.domain.cage.exterior.min(axis=0), map.domain.cage.exterior.max(axis=0)
+    beyond = max(xmin - low[0], ymin - low[1], high[0] - xmax, high[1] - ymax)
+    if beyond > _OVERHANG:
+        raise RenderError(
+            f"the map's cage spans ({low[0]:.4g}, {low[1]:.4g}) to ({high[0]:.4g}, {high[1]:.4g}) "
+            f"but the picture, {frame.width} x {frame.height} pixels, only ({xmin:.4g}, "
+            f"{ymin:.4g}) to ({xmax:.4g}, {ymax:.4g}); take the picture that the cage was traced "
+            "from"
+        )
 
 
 def _outline_points(map: HarmonicMap) -> NDArray[np.float64]:
@@ -184,4 +207,4 @@ def _share_outside(mesh: DeformedMesh, frame: OutputFrame) -> float:
         rings = np.concatenate([corners[cut], corners[cut][:, :1]], axis=1)
         kept = shapely.area(shapely.clip_by_rect(shapely.polygons(rings), xmin, ymin, xmax, ymax))
         lost += np.maximum(area[cut] - kept, 0).sum()
-    return float(lost / area.sum())
+    return float(lost / area.sum()) if area.sum() > 0 else 0.0

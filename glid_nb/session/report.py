@@ -32,9 +32,11 @@ def build_report(result: Result) -> dict[str, Any]:
     -------
     dict
         ``status`` and ``message``; ``certified`` and the ``proof`` in words; the energies ``E``,
-        ``E_iso`` and ``E_p2p``; the certified bounds ``sigma2_lower``, ``sigma1_upper`` and
-        ``k_upper``; ``windings`` of f_z per loop (exterior first) and their sum ``winding``;
-        ``globally_injective`` ("yes", "no" or "undecided") and a ``crossing`` if not; counts;
+        ``E_iso`` and ``E_p2p``, and ``E_start`` before the first iteration; the certified bounds
+        ``sigma2_lower``, ``sigma1_upper`` and ``k_upper``; ``windings`` of f_z per loop (exterior
+        first) and their sum ``winding``; ``globally_injective`` ("yes", "no" or "undecided") and
+        a ``crossing`` if not; counts (``panels`` and ``panels_split`` are the solver's,
+        ``proof_panels`` those on which the final proof ended);
         times in seconds; and the ``history``, one object per iteration. Numbers that are not
         finite are null.
     """
@@ -51,6 +53,7 @@ def build_report(result: Result) -> dict[str, Any]:
         "E": result.energy,
         "E_iso": result.energy_iso,
         "E_p2p": result.energy_p2p,
+        "E_start": result.start_energy,
         "energy": energy.name,
         "s": getattr(energy, "s", None),
         "p2p_weight": options.p2p_weight,
@@ -65,6 +68,7 @@ def build_report(result: Result) -> dict[str, Any]:
         "n_unknowns": result.n_unknowns,
         "panels": result.n_panels,
         "panels_split": result.panels_split,
+        "proof_panels": len(certificate.panels.depth),
         "compile_time": result.compile_time,
         "solve_time": result.solve_time,
         "certify_time": certify_time,

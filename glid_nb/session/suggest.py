@@ -16,6 +16,8 @@ _MESH_VERTICES = 3000
 _LEAST_SPACING = 0.45
 _PULL_IN = 0.15
 _TURN = np.radians(24)
+# Farther along the shape than this times the handle's way counts as another limb.
+_APART = 2.0
 
 
 def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
@@ -91,12 +93,22 @@ def _swung(
     vertices: NDArray[np.float64],
     path_lengths: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """The handle turned about the middle, to the side that is farther from the rest of the shape.
+    """The handle turned about the middle, on the way that stays farther from the rest of the shape.
 
-    The rest is what lies farther from the handle, measured inside the shape, than it moves.
+    The rest is what lies much farther from the handle along the shape than the handle moves.
     """
-    arm = handle - middle
-    cosine, sine = np.cos(_TURN), np.sin(_TURN)
-    sides = [middle + np.array([[cosine, -s], [s, cosine]]) @ arm for s in (sine, -sine)]
-    rest = vertices[path_lengths > np.linalg.norm(sides[0] - handle)]
-    return max(sides, key=lambda p: float(np.linalg.norm(rest - p, axis=1).min()))
+    x, y = handle - middle
+    ways = []
+    for turn in (_TURN, -_TURN):
+        t = np.linspace(0, turn, 7)[1:]
+        turned = [x * np.cos(t) - y * np.sin(t), x * np.sin(t) + y * np.cos(t)]
+        ways.append(middle + np.stack(turned, axis=-1))
+    moved = np.linalg.norm(ways[0][-1] - handle)
+    rest = vertices[path_lengths > _APART * moved]
+    if not len(rest):
+        return ways[0][-1]
+
+    def clearance(way: NDArray[np.float64]) -> float:
+        return float(np.linalg.norm(rest[:, None] - way, axis=2).min())
+
+    return max(ways, key=clearance)[-1]

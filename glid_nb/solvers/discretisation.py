@@ -37,27 +37,24 @@ class Matrices(NamedTuple):
     """What one Newton iteration reads; a JAX pytree, padded to buckets.
 
     ``c`` padded columns, ``p`` padded panels, ``q`` midpoints (``p``, or 0 for the uniform
-    sampling), ``h`` Hessian nodes. Padding panels have zero weight and are never refused.
+    sampling), ``h`` Hessian nodes. Padding panels have zero weight and are never refused. Basis
+    matrices are stored transposed, one row a coefficient: all products with them are fastest so.
     """
 
-    ends: Float[Array, "p 2c"]
-    """``D`` at the panels' starts."""
-    slopes: Float[Array, "p 2c"]
+    nodes: Float[Array, "2c p+q"]
+    """``D`` at the panels' starts, then at their midpoints."""
+    slopes: Float[Array, "2c p"]
     """``D'`` at the panels' starts."""
-    middles: Float[Array, "q 2c"]
-    """``D`` at the panels' midpoints."""
-    hessian_nodes: Float[Array, "h 2c"]
+    hessian_nodes: Float[Array, "2c h"]
     """``D`` at the nodes of the Hessian's quadrature."""
-    hessian_index: Int[Array, " h"]
-    """Where those nodes are among the ends followed by the midpoints."""
     weights: Float[Array, " p+q"]
-    """Quadrature weights of the energy at the ends, then at the midpoints; their sum is 1."""
+    """Quadrature weights of the energy at the nodes; their sum is 1."""
     hessian_weights: Float[Array, " h"]
-    remainder: Float[Array, "p c"]
+    remainder: Float[Array, "c p"]
     """Remainder of the certificate per modulus of a slope jump."""
     rounding: Float[Array, " p"]
     """Rounding slack per largest modulus of a coefficient."""
-    chord: Float[Array, "p 2"]
+    chord: Float[Array, "2 p"]
     """``end - start`` as (Re, Im)."""
     next: Int[Array, " p"]
     real: Bool[Array, " p"]
@@ -94,12 +91,7 @@ class Discretisation:
         Twice the work per iteration, but the Hessian is then exactly that of the discrete energy.
         """
         m = self.matrices
-        nodes = m.ends.shape[0] + m.middles.shape[0]
-        return m._replace(
-            hessian_nodes=jnp.concatenate([m.ends, m.middles]),
-            hessian_index=jnp.arange(nodes),
-            hessian_weights=m.weights,
-        )
+        return m._replace(hessian_nodes=m.nodes, hessian_weights=m.weights)
 
     @property
     def can_refine(self) -> bool:
@@ -129,7 +121,11 @@ class Discretisation:
         rows.remainder[children], rows.rounding[children] = _certificate_rows(
             panels.start[children], panels.end[children], self.basis, self.certificate
         )
-        return _graded(self.domain, self.basis, self.certificate, panels, rows)
+        size = len(self.matrices.real)
+        if len(panels) > size:
+            # Who splits once splits again: growing by a half now saves compiling again and again.
+            size = bucket(3 * len(panels) // 2)
+        return _graded(self.domain, self.basis, self.certificate, panels, rows, size)
 
 
 @functools.lru_cache(maxsize=8)
@@ -140,8 +136,8 @@ def discretise(
     """The discretisation that a solve on ``domain`` starts from; the last few are kept.
 
     ``graded``: panels no longer than their distance to the nearest singularity, with Simpson's
-    rule on each. ``uniform``: the paper's samples with the plain mean (31), the Hessian on every
-    tenth (33).
+    rule on each, and the midpoint rule for the Hessian.
+    ``uniform``: the paper's samples with the plain mean (31), the Hessian on every tenth (33).
     """
     basis = basis_of(domain)
     if sampling == "graded":
@@ -156,29 +152,31 @@ def discretise(
         basis_rows(cauchy.first_derivatives, middles, basis),
         *_certificate_rows(panels.start, panels.end, basis, certificate),
     )
+    p = bucket(len(panels))
     build = _graded if sampling == "graded" else _uniform
-    return build(domain, basis, certificate, panels, rows)
+    return build(domain, basis, certificate, panels, rows, p)
 
 
 def _graded(
-    domain: Domain, basis: Basis, certificate: CertificateKind, panels: Panels, rows: _Rows
+    domain: Domain,
+    basis: Basis,
+    certificate: CertificateKind,
+    panels: Panels,
+    rows: _Rows,
+    p: int,
 ) -> Discretisation:
     # Simpson's rule shares the ends, which the certificate needs anyway, between neighbours.
     length = panels.length / panels.length.sum()
-    p = bucket(len(panels))
     ends = length / 6
     np.add.at(ends, panels.next, length / 6)
     weights = np.zeros(2 * p)
     weights[: len(panels)] = ends
     weights[p : p + len(panels)] = length * (4 / 6)
-    middles = jnp.asarray(padded(rows.middles, p))
+    nodes = np.concatenate([padded(rows.ends, p), padded(rows.middles, p)])
     matrices = Matrices(
-        ends=jnp.asarray(padded(rows.ends, p)),
-        slopes=jnp.asarray(padded(rows.slopes, p)),
-        middles=middles,
-        hessian_nodes=middles,
-        hessian_index=jnp.asarray(np.arange(p, 2 * p)),
+        nodes=_transposed(nodes),
         weights=jnp.asarray(weights),
+        hessian_nodes=_transposed(padded(rows.middles, p)),
         hessian_weights=jnp.asarray(padded(length, p, 0.0)),
         **_panel_arrays(panels, rows, p),
     )
@@ -186,42 +184,46 @@ def _graded(
 
 
 def _uniform(
-    domain: Domain, basis: Basis, certificate: CertificateKind, panels: Panels, rows: _Rows
+    domain: Domain,
+    basis: Basis,
+    certificate: CertificateKind,
+    panels: Panels,
+    rows: _Rows,
+    p: int,
 ) -> Discretisation:
     count = len(panels)
-    p = bucket(count)
-    hessian_index = np.arange(0, count, HESSIAN_STRIDE)
-    h = bucket(len(hessian_index))
+    chosen = rows.ends[::HESSIAN_STRIDE]
+    h = -(-len(chosen) // 16) * 16
     matrices = Matrices(
-        ends=jnp.asarray(padded(rows.ends, p)),
-        slopes=jnp.asarray(padded(rows.slopes, p)),
-        middles=jnp.asarray(rows.middles),
-        hessian_nodes=jnp.asarray(padded(rows.ends[hessian_index], h)),
-        hessian_index=jnp.asarray(padded(hessian_index, h)),
+        nodes=_transposed(padded(rows.ends, p)),
         weights=jnp.asarray(padded(np.full(count, 1 / count), p, 0.0)),
-        hessian_weights=jnp.asarray(
-            padded(np.full(len(hessian_index), 1 / len(hessian_index)), h, 0.0)
-        ),
+        hessian_nodes=_transposed(padded(chosen, h)),
+        hessian_weights=jnp.asarray(padded(np.full(len(chosen), 1 / len(chosen)), h, 0.0)),
         **_panel_arrays(panels, rows, p),
     )
     return Discretisation(domain, basis, "uniform", certificate, panels, matrices, None)
 
 
+def _transposed(rows: np.ndarray) -> Array:
+    return jnp.asarray(np.ascontiguousarray(rows.T))
+
+
 def _panel_arrays(panels: Panels, rows: _Rows, p: int) -> dict[str, Any]:
     chord = panels.end - panels.start
     return {
-        "remainder": jnp.asarray(padded(rows.remainder, p)),
+        "slopes": _transposed(padded(rows.slopes, p)),
+        "remainder": _transposed(padded(rows.remainder, p)),
         "rounding": jnp.asarray(padded(rows.rounding, p)),
-        "chord": jnp.asarray(padded(np.stack([np.real(chord), np.imag(chord)], axis=-1), p)),
+        "chord": jnp.stack([padded(np.real(chord), p), padded(np.imag(chord), p)]),
         "next": jnp.asarray(padded(panels.next, p)),
         "real": jnp.asarray(np.arange(p) < len(panels)),
     }
 
 
 def bucket(count: int) -> int:
-    """The padded size for ``count`` items: multiples of 64, from 1,024 on eight sizes an octave."""
+    """The padded size for ``count`` items: multiples of 32, from 512 on 16 sizes an octave."""
     wanted = count + count // 64
-    step = max(64, 1 << (wanted.bit_length() - 4))
+    step = max(32, 1 << (wanted.bit_length() - 5))
     return -(-wanted // step) * step
 
 

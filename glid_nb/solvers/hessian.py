@@ -64,45 +64,106 @@ def positive_part(k: LocalHessian) -> LocalHessian:
 
 
 def assemble(
-    nodes: Float[Array, "h 2c"],
+    nodes: Float[Array, "2c h"],
     weights: Samples,
     f: tuple[Samples, Samples],
     g: tuple[Samples, Samples],
     k: LocalHessian,
 ) -> Float[Array, "4c 4c"]:
-    """``sum_i w_i B_i^T K_i B_i`` over the unknowns ``[Re phi, Im phi, Re psi, Im psi]``.
+    """Lower triangle of ``sum_i w_i B_i^T K_i B_i`` over ``[Re phi, Im phi, Re psi, Im psi]``.
 
-    ``f`` and ``g`` are unit vectors (Re, Im) along ``f_z`` and ``conj(f_zbar)``; any direction
-    serves where a derivative vanishes.
+    Above the diagonal blocks it is zero: a Cholesky factorisation reads no more.
+
+    ``K``'s diagonal block for ``phi`` is ``p I + m R``, with ``p`` and ``m`` half the sum and half
+    the difference of its entries along and across ``f_z`` and ``R`` the reflection about ``f_z``.
+    The first part gives the Hermitian matrix ``D^H p D``, the second the complex symmetric
+    ``(D')^T m D'`` with ``D' = conj(f) D``. Each takes two real products instead of four, for a
+    product may be off by an antisymmetric matrix where only its symmetric part is wanted.
+
+    Parameters
+    ----------
+    nodes : (2c, h)
+        ``D`` at the nodes as ``[Re D, -Im D]``, transposed.
+    weights : (h,)
+    f, g : pairs of (h,)
+        Unit vectors (Re, Im) along ``f_z`` and ``conj(f_zbar)``; any direction serves where a
+        derivative vanishes.
+    k : LocalHessian
+        Entries of ``K`` at the nodes.
     """
-    columns = nodes.shape[1] // 2
-    re, im = nodes[:, :columns], -nodes[:, columns:]
-    phi_phi, u_f, v_f = _diagonal_block(re, im, f, weights * k.along_ff, weights * k.across_f)
-    psi_psi, u_g, v_g = _diagonal_block(re, im, g, weights * k.along_gg, weights * k.across_g)
-    cross = (weights * k.along_fg)[:, None]
-    along_f = jnp.concatenate([u_f, -v_f], axis=1)
-    along_g = jnp.concatenate([u_g, -v_g], axis=1)
-    phi_psi = along_f.T @ (cross * along_g)
-    return jnp.block([[phi_phi, phi_psi], [phi_psi.T, psi_psi]])
+    columns = nodes.shape[0] // 2
+    re, im = nodes[:columns], -nodes[columns:]
+    plus = [weights * (k.along_ff + k.across_f) / 2, weights * (k.along_gg + k.across_g) / 2]
+    minus = [weights * (k.along_ff - k.across_f) / 2, weights * (k.along_gg - k.across_g) / 2]
+    sums, parts = _hermitian_products(re, im, jnp.stack(plus))
+
+    diagonal, along = [], []
+    for direction, m, total, part in zip((f, g), minus, sums, parts, strict=True):
+        u, v = _rotated(re, im, direction)
+        mixed = part + part.T
+        diagonal.append(_embedded(total - mixed, part - part.T, *_symmetric_product(u, v, m)))
+        along.append(jnp.concatenate([u, -v]))
+    cross = (weights * k.along_fg * along[1]) @ along[0].T
+    return jnp.block([[diagonal[0], jnp.zeros_like(cross)], [cross, diagonal[1]]])
 
 
-def _diagonal_block(
-    re: Float[Array, "h c"],
-    im: Float[Array, "h c"],
-    direction: tuple[Samples, Samples],
-    along: Samples,
-    across: Samples,
-) -> tuple[Float[Array, "2c 2c"], Float[Array, "h c"], Float[Array, "h c"]]:
-    """One diagonal block of the Hessian, and ``conj(direction) D`` as real and imaginary part."""
-    c, s = direction[0][:, None], direction[1][:, None]
-    u, v = c * re + s * im, c * im - s * re
-    a, b = along[:, None], across[:, None]
-    # The component along the direction has the row [u, -v], the one across it [v, u].
-    stacked = jnp.concatenate([u, v])
-    top = stacked.T @ jnp.concatenate(
-        [jnp.concatenate([a * u, b * v]), jnp.concatenate([-a * v, b * u])], axis=1
+def assemble_across_f(
+    nodes: Float[Array, "2c h"], weights: Samples, f: tuple[Samples, Samples], across: Samples
+) -> Float[Array, "2c 2c"]:
+    """The part of :func:`assemble` that ``across_f`` alone contributes, the block of ``phi``."""
+    columns = nodes.shape[0] // 2
+    u, v = _rotated(nodes[:columns], -nodes[columns:], f)
+    # The component across f has the row [v, u].
+    w = weights * across
+    corner = (w * u) @ v.T
+    return jnp.block([[(w * v) @ v.T, corner.T], [corner, (w * u) @ u.T]])
+
+
+def _rotated(
+    re: Float[Array, "c h"], im: Float[Array, "c h"], direction: tuple[Samples, Samples]
+) -> tuple[Float[Array, "c h"], Float[Array, "c h"]]:
+    """``conj(direction) D`` as real and imaginary part."""
+    c, s = direction
+    return c * re + s * im, c * im - s * re
+
+
+def _hermitian_products(
+    re: Float[Array, "c h"], im: Float[Array, "c h"], weights: Float[Array, "2 h"]
+) -> tuple[Float[Array, "2 c c"], Float[Array, "2 c c"]]:
+    """``(re + im) w (re + im)^T`` and ``re w im^T`` for two sets of weights.
+
+    ``re w re^T + im w im^T``, the real part of ``(re + i im)^H w (re + i im)``, is the first less
+    the second and its transpose; the imaginary part is the second less its transpose.
+    """
+    columns = re.shape[0]
+
+    def against(left: Float[Array, "c h"], right: Float[Array, "c h"]) -> Float[Array, "2 c c"]:
+        product = left @ jnp.concatenate([weights[0] * right, weights[1] * right]).T
+        return jnp.stack([product[:, :columns], product[:, columns:]])
+
+    return against(re + im, re + im), against(re, im)
+
+
+def _symmetric_product(
+    u: Float[Array, "c h"], v: Float[Array, "c h"], weights: Samples
+) -> tuple[Float[Array, "c c"], Float[Array, "c c"]]:
+    """Real and imaginary part of ``(u + iv) diag(weights) (u + iv)^T`` by two real products."""
+    # (u - v) w (u + v)^T differs from u w u^T - v w v^T by an antisymmetric matrix.
+    real = (u - v) @ (weights * (u + v)).T
+    imaginary = (weights * u) @ v.T
+    return (real + real.T) / 2, imaginary + imaginary.T
+
+
+def _embedded(
+    hermitian_re: Float[Array, "c c"],
+    hermitian_im: Float[Array, "c c"],
+    symmetric_re: Float[Array, "c c"],
+    symmetric_im: Float[Array, "c c"],
+) -> Float[Array, "2c 2c"]:
+    """The real quadratic form ``Re(z^H A z + z^T S z)`` over ``[Re z, Im z]``."""
+    return jnp.block(
+        [
+            [hermitian_re + symmetric_re, -hermitian_im - symmetric_im],
+            [hermitian_im - symmetric_im, hermitian_re - symmetric_re],
+        ]
     )
-    columns = re.shape[1]
-    corner = jnp.concatenate([v, u]).T @ jnp.concatenate([a * v, b * u])
-    block = jnp.block([[top], [top[:, columns:].T, corner]])
-    return block, u, v

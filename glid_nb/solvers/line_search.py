@@ -44,35 +44,39 @@ class Search(NamedTuple):
 
 
 def isometric_energy(
-    nodes: Float[Array, "*t s 4"], weights: Float[Array, " s"], energy: Energy
+    nodes: Float[Array, "4 *t s"], weights: Float[Array, " s"], energy: Energy
 ) -> Float[Array, "*t"]:
     """Equation (31), infinite where a sample is inverted; padding (weight 0) counts nothing."""
-    x = nodes[..., 0] ** 2 + nodes[..., 1] ** 2
-    y = nodes[..., 2] ** 2 + nodes[..., 3] ** 2
+    x = nodes[0] ** 2 + nodes[1] ** 2
+    y = nodes[2] ** 2 + nodes[3] ** 2
     valid = x > y
     density = energy.density(jnp.where(valid, x, 1.0), jnp.where(valid, y, 0.0))
     density = jnp.where(valid & (density < jnp.inf), density, jnp.inf)
     return jnp.sum(jnp.where(weights > 0, weights * density, 0), axis=-1)
 
 
-def largest_step(nodes: Float[Array, "s 4"], change: Float[Array, "s 4"]) -> Float[Array, ""]:
+def largest_step(nodes: Float[Array, "4 s"], change: Float[Array, "4 s"]) -> Float[Array, ""]:
     """The step at which the first sample becomes inverted, or infinity, in closed form.
 
     ``|f + t df|^2 - |g + t dg|^2`` is a quadratic in ``t`` that is positive at 0.
     """
-    sign = jnp.array([1.0, 1.0, -1.0, -1.0])
-    a = (change**2) @ sign
-    b = 2 * (nodes * change) @ sign
-    c = (nodes**2) @ sign
+    a = _difference_of_squares(change, change)
+    b = 2 * _difference_of_squares(nodes, change)
+    c = _difference_of_squares(nodes, nodes)
     discriminant = b * b - 4 * a * c
     denominator = -b + jnp.sqrt(jnp.maximum(discriminant, 0))
     hits = (discriminant >= 0) & (denominator > 0)
     return jnp.min(jnp.where(hits, 2 * c / jnp.where(hits, denominator, 1), jnp.inf))
 
 
+def _difference_of_squares(a: Float[Array, "4 s"], b: Float[Array, "4 s"]) -> Float[Array, " s"]:
+    """``|f|^2 - |g|^2`` as a bilinear form."""
+    return a[0] * b[0] + a[1] * b[1] - a[2] * b[2] - a[3] * b[3]
+
+
 def search(
-    nodes: Float[Array, "s 4"],
-    change: Float[Array, "s 4"],
+    nodes: Float[Array, "4 s"],
+    change: Float[Array, "4 s"],
     weights: Float[Array, " s"],
     energy: Energy,
     residual: Float[Array, " r"],
@@ -86,7 +90,8 @@ def search(
     def along(t: Float[Array, " t"]) -> Float[Array, " t"]:
         r = residual + t[:, None] * residual_change
         p2p = 0.5 * jnp.sum(residual_weights * r**2, axis=-1)
-        return isometric_energy(nodes + t[:, None, None] * change, weights, energy) + p2p
+        moved = nodes[:, None] + t[:, None] * change[:, None]
+        return isometric_energy(moved, weights, energy) + p2p
 
     def acceptable(steps: Array, energies: Array) -> Array:
         return energies < total - ARMIJO * steps * squared_decrement

@@ -17,12 +17,16 @@ from glid_nb.energies import Differentials, Energy
 from glid_nb.harmonic.cauchy import Singularities, slope_jumps
 from glid_nb.solvers import line_search
 from glid_nb.solvers.discretisation import CertificateKind, Matrices
-from glid_nb.solvers.hessian import assemble, local_hessian, positive_part
+from glid_nb.solvers.hessian import (
+    LocalHessian,
+    assemble,
+    assemble_across_f,
+    local_hessian,
+    positive_part,
+)
 from glid_nb.solvers.options import HessianKind
 from glid_nb.solvers.outcome import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.unknowns import Unknowns, expand, restrict_gradient, restrict_hessian
-
-_ATTEMPTS = {"exact": (0, 0), "projected": (1, 1), "adaptive": (0, 1)}
 
 
 class Constraints(NamedTuple):
@@ -36,10 +40,11 @@ class Constraints(NamedTuple):
 
 
 class Samples(NamedTuple):
-    """``f_z`` and ``conj(f_zbar)`` as columns (Re, Im, Re, Im), and their derivatives."""
+    """``f_z`` and ``conj(f_zbar)`` as rows (Re, Im, Re, Im), and their derivatives."""
 
-    nodes: Float[Array, "p+q 4"]
-    slopes: Float[Array, "p 4"]
+    nodes: Float[Array, "4 p+q"]
+    slopes: Float[Array, "4 p"]
+    hessian: Float[Array, "4 h"]
 
 
 class Record(NamedTuple):
@@ -60,6 +65,8 @@ class State(NamedTuple):
     samples: Samples
     energy_iso: Float[Array, ""]
     energy_p2p: Float[Array, ""]
+    start_energy: Float[Array, ""]
+    """Total energy before the first iteration of this call."""
     iteration: Int[Array, ""]
     outcome: Int[Array, ""]
     decrement: Float[Array, ""]
@@ -111,6 +118,38 @@ def run(
             0.5 * jnp.sum(row_weights * residual**2),
         )
 
+    def factor(samples: Samples) -> tuple[Float[Array, "4c 4c"], Bool[Array, ""]]:
+        """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected."""
+        x, yy = _squares(samples.hessian)
+        f, g = _directions(samples.hessian)
+        local = local_hessian(energy.differentials(x, yy), x, yy)
+        projected = positive_part(local)
+
+        def assembled(k: LocalHessian) -> Float[Array, "4c 4c"]:
+            return assemble(matrices.hessian_nodes, matrices.hessian_weights, f, g, k)
+
+        def cholesky(h: Float[Array, "4c 4c"]) -> Float[Array, "4c 4c"]:
+            h = restrict_hessian(h + p2p_hessian, unknowns)
+            shift = settings.ridge * jnp.mean(jnp.diag(h))
+            return lax.linalg.cholesky(h + shift * jnp.eye(h.shape[0]), symmetrize_input=False)
+
+        def project(h: Float[Array, "4c 4c"]) -> Float[Array, "4c 4c"]:
+            if not energy.indefinite_across_f_only:
+                return assembled(projected)
+            across = projected.across_f - local.across_f
+            block = assemble_across_f(matrices.hessian_nodes, matrices.hessian_weights, f, across)
+            return h.at[: block.shape[0], : block.shape[0]].add(block)
+
+        if hessian == "projected":
+            return cholesky(assembled(projected)), jnp.array(True)
+        exact = assembled(local)
+        lower = cholesky(exact)
+        definite = jnp.isfinite(lower[-1, -1])
+        if hessian == "exact":
+            return lower, jnp.array(False)
+        lower = lax.cond(definite, lambda _: lower, lambda h: cholesky(project(h)), exact)
+        return lower, ~definite
+
     def keep_going(state: State) -> Bool[Array, ""]:
         return (state.outcome == RUNNING) & (state.iteration < settings.iterations)
 
@@ -122,28 +161,7 @@ def run(
         gradient = _energy_gradient(matrices, nodes, d) + p2p_matrix.T @ (row_weights * residual)
         gradient = restrict_gradient(gradient, unknowns)
 
-        index = matrices.hessian_index
-        local = local_hessian(jax.tree.map(lambda a: a[index], d), x[index], yy[index])
-        f, g = _directions(nodes[index])
-
-        def factor(carry: tuple[Array, Array]) -> tuple[Array, Array]:
-            modify = carry[0] > 0
-            k = jax.tree.map(lambda a, b: jnp.where(modify, b, a), local, positive_part(local))
-            h = assemble(matrices.hessian_nodes, matrices.hessian_weights, f, g, k)
-            h = restrict_hessian(h + p2p_hessian, unknowns)
-            shift = settings.ridge * jnp.mean(jnp.diag(h))
-            return carry[0] + 1, lax.linalg.cholesky(
-                h + shift * jnp.eye(h.shape[0]), symmetrize_input=False
-            )
-
-        # Attempt 0 is the exact Hessian, attempt 1 the projected one.
-        first, last = _ATTEMPTS[hessian]
-        attempts, lower = lax.while_loop(
-            lambda carry: (carry[0] <= last) & ~jnp.isfinite(carry[1][-1, -1]),
-            factor,
-            (jnp.array(first), jnp.full((y.shape[0], y.shape[0]), jnp.nan)),
-        )
-        modified = attempts == 2
+        lower, modified = factor(state.samples)
         definite = jnp.isfinite(lower[-1, -1])
         direction = -jax.scipy.linalg.cho_solve((lower, True), gradient)
         direction = expand(jnp.where(definite, direction, 0), unknowns)
@@ -195,6 +213,7 @@ def run(
             samples,
             iso,
             p2p,
+            state.start_energy,
             state.iteration + stepped,
             outcome,
             decrement,
@@ -212,6 +231,7 @@ def run(
         samples,
         iso,
         p2p,
+        iso + p2p,
         jnp.array(0),
         jnp.array(RUNNING),
         jnp.array(jnp.inf),
@@ -233,58 +253,48 @@ def bounds(
     phi, psi = _complex_pair(coefficients)
     jumps = jnp.abs(slope_jumps(jnp.stack([phi, psi]), singularities))
     largest = jnp.maximum(jnp.abs(phi).max(), jnp.abs(psi).max())
-    remainder = matrices.remainder @ jumps.T + (matrices.rounding * largest)[:, None]
-    chord = lax.complex(matrices.chord[:, 0], matrices.chord[:, 1])
+    remainder = jumps @ matrices.remainder + matrices.rounding * largest
+    chord = lax.complex(*matrices.chord)
     panels = chord.shape[0]
-    f, g = _complex_columns(samples.nodes[:panels])
-    df, dg = _complex_columns(samples.slopes)
+    f, g = _complex_rows(samples.nodes[:, :panels])
+    df, dg = _complex_rows(samples.slopes)
     after = matrices.next
     values = EndValues(
         f, f[after], g, g[after], df * chord, df[after] * chord, dg * chord, dg[after] * chord
     )
     method = hermite if certificate == "hermite" else lipschitz
-    return method.panel_bounds(values, remainder[:, 0], remainder[:, 1])
+    return method.panel_bounds(values, remainder[0], remainder[1])
 
 
-def _turning(matrices: Matrices, nodes: Float[Array, "s 4"]) -> Float[Array, " p"]:
+def _turning(matrices: Matrices, nodes: Float[Array, "4 s"]) -> Float[Array, " p"]:
     """Principal ``Arg`` of the quotient of ``f_z`` at the ends of each panel."""
-    start = nodes[: matrices.ends.shape[0], :2]
-    end = start[matrices.next]
-    cross = start[:, 0] * end[:, 1] - start[:, 1] * end[:, 0]
-    return jnp.arctan2(cross, jnp.sum(start * end, axis=1))
+    start = nodes[:2, : matrices.real.shape[0]]
+    end = start[:, matrices.next]
+    cross = start[0] * end[1] - start[1] * end[0]
+    return jnp.arctan2(cross, jnp.sum(start * end, axis=0))
 
 
 def _products(matrices: Matrices, y: Float[Array, " 4c"]) -> Samples:
     """``f_z``, ``conj(f_zbar)`` and their derivatives on the panels (G.6), one product each."""
     c = y.shape[0] // 4
-    columns = []
+    rows = []
     for first in (0, 2 * c):
         re, im = y[first : first + c], y[first + c : first + 2 * c]
-        columns += [jnp.concatenate([re, im]), jnp.concatenate([im, -re])]
-    y4 = jnp.stack(columns, axis=1)
-    nodes = jnp.concatenate([matrices.ends @ y4, matrices.middles @ y4])
-    return Samples(nodes, matrices.slopes @ y4)
+        rows += [jnp.concatenate([re, im]), jnp.concatenate([im, -re])]
+    y4 = jnp.stack(rows)
+    return Samples(y4 @ matrices.nodes, y4 @ matrices.slopes, y4 @ matrices.hessian_nodes)
 
 
 def _energy_gradient(
-    matrices: Matrices, nodes: Float[Array, "s 4"], d: Differentials
+    matrices: Matrices, nodes: Float[Array, "4 s"], d: Differentials
 ) -> Float[Array, " 4c"]:
     """Gradient of the isometric energy, (G.7) with the last block's sign corrected."""
     w1, w2 = 2 * matrices.weights * d.alpha1, 2 * matrices.weights * d.alpha2
-    v = nodes * jnp.stack([w1, w1, w2, w2], axis=1)
-    p = matrices.ends.shape[0]
-    m = matrices.ends.T @ v[:p] + matrices.middles.T @ v[p:]
+    m = matrices.nodes @ (nodes * jnp.stack([w1, w1, w2, w2])).T
     c = m.shape[0] // 2
-    top, bottom = m[:c], m[c:]
+    re, im = m[:c].T, m[c:].T
     # D^H v = (Re D^T - i Im D^T) v with the stored halves Re D and -Im D.
-    return jnp.concatenate(
-        [
-            top[:, 0] - bottom[:, 1],
-            top[:, 1] + bottom[:, 0],
-            top[:, 2] - bottom[:, 3],
-            top[:, 3] + bottom[:, 2],
-        ]
-    )
+    return jnp.concatenate([re[0] - im[1], re[1] + im[0], re[2] - im[3], re[3] + im[2]])
 
 
 def _constraint_matrix(constraints: Constraints) -> Float[Array, "2h 4c"]:
@@ -294,18 +304,18 @@ def _constraint_matrix(constraints: Constraints) -> Float[Array, "2h 4c"]:
     return jnp.block([[re, minus_im, re, minus_im], [-minus_im, re, minus_im, -re]])
 
 
-def _squares(nodes: Float[Array, "s 4"]) -> tuple[Array, Array]:
-    return nodes[:, 0] ** 2 + nodes[:, 1] ** 2, nodes[:, 2] ** 2 + nodes[:, 3] ** 2
+def _squares(nodes: Float[Array, "4 s"]) -> tuple[Array, Array]:
+    return nodes[0] ** 2 + nodes[1] ** 2, nodes[2] ** 2 + nodes[3] ** 2
 
 
-def _directions(nodes: Float[Array, "s 4"]) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+def _directions(nodes: Float[Array, "4 s"]) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
     """Unit vectors along both derivatives; (1, 0) where one vanishes."""
     pairs = []
     for k in (0, 2):
-        modulus = jnp.hypot(nodes[:, k], nodes[:, k + 1])
+        modulus = jnp.hypot(nodes[k], nodes[k + 1])
         vanishes = modulus == 0
         safe = jnp.where(vanishes, 1, modulus)
-        pairs.append((jnp.where(vanishes, 1, nodes[:, k] / safe), nodes[:, k + 1] / safe))
+        pairs.append((jnp.where(vanishes, 1, nodes[k] / safe), nodes[k + 1] / safe))
     return pairs[0], pairs[1]
 
 
@@ -314,5 +324,5 @@ def _complex_pair(y: Float[Array, " 4c"]) -> tuple[Array, Array]:
     return lax.complex(y[:c], y[c : 2 * c]), lax.complex(y[2 * c : 3 * c], y[3 * c :])
 
 
-def _complex_columns(a: Float[Array, "s 4"]) -> tuple[Array, Array]:
-    return lax.complex(a[:, 0], a[:, 1]), lax.complex(a[:, 2], a[:, 3])
+def _complex_rows(a: Float[Array, "4 s"]) -> tuple[Array, Array]:
+    return lax.complex(a[0], a[1]), lax.complex(a[2], a[3])

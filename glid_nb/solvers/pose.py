@@ -45,7 +45,8 @@ class Pose:
         n_handles, n_targets = len(self.handles), len(self.targets)
         if n_handles != n_targets:
             raise PoseError(
-                f"there are {n_handles} handles but {n_targets} targets; give one target per handle"
+                f"there {_counted(n_handles, 'handle')} but {n_targets} "
+                f"target{'' if n_targets == 1 else 's'}; give one target per handle"
             )
         _, first, inverse = np.unique(self.handles, axis=0, return_index=True, return_inverse=True)
         repeated = np.flatnonzero(first[inverse.ravel()] != np.arange(n_handles))
@@ -103,6 +104,10 @@ def _checked_points(points: Any, name: str) -> Array:
         raise PoseError(f"{name}[{i}] is {_text(array[i])}; coordinates must be finite numbers")
     array.flags.writeable = False
     return array
+
+
+def _counted(count: int, noun: str) -> str:
+    return f"is 1 {noun}" if count == 1 else f"are {count} {noun}s"
 
 
 def _text(point: Array) -> str:

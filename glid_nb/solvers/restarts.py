@@ -5,11 +5,13 @@ rush the handles to their targets, whatever that does to the shape. Two remedies
 raise ``lambda`` in stages, which lets the shape turn before it bends, and to start at the identity
 itself instead of at the rigidly aligned one. On hard poses of the reference shapes one of them
 often ends at a fraction of the first energy; on ordinary poses they find the same minimum, which
-is why they are not tried there.
+is why they are not tried there. An energy that is no barrier (ARAP) can run against the limit of
+local injectivity far from its targets; it then starts at the symmetric Dirichlet minimum.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -17,15 +19,16 @@ from typing import Any
 import jax.numpy as jnp
 
 from glid_nb._runtime import double_precision
-from glid_nb.energies import Energy
+from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.result import Attempt, Iteration, Result
 from glid_nb.solvers.status import Status
 
 Descend = Callable[..., Result]
 
-# Energies above this multiple of an isometry's are worth another attempt.
-HIGH_ENERGY = 2.0
+# Energies above this multiple of an isometry's, if that is at least the second number, are worth
+# another attempt.
+HIGH_ENERGY, LEAST_ISOMETRY = 2.0, 0.5
 AGREEMENT = 1e-3
 SAME_ENERGY = 1e-6
 # The stages' fractions of lambda, and how far each is followed.
@@ -54,6 +57,14 @@ def improve(first: Result, descend: Descend, callback: Callable[..., Any] | None
     ]
     if not options.align:
         del ways[1:]
+    if not first.energy_measure.is_barrier:
+        ways.insert(
+            0,
+            (
+                "from the symmetric Dirichlet minimum",
+                lambda: _from_barrier(first, descend, options, callback),
+            ),
+        )
     best, tried = first, [("direct", first)]
     for name, way in ways[: options.restarts]:
         if not _is_poor(best):
@@ -61,7 +72,7 @@ def improve(first: Result, descend: Descend, callback: Callable[..., Any] | None
         result = way()
         tried.append((name, result))
         if result.status is Status.STOPPED:
-            best = result
+            best = replace(min(best, result, key=lambda r: r.energy), status=Status.STOPPED)
             break
         # Two ways that agree are taken for the answer.
         agree = best.status.ok and abs(best.energy - result.energy) <= AGREEMENT * best.energy
@@ -84,9 +95,8 @@ def improve(first: Result, descend: Descend, callback: Callable[..., Any] | None
 def _is_poor(result: Result) -> bool:
     if result.status in (Status.STOPPED, Status.MAX_ITERATIONS, Status.INDEFINITE):
         return False
-    return result.status is Status.BLOCKED or result.energy > HIGH_ENERGY * isometry_energy(
-        result.energy_measure
-    )
+    isometry = max(isometry_energy(result.energy_measure), LEAST_ISOMETRY)
+    return result.status is Status.BLOCKED or result.energy > HIGH_ENERGY * isometry
 
 
 @double_precision
@@ -99,29 +109,65 @@ def _staged(
     first: Result, descend: Descend, options: Options, callback: Callable[..., Any] | None
 ) -> Result:
     """Descend with a rising weight of the targets; the history holds all stages."""
-    result: Result | None = None
-    history: tuple[Iteration, ...] = ()
+    done: list[Result] = []
     for fraction in STAGES:
         stage = replace(
             options,
             p2p_weight=options.p2p_weight * fraction,
             max_iterations=min(STAGE_ITERATIONS, options.max_iterations),
             tolerance=STAGE_TOLERANCE,
-            align=options.align and result is None,
+            align=options.align and not done,
         )
-        result = descend(first.pose, first.energy_measure, stage, result, callback)
+        start = done[-1] if done else None
+        result = descend(first.pose, first.energy_measure, stage, start, callback)
+        done.append(_at_weight(result, 1 / fraction))
         if result.status is Status.STOPPED:
-            return result
-        # As the full weight counts them, so that all energies of the history compare.
-        history += tuple(_at_weight(entry, 1 / fraction) for entry in result.history)
-    final = descend(
-        first.pose, first.energy_measure, replace(options, align=False), result, callback
+            return _joined(done)
+    final = replace(options, align=False)
+    done.append(descend(first.pose, first.energy_measure, final, done[-1], callback))
+    return _joined(done)
+
+
+def _from_barrier(
+    first: Result, descend: Descend, options: Options, callback: Callable[..., Any] | None
+) -> Result:
+    """Descend from the symmetric Dirichlet minimum, whose own history is left out."""
+    barrier = descend(first.pose, SymmetricDirichlet(), options, None, callback)
+    if barrier.status is Status.STOPPED:
+        return replace(first, status=Status.STOPPED)
+    plain = replace(options, align=False)
+    result = descend(first.pose, first.energy_measure, plain, barrier, callback)
+    return replace(
+        result,
+        compile_time=barrier.compile_time + result.compile_time,
+        solve_time=barrier.solve_time + result.solve_time,
     )
-    history += final.history
-    numbered = tuple(replace(entry, iteration=i) for i, entry in enumerate(history, start=1))
-    return replace(final, history=numbered)
 
 
-def _at_weight(entry: Iteration, factor: float) -> Iteration:
-    p2p = entry.energy_p2p * factor
-    return replace(entry, energy_p2p=p2p, energy=entry.energy_iso + p2p)
+def _at_weight(result: Result, factor: float) -> Result:
+    """As the full weight counts it, so that all energies of a staged history compare."""
+
+    def weighted(entry: Iteration) -> Iteration:
+        p2p = entry.energy_p2p * factor
+        return replace(entry, energy_p2p=p2p, energy=entry.energy_iso + p2p)
+
+    p2p = result.energy_p2p * factor
+    return replace(
+        result,
+        energy_p2p=p2p,
+        energy=result.energy_iso + p2p,
+        history=tuple(weighted(entry) for entry in result.history),
+    )
+
+
+def _joined(stages: list[Result]) -> Result:
+    """The last stage's result with the histories and the times of all."""
+    entries = [entry for stage in stages for entry in stage.history]
+    return replace(
+        stages[-1],
+        history=tuple(replace(entry, iteration=i) for i, entry in enumerate(entries, start=1)),
+        # The first stage's targets weighed less.
+        start_energy=math.nan,
+        compile_time=sum(stage.compile_time for stage in stages),
+        solve_time=sum(stage.solve_time for stage in stages),
+    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from dataclasses import dataclass, field
 
 from glid_nb.certificate import Certificate, certify
@@ -39,7 +40,7 @@ class Iteration:
     panels_split: int
     """Panels split since the iteration before, because they refused a step."""
     time: float
-    """Seconds, shared evenly within one compiled call; NaN when that call compiled first."""
+    """Seconds without compilation, shared evenly within one compiled call."""
 
 
 @dataclass(frozen=True)
@@ -70,6 +71,8 @@ class Result:
     """Seconds spent compiling during this solve."""
     solve_time: float
     """Seconds of the solve without compilation."""
+    start_energy: float = math.nan
+    """Total energy of the map that the first iteration started from."""
     attempts: tuple[Attempt, ...] = ()
     """All ways to a minimum that were tried, when the first was not the only one."""
 

@@ -47,11 +47,17 @@ def restrict_gradient(g: Float[Array, " 4c"], unknowns: Unknowns) -> Float[Array
 
 
 def restrict_hessian(h: Float[Array, "4c 4c"], unknowns: Unknowns) -> Float[Array, "4c 4c"]:
-    """Hessian with respect to the unknowns, the identity elsewhere."""
+    """Hessian with respect to the unknowns, the identity elsewhere.
+
+    Of ``h`` the rows of ``psi`` and the block of ``phi`` are read, not the block above the
+    diagonal ones; there the result means nothing.
+    """
     phi, psi, sign = _hole_slices(h.shape[0], unknowns)
     if phi is not None:
-        h = h.at[phi, :].add(sign[:, None] * h[psi, :])
-        h = h.at[:, phi].add(sign * h[:, psi])
+        rows = sign[:, None] * h[psi, :]
+        h = h.at[phi, :].add(rows)
+        h = h.at[:, phi].add(rows.T)
+        h = h.at[phi[:, None], phi].add(sign * rows[:, psi])
     free = unknowns.free
     return h * free[:, None] * free + jnp.diag(1 - free)
 

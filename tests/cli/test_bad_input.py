@@ -76,7 +76,7 @@ def test_a_bad_option(run, problem: Path, words: list[str], message: str) -> Non
 @pytest.mark.parametrize("command", ["solve", "demo", "trace", "render"])
 def test_a_file_that_is_missing(run, tmp_path: Path, command: str) -> None:
     missing = tmp_path / "nothing.here"
-    out = ["--out", tmp_path / "x"]
+    out = ["--out", tmp_path / "x.png"]
     words = {"render": [missing, *out], "trace": out, "solve": [], "demo": []}[command]
     outcome = run(command, missing, *words)
     assert_refused(outcome, missing)
@@ -191,7 +191,7 @@ def test_an_output_folder_that_is_missing(
 ) -> None:
     words = {"solve": [problem], "trace": [picture], "render": [picture, problem]}[command]
     folder = tmp_path / "missing"
-    outcome = run(command, *words, "--out", folder / "file")
+    outcome = run(command, *words, "--out", folder / "file.png")
     assert_refused(outcome, folder, "there is no such folder")
 
 
@@ -231,3 +231,24 @@ def test_an_interrupted_write_leaves_what_was_there(tmp_path: Path, monkeypatch)
         output.write_all({path: "new"})
     assert path.read_text() == "precious"
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_picture_of_other_proportions(run, tmp_path: Path, map_data: dict[str, Any]) -> None:
+    picture = _picture(tmp_path / "tall.png", np.full((400, 40, 3), 200, dtype=np.uint8))
+    path = tmp_path / "map.json"
+    path.write_text(json.dumps(map_data))
+    outcome = run("render", picture, path, "--out", tmp_path / "x.png")
+    assert_refused(outcome, path, "take the picture that the cage was traced from")
+
+
+def test_a_map_that_collapses(run, picture: Path, tmp_path: Path, map_data: dict) -> None:
+    zeros = [[0.0, 0.0] for _ in map_data["phi"]]
+    path = tmp_path / "map.json"
+    path.write_text(json.dumps({**map_data, "phi": zeros, "psi": zeros}))
+    words = ["render", picture, path, "--out", tmp_path / "x.png", "--view", "fit"]
+    assert_refused(run(*words), path, "collapses the shape")
+
+
+def test_a_picture_is_written_as_png_only(run, picture: Path, tmp_path: Path) -> None:
+    outcome = run("render", picture, tmp_path / "map.json", "--out", tmp_path / "x.jpg")
+    assert_refused(outcome, "x.jpg", "ends in .png")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import signal
 from pathlib import Path
 
 import numpy as np
@@ -228,3 +229,41 @@ def test_results_may_overwrite_results(run, problem: Path, tmp_path: Path) -> No
     assert run("solve", problem, "--out", out).code == 0
     assert glid_nb.HarmonicMap.load(out)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["map.json", "problem.json"]
+
+
+def test_ctrl_c_keeps_the_last_certified_map(
+    run, problem: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The first one only asks: what was reached so far is written, and the exit code tells."""
+    solve = glid_nb.solve
+
+    def interrupted(*args, callback, **keywords):
+        def press(state: glid_nb.Progress) -> bool | None:
+            signal.raise_signal(signal.SIGINT)
+            return callback(state)
+
+        return solve(*args, callback=press, **keywords)
+
+    monkeypatch.setattr(glid_nb, "solve", interrupted)
+    out, report = tmp_path / "map.json", tmp_path / "report.json"
+    outcome = run("solve", problem, "--out", out, "--report", report)
+    assert outcome.code == 130
+    assert "interrupted" in outcome.err
+    assert read(report)["status"] == "stopped"
+    assert glid_nb.certify(glid_nb.HarmonicMap.load(out)).certified
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_flags_of_the_start(run, problem: Path, tmp_path: Path) -> None:
+    report = tmp_path / "report.json"
+    outcome = run("solve", problem, "--no-align", "--restarts", 0, "--report", report)
+    assert outcome.code == 0
+    options = read(report)["options"]
+    assert options["align"] is False
+    assert options["restarts"] == 0
+
+
+def test_a_solve_without_files_says_so(run, problem: Path) -> None:
+    outcome = run("solve", problem)
+    assert outcome.code == 0
+    assert "nothing; name files with --out and --report" in outcome.out

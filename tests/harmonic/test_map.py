@@ -194,3 +194,9 @@ def test_the_hole_that_is_not_conjugate_is_named() -> None:
     phi[-2] = 0.5
     with pytest.raises(MapError, match="hole 2 are not conjugate"):
         HarmonicMap(map.domain, phi, map.psi)
+
+
+def test_a_point_that_is_not_finite_is_refused() -> None:
+    identity = HarmonicMap.identity(domain("ell"))
+    with pytest.raises(MapError, match="point 1 is"):
+        identity([[0.0, 0.0], [np.nan, 1.0]])

@@ -89,7 +89,7 @@ def test_saving_and_loading_gives_the_same_problem(write: Write, tmp_path: Path)
         ({**GOOD, "holes": [HOLE, HOLE]}, "hole 2"),
         ({**GOOD, "offset": -1}, '"offset" must be a positive number, not -1'),
         ({**GOOD, "offset": "0.1"}, '"offset" must be a positive number, not "0.1"'),
-        ({**GOOD, "handles": [[-3, -3]]}, "1 handles but 2 targets"),
+        ({**GOOD, "handles": [[-3, -3]]}, "1 handle but 2 targets"),
         ({**GOOD, "targets": [[-3, -3], [float("inf"), 0]]}, r"targets\[1\] must be finite"),
         ({**GOOD, "targets": [[-3, -3], [None, 0]]}, r"targets\[1\] must be a pair .* \[null, 0\]"),
         ({**GOOD, "handles": [[-3, -3], [-3, -3]]}, r"handles 0 and 1 .*\(-3, -3\)"),
@@ -124,7 +124,7 @@ def test_a_pose_needs_no_cage(write: Write) -> None:
     [
         ({"handles": [[0, 0]]}, 'the key "targets" must be given'),
         ({"handles": [[0, 0]], "targets": [[0]]}, r"targets\[0\] must be a pair"),
-        ({"handles": [[0, 0]], "targets": []}, "1 handles but 0 targets"),
+        ({"handles": [[0, 0]], "targets": []}, "1 handle but 0 targets"),
     ],
 )
 def test_a_bad_pose_is_refused_by_name(write: Write, data: Any, message: str) -> None:

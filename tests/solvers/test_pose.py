@@ -64,8 +64,8 @@ def test_targets_may_coincide() -> None:
 @pytest.mark.parametrize(
     ("handles", "targets", "message"),
     [
-        ([[0, 0], [1, 0]], [[0, 0]], "2 handles but 1 targets"),
-        ([], [[0, 0]], "0 handles but 1 targets"),
+        ([[0, 0], [1, 0]], [[0, 0]], "2 handles but 1 target;"),
+        ([], [[0, 0]], "0 handles but 1 target;"),
         ([[0, 0], [1, 1], [0, 0]], [[0, 0]] * 3, r"handles 0 and 2 are the same point \(0, 0\)"),
         ([[0.0, 0], [-0.0, 0]], [[0, 0]] * 2, "handles 0 and 1 are the same point"),
         ([[3, 0], [1, 1], [1, 1], [3, 0]], [[0, 0]] * 4, "handles 1 and 2 are the same"),

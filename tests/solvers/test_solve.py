@@ -18,6 +18,7 @@ from glid_nb.energies import (
     ARAP,
     CustomEnergy,
     Energy,
+    EnergyError,
     ExponentialSymmetricDirichlet,
     SymmetricDirichlet,
 )
@@ -319,3 +320,22 @@ def test_narrow_bridge_and_many_holes() -> None:
 
 def test_default_energy_is_symmetric_dirichlet() -> None:
     assert ell().energy_measure == SymmetricDirichlet()
+
+
+def test_an_energy_may_be_named() -> None:
+    pose = Pose(ELL_HANDLES, ELL_TARGETS)
+    assert solve(domain("ell"), pose, "iso").energy == ell().energy
+    with pytest.raises(EnergyError, match="unknown energy 'isometric'; choose one of iso, exp"):
+        solve(domain("ell"), pose, "isometric")
+    with pytest.raises(EnergyError, match="pass an energy"):
+        solve(domain("ell"), pose, 3.0)  # pyright: ignore[reportArgumentType]
+
+
+def test_times_leave_compilation_out_and_the_start_is_known() -> None:
+    # An energy of its own, so that this solve surely compiles.
+    energy = CustomEnergy(lambda x, y: (x + y) * (1 + 1 / (x - y) ** 2) + 0.5 * y)
+    result = solve(domain("ell"), Pose(ELL_HANDLES, ELL_TARGETS), energy)
+    times = np.array([entry.time for entry in result.history])
+    assert np.isfinite(times).all()
+    assert result.compile_time > times.sum() > 0
+    assert result.start_energy > result.history[0].energy

@@ -107,7 +107,10 @@ def _choose_method(
     border = border_color(image)
     if border is not None and border.is_uniform:
         return "color", f"colour distance, for {border.share:.0%} of the border has one colour"
-    return "threshold", "brightness, for the border has no single colour"
+    return "threshold", (
+        "brightness, for the border has no single colour: a guess; if it is wrong, choose another "
+        "method, mark the background's colour, or scribble on foreground and background"
+    )
 
 
 def _background(
