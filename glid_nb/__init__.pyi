@@ -53,6 +53,7 @@ from .solvers import Result as Result
 from .solvers import StartError as StartError
 from .solvers import Status as Status
 from .solvers import solve as solve
+from .solvers import solve_batch as solve_batch
 from ._runtime import enable_compilation_cache as enable_compilation_cache
 
 # Files and reports

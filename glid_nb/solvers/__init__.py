@@ -1,5 +1,6 @@
 """Minimising a deformation energy over certified harmonic maps (paper Sections 7 and 9)."""
 
+from glid_nb.solvers.batch import solve_batch
 from glid_nb.solvers.options import OptionError, Options
 from glid_nb.solvers.pose import Pose, PoseError
 from glid_nb.solvers.result import Iteration, Result
@@ -17,4 +18,5 @@ __all__ = [
     "StartError",
     "Status",
     "solve",
+    "solve_batch",
 ]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from typing import NamedTuple
 
 import jax
@@ -88,12 +87,7 @@ class Settings(NamedTuple):
     """Added to the Hessian's diagonal, relative to its mean (Section 9.1's epsilon)."""
 
 
-@functools.partial(
-    jax.jit,
-    static_argnames=("hessian", "certificate", "capacity"),
-    compiler_options=COMPILER_OPTIONS,
-)
-def run(
+def iterations(
     matrices: Matrices,
     singularities: Singularities,
     unknowns: Unknowns,
@@ -106,7 +100,7 @@ def run(
     certificate: CertificateKind,
     capacity: int,
 ) -> State:
-    """Up to ``settings.iterations`` (at most ``capacity``) Newton iterations."""
+    """Up to ``settings.iterations`` (at most ``capacity``) Newton iterations, to be compiled."""
     p2p_matrix = _constraint_matrix(constraints)
     row_weights = jnp.concatenate([constraints.weights, constraints.weights])
     p2p_hessian = p2p_matrix.T @ (row_weights[:, None] * p2p_matrix)
@@ -240,6 +234,14 @@ def run(
         jnp.full(matrices.real.shape, jnp.nan),
     )
     return lax.while_loop(keep_going, iterate, start)
+
+
+run = jax.jit(
+    iterations,
+    static_argnames=("hessian", "certificate", "capacity"),
+    compiler_options=COMPILER_OPTIONS,
+)
+""":func:`iterations` compiled, for one pose."""
 
 
 def bounds(

@@ -21,6 +21,7 @@ from glid_nb.harmonic.basis import Basis
 from glid_nb.solvers import newton, outcome
 from glid_nb.solvers.align import aligned
 from glid_nb.solvers.discretisation import Discretisation, basis_rows, discretise, padded
+from glid_nb.solvers.history import entries
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.restarts import improve
@@ -39,7 +40,7 @@ _PATIENCE = 3
 _MOST_ROUNDS = 40
 _MOST_PANELS = 20_000
 # When to put the Hessian on all nodes: many iterations, or a short step that gains little.
-_SLOW_ITERATIONS = 20
+SLOW_ITERATIONS = 20
 _SLOW_STEP, _SLOW_GAIN = 0.5, 0.05
 # Steps in a row that together gain less than this fraction of the energy end a solve.
 _STALLED, _STALL_GAIN = 4, 1e-10
@@ -65,7 +66,7 @@ class Progress:
     @property
     def map(self) -> HarmonicMap:
         """The certified map of this moment."""
-        return _map_from(self.discretisation, self._coefficients)
+        return map_from(self.discretisation, self._coefficients)
 
 
 Callback = Callable[[Progress], bool | None]
@@ -137,7 +138,7 @@ def descend(
         status = loop.run(callback)
     elapsed, compiling = time.perf_counter() - began, clock.seconds - compiling
     return Result(
-        _map_from(loop.discretisation, loop.coefficients),
+        map_from(loop.discretisation, loop.coefficients),
         status,
         loop.energy_iso + loop.energy_p2p,
         loop.energy_iso,
@@ -168,14 +169,11 @@ class _Loop:
         map_, self.discretisation = _starting_point(domain, options, start)
         basis = self.discretisation.basis
         self.unknowns = unknowns_of(basis, options.conformal)
-        self.constraints = _constraints(basis, pose, options.p2p_weight)
+        self.constraints = constraints_of(basis, pose, options.p2p_weight)
         self.ridge = _RIDGE if len(pose) < 2 else 0.0
         if options.align:
             map_ = aligned(map_, pose)
-        phi, psi = basis.pad(map_.phi), basis.pad(map_.psi)
-        self.coefficients: Any = jnp.asarray(
-            np.concatenate([np.real(phi), np.imag(phi), np.real(psi), np.imag(psi)])
-        )
+        self.coefficients: Any = jnp.asarray(real_coefficients(basis, map_))
         self.history: list[Iteration] = []
         self.energy_iso = self.energy_p2p = np.nan
         self.just_split = 0
@@ -243,29 +241,17 @@ class _Loop:
             settings,
             hessian=options.hessian,
             certificate=options.certificate,
-            capacity=_capacity(options.iterations_per_call),
+            capacity=capacity_for(options.iterations_per_call),
         )
 
     def _record(self, state: newton.State, taken: int, seconds: float) -> None:
         self.coefficients = state.coefficients
         self.energy_iso, self.energy_p2p = float(state.energy_iso), float(state.energy_p2p)
-        records = newton.Record(*(np.asarray(values)[:taken] for values in state.records))
-        for iso, p2p, step, decrement, sigma2, modified in zip(*records, strict=True):
-            self.history.append(
-                Iteration(
-                    len(self.history) + 1,
-                    float(iso + p2p),
-                    float(iso),
-                    float(p2p),
-                    float(step),
-                    float(decrement),
-                    float(sigma2),
-                    bool(modified),
-                    len(self.discretisation.panels),
-                    self.just_split,
-                    seconds / taken,
-                )
-            )
+        panels = len(self.discretisation.panels)
+        self.history += entries(
+            state.records, taken, len(self.history), panels, self.just_split, seconds
+        )
+        if taken:
             self.just_split = 0
 
     def _progress(self, state: newton.State) -> Progress:
@@ -284,7 +270,7 @@ class _Loop:
     def _is_slow(self) -> bool:
         """Whether the Hessian's coarser quadrature seems to cost iterations."""
         *before, last = self.history
-        if len(self.history) >= _SLOW_ITERATIONS:
+        if len(self.history) >= SLOW_ITERATIONS:
             return True
         gained = before[-1].energy - last.energy if before else np.inf
         return last.step < _SLOW_STEP and gained < _SLOW_GAIN * last.energy
@@ -338,7 +324,8 @@ def _starting_point(
     return canonical(HarmonicMap(domain, map_.phi, map_.psi)), fresh
 
 
-def _constraints(basis: Basis, pose: Pose, weight: float) -> newton.Constraints:
+def constraints_of(basis: Basis, pose: Pose, weight: float) -> newton.Constraints:
+    """The constraints of a pose, padded to a bucket of handles."""
     count = len(pose)
     size = _HANDLE_BUCKET * max(1, -(-count // _HANDLE_BUCKET))
     if not count:
@@ -352,12 +339,19 @@ def _constraints(basis: Basis, pose: Pose, weight: float) -> newton.Constraints:
     )
 
 
-def _capacity(iterations: int) -> int:
+def capacity_for(iterations: int) -> int:
     """Room in a call's history: a power of two, so that few programs are compiled."""
     return 1 << (iterations - 1).bit_length()
 
 
-def _map_from(discretisation: Discretisation, coefficients: Any) -> HarmonicMap:
+def real_coefficients(basis: Basis, map: HarmonicMap) -> Array:
+    """Padded ``[Re phi, Im phi, Re psi, Im psi]`` of a map."""
+    phi, psi = basis.pad(map.phi), basis.pad(map.psi)
+    return np.concatenate([np.real(phi), np.imag(phi), np.real(psi), np.imag(psi)])
+
+
+def map_from(discretisation: Discretisation, coefficients: Any) -> HarmonicMap:
+    """The map of padded real coefficients ``[Re phi, Im phi, Re psi, Im psi]``."""
     basis = discretisation.basis
     re_phi, im_phi, re_psi, im_psi = np.asarray(coefficients).reshape(4, -1)[:, basis.columns]
     return HarmonicMap(discretisation.domain, re_phi + 1j * im_phi, re_psi + 1j * im_psi)

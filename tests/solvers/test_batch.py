@@ -1,0 +1,104 @@
+"""Many poses at once: the same maps as one by one, on several devices too."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from glid_nb.solvers import Options, Pose, PoseError, Status, solve, solve_batch
+
+from ..domains import domain
+from .checks import check_certified
+
+HANDLES = np.array([[-2.5, 2.5], [2.5, -2.5], [-2.0, -2.0]])
+
+
+def targets(count: int) -> np.ndarray:
+    moves = np.random.default_rng(0).normal(scale=0.6, size=(count, *HANDLES.shape))
+    moves[-1] *= 6  # one hard pose among easy ones
+    return HANDLES + moves
+
+
+@pytest.mark.slow
+def test_a_batch_is_the_poses_one_by_one() -> None:
+    goals = targets(5)
+    results = solve_batch(domain("ell"), HANDLES, goals)
+    assert len(results) == 5
+    for goal, result in zip(goals, results, strict=True):
+        alone = solve(domain("ell"), Pose(HANDLES, goal))
+        assert result.status.ok
+        assert result.energy == pytest.approx(alone.energy, rel=1e-6)
+        check_certified(result)
+        np.testing.assert_array_equal(result.pose.targets, goal)
+        numbers = [entry.iteration for entry in result.history]
+        assert numbers == list(range(1, len(numbers) + 1))
+
+
+def test_an_empty_batch() -> None:
+    assert solve_batch(domain("ell"), HANDLES, np.zeros((0, 3, 2))) == ()
+
+
+@pytest.mark.slow
+def test_the_iteration_limit_holds_for_each_pose() -> None:
+    results = solve_batch(domain("ell"), HANDLES, targets(3), options=Options(max_iterations=2))
+    assert all(r.status is Status.MAX_ITERATIONS and r.iterations == 2 for r in results)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda t: t[0], r"targets have shape \(3, 2\)"),
+        (lambda t: t[:, :2], "pose 0: there are 3 handles but 2 targets"),
+        (lambda t: np.where(np.arange(2)[:, None, None] == 1, np.nan, t), r"pose 1: targets\[0\]"),
+    ],
+)
+def test_bad_targets_are_refused(change: Callable[[np.ndarray], np.ndarray], message: str) -> None:
+    with pytest.raises(PoseError, match=message):
+        solve_batch(domain("ell"), HANDLES, change(targets(2)))
+
+
+_ON_TWO_DEVICES = """
+import json, sys
+import numpy as np
+import jax
+from glid_nb import Cage, Domain, Options, solve_batch
+data = json.load(sys.stdin)
+assert len(jax.local_devices()) == 2
+shape = Domain.from_cage(Cage(data["cage"]))
+options = Options(restarts=0)
+both = solve_batch(shape, data["handles"], data["targets"], options=options)
+one = solve_batch(
+    shape, data["handles"], data["targets"], options=options, devices=jax.local_devices()[:1]
+)
+print(json.dumps([[[r.energy for r in some], [r.certificate.certified for r in some]]
+                  for some in (both, one)]))
+"""
+
+
+@pytest.mark.slow
+def test_two_devices_find_what_one_finds() -> None:
+    given = {
+        "cage": domain("ell").cage.exterior.tolist(),
+        "handles": HANDLES.tolist(),
+        "targets": targets(3)[:2].tolist(),
+    }
+    run = subprocess.run(
+        [sys.executable, "-c", _ON_TWO_DEVICES],
+        input=json.dumps(given),
+        env={
+            **os.environ,
+            "XLA_FLAGS": "--xla_force_host_platform_device_count=2",
+        },
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    (both, certified), (one, _) = json.loads(run.stdout)
+    assert certified == [True, True]
+    np.testing.assert_allclose(both, one, rtol=1e-9)
