@@ -15,6 +15,8 @@ from glid_nb.solvers import Status
 
 Array = NDArray[Any]
 
+_RIDGE = 1e-9
+
 FLOOR = 1e-10
 """What negative eigenvalues become (Section 10)."""
 
@@ -30,6 +32,10 @@ class HessianDirection:
     def __call__(self, view: View) -> Array | Ending:
         h = view.problem.hessian(view.point, self.curvature) + view.problem.p2p_hessian
         direction = _solve(h, view.gradient)
+        if direction is None and self.curvature == "projected":
+            # Semidefinite, but singular for very few samples: Section 9.1's epsilon.
+            ridge = _RIDGE * float(np.diag(h).mean())
+            direction = _solve(h + ridge * np.eye(len(h)), view.gradient)
         return Ending(Status.INDEFINITE) if direction is None else direction
 
     def forget(self) -> bool:
