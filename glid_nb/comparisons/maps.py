@@ -80,7 +80,9 @@ def _measure(
     measured = {}
     for name, (method, energy, settings) in runs.items():
         detail(f"{case.name}: {name}")
-        result, images, _ = run_recorded(method, case, display, display, energy, **settings)
+        result, images = run_recorded(
+            method, case, display, display, energy, iterates=False, **settings
+        )
         measured[name] = {**summary(result, images), **_distortion(case, result, display)}
         arrays[f"images_{name}"] = images[-1]
         arrays[f"reached_{name}"] = np.asarray(result.map(case.problem.pose.handles))

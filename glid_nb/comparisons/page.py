@@ -67,8 +67,8 @@ def _progress(cases: list[Measurement], figures: str) -> list[str]:
     for data in cases:
         lines += [f"![{data['name']}]({figures}/progress-{data['name']}.png)", ""]
     lines += [
-        "Iterations to convergence, and to the state from which on no vertex is further than "
-        f"{VISIBLE:g} world units from where its method ends (one unit is a twentieth of the "
+        "Iterations to convergence, and in brackets to the state from which on no vertex is "
+        f"further than {VISIBLE:g} world units from where its method ends (one unit is a twentieth of the "
         "picture's longer side). A `+` marks a method that had not converged at its limit "
         f"({', '.join(f'{LOOK[m][0]} {n}' for m, n in LIMITS.items())}), so that the number is a "
         "lower bound.",
@@ -91,7 +91,8 @@ def _iterations(run: dict[str, Any] | None) -> str:
     if run["status"] == "blocked":
         return f"blocked after {run['iterations']}"
     more = "+" if run["status"] == "max_iterations" else ""
-    return f"{run['iterations']}{more} ({run['visible']}{more})"
+    visible = f" ({run['visible']}{more})" if len(run["distance"]) > 1 else ""
+    return f"{run['iterations']}{more}{visible}"
 
 
 def _newton_claims(cases: list[Measurement]) -> list[str]:

@@ -79,8 +79,14 @@ def measure_hessian_samples(case: Case, detail: Callable[[str], None]) -> Measur
     runs = {}
     for count in HESSIAN_SAMPLES:
         detail(f"{case.name}: {count} Hessian samples")
-        result, images, _ = run_recorded(
-            "newton-staged", case, display, display, hessian_samples=count, max_iterations=60
+        result, images = run_recorded(
+            "newton-staged",
+            case,
+            display,
+            display,
+            iterates=False,
+            hessian_samples=count,
+            max_iterations=60,
         )
         runs[str(count)] = summary(result, images)
     return {"name": case.name, "runs": runs, "arrays": {}}

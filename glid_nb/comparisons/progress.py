@@ -26,6 +26,7 @@ from glid_nb.imaging.style import LINE, SMALL
 HARMONIC = ("newton", "newton-paper", "newton-unmodified", "newton-eigen", "lbfgs")
 MESH = ("slim", "aqp")
 # First-order methods end here if they have not converged; the paper's took up to 1,818, 170, 400.
+_FOLLOWED = ("newton", "newton-eigen", "slim", "aqp")
 _LEAST_GAP = 1e-9
 LIMITS = {"lbfgs": 300, "slim": 120, "aqp": 400, "newton-eigen": 120}
 
@@ -48,9 +49,13 @@ def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
             continue
         detail(f"{case.name}: {LOOK[method][0]}")
         limit = LIMITS.get(method)
-        result, images, _ = run_recorded(method, case, display, mesh, max_iterations=limit)
+        result, images = run_recorded(
+            method, case, display, mesh, max_iterations=limit, iterates=method in _FOLLOWED
+        )
         runs[method] = summary(result, images)
         chosen, pictures = thumbnails(images, runs[method]["visible"])
+        if method not in _FOLLOWED:
+            chosen = [result.iterations]
         runs[method]["thumbnails"] = chosen
         arrays[f"images_{method}"] = pictures
         arrays[f"reached_{method}"] = np.asarray(result.map(case.problem.pose.handles))

@@ -19,7 +19,7 @@ VISIBLE = 0.01
 """World units: half a pixel of a picture whose longer side, 20 units, is 1,000 pixels."""
 
 MESH_VERTICES = 10_000
-_DISPLAY_VERTICES = 2_500
+_DISPLAY_VERTICES = 1_500
 _THUMBNAILS = 4
 
 
@@ -46,21 +46,27 @@ def run_recorded(
     display: Triangulation,
     mesh: Triangulation,
     energy: Energy | None = None,
+    *,
+    iterates: bool = True,
     **settings: Any,
-) -> tuple[MethodResult, list[Array], Triangulation]:
-    """The result, all iterates on a mesh, and that mesh.
+) -> tuple[MethodResult, list[Array]]:
+    """The result, and its iterates on a mesh; without ``iterates`` only the last one.
 
-    Newton's method is run once more without a callback, for with one the host looks at every
-    iteration, which costs time.
+    Newton's method is timed without a callback, for with one the host looks at every iteration,
+    which costs time.
     """
     recorder = Recorder(display.vertices)
     arguments = (method, case.problem.domain, case.problem.pose, energy)
     common: dict[str, Any] = {"align": False, "triangulation": mesh, **settings}
-    result = run_method(*arguments, callback=recorder, **common)
-    if method in ("newton", "newton-paper", "newton-unmodified"):
+    if iterates:
+        result = run_method(*arguments, callback=recorder, **common)
+    if not iterates or method.startswith("newton-p") or method == "newton":
         result = run_method(*arguments, **common)
-    used = result.map.triangulation if isinstance(result.map, MeshMap) else display
-    return result, recorder.images, used
+    if not iterates:
+        map_ = result.map
+        last = map_.images if isinstance(map_, MeshMap) else map_(display.vertices)
+        return result, [last]
+    return result, recorder.images
 
 
 def summary(result: MethodResult, images: list[Array]) -> dict[str, Any]:
@@ -73,6 +79,8 @@ def summary(result: MethodResult, images: list[Array]) -> dict[str, Any]:
     distance = [float(np.linalg.norm(w - last, axis=1).max()) for w in images]
     apart = np.flatnonzero(np.array(distance) > VISIBLE)
     visible = int(apart[-1]) + 1 if apart.size else 0
+    if len(images) == 1:
+        visible = result.iterations
     times = np.cumsum([step.time for step in result.history])
     certificate = result.certificate if isinstance(result.map, HarmonicMap) else None
     return {
