@@ -68,8 +68,8 @@ def _progress(cases: list[Measurement], figures: str) -> list[str]:
         lines += [f"![{data['name']}]({figures}/progress-{data['name']}.png)", ""]
     lines += [
         "Iterations to convergence, and in brackets to the state from which on no vertex is "
-        f"further than {VISIBLE:g} world units from where its method ends (one unit is a twentieth of the "
-        "picture's longer side). A `+` marks a method that had not converged at its limit "
+        f"further than {VISIBLE:g} world units from where its method ends (a picture's longer side "
+        "has 20). A `+` marks a method that had not converged at its limit "
         f"({', '.join(f'{LOOK[m][0]} {n}' for m, n in LIMITS.items())}), so that the number is a "
         "lower bound.",
         "",
