@@ -28,6 +28,7 @@ from .imaging.render import rendering as rendering
 from .energies import AMIPS as AMIPS
 from .energies import ARAP as ARAP
 from .energies import CustomEnergy as CustomEnergy
+from .energies import MIPS as MIPS
 from .energies import Energy as Energy
 from .energies import EnergyError as EnergyError
 from .energies import ExponentialSymmetricDirichlet as ExponentialSymmetricDirichlet
@@ -55,6 +56,16 @@ from .solvers import Status as Status
 from .solvers import solve as solve
 from .solvers import solve_batch as solve_batch
 from ._runtime import enable_compilation_cache as enable_compilation_cache
+
+# Other methods on the same problems
+from .compare import MeshMap as MeshMap
+from .compare import Method as Method
+from .compare import MethodError as MethodError
+from .compare import MethodProgress as MethodProgress
+from .compare import MethodResult as MethodResult
+from .compare import Step as Step
+from .compare import methods as methods
+from .compare import run_method as run_method
 
 # Files and reports
 from .session import InputFileError as InputFileError

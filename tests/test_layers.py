@@ -22,6 +22,7 @@ LAYERS = (
     ("imaging", "compare"),
     ("samples",),
     ("session",),
+    ("comparisons",),
     ("widgets",),
     ("cli",),
     ("__main__",),

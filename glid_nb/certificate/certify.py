@@ -12,16 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision
-from glid_nb.certificate import hermite, lipschitz, rounding
+from glid_nb.certificate import bdhm, hermite, lipschitz, rounding
 from glid_nb.certificate.bounds import EndValues, derivative_bound_weights, modulus
 from glid_nb.geometry import Panels, graded_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.harmonic.basis import Basis
 
 Array = NDArray[Any]
-Method = Literal["hermite", "lipschitz"]
+Method = Literal["hermite", "lipschitz", "bdhm"]
 
-_METHODS = {"hermite": hermite, "lipschitz": lipschitz}
+_METHODS = {"hermite": hermite, "lipschitz": lipschitz, "bdhm": bdhm}
 _CHUNK = 256
 _MAX_ROUNDS = 40
 _MAX_PANELS = 400_000
@@ -111,9 +111,9 @@ def certify(
     Parameters
     ----------
     map : HarmonicMap
-    method : "hermite" or "lipschitz"
-        Cubic interpolants with Bernstein coefficients, or the paper's Lipschitz constants
-        (26)-(27).
+    method : "hermite", "lipschitz" or "bdhm"
+        Cubic interpolants with Bernstein coefficients, the paper's Lipschitz constants (26)-(27),
+        or the larger ones of bounded distortion harmonic mappings (Figure 7).
     panels : Panels, optional
         Pieces of the boundary to start from; by default graded ones.
     refine : bool
@@ -124,7 +124,7 @@ def certify(
         values that the map attains.
     """
     if method not in _METHODS:
-        raise ValueError(f"unknown method {method!r}; choose hermite or lipschitz")
+        raise ValueError(f"unknown method {method!r}; choose one of {', '.join(_METHODS)}")
     if not tightness > 0:
         raise ValueError(f"tightness is {tightness}; it must be positive")
     basis = basis_of(map.domain)
@@ -248,9 +248,13 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Any, method:
         *(v[:, k] for k in (0, 1) for v in values), *(s[:, k] for k in (0, 1) for s in slopes)
     )
     module = _METHODS[method]
-    jumps = jnp.abs(cauchy.slope_jumps(coefficients, singularities))
-    weights = derivative_bound_weights(start, end, singularities, module.DERIVATIVE_ORDER)
-    remainder = module.remainder_factor(jnp.abs(chord))[:, None] * (weights @ jumps.T)
+    if method == "bdhm":
+        remainder = bdhm.constants(coefficients, bdhm.segment_weights(start, end, singularities))
+        remainder = jnp.abs(chord)[:, None] * remainder
+    else:
+        jumps = jnp.abs(cauchy.slope_jumps(coefficients, singularities))
+        weights = derivative_bound_weights(start, end, singularities, module.DERIVATIVE_ORDER)
+        remainder = module.remainder_factor(jnp.abs(chord))[:, None] * (weights @ jumps.T)
     factor = rounding.slack_factor(coefficients.shape[1]) * jnp.abs(coefficients).max()
     slack = factor * rounding.panel_scale(start, end, singularities)
     remainder = remainder + slack[:, None]

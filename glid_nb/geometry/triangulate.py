@@ -8,14 +8,19 @@ from typing import Any
 import numpy as np
 import pythoncdt
 import shapely
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial import KDTree
 
-from glid_nb.geometry._loops import GeometryError, edge_lengths
+from glid_nb.geometry._loops import GeometryError, edge_lengths, place
 from glid_nb.geometry.cage import Cage
 from glid_nb.geometry.sampling import subdivided
 
 # Lattice points keep this share of the spacing from the boundary: closer ones make flat triangles.
 _MARGIN = 0.55
+# ... and this share from points that are to be vertices.
+_CLEARANCE = 0.6
+# Points closer than this share of the cage's size are one.
+_SAME = 1e-9
 _ROW = np.sqrt(3.0) / 2.0  # height of a lattice row, in spacings
 
 
@@ -42,7 +47,9 @@ class Triangulation:
         self.triangles.setflags(write=False)
 
 
-def triangulate(cage: Cage, n_vertices: int = 10_000) -> Triangulation:
+def triangulate(
+    cage: Cage, n_vertices: int = 10_000, points: ArrayLike | None = None
+) -> Triangulation:
     """Constrained Delaunay triangulation with evenly spread vertices.
 
     Edges of the cage are cut into parts of one spacing and the inside is filled with a hexagonal
@@ -56,11 +63,13 @@ def triangulate(cage: Cage, n_vertices: int = 10_000) -> Triangulation:
         The polygon to fill; holes stay empty.
     n_vertices
         Wanted number of vertices, at least 3.
+    points
+        (k, 2) points inside the cage that become vertices, such as handles.
 
     Raises
     ------
     GeometryError
-        `n_vertices` is less than 3.
+        `n_vertices` is less than 3, or a point does not lie inside the cage.
     """
     if n_vertices < 3:
         raise GeometryError(f"a triangulation needs at least 3 vertices, not {n_vertices}")
@@ -69,10 +78,48 @@ def triangulate(cage: Cage, n_vertices: int = 10_000) -> Triangulation:
         subdivided(loop, _parts(edge_lengths(corners), spacing))
         for loop, corners in zip(cage.loops_complex, cage.loops, strict=True)
     ]
+    wanted = _checked_points(cage, points)
+    loops = [_with_points(loop, wanted, _SAME * cage.longer_side) for loop in loops]
     boundary = np.concatenate(loops)
     inside = _lattice_points(_lattice_rows(cage, spacing), spacing)
-    vertices = np.concatenate([np.stack([boundary.real, boundary.imag], axis=1), inside])
+    border = np.stack([boundary.real, boundary.imag], axis=1)
+    if len(wanted):
+        wanted = wanted[KDTree(border).query(wanted)[0] > _SAME * cage.longer_side]
+        near = KDTree(inside).query_ball_point(wanted, _CLEARANCE * spacing)
+        inside = np.delete(inside, sorted({i for found in near for i in found}), axis=0)
+    vertices = np.concatenate([border, wanted, inside])
     return Triangulation(vertices, _constrained_delaunay(vertices, loops), len(boundary))
+
+
+def _checked_points(cage: Cage, points: ArrayLike | None) -> NDArray[np.float64]:
+    """The distinct wanted vertices, (k, 2)."""
+    wanted = np.asarray([] if points is None else points, dtype=float).reshape(-1, 2)
+    outside = np.flatnonzero(~cage.contains(wanted)) if len(wanted) else np.empty(0, dtype=int)
+    if outside.size:
+        i = int(outside[0])
+        raise GeometryError(
+            f"point {i} at {place(wanted[i])} is to be a vertex of the triangulation but does not "
+            "lie inside the cage; move it inside or leave it out"
+        )
+    return np.unique(wanted, axis=0)
+
+
+def _with_points(
+    loop: NDArray[np.complex128], points: NDArray[np.float64], tolerance: float
+) -> NDArray[np.complex128]:
+    """A loop with those of the points that lie on it put in where they belong."""
+    z = np.asarray(points @ np.array([1, 1j]), dtype=np.complex128)
+    along = np.roll(loop, -1) - loop
+    position = np.real((z[:, None] - loop) * along.conj()) / np.abs(along) ** 2
+    position = np.clip(position, 0, 1)
+    gap = np.abs(z[:, None] - loop - position * along)
+    edge = gap.argmin(axis=1) if len(z) else np.empty(0, dtype=int)
+    which = np.arange(len(z))
+    on = gap[which, edge] <= tolerance
+    ends = np.stack([loop[edge], np.roll(loop, -1)[edge]])
+    on &= (np.abs(z - ends) > tolerance).all(axis=0)
+    order = np.concatenate([np.arange(len(loop)), (edge + position[which, edge])[on]])
+    return np.concatenate([loop, z[on]])[np.argsort(order, kind="stable")]
 
 
 def _parts(lengths: NDArray[np.float64], spacing: float) -> NDArray[np.int64]:

@@ -32,6 +32,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import newton, outcome
 from glid_nb.solvers.align import aligned
 from glid_nb.solvers.discretisation import Discretisation, discretise
+from glid_nb.solvers.evaluation import Constraints
 from glid_nb.solvers.history import entries
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose, PoseError
@@ -64,7 +65,7 @@ def solve_batch(
     targets: ArrayLike,
     energy: Energy | str | None = None,
     options: Options | None = None,
-    devices: Sequence[jax.Device] | None = None,
+    devices: Sequence[Any] | None = None,
 ) -> tuple[Result, ...]:
     """Deform one shape into many poses.
 
@@ -128,7 +129,7 @@ class _Batch:
         poses: list[Pose],
         energy: Energy,
         options: Options,
-        devices: tuple[jax.Device, ...],
+        devices: tuple[Any, ...],
     ) -> None:
         self.domain, self.poses, self.energy = domain, poses, energy
         self.options, self.devices = options, devices
@@ -257,7 +258,7 @@ class _Batch:
 
 
 @functools.cache
-def _program(devices: tuple[jax.Device, ...], hessian: Any, certificate: Any, capacity: int) -> Any:
+def _program(devices: tuple[Any, ...], hessian: Any, certificate: Any, capacity: int) -> Any:
     """The compiled program for poses on these devices; each device loops on its own."""
     mesh = Mesh(np.array(devices), ("poses",))
     each, shared = PartitionSpec("poses"), PartitionSpec()
@@ -266,7 +267,7 @@ def _program(devices: tuple[jax.Device, ...], hessian: Any, certificate: Any, ca
         matrices: Any,
         singularities: Any,
         unknowns: Any,
-        constraints: newton.Constraints,
+        constraints: Constraints,
         energy: Energy,
         settings: newton.Settings,
         targets: Any,

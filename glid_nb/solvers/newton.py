@@ -11,11 +11,12 @@ from jaxtyping import Array, Bool, Float, Int
 
 from glid_nb._arrays import AnyArray
 from glid_nb._runtime import COMPILER_OPTIONS
-from glid_nb.certificate import EndValues, PanelBounds, hermite, lipschitz
-from glid_nb.energies import Differentials, Energy
-from glid_nb.harmonic.cauchy import Singularities, slope_jumps
-from glid_nb.solvers import line_search
+from glid_nb.certificate import PanelBounds
+from glid_nb.energies import Energy
+from glid_nb.harmonic.cauchy import Singularities
+from glid_nb.solvers import evaluation, line_search
 from glid_nb.solvers.discretisation import CertificateKind, Matrices
+from glid_nb.solvers.evaluation import Constraints, Samples
 from glid_nb.solvers.hessian import (
     LocalHessian,
     assemble,
@@ -26,24 +27,6 @@ from glid_nb.solvers.hessian import (
 from glid_nb.solvers.options import HessianKind
 from glid_nb.solvers.outcome import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.unknowns import Unknowns, expand, restrict_gradient, restrict_hessian
-
-
-class Constraints(NamedTuple):
-    """Handles and targets, padded to a bucket (paper Section 6.1, Appendix F)."""
-
-    handles: Float[AnyArray, "h 2c"]
-    """``C`` at the handles as ``[Re C, -Im C]``."""
-    targets: Float[AnyArray, "h 2"]
-    weights: Float[AnyArray, " h"]
-    """``lambda`` for a handle, 0 for padding."""
-
-
-class Samples(NamedTuple):
-    """``f_z`` and ``conj(f_zbar)`` as rows (Re, Im, Re, Im), and their derivatives."""
-
-    nodes: Float[Array, "4 p+q"]
-    slopes: Float[Array, "4 p"]
-    hessian: Float[Array, "4 h"]
 
 
 class Record(NamedTuple):
@@ -101,7 +84,7 @@ def iterations(
     capacity: int,
 ) -> State:
     """Up to ``settings.iterations`` (at most ``capacity``) Newton iterations, to be compiled."""
-    p2p_matrix = _constraint_matrix(constraints)
+    p2p_matrix = evaluation.constraint_matrix(constraints)
     row_weights = jnp.concatenate([constraints.weights, constraints.weights])
     p2p_hessian = p2p_matrix.T @ (row_weights[:, None] * p2p_matrix)
 
@@ -114,8 +97,8 @@ def iterations(
 
     def factor(samples: Samples) -> tuple[Float[Array, "4c 4c"], Bool[Array, ""]]:
         """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected."""
-        x, yy = _squares(samples.hessian)
-        f, g = _directions(samples.hessian)
+        x, yy = evaluation.squares(samples.hessian)
+        f, g = evaluation.directions(samples.hessian)
         local = local_hessian(energy.differentials(x, yy), x, yy)
         projected = positive_part(local)
 
@@ -149,10 +132,11 @@ def iterations(
 
     def iterate(state: State) -> State:
         y, nodes = state.coefficients, state.samples.nodes
-        x, yy = _squares(nodes)
+        x, yy = evaluation.squares(nodes)
         d = energy.differentials(x, yy)
         residual = p2p_matrix @ y - constraints.targets.T.ravel()
-        gradient = _energy_gradient(matrices, nodes, d) + p2p_matrix.T @ (row_weights * residual)
+        gradient = evaluation.energy_gradient(matrices, nodes, d)
+        gradient = gradient + p2p_matrix.T @ (row_weights * residual)
         gradient = restrict_gradient(gradient, unknowns)
 
         lower, modified = factor(state.samples)
@@ -161,7 +145,7 @@ def iterations(
         direction = expand(jnp.where(definite, direction, 0), unknowns)
         squared_decrement = -jnp.dot(gradient, direction)
 
-        change = _products(matrices, direction)
+        change = evaluation.products(matrices, direction)
         p2p_change = p2p_matrix @ direction
         total = state.energy_iso + state.energy_p2p
         search = line_search.search(
@@ -178,10 +162,11 @@ def iterations(
 
         def certified(t: Float[Array, ""]) -> PanelBounds:
             moved = Samples(*(a + t * b for a, b in zip(state.samples, change, strict=True)))
-            return bounds(matrices, singularities, y + t * direction, moved, certificate)
+            return evaluation.bounds(matrices, singularities, y + t * direction, moved, certificate)
 
+        turning = evaluation.turning(matrices, nodes)
         outcome, t, panel, refused = line_search.backtrack(
-            search, certified, _turning(matrices, nodes), matrices.real, settings.may_refine
+            search, certified, turning, matrices.real, settings.may_refine
         )
         converged = squared_decrement / 2 <= settings.tolerance * jnp.abs(total)
         outcome = jnp.where(converged, CONVERGED, outcome)
@@ -216,7 +201,7 @@ def iterations(
             jnp.where(stepped, panel.sigma2_lower, state.sigma2_lower),
         )
 
-    samples = _products(matrices, coefficients)
+    samples = evaluation.products(matrices, coefficients)
     iso, p2p = energies(samples, coefficients)
     blank = jnp.full(capacity, jnp.nan)
     empty = Record(blank, blank, blank, blank, blank, jnp.zeros(capacity, bool))
@@ -242,89 +227,3 @@ run = jax.jit(
     compiler_options=COMPILER_OPTIONS,
 )
 """:func:`iterations` compiled, for one pose."""
-
-
-def bounds(
-    matrices: Matrices,
-    singularities: Singularities,
-    coefficients: Float[Array, " 4c"],
-    samples: Samples,
-    certificate: CertificateKind,
-) -> PanelBounds:
-    """The certificate's bounds on every panel."""
-    phi, psi = _complex_pair(coefficients)
-    jumps = jnp.abs(slope_jumps(jnp.stack([phi, psi]), singularities))
-    largest = jnp.maximum(jnp.abs(phi).max(), jnp.abs(psi).max())
-    remainder = jumps @ matrices.remainder + matrices.rounding * largest
-    chord = lax.complex(*matrices.chord)
-    panels = chord.shape[0]
-    f, g = _complex_rows(samples.nodes[:, :panels])
-    df, dg = _complex_rows(samples.slopes)
-    after = matrices.next
-    values = EndValues(
-        f, f[after], g, g[after], df * chord, df[after] * chord, dg * chord, dg[after] * chord
-    )
-    method = hermite if certificate == "hermite" else lipschitz
-    return method.panel_bounds(values, remainder[0], remainder[1])
-
-
-def _turning(matrices: Matrices, nodes: Float[Array, "4 s"]) -> Float[Array, " p"]:
-    """Principal ``Arg`` of the quotient of ``f_z`` at the ends of each panel."""
-    start = nodes[:2, : matrices.real.shape[0]]
-    end = start[:, matrices.next]
-    cross = start[0] * end[1] - start[1] * end[0]
-    return jnp.arctan2(cross, jnp.sum(start * end, axis=0))
-
-
-def _products(matrices: Matrices, y: Float[Array, " 4c"]) -> Samples:
-    """``f_z``, ``conj(f_zbar)`` and their derivatives on the panels (G.6), one product each."""
-    c = y.shape[0] // 4
-    rows = []
-    for first in (0, 2 * c):
-        re, im = y[first : first + c], y[first + c : first + 2 * c]
-        rows += [jnp.concatenate([re, im]), jnp.concatenate([im, -re])]
-    y4 = jnp.stack(rows)
-    return Samples(y4 @ matrices.nodes, y4 @ matrices.slopes, y4 @ matrices.hessian_nodes)
-
-
-def _energy_gradient(
-    matrices: Matrices, nodes: Float[Array, "4 s"], d: Differentials
-) -> Float[Array, " 4c"]:
-    """Gradient of the isometric energy, (G.7) with the last block's sign corrected."""
-    w1, w2 = 2 * matrices.weights * d.alpha1, 2 * matrices.weights * d.alpha2
-    m = matrices.nodes @ (nodes * jnp.stack([w1, w1, w2, w2])).T
-    c = m.shape[0] // 2
-    re, im = m[:c].T, m[c:].T
-    # D^H v = (Re D^T - i Im D^T) v with the stored halves Re D and -Im D.
-    return jnp.concatenate([re[0] - im[1], re[1] + im[0], re[2] - im[3], re[3] + im[2]])
-
-
-def _constraint_matrix(constraints: Constraints) -> Float[Array, "2h 4c"]:
-    """The matrix of (F.5): first all rows for the real parts, then those for the imaginary."""
-    c = constraints.handles.shape[1] // 2
-    re, minus_im = constraints.handles[:, :c], constraints.handles[:, c:]
-    return jnp.block([[re, minus_im, re, minus_im], [-minus_im, re, minus_im, -re]])
-
-
-def _squares(nodes: Float[Array, "4 s"]) -> tuple[Array, Array]:
-    return nodes[0] ** 2 + nodes[1] ** 2, nodes[2] ** 2 + nodes[3] ** 2
-
-
-def _directions(nodes: Float[Array, "4 s"]) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
-    """Unit vectors along both derivatives; (1, 0) where one vanishes."""
-    pairs = []
-    for k in (0, 2):
-        modulus = jnp.hypot(nodes[k], nodes[k + 1])
-        vanishes = modulus == 0
-        safe = jnp.where(vanishes, 1, modulus)
-        pairs.append((jnp.where(vanishes, 1, nodes[k] / safe), nodes[k + 1] / safe))
-    return pairs[0], pairs[1]
-
-
-def _complex_pair(y: Float[Array, " 4c"]) -> tuple[Array, Array]:
-    c = y.shape[0] // 4
-    return lax.complex(y[:c], y[c : 2 * c]), lax.complex(y[2 * c : 3 * c], y[3 * c :])
-
-
-def _complex_rows(a: Float[Array, "4 s"]) -> tuple[Array, Array]:
-    return lax.complex(a[0], a[1]), lax.complex(a[2], a[3])

@@ -21,6 +21,7 @@ from glid_nb.harmonic.basis import Basis
 from glid_nb.solvers import newton, outcome
 from glid_nb.solvers.align import aligned
 from glid_nb.solvers.discretisation import Discretisation, basis_rows, discretise, padded
+from glid_nb.solvers.evaluation import Constraints
 from glid_nb.solvers.history import entries
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose
@@ -324,15 +325,15 @@ def _starting_point(
     return canonical(HarmonicMap(domain, map_.phi, map_.psi)), fresh
 
 
-def constraints_of(basis: Basis, pose: Pose, weight: float) -> newton.Constraints:
+def constraints_of(basis: Basis, pose: Pose, weight: float) -> Constraints:
     """The constraints of a pose, padded to a bucket of handles."""
     count = len(pose)
     size = _HANDLE_BUCKET * max(1, -(-count // _HANDLE_BUCKET))
     if not count:
         columns = 2 * basis.n_columns
-        return newton.Constraints(np.zeros((size, columns)), np.zeros((size, 2)), np.zeros(size))
+        return Constraints(np.zeros((size, columns)), np.zeros((size, 2)), np.zeros(size))
     rows = basis_rows(cauchy.cauchy_coordinates, pose.handles @ np.array([1, 1j]), basis)
-    return newton.Constraints(
+    return Constraints(
         padded(rows, size),
         padded(np.array(pose.targets), size),
         padded(np.full(count, float(weight)), size, 0.0),

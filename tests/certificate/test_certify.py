@@ -279,7 +279,7 @@ def test_lipschitz_needs_more_panels_than_hermite() -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"method": "newton"}, "unknown method 'newton'; choose hermite or lipschitz"),
+        ({"method": "newton"}, "unknown method 'newton'; choose one of hermite, lipschitz, bdhm"),
         ({"tightness": 0}, "tightness is 0; it must be positive"),
         ({"tightness": -1.0}, "tightness is -1.0"),
         ({"tightness": float("nan")}, "tightness is nan"),

@@ -24,7 +24,7 @@ from glid_nb.energies import (
 )
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import basis_of
-from glid_nb.solvers import newton
+from glid_nb.solvers import evaluation
 from glid_nb.solvers.discretisation import Matrices, discretise
 from glid_nb.solvers.hessian import (
     LocalHessian,
@@ -322,12 +322,12 @@ def test_gradient_and_hessian_are_those_of_the_discretised_energy(energy: Energy
 
     @jax.jit
     def of_the_package(energy: Energy, y: Any) -> tuple[Any, Any]:
-        samples = newton._products(matrices, y)
-        x, yy = newton._squares(samples.nodes)
+        samples = evaluation.products(matrices, y)
+        x, yy = evaluation.squares(samples.nodes)
         differentials = energy.differentials(x, yy)
-        gradient = newton._energy_gradient(matrices, samples.nodes, differentials)
+        gradient = evaluation.energy_gradient(matrices, samples.nodes, differentials)
         k = local_hessian(differentials, x, yy)
-        f, g = newton._directions(samples.hessian)
+        f, g = evaluation.directions(samples.hessian)
         hessian = assemble(matrices.hessian_nodes, matrices.hessian_weights, f, g, k)
         return restrict_gradient(gradient, unknowns), restrict_hessian(hessian, unknowns)
 

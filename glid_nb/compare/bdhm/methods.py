@@ -1,0 +1,35 @@
+"""The method as it is offered."""
+
+from __future__ import annotations
+
+from glid_nb.compare.bdhm.bounds import DistortionBounds
+from glid_nb.compare.bdhm.solve import bdhm
+from glid_nb.compare.method import Inputs, Method
+from glid_nb.compare.recording import record
+from glid_nb.compare.result import MethodResult
+
+
+def bounded(
+    inputs: Inputs,
+    k: float = 0.8,
+    sigma1: float = 5.0,
+    sigma2: float = 0.3,
+    tolerance: float = 1e-5,
+) -> MethodResult:
+    bounds = DistortionBounds(k, sigma1, sigma2)
+    run = bdhm(inputs.domain, inputs.pose, inputs.p2p_weight, bounds, inputs.align, tolerance)
+    return record(inputs.method, run, inputs.pose, inputs.max_iterations, inputs.callback)
+
+
+METHODS = (
+    Method(
+        "bdhm",
+        "Bounded distortion harmonic maps",
+        "harmonic",
+        "ARAP within given bounds on k, sigma_1 and sigma_2 by cone programs (Clarabel).",
+        bounded,
+        max_iterations=60,
+        energies=("arap",),
+        package="clarabel",
+    ),
+)

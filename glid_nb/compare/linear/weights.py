@@ -1,0 +1,38 @@
+"""Bounded biharmonic and harmonic weights of point handles, by libigl."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glid_nb.geometry import Triangulation
+
+Array = NDArray[Any]
+
+
+def bounded_biharmonic_weights(mesh: Triangulation, handles: Array, iterations: int = 20) -> Array:
+    """(v, h) weights in [0, 1] that add up to 1 (Jacobson et al. 2011)."""
+    import igl  # noqa: PLC0415
+
+    vertices, faces = _mesh(mesh)
+    w = igl.bbw(
+        vertices, faces, handles.astype(np.int64), np.eye(len(handles)), max_iter=iterations
+    )
+    w = np.asarray(w)
+    return w / w.sum(axis=1, keepdims=True)
+
+
+def harmonic_weights(mesh: Triangulation, handles: Array, power: int = 2) -> Array:
+    """(v, h) weights with vanishing Laplacian (``power = 1``) or bi-Laplacian (2)."""
+    import igl  # noqa: PLC0415
+
+    vertices, faces = _mesh(mesh)
+    boundary = np.eye(len(handles))
+    return np.asarray(igl.harmonic(vertices, faces, handles.astype(np.int64), boundary, power))
+
+
+def _mesh(mesh: Triangulation) -> tuple[Array, Array]:
+    vertices = np.column_stack([mesh.vertices, np.zeros(len(mesh.vertices))])
+    return np.ascontiguousarray(vertices), np.ascontiguousarray(mesh.triangles, dtype=np.int64)

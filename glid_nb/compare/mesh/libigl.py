@@ -1,0 +1,119 @@
+"""SLIM and ARAP of libigl, which is an optional package."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import numpy as np
+
+from glid_nb.compare.mesh.setup import MeshProblem
+from glid_nb.compare.method import MethodError
+from glid_nb.compare.recording import Ending, Run
+from glid_nb.energies import ARAP, Energy, ExponentialSymmetricDirichlet
+from glid_nb.solvers import Status
+
+_WINDOW = 5
+
+
+def _energy_type(energy: Energy) -> tuple[str, float]:
+    """libigl's name of an energy, and libigl's energy in ours."""
+    if energy.name == "exp":
+        assert isinstance(energy, ExponentialSymmetricDirichlet)
+        # libigl exponentiates sigma_1^2 + ... = 2 E_iso and offers no factor.
+        if energy.s != 2:
+            raise MethodError(
+                f"libigl's SLIM knows the exponential energy with s = 2 only, got s = {energy.s}; "
+                "use ExponentialSymmetricDirichlet(2) or another method"
+            )
+        return "EXP_SYMMETRIC_DIRICHLET", 1.0
+    return {
+        "iso": ("SYMMETRIC_DIRICHLET", 2.0),
+        "mips": ("CONFORMAL", 1.0),
+    }[energy.name]
+
+
+def slim(problem: MeshProblem, tolerance: float = 1e-9) -> Run:
+    """Scalable Locally Injective Mappings (Rabinovich et al. 2017), soft constraints.
+
+    libigl minimises ``sum_t 2 area_t E_t + soft_p sum |f(p_i) - q_i|^2``; ``soft_p`` is chosen so
+    that this is a multiple of our energy with the same ``lambda``.
+    """
+    import igl  # noqa: PLC0415
+
+    name, factor = _energy_type(problem.energy)
+    mesh = problem.operators.mesh
+    flat = np.column_stack([mesh.vertices, np.zeros(len(mesh.vertices))])
+    targets = _real(problem.targets)
+    data = igl.slim_precompute(
+        np.asfortranarray(flat),
+        np.asfortranarray(mesh.triangles),
+        np.asfortranarray(_real(problem.start)),
+        getattr(igl.MappingEnergyType, name),
+        problem.handles.astype(np.int32),
+        np.asfortranarray(targets),
+        problem.p2p_weight * problem.operators.area * factor,
+    )
+    energies = []
+    w, seconds = problem.start, 0.0
+    while True:
+        state = problem.snapshot(w, seconds)
+        yield state
+        energies.append(state.energy_iso + state.energy_p2p)
+        if _stalled(energies, tolerance):
+            return _converged(tolerance)
+        began = time.perf_counter()
+        images = igl.slim_solve(data, 1)
+        seconds = time.perf_counter() - began
+        w = _complex(images)
+
+
+def arap(problem: MeshProblem, tolerance: float = 1e-9) -> Run:
+    """As-rigid-as-possible by local and global steps (Liu et al. 2008), hard constraints."""
+    import igl  # noqa: PLC0415
+
+    assert isinstance(problem.energy, ARAP)
+    mesh = problem.operators.mesh
+    data = igl.ARAPData()
+    data.max_iter = 1
+    vertices = np.ascontiguousarray(mesh.vertices)
+    faces = np.ascontiguousarray(mesh.triangles, dtype=np.int64)
+    igl.arap_precomputation(vertices, faces, 2, problem.handles.astype(np.int32), data)
+    targets = _real(problem.targets)
+    images = _real(problem.start)
+    energies: list[float] = []
+    seconds = 0.0
+    while True:
+        state = problem.snapshot(_complex(images), seconds)
+        yield state
+        # The start misses the hard constraints, so its energy does not count.
+        if energies or state.energy_p2p == 0:
+            energies.append(state.energy_iso)
+        else:
+            energies.append(np.inf)
+        if _stalled(energies, tolerance):
+            return _converged(tolerance)
+        began = time.perf_counter()
+        images = igl.arap_solve(targets, data, np.ascontiguousarray(images))
+        seconds = time.perf_counter() - began
+
+
+def _stalled(energies: list[float], tolerance: float) -> bool:
+    recent = energies[-1 - _WINDOW :]
+    return len(recent) > _WINDOW and abs(recent[0] - recent[-1]) <= tolerance * abs(recent[-1])
+
+
+def _converged(tolerance: float) -> Ending:
+    return Ending(
+        Status.CONVERGED,
+        f"The solver converged: {_WINDOW} iterations together change the energy by less than "
+        f"{tolerance:g} of it.",
+    )
+
+
+def _real(w: Any) -> Any:
+    return np.stack([np.real(w), np.imag(w)], axis=-1)
+
+
+def _complex(images: Any) -> Any:
+    return images[:, 0] + 1j * images[:, 1]

@@ -1,0 +1,65 @@
+"""The methods of this family."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from glid_nb.compare.mesh import aqp as aqp_
+from glid_nb.compare.mesh import libigl
+from glid_nb.compare.mesh.setup import MeshProblem
+from glid_nb.compare.method import Inputs, Method
+from glid_nb.compare.recording import Run, record
+from glid_nb.compare.result import MethodResult
+
+
+def _record(inputs: Inputs, run: Run) -> MethodResult:
+    return record(inputs.method, run, inputs.pose, inputs.max_iterations, inputs.callback)
+
+
+def slim(inputs: Inputs, tolerance: float = 1e-9) -> MethodResult:
+    return _record(inputs, libigl.slim(MeshProblem.of(inputs), tolerance))
+
+
+def arap(inputs: Inputs, tolerance: float = 1e-9) -> MethodResult:
+    return _record(inputs, libigl.arap(MeshProblem.of(inputs), tolerance))
+
+
+def aqp(
+    inputs: Inputs, kappa: float = 1000.0, tolerance: float = 1e-9, arap_iterations: int = 5
+) -> MethodResult:
+    problem = MeshProblem.of(inputs)
+    # Hard constraints: a positional part that is 0 but for rounding would be noise times lambda.
+    problem = replace(problem, p2p_weight=1.0)
+    return _record(inputs, aqp_.aqp(problem, kappa, tolerance, arap_iterations))
+
+
+METHODS = (
+    Method(
+        "slim",
+        "SLIM",
+        "mesh",
+        "Scalable Locally Injective Mappings on a triangle mesh, soft constraints (libigl).",
+        slim,
+        max_iterations=300,
+        energies=("iso", "exp", "mips"),
+        package="igl",
+    ),
+    Method(
+        "aqp",
+        "AQP",
+        "mesh",
+        "Accelerated Quadratic Proxy on a triangle mesh, hard constraints.",
+        aqp,
+        max_iterations=1000,
+        energies=("iso", "exp", "amips", "mips", "custom"),
+    ),
+    Method(
+        "arap-mesh",
+        "ARAP, local/global",
+        "mesh",
+        "As-rigid-as-possible on a triangle mesh, hard constraints; it may fold (libigl).",
+        arap,
+        energies=("arap",),
+        package="igl",
+    ),
+)

@@ -1,0 +1,137 @@
+"""Differential operators of a triangle mesh in complex form, and energies on it."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import jax
+import numpy as np
+import scipy.sparse
+import scipy.sparse.linalg
+from numpy.typing import NDArray
+
+from glid_nb._runtime import double_precision
+from glid_nb.energies import Energy
+from glid_nb.geometry import Triangulation
+
+Array = NDArray[Any]
+
+
+class MeshOperators:
+    """A mesh as the solvers see it; images of vertices are (v,) complex.
+
+    On a triangle the map is linear, ``f_z = sum_i conj(G_i) w_i / 2`` and
+    ``f_zbar = sum_i G_i w_i / 2`` with ``G_i`` the gradient of the hat function of corner ``i`` as
+    a complex number.
+    """
+
+    def __init__(self, mesh: Triangulation) -> None:
+        self.mesh = mesh
+        z = mesh.vertices @ np.array([1, 1j])
+        corners = z[mesh.triangles]
+        opposite = np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)
+        e1, e2 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        area = 0.5 * np.imag(np.conj(e1) * e2)
+        self.area = float(area.sum())
+        self.weights = area / area.sum()
+        """(t,) shares of the area."""
+        hats = 1j * opposite / (2 * area[:, None])
+        rows = np.repeat(np.arange(len(area)), 3)
+        shape = (len(area), len(z))
+        entries = (rows, mesh.triangles.ravel())
+        self.to_fz = scipy.sparse.csr_matrix((np.conj(hats).ravel() / 2, entries), shape)
+        self.to_fzb = scipy.sparse.csr_matrix((hats.ravel() / 2, entries), shape)
+        self._back = tuple(a.conj().T.tocsr() for a in (self.to_fz, self.to_fzb))
+        self.rest = z
+
+    def wirtinger(self, w: Array) -> tuple[Array, Array]:
+        """``f_z`` and ``f_zbar`` on each triangle, linear in ``w``."""
+        return self.to_fz @ w, self.to_fzb @ w
+
+    def adjoint(self, a: Array, b: Array) -> Array:
+        """The adjoint of :meth:`wirtinger` with the area weights, (v,) complex."""
+        return self._back[0] @ (self.weights * a) + self._back[1] @ (self.weights * b)
+
+    @functools.cached_property
+    def laplacian(self) -> Any:
+        """(v, v) real: Hessian of the mean of ``|f_z|^2 + |f_zbar|^2``, the cotangent Laplacian."""
+        m = scipy.sparse.diags(2 * self.weights)
+        product = self._back[0] @ m @ self.to_fz + self._back[1] @ m @ self.to_fzb
+        return product.real.tocsc()
+
+    @double_precision
+    def energy(self, energy: Energy, fz: Array, fzb: Array) -> float:
+        """The area mean of the density; infinite where a triangle is turned over."""
+        x, y = np.abs(fz) ** 2, np.abs(fzb) ** 2
+        if not (x > y).all():
+            # ARAP alone is finite there: (sigma_1 - 1)^2 + (sigma_2 - 1)^2, signed sigma_2.
+            return float(self.weights @ arap_density(x, y)) if energy.name == "arap" else np.inf
+        return float(self.weights @ np.asarray(_density(energy, x, y)))
+
+    @double_precision
+    def gradient(self, energy: Energy, fz: Array, fzb: Array) -> Array:
+        """(v,) complex ``g`` with ``dE = Re(conj(g) . dw)`` (compare (17))."""
+        alpha1, alpha2 = _alphas(energy, np.abs(fz) ** 2, np.abs(fzb) ** 2)
+        return 2 * self.adjoint(np.asarray(alpha1) * fz, np.asarray(alpha2) * fzb)
+
+
+class Pinned:
+    """The Laplacian with some vertices held, factored once."""
+
+    def __init__(self, operators: MeshOperators, held: Array) -> None:
+        free = np.ones(len(operators.rest), dtype=bool)
+        free[held] = False
+        self.free = np.flatnonzero(free)
+        self.held = held
+        k = operators.laplacian
+        self._coupling = k[self.free][:, held]
+        self._factor = scipy.sparse.linalg.splu(
+            k[self.free][:, self.free].tocsc(),
+            permc_spec="MMD_AT_PLUS_A",
+            diag_pivot_thresh=0.0,
+            options={"SymmetricMode": True},
+        )
+
+    def solve(self, right: Array, values: Array | None = None) -> Array:
+        """``w`` with ``(K w)_free = right_free`` and the held vertices at ``values``, or at 0."""
+        w = np.zeros(len(right), dtype=complex)
+        b = right[self.free]
+        if values is not None:
+            w[self.held] = values
+            b = b - self._coupling @ values
+        columns = self._factor.solve(np.column_stack([np.real(b), np.imag(b)]))
+        w[self.free] = columns[:, 0] + 1j * columns[:, 1]
+        return w
+
+
+def arap_density(x: Array, y: Array) -> Array:
+    """ARAP for maps that may fold, with ``x = |f_z|^2`` and ``y = |f_zbar|^2``."""
+    return 2 * (x + y) - 4 * np.sqrt(x) + 2
+
+
+def flips(fz: Array, fzb: Array) -> int:
+    """Number of triangles that are turned over or flat."""
+    return int((~(np.abs(fz) > np.abs(fzb))).sum())
+
+
+def largest_step(fz: Array, fzb: Array, dfz: Array, dfzb: Array) -> float:
+    """The step at which the first triangle becomes flat, or infinity (Smith & Schaefer 2015)."""
+    a = np.abs(dfz) ** 2 - np.abs(dfzb) ** 2
+    b = 2 * np.real(np.conj(fz) * dfz - np.conj(fzb) * dfzb)
+    c = np.abs(fz) ** 2 - np.abs(fzb) ** 2
+    discriminant = b * b - 4 * a * c
+    denominator = -b + np.sqrt(np.maximum(discriminant, 0))
+    hits = (discriminant >= 0) & (denominator > 0)
+    return float(np.min(2 * c[hits] / denominator[hits], initial=np.inf))
+
+
+@jax.jit
+def _density(energy: Energy, x: Any, y: Any) -> Any:
+    return energy.density(x, y)
+
+
+@jax.jit
+def _alphas(energy: Energy, x: Any, y: Any) -> Any:
+    d = energy.differentials(x, y)
+    return d.alpha1, d.alpha2

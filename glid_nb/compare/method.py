@@ -1,0 +1,118 @@
+"""What a method is, and what it is given."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from glid_nb.compare.result import Callback, MethodResult
+from glid_nb.energies import Energy
+from glid_nb.geometry import Domain, Triangulation, triangulate
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.solvers import Pose
+
+Family = Literal["harmonic", "mesh", "linear"]
+
+_EXTRA = "compare"
+
+
+class MethodError(ValueError):
+    """A method is unknown, cannot minimise the energy, lacks its package or a setting is wrong."""
+
+
+@dataclass(frozen=True, eq=False)
+class Inputs:
+    """What every method is given."""
+
+    method: str
+    domain: Domain
+    pose: Pose
+    energy: Energy
+    p2p_weight: float
+    max_iterations: int
+    align: bool
+    """Begin with the rigid motion that brings the handles closest to their targets."""
+    start: HarmonicMap | None
+    given_mesh: Triangulation | None
+    n_vertices: int
+    callback: Callback | None
+
+    def mesh(self) -> tuple[Triangulation, Any]:
+        """The triangulation, and the (h,) vertex indices of the handles.
+
+        Raises
+        ------
+        MethodError
+            When a handle is no vertex of the given triangulation.
+        """
+        mesh = self.given_mesh
+        if mesh is None:
+            mesh = triangulate(self.domain.cage, self.n_vertices, points=self.pose.handles)
+        if not len(self.pose):
+            return mesh, np.empty(0, dtype=np.int32)
+        gap = np.linalg.norm(mesh.vertices[:, None] - self.pose.handles, axis=2)
+        index = gap.argmin(axis=0)
+        missing = np.flatnonzero(gap.min(axis=0) > 1e-9 * self.domain.cage.longer_side)
+        if missing.size:
+            i = int(missing[0])
+            x, y = self.pose.handles[i]
+            raise MethodError(
+                f"handle {i} at ({x:.6g}, {y:.6g}) is no vertex of the triangulation; make it with "
+                "triangulate(cage, points=handles), or leave it out"
+            )
+        return mesh, index.astype(np.int32)
+
+
+@dataclass(frozen=True)
+class Method:
+    """One way to deform a domain, as the solver panel offers it."""
+
+    name: str
+    title: str
+    family: Family
+    summary: str
+    """One sentence."""
+    run: Callable[..., MethodResult]
+    """Called with :class:`Inputs` and the method's own settings as keywords."""
+    max_iterations: int = 200
+    energies: tuple[str, ...] | None = None
+    """Names of the energies that it can minimise; ``None`` for any."""
+    package: str | None = None
+    """The optional package that it needs."""
+
+    @property
+    def available(self) -> bool:
+        """Whether its package is installed."""
+        return self.package is None or importlib.util.find_spec(self.package) is not None
+
+    @property
+    def settings(self) -> Mapping[str, Any]:
+        """The method's own settings and their defaults."""
+        parameters = list(inspect.signature(self.run).parameters.values())[1:]
+        return {p.name: p.default for p in parameters}
+
+    def check(self, energy: Energy, settings: Mapping[str, Any]) -> None:
+        """Raise :class:`MethodError` if it cannot run like this, saying what to do."""
+        if not self.available:
+            distribution = {"igl": "libigl"}.get(self.package or "", self.package)
+            raise MethodError(
+                f"the method {self.name!r} needs the package {distribution}, which is not "
+                f"installed; install it with: pip install 'glid-nb[{_EXTRA}]'"
+            )
+        if self.energies is not None and energy.name not in self.energies:
+            raise MethodError(
+                f"the method {self.name!r} cannot minimise the energy {energy.name!r}; "
+                f"choose one of {', '.join(self.energies)}"
+            )
+        for name in settings:
+            if name not in self.settings:
+                known = ", ".join(self.settings) or "none"
+                raise MethodError(
+                    f"the method {self.name!r} has no setting {name!r}; it has: {known}"
+                )

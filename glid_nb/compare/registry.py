@@ -1,0 +1,116 @@
+"""All methods by name."""
+
+from __future__ import annotations
+
+import math
+import numbers
+from typing import Any
+
+from glid_nb.compare import subspace
+from glid_nb.compare.bdhm.methods import METHODS as BDHM_METHODS
+from glid_nb.compare.linear.methods import METHODS as LINEAR_METHODS
+from glid_nb.compare.mesh.methods import METHODS as MESH_METHODS
+from glid_nb.compare.method import Inputs, Method, MethodError
+from glid_nb.compare.result import Callback, MethodResult
+from glid_nb.energies import ARAP, Energy, SymmetricDirichlet
+from glid_nb.geometry import Domain, Triangulation
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.solvers import Pose
+
+_ALL: tuple[Method, ...] = (*subspace.METHODS, *BDHM_METHODS, *MESH_METHODS, *LINEAR_METHODS)
+
+
+def methods(*, available: bool = False) -> dict[str, Method]:
+    """All methods by name, in the order in which a list of them should show them.
+
+    With ``available``, only those whose optional package is installed.
+    """
+    return {method.name: method for method in _ALL if method.available or not available}
+
+
+def run_method(
+    name: str,
+    domain: Domain,
+    pose: Pose,
+    energy: Energy | None = None,
+    *,
+    p2p_weight: float = 1e5,
+    max_iterations: int | None = None,
+    align: bool = True,
+    start: HarmonicMap | None = None,
+    triangulation: Triangulation | None = None,
+    n_vertices: int = 10_000,
+    callback: Callback | None = None,
+    **settings: Any,
+) -> MethodResult:
+    """Deform a domain by one of :func:`methods`.
+
+    Parameters
+    ----------
+    name : str
+    domain : Domain
+    pose : Pose
+        Handles, which must lie in the domain, and their targets.
+    energy : Energy, optional
+        By default the symmetric Dirichlet energy, or ARAP for the methods that know no other.
+    p2p_weight : float
+        ``lambda``; methods with hard constraints do not use it.
+    max_iterations : int, optional
+        By default the method's own.
+    align : bool
+        Begin with the rigid motion that brings the handles closest to their targets.
+    start : HarmonicMap, optional
+        Where methods in the harmonic subspace start; by default the identity.
+    triangulation : Triangulation, optional
+        For mesh methods; the handles must be among its vertices. By default one of about
+        ``n_vertices`` vertices is made.
+    callback : callable, optional
+        Called with a :class:`MethodProgress` after the start and after each iteration; returning
+        ``True`` stops the method there.
+    **settings
+        The method's own: ``methods()[name].settings``.
+
+    Raises
+    ------
+    MethodError
+        For an unknown method or setting, an energy that the method cannot minimise, or an
+        optional package that is not installed (the message says which extra to install).
+    PoseError
+        When a handle lies outside the domain.
+
+    Examples
+    --------
+    >>> from glid_nb import Cage, Domain, Pose
+    >>> domain = Domain.from_cage(Cage([[0, 0], [4, 0], [4, 2], [0, 2]]))
+    >>> pose = Pose([[1, 1], [3, 1]], [[1, 1], [3, 1]])
+    >>> run_method("mls", domain, pose, n_vertices=50).flips
+    0
+    """
+    known = methods()
+    if name not in known:
+        raise MethodError(f"unknown method {name!r}; choose one of {', '.join(known)}")
+    method = known[name]
+    if energy is None:
+        only_arap = method.energies is not None and "iso" not in method.energies
+        energy = ARAP() if only_arap and "arap" in (method.energies or ()) else SymmetricDirichlet()
+    method.check(energy, settings)
+    if not (isinstance(p2p_weight, numbers.Real) and 0 < float(p2p_weight) < math.inf):
+        raise MethodError(f"p2p_weight must be a positive finite number, got {p2p_weight!r}")
+    limit = method.max_iterations if max_iterations is None else max_iterations
+    if isinstance(limit, bool) or not isinstance(limit, numbers.Integral) or limit < 0:
+        raise MethodError(f"max_iterations must be a whole number of at least 0, got {limit!r}")
+    pose.check_inside(domain)
+    inputs = Inputs(
+        name,
+        domain,
+        pose,
+        energy,
+        float(p2p_weight),
+        int(limit),
+        align,
+        start,
+        triangulation,
+        n_vertices,
+        callback,
+    )
+    return method.run(inputs, **settings)

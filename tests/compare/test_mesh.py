@@ -1,0 +1,219 @@
+"""Methods on a triangle mesh: they fold nothing, go down, and meet at one minimum."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+
+import numpy as np
+import pytest
+
+from glid_nb.compare import MeshMap, MethodError, MethodResult, run_method
+from glid_nb.compare.mesh.operators import MeshOperators, Pinned, largest_step
+from glid_nb.compare.mesh.projection import ENOUGH, closest, project
+from glid_nb.energies import (
+    AMIPS,
+    ARAP,
+    MIPS,
+    Energy,
+    ExponentialSymmetricDirichlet,
+    SymmetricDirichlet,
+)
+from glid_nb.geometry import triangulate
+from glid_nb.solvers import Status
+
+from ..domains import domain
+from .problems import problem
+
+COARSE = 600
+
+
+@functools.cache
+def run(method: str, name: str, energy: Energy | None = None, **settings: object) -> MethodResult:
+    if method == "slim" or method == "arap-mesh":
+        pytest.importorskip("igl")
+    shape, pose = problem(name)
+    settings = {"n_vertices": COARSE, **settings}
+    return run_method(method, shape, pose, energy, **settings)
+
+
+def independent_energy(map: MeshMap, energy: str) -> float:
+    """The area mean of the density from the singular values of each triangle's Jacobian."""
+    mesh = map.triangulation
+    source, image = (
+        np.stack([v[mesh.triangles[:, k]] - v[mesh.triangles[:, 0]] for k in (1, 2)], axis=-1)
+        for v in (mesh.vertices, map.images)
+    )
+    area = np.linalg.det(source) / 2
+    jacobian = image @ np.linalg.inv(source)
+    assert (np.linalg.det(jacobian) > 0).all()
+    s1, s2 = np.linalg.svd(jacobian, compute_uv=False).T
+    density = {
+        "iso": (s1**2 + s2**2 + s1**-2 + s2**-2) / 2,
+        "arap": (s1 - 1) ** 2 + (s2 - 1) ** 2,
+        "mips": (s1 / s2 + s2 / s1) / 2,
+        "exp": np.exp(s1**2 + s2**2 + s1**-2 + s2**-2),
+    }[energy]
+    return float((area * density).sum() / area.sum())
+
+
+@pytest.mark.parametrize("name", ["ell", "ring", "bent"])
+def test_stiff_soft_constraints_and_hard_ones_have_one_minimum(name: str) -> None:
+    soft = run("slim", name, p2p_weight=1e9, tolerance=1e-10)
+    hard = run("aqp", name, tolerance=1e-10)
+    assert soft.status is Status.CONVERGED
+    assert hard.status.ok
+    assert hard.energy_iso == pytest.approx(soft.energy_iso, rel=1e-4)
+    assert isinstance(soft.map, MeshMap)
+    assert isinstance(hard.map, MeshMap)
+    assert np.abs(soft.map.images - hard.map.images).max() < 0.05
+    np.testing.assert_allclose(hard.map(hard.pose.handles), hard.pose.targets, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("method", "energy"),
+    [
+        ("slim", SymmetricDirichlet()),
+        ("slim", ExponentialSymmetricDirichlet(2.0)),
+        ("slim", MIPS()),
+        ("aqp", SymmetricDirichlet()),
+        ("aqp", ExponentialSymmetricDirichlet(1.0)),
+        ("aqp", AMIPS(0.5)),
+        ("aqp", MIPS()),
+    ],
+    ids=lambda v: v if isinstance(v, str) else v.name,
+)
+def test_energy_decreases_and_nothing_flips(method: str, energy: Energy) -> None:
+    result = run(method, "ell", energy, max_iterations=60)
+    energies = [step.energy for step in result.history]
+    assert len(energies) > 1
+    assert all(b <= a * (1 + 1e-9) for a, b in itertools.pairwise(energies))
+    assert energies[-1] < energies[0]
+    assert all(step.flips == 0 for step in result.history)
+
+
+@pytest.mark.parametrize(
+    ("method", "energy"),
+    [
+        ("slim", SymmetricDirichlet()),
+        ("slim", MIPS()),
+        ("slim", ExponentialSymmetricDirichlet(2.0)),
+        ("aqp", MIPS()),
+    ],
+    ids=lambda v: v if isinstance(v, str) else v.name,
+)
+def test_energies_are_those_of_the_singular_values(method: str, energy: Energy) -> None:
+    result = run(method, "ell", energy, max_iterations=60)
+    assert isinstance(result.map, MeshMap)
+    assert result.energy_iso == pytest.approx(independent_energy(result.map, energy.name), rel=1e-9)
+
+
+@pytest.mark.parametrize("energy", [SymmetricDirichlet(), ExponentialSymmetricDirichlet(2.0)])
+def test_slim_is_stationary_for_our_energy_and_lambda(energy: Energy) -> None:
+    """libigl's soft weight is matched: our total gradient vanishes at its minimum."""
+    weight = 10.0
+    result = run("slim", "ell", energy, p2p_weight=weight, tolerance=1e-13, max_iterations=400)
+    assert isinstance(result.map, MeshMap)
+    operators = MeshOperators(result.map.triangulation)
+    w = result.map.images @ np.array([1, 1j])
+    handles = [
+        int(np.linalg.norm(operators.mesh.vertices - p, axis=1).argmin())
+        for p in result.pose.handles
+    ]
+    pull = np.zeros(len(w), dtype=complex)
+    pull[handles] = weight * (w[handles] - result.pose.targets @ np.array([1, 1j]))
+    iso = operators.gradient(energy, *operators.wirtinger(w))
+    assert np.abs(pull).max() > 1e-2
+    assert np.abs(iso + pull).max() < 2e-3 * np.abs(pull).max()
+
+
+def test_arap_goes_down_with_hard_constraints() -> None:
+    result = run("arap-mesh", "ell", ARAP())
+    assert result.status is Status.CONVERGED
+    np.testing.assert_allclose(result.map(result.pose.handles), result.pose.targets, atol=1e-9)
+    energies = [step.energy for step in result.history[1:]]
+    assert all(b <= a * (1 + 1e-9) for a, b in itertools.pairwise(energies))
+    if result.flips == 0:
+        assert isinstance(result.map, MeshMap)
+        assert result.energy == pytest.approx(independent_energy(result.map, "arap"), rel=1e-9)
+
+
+def test_gradient_is_the_derivative_of_the_energy() -> None:
+    operators = MeshOperators(triangulate(domain("ring").cage, 200))
+    rng = np.random.default_rng(0)
+    w = operators.rest + 0.01 * (rng.normal(size=(2, len(operators.rest))).T @ [1, 1j])
+    change = rng.normal(size=(len(w), 2)) @ np.array([1, 1j])
+    for energy in (SymmetricDirichlet(), MIPS(), AMIPS(1.0)):
+        slope = np.vdot(operators.gradient(energy, *operators.wirtinger(w)), change).real
+        h = 1e-6
+        up, down = (operators.energy(energy, *operators.wirtinger(w + t * change)) for t in (h, -h))
+        assert slope == pytest.approx((up - down) / (2 * h), rel=1e-5)
+
+
+def test_the_laplacian_is_the_dirichlet_energys() -> None:
+    operators = MeshOperators(triangulate(domain("ell").cage, 200))
+    w = np.random.default_rng(1).normal(size=(len(operators.rest), 2)) @ np.array([1, 1j])
+    fz, fzb = operators.wirtinger(w)
+    dirichlet = operators.weights @ (np.abs(fz) ** 2 + np.abs(fzb) ** 2)
+    assert np.vdot(w, operators.laplacian @ w).real / 2 == pytest.approx(dirichlet)
+    assert np.abs(operators.laplacian @ np.ones(len(w))).max() < 1e-12
+
+
+def test_largest_step_is_where_a_triangle_becomes_flat() -> None:
+    rng = np.random.default_rng(2)
+    fz = 1 + 0.1 * rng.normal(size=50)
+    fzb, dfz, dfzb = (0.3 * rng.normal(size=(50, 2)) @ np.array([1, 1j]) for _ in range(3))
+    t = largest_step(fz, fzb, dfz, dfzb)
+    for step, flat in ((t * (1 - 1e-6), False), (t * (1 + 1e-6), True)):
+        assert (np.abs(fz + step * dfz) <= np.abs(fzb + step * dfzb)).any() == flat
+
+
+def test_projection_bounds_the_distortion_and_keeps_the_handles() -> None:
+    shape, pose = problem("bent")
+    mesh = triangulate(shape.cage, COARSE, points=pose.handles)
+    operators = MeshOperators(mesh)
+    held = np.array([np.linalg.norm(mesh.vertices - p, axis=1).argmin() for p in pose.handles])
+    pinned = Pinned(operators, held)
+    w = pinned.solve(np.zeros(len(mesh.vertices), dtype=complex), pose.targets @ [1, 1j])
+    fz, fzb = operators.wirtinger(w)
+    assert (np.abs(fz) <= np.abs(fzb)).any()
+    projected, iterations = project(operators, pinned, w)
+    assert iterations > 0
+    fz, fzb = operators.wirtinger(projected)
+    assert (np.abs(fzb) < ENOUGH * np.abs(fz)).all()
+    np.testing.assert_array_equal(projected[held], w[held])
+
+
+def test_closest_differentials_are_closest() -> None:
+    rng = np.random.default_rng(3)
+    fz, fzb = (rng.normal(size=(200, 2)) @ np.array([1, 1j]) for _ in range(2))
+    pz, pzb = closest(fz, fzb, 0.7)
+    assert (np.abs(pzb) <= 0.7 * np.abs(pz) * (1 + 1e-12)).all()
+    distance = np.abs(pz - fz) ** 2 + np.abs(pzb - fzb) ** 2
+    for _ in range(200):
+        qz = pz + 0.1 * (rng.normal(size=(200, 2)) @ np.array([1, 1j]))
+        qzb = pzb + 0.1 * (rng.normal(size=(200, 2)) @ np.array([1, 1j]))
+        allowed = np.abs(qzb) <= 0.7 * np.abs(qz)
+        other = np.abs(qz - fz) ** 2 + np.abs(qzb - fzb) ** 2
+        assert (other[allowed] >= distance[allowed] - 1e-12).all()
+
+
+def test_a_mesh_map_is_linear_on_triangles() -> None:
+    mesh = triangulate(domain("ring").cage, 300)
+    map = MeshMap(mesh, mesh.vertices @ np.array([[2.0, 0.5], [0.0, 1.0]]) + [1.0, -1.0])
+    inside = mesh.vertices[mesh.triangles].mean(axis=1)
+    expected = inside @ np.array([[2.0, 0.5], [0.0, 1.0]]) + [1.0, -1.0]
+    np.testing.assert_allclose(map(inside), expected, atol=1e-12)
+    np.testing.assert_allclose(map(mesh.vertices), map.images, atol=1e-9)
+    assert not map.flipped.any()
+    assert MeshMap(mesh, mesh.vertices * [-1, 1]).flipped.all()
+
+
+def test_a_foreign_triangulation_is_refused() -> None:
+    shape, pose = problem("ell")
+    with pytest.raises(MethodError, match=r"handle 0 .* is no vertex of the triangulation"):
+        run_method("aqp", shape, pose, triangulation=triangulate(shape.cage, 100))
+    mesh = triangulate(shape.cage, 100, points=pose.handles)
+    result = run_method("aqp", shape, pose, triangulation=mesh, max_iterations=3)
+    assert isinstance(result.map, MeshMap)
+    assert result.map.triangulation is mesh

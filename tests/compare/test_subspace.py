@@ -1,0 +1,174 @@
+"""Methods in the harmonic subspace: one minimum, whichever way leads there."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+
+import numpy as np
+import pytest
+
+from glid_nb._runtime import double_precision
+from glid_nb.certificate import certify
+from glid_nb.compare import MethodResult, run_method
+from glid_nb.compare.subspace.descent import View
+from glid_nb.compare.subspace.first_order import LBFGS
+from glid_nb.compare.subspace.problem import SubspaceProblem
+from glid_nb.energies import ARAP, Energy, SymmetricDirichlet
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.solvers import Options, Pose, Status
+
+from ..reference_map import DenseCheck
+from .problems import problem
+
+pytestmark = pytest.mark.slow
+
+
+@functools.cache
+def run(method: str, name: str, energy: Energy | None = None, **settings: object) -> MethodResult:
+    domain, pose = problem(name)
+    return run_method(method, domain, pose, energy, **settings)
+
+
+@pytest.mark.parametrize("name", ["ell", "ring"])
+@pytest.mark.parametrize("method", ["newton-eigen", "newton-shift", "lbfgs", "newton-unmodified"])
+def test_one_minimum(method: str, name: str) -> None:
+    result, ours = run(method, name), run("newton", name)
+    assert result.status.ok, result.message
+    assert result.energy == pytest.approx(ours.energy, rel=1e-6)
+    assert isinstance(result.map, HarmonicMap)
+    assert isinstance(ours.map, HarmonicMap)
+    assert result.map.distance(ours.map) < 1e-2
+    assert result.certificate is not None
+    assert result.certificate.certified
+
+
+@pytest.mark.parametrize("method", ["newton-eigen", "newton-shift"])
+def test_modified_hessians_pass_where_the_exact_one_is_indefinite(method: str) -> None:
+    ours = run("newton", "bent", align=False)
+    assert run(method, "bent", align=False).energy == pytest.approx(ours.energy, rel=1e-6)
+
+
+def test_unmodified_newton_halts_and_says_so() -> None:
+    result = run("newton-unmodified", "bent", align=False)
+    assert result.status is Status.INDEFINITE
+    assert "not positive definite" in result.message
+    assert result.energy > 100 * run("newton", "bent", align=False).energy
+    assert result.certificate is not None
+    assert result.certificate.certified
+
+
+@pytest.mark.parametrize("method", ["gauss-newton", "levenberg-marquardt"])
+def test_least_squares_reaches_newtons_arap(method: str) -> None:
+    result, ours = run(method, "ring", ARAP()), run("newton", "ring", ARAP())
+    assert result.status.ok
+    assert result.energy == pytest.approx(ours.energy, rel=1e-6)
+
+
+def test_the_staged_solver_is_the_papers() -> None:
+    staged, paper = run("newton-staged", "ring"), run("newton-paper", "ring")
+    assert staged.iterations == paper.iterations
+    for a, b in zip(staged.history, paper.history, strict=True):
+        assert a.energy == pytest.approx(b.energy, rel=1e-6)
+
+
+def test_fewer_hessian_samples_reach_the_same_minimum() -> None:
+    few = run("newton-staged", "ring", hessian_samples=400)
+    assert few.status.ok
+    assert few.energy == pytest.approx(run("newton-staged", "ring").energy, rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    "method", ["newton", "newton-eigen", "newton-shift", "lbfgs", "gradient-descent"]
+)
+def test_energy_decreases(method: str) -> None:
+    energies = [step.energy for step in run(method, "ell").history]
+    assert len(energies) > 3
+    assert all(b <= a * (1 + 1e-9) for a, b in itertools.pairwise(energies))
+    assert energies[-1] < 0.01 * energies[0]
+    history = run(method, "ell").history
+    assert [step.iteration for step in history] == list(range(len(energies)))
+    assert np.isfinite([step.time for step in history]).all()
+
+
+@double_precision
+def test_lbfgs_direction_is_that_of_dense_bfgs() -> None:
+    """While its memory holds every pair, L-BFGS is BFGS with the textbook's matrix update."""
+    domain, pose = problem("ring")
+    searcher = SubspaceProblem(domain, pose, SymmetricDirichlet(), Options(align=False))
+    choose = LBFGS(memory=5)
+    free = searcher.unknowns.free
+    point = searcher.evaluate(searcher.start)
+    inverse = np.linalg.inv(searcher.p2p_hessian + np.diag(np.where(free > 0, 2e-4, 1.0)))
+    last = None
+    for _ in range(5):
+        gradient = np.asarray(point.gradient)
+        x = np.asarray(point.coefficients) * free
+        if last is not None:
+            s, y = x - last[0], gradient - last[1]
+            assert s @ y > 0
+            left = np.eye(len(s)) - np.outer(s, y) / (s @ y)
+            inverse = left @ inverse @ left.T + np.outer(s, s) / (s @ y)
+        last = (x, gradient)
+        direction = choose(View(searcher, point, gradient, np.nan))
+        expected = -inverse @ gradient
+        assert np.linalg.norm(direction - expected) < 1e-6 * np.linalg.norm(expected)
+        move = searcher.advance(point, direction, False)
+        assert float(move.step) > 0
+        point = move.point
+    assert len(choose.pairs) == 4
+
+
+def test_a_callback_stops_at_any_iteration() -> None:
+    domain, pose = problem("ell")
+    for method in ("newton", "newton-eigen", "lbfgs"):
+        seen = []
+
+        def stop(progress: object, seen: list = seen) -> bool:
+            seen.append(progress.map(pose.handles))
+            return len(seen) == 3
+
+        result = run_method(method, domain, pose, callback=stop)
+        assert result.status is Status.STOPPED
+        assert result.iterations == 2
+        np.testing.assert_allclose(result.map(pose.handles), seen[-1], atol=1e-12)
+        assert result.message.endswith(".")
+
+
+def test_no_iterations_return_the_start() -> None:
+    domain, pose = problem("ell")
+    for method in ("newton", "newton-eigen"):
+        result = run_method(method, domain, pose, max_iterations=0, align=False)
+        assert result.status is Status.MAX_ITERATIONS
+        np.testing.assert_allclose(result.map(pose.handles), pose.handles, atol=1e-9)
+
+
+def test_rigid_targets_need_no_step() -> None:
+    domain, pose = problem("ell")
+    moved = Pose(pose.handles, -pose.handles + [1.0, 2.0])
+    for method in ("newton-eigen", "newton-shift", "lbfgs", "gradient-descent"):
+        result = run_method(method, domain, moved)
+        assert result.status.ok, (method, result.message)
+        assert result.energy == pytest.approx(2.0, abs=1e-9)
+
+
+def test_bdhm_constants_bound_the_derivative_and_are_looser() -> None:
+    result = run("newton", "ring")
+    map = result.map
+    assert isinstance(map, HarmonicMap)
+    ours, theirs = certify(map, "lipschitz"), certify(map, "bdhm")
+    assert theirs.certified
+    assert len(theirs.panels) > len(ours.panels)
+    domain = map.domain
+    rho = domain.hole_points @ np.array([1, 1j])
+    dense = DenseCheck.on(domain.cage_loops_complex, domain.offset_loops_complex, rho, 100_000)
+    measured = dense.measure(map.phi, map.psi)
+    assert measured.sigma2 >= theirs.sigma2_lower > 0
+    assert measured.sigma1 <= theirs.sigma1_upper
+
+
+def test_the_loose_certificate_still_certifies() -> None:
+    result = run("newton-staged", "ring", loose_certificate=True)
+    assert result.certificate is not None
+    assert result.certificate.certified
+    assert result.energy >= run("newton-staged", "ring").energy * (1 - 1e-9)

@@ -1,0 +1,131 @@
+"""Experiments on a small shape, their figures and the page's verdicts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from glid_nb.compare import run_method
+from glid_nb.comparisons import ComparisonError, compare_all, experiments, parts, progress
+from glid_nb.comparisons.cases import Case, reference_cases, sample_case
+from glid_nb.comparisons.drawing import densities
+from glid_nb.comparisons.page import page
+from glid_nb.comparisons.parts import lipschitz_constants
+from glid_nb.comparisons.runs import VISIBLE, summary
+from glid_nb.geometry import triangulate, uniform_boundary_samples
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.session import InputFileError, Problem
+
+from ..compare.problems import problem
+from ..reference_map import ReferenceMap
+
+
+def small(name: str = "bent") -> Case:
+    return Case(name, Problem(*problem(name)))
+
+
+def nothing(_: str) -> None:
+    pass
+
+
+def test_densities_are_those_of_the_singular_values() -> None:
+    mesh = triangulate(problem("ell")[0].cage, 60)
+    matrix = np.array([[1.5, 0.2], [-0.1, 0.8]])
+    s1, s2 = np.linalg.svd(matrix, compute_uv=False)
+    found = densities(mesh.vertices, mesh.triangles, mesh.vertices @ matrix.T)
+    np.testing.assert_allclose(found, (s1**2 + s2**2 + s1**-2 + s2**-2) / 2)
+    assert np.isinf(densities(mesh.vertices, mesh.triangles, mesh.vertices * [-1, 1])).all()
+
+
+def test_visual_convergence_is_the_last_visible_change() -> None:
+    result = run_method("mls", *problem("ell"), n_vertices=60)
+    still = np.zeros((5, 2))
+    moved = still + np.array([3 * VISIBLE, 0])
+    seen = summary(result, [moved, still, moved, still + VISIBLE / 2, still])
+    assert seen["visible"] == 3
+    assert summary(result, [still, still])["visible"] == 0
+
+
+@pytest.mark.slow
+def test_lipschitz_constants_bound_the_derivative() -> None:
+    result = run_method("newton", *problem("ring"))
+    map_ = result.map
+    assert isinstance(map_, HarmonicMap)
+    ours, theirs = lipschitz_constants(map_, 100)
+    assert (theirs > 0).all()
+    domain = map_.domain
+    reference = ReferenceMap(
+        domain.offset_loops_complex, domain.hole_points_complex, map_.phi, map_.psi
+    )
+    samples = uniform_boundary_samples(domain.cage, 100)
+    start, end = samples.points, samples.points[samples.next]
+    for t, u in ((0.0, 0.1), (0.3, 0.5), (0.6, 1.0)):
+        a, b = (reference.fz(start + v * (end - start)) for v in (t, u))
+        quotient = np.abs(b - a) / ((u - t) * np.abs(end - start))
+        assert (quotient <= ours * (1 + 1e-9)).all()
+        assert (quotient <= theirs * (1 + 1e-9)).all()
+
+
+@pytest.fixture
+def small_sizes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(progress, "MESH_VERTICES", 400)
+    monkeypatch.setattr(progress, "LIMITS", dict.fromkeys(progress.LIMITS, 12))
+    monkeypatch.setattr(parts, "HESSIAN_SAMPLES", (400, 1_000))
+    monkeypatch.setattr(parts, "_REPEATS", 1)
+
+
+def shades(path: Path) -> np.ndarray:
+    with Image.open(path) as picture:
+        return np.asarray(picture.convert("L"))
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("small_sizes")
+def test_progress_from_measurement_to_page(tmp_path: Path) -> None:
+    results = {"progress": [progress.measure(small(), nothing)]}
+    runs = results["progress"][0]["runs"]
+    assert runs["newton"]["status"] == "converged"
+    assert runs["newton"]["certified"]
+    assert runs["newton"]["energy"][-1] <= runs["newton-eigen"]["energy"][-1] * (1 + 1e-6)
+    assert runs["newton-unmodified"]["status"] == "indefinite"
+    assert len(runs["newton"]["distance"]) == runs["newton"]["iterations"] + 1
+    experiments.draw_all(results, tmp_path)
+    assert shades(tmp_path / "progress-bent.png").std() > 5
+    text = page(results, "figures")
+    assert "it halts on 1 of 1 shapes. **Reproduced.**" in text
+    assert "](figures/progress-bent.png)" in text
+    assert "nan" not in text
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("small_sizes")
+def test_parts_from_measurement_to_page(tmp_path: Path) -> None:
+    results = {
+        "lipschitz": [parts.measure_lipschitz(small("ring"), nothing)],
+        "hessian-samples": [parts.measure_hessian_samples(small("ring"), nothing)],
+        "stages": [parts.measure_stages(small("ring"), nothing)],
+    }
+    assert all(seconds >= 0 for seconds in results["stages"][0]["seconds"].values())
+    constants = results["lipschitz"][0]["arrays"]
+    assert constants["bdhm"].mean() > constants["ours"].mean() > 0
+    experiments.draw_all(results, tmp_path)
+    for name in results:
+        assert shades(tmp_path / f"{name}.png").std() > 5
+    assert page(results, "figures").count("eproduced.**") == 3
+
+
+def test_reference_folders_are_checked(tmp_path: Path) -> None:
+    with pytest.raises(InputFileError, match="no JSON file there holds a cage and handles"):
+        reference_cases(tmp_path)
+    small().problem.save(tmp_path / "My Shape.json")
+    assert list(reference_cases(tmp_path)) == ["my-shape"]
+    assert sample_case("bar", "gentle").name == "bar-gentle"
+
+
+def test_an_unknown_experiment_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ComparisonError, match="unknown experiment 'figure-1'; choose of progress"):
+        compare_all(tmp_path / "out", only=["figure-1"])
+    assert not (tmp_path / "out").exists()
