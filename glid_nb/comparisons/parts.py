@@ -166,7 +166,7 @@ def draw_hessian_samples(data: Measurement, path: Path) -> None:
     axes = figure.subplots(1, 2)
     colors = (ORANGE, SKY, GREEN, "#cc79a7", BLUE, INK)
     least = min(drawing.gap(run["energy"]).min() for run in data["runs"].values())
-    for (count, run), color in zip(data["runs"].items(), colors, strict=True):
+    for (count, run), color in zip(data["runs"].items(), colors, strict=False):
         excess = drawing.gap(run["energy"]) / least - 1
         keep = excess > 1e-12
         label = f"{int(count):,}"
