@@ -11,7 +11,7 @@ import numpy as np
 
 from glid_nb.comparisons.drawing import LOOK
 from glid_nb.comparisons.maps import BDHM_BOUNDS
-from glid_nb.comparisons.parts import STAGES
+from glid_nb.comparisons.parts import SEGMENTS, STAGES
 from glid_nb.comparisons.progress import LIMITS
 from glid_nb.comparisons.runs import MESH_VERTICES, VISIBLE
 from glid_nb.comparisons.store import Measurement
@@ -245,6 +245,7 @@ def _exponential(cases: list[Measurement], figures: str) -> list[str]:
 def _lipschitz(cases: list[Measurement], figures: str) -> list[str]:
     means = [(d["arrays"]["ours"].mean(), d["arrays"]["bdhm"].mean()) for d in cases]
     ratios = [theirs / ours for ours, theirs in means]
+    fine = [d["fine_means"][1] / d["fine_means"][0] for d in cases]
     smaller = all((d["arrays"]["ours"] <= d["arrays"]["bdhm"]).all() for d in cases)
     stopped = [d["name"] for d in cases if d["runs"]["bdhm"]["status"] == "blocked"]
     rows = [
@@ -253,6 +254,7 @@ def _lipschitz(cases: list[Measurement], figures: str) -> list[str]:
             f"{ours:.3f}",
             f"{theirs:.3f}",
             f"{theirs / ours:.1f}x",
+            f"{d['fine_means'][1] / d['fine_means'][0]:.1f}x",
             _outcome(d["runs"]["ours"]),
             _outcome(d["runs"]["bdhm"]),
         ]
@@ -269,17 +271,21 @@ def _lipschitz(cases: list[Measurement], figures: str) -> list[str]:
                 "mean, paper's",
                 "mean, BDHM's",
                 "ratio",
+                "on 10,000",
                 "Newton, paper's",
                 "Newton, BDHM's",
             ],
             rows,
         ),
         "",
-        f"The paper's constants are smaller by {min(ratios):.1f}x to {max(ratios):.1f}x on average "
-        f"(paper: 6.74x), {'on every segment' if smaller else 'though not on every segment'}. "
+        f"On about {SEGMENTS} segments the paper's constants are smaller by {min(ratios):.1f}x to "
+        f"{max(ratios):.1f}x on average (paper: 6.74x), "
+        f"{'on every segment' if smaller else 'though not on every segment: on long ones their '}"
+        f"{'' if smaller else 'second-order term dominates'}. On the solver's 10,000 segments the "
+        f"averages differ by {min(fine):.1f}x to {max(fine):.1f}x. "
         f"Newton's method on 10,000 fixed segments stops early with BDHM's constants on "
         f"{', '.join(stopped) if stopped else 'none of these shapes'}. "
-        f"{_verdict(min(ratios) > 1 and bool(stopped), min(ratios) > 1)}",
+        f"{_verdict(smaller and bool(stopped), min(ratios) > 1)}",
     ]
 
 
@@ -329,7 +335,7 @@ def _stages(cases: list[Measurement], figures: str) -> list[str]:
         "The stages of the paper's solver (10,000 samples, 1,000 of them for the Hessian) run one "
         f"by one on the CPU; the largest takes {100 * min(share):.0f}% to {100 * max(share):.0f}% "
         "of an iteration. The paper calls its GPU solver well balanced. "
-        f"{_verdict(max(share) < 0.6, max(share) < 0.8)}",
+        f"{_verdict(max(share) < 0.5, max(share) < 0.7)}",
     ]
 
 

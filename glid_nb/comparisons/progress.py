@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.ticker import NullFormatter
 
 from glid_nb.compare import methods
 from glid_nb.comparisons import drawing
@@ -76,6 +77,10 @@ def draw(data: Measurement, path: Path) -> None:
     figure = drawing.figure(12.0, 1.3 * len(rows))
     left, right = drawing.side_by_side(figure, (1.25, 1.0))
     grid = left.subplots(len(rows), 3, squeeze=False)
+    final = drawing.densities(
+        arrays["display"], arrays["display_triangles"], arrays["images_newton"][-1]
+    )
+    most = float(np.clip(np.quantile(final, 0.97), 3.0, 12.0))
     colors = None
     for row, method in zip(grid, rows, strict=True):
         run = runs[method]
@@ -86,9 +91,9 @@ def draw(data: Measurement, path: Path) -> None:
             axes.set_axis_off()
         for axes, iteration, images in zip(row, run["thumbnails"], pictures, strict=False):
             pose = np.hstack([arrays["targets"], arrays[f"reached_{method}"]])
-            final = iteration == run["thumbnails"][-1]
-            shown = pose if final else pose[:, [0, 1, 0, 1]]
-            colors = drawing.draw_map(axes, rest, triangles, images, shown, 4.0)
+            ends = iteration == run["thumbnails"][-1]
+            shown = pose if ends else pose[:, [0, 1, 0, 1]]
+            colors = drawing.draw_map(axes, rest, triangles, images, shown, most)
             axes.set_title(f"iteration {iteration}", fontsize=SMALL - 1, pad=2)
         note = f"{run['visible']} it., {_seconds(run['visible_time'])}"
         if run["status"] in ("indefinite", "blocked"):
@@ -110,6 +115,7 @@ def draw(data: Measurement, path: Path) -> None:
                     _curve(axes, runs[method], method, against, least)
             axes.set_yscale("log")
             axes.set_xscale("log")
+            axes.xaxis.set_minor_formatter(NullFormatter())
             unit = "seconds" if against == "time" else "iteration"
             drawing.label_axes(axes, unit, "relative energy gap", space)
             axes.legend(fontsize=SMALL - 1.5, frameon=False)

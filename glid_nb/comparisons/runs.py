@@ -15,8 +15,8 @@ from glid_nb.harmonic import HarmonicMap
 
 Array = NDArray[Any]
 
-VISIBLE = 0.01
-"""World units: half a pixel of a picture whose longer side, 20 units, is 1,000 pixels."""
+VISIBLE = 0.04
+"""World units: one pixel of a picture whose longer side, 20 units, is 500 pixels."""
 
 MESH_VERTICES = 10_000
 _DISPLAY_VERTICES = 1_500

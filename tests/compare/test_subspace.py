@@ -119,6 +119,17 @@ def test_lbfgs_direction_is_that_of_dense_bfgs() -> None:
     assert len(choose.pairs) == 4
 
 
+def test_the_problem_is_set_up_in_double_precision() -> None:
+    """Also where JAX's own default is single: handles' images agree with the map's."""
+    domain, pose = problem("ring")
+    searcher = SubspaceProblem(domain, pose, SymmetricDirichlet(), Options(align=False))
+    rows = searcher.constraints.handles[: len(pose)]
+    identity = HarmonicMap.identity(domain)
+    phi = searcher.discretisation.basis.pad(identity.phi)
+    images = rows @ np.concatenate([phi.real, phi.imag])
+    np.testing.assert_allclose(images, pose.handles[:, 0], atol=1e-13)
+
+
 def test_a_callback_stops_at_any_iteration() -> None:
     domain, pose = problem("ell")
     for method in ("newton", "newton-eigen", "lbfgs"):

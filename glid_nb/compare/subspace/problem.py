@@ -71,6 +71,7 @@ class SubspaceProblem:
         Number of Hessian samples of the uniform sampling, ``|H|`` (Figure 8).
     """
 
+    @double_precision
     def __init__(
         self,
         domain: Domain,
