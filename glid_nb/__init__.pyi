@@ -55,11 +55,16 @@ from .solvers import solve as solve
 from ._runtime import enable_compilation_cache as enable_compilation_cache
 
 # Files and reports
+from .session import Document as Document
+from .session import DocumentError as DocumentError
 from .session import InputFileError as InputFileError
+from .session import NamedPose as NamedPose
 from .session import Problem as Problem
 from .session import build_report as build_report
+from .session import load_document as load_document
 from .session import load_pose as load_pose
 from .session import load_scribbles as load_scribbles
+from .session import save_document as save_document
 from .session import suggest_pose as suggest_pose
 
 # Bundled pictures
