@@ -112,7 +112,7 @@ def test_tracing_by_the_controls(open_notebook: OpenNotebook) -> None:
     assert book.value("[h.kept for h in tracer.tracing.holes][:4]") == [False, True, True, False]
     hand.settle()
     assert "6 holes" in hand.status
-    assert hand.root.locator(".glid-hint").inner_text() == "Click to keep this hole"
+    hand.root.locator(".glid-hint", has_text="Click to keep this hole").wait_for()
     book.screenshot("tracer-holes", hand.root)
     hand.button("Undo").click()
     book.wait_for("tracer.cage.n_holes == 7")
