@@ -173,9 +173,7 @@ def _encoded(
     if format == "gif":
         # One palette for all frames, or flat areas flicker.
         palette = _palette(pictures, background)
-        first, *rest = (
-            p.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG) for p in pictures
-        )
+        first, *rest = (_with_palette(picture, palette, background) for picture in pictures)
         first.save(
             buffer,
             format="GIF",
@@ -209,5 +207,17 @@ def _palette(pictures: list[Image.Image], background: tuple[int, int, int]) -> I
         montage.paste(picture, (0, i * height))
     colors = montage.quantize(255, method=Image.Quantize.MEDIANCUT).getpalette() or []
     palette = Image.new("P", (1, 1))
-    palette.putpalette([*colors[: 3 * 255], *background])
+    # The background comes first: the list may be shorter than 256.
+    palette.putpalette([*background, *colors[: 3 * 255]])
     return palette
+
+
+def _with_palette(
+    picture: Image.Image, palette: Image.Image, background: tuple[int, int, int]
+) -> Image.Image:
+    indices = np.array(picture.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG))
+    # Pillow looks colours up in boxes of four levels, so a neighbour may be taken for it.
+    indices[(np.asarray(picture) == background).all(axis=2)] = 0
+    result = Image.fromarray(indices)
+    result.putpalette(palette.getpalette() or [])
+    return result

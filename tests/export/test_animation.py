@@ -57,10 +57,13 @@ def test_all_frames_show_the_same_part_of_the_plane() -> None:
     np.testing.assert_array_equal(shown[0], shown[2])
 
 
-def test_a_gif_keeps_the_background_as_it_is() -> None:
-    _, (shown,) = frames(animation_bytes(picture(), drag(1)[0], size=120, background=(250, 240, 9)))
-    corner = shown[:8, :8].reshape(-1, 3)
-    np.testing.assert_array_equal(corner, np.broadcast_to([250, 240, 9], corner.shape))
+@pytest.mark.parametrize("color", [(255, 255, 255), (250, 240, 9), (0, 0, 0)])
+def test_a_gif_keeps_the_background_as_it_is(color: tuple[int, int, int]) -> None:
+    data = animation_bytes(picture(), drag(2)[0], size=120, background=color)
+    for shown in frames(data)[1]:
+        corner = shown[:8, :8].reshape(-1, 3)
+        np.testing.assert_array_equal(corner, np.broadcast_to(color, corner.shape))
+        assert (shown.std(axis=(0, 1)) > 10).all()  # the shape is there too
 
 
 def test_there_and_back_has_no_jump() -> None:
