@@ -15,7 +15,7 @@ demo: $(VENV)/.demo
 	$(VENV)/bin/glid-nb demo --out glid-nb-demo
 
 # --no-skip: a test that would be skipped because something is missing fails instead.
-test: $(VENV)/.test
+test: $(VENV)/.test browser
 	$(PYTEST) --no-skip -n auto
 	$(PYTEST) --nbval --nbval-current-env notebooks
 

@@ -50,7 +50,7 @@ def check_points(value: Any, key: str) -> None:
     for i, point in enumerate(value):
         if not (isinstance(point, list) and len(point) == 2 and all(map(is_number, point))):
             raise InputFileError(f"{key}[{i}] must be a pair [x, y] of numbers, {_shown(point)}")
-        if not all(map(math.isfinite, point)):
+        if not all(map(_is_finite, point)):
             raise InputFileError(f"{key}[{i}] must be finite, {_shown(point)}")
 
 
@@ -64,13 +64,21 @@ def check_loops(value: Any, key: str, each: str = "loop") -> None:
 
 def check_positive(value: Any, key: str) -> None:
     """Raise unless ``value`` is a finite number above 0."""
-    if not is_number(value) or not math.isfinite(value) or value <= 0:
+    if not is_number(value) or not _is_finite(value) or value <= 0:
         raise InputFileError(f'"{key}" must be a positive number, {_shown(value)}')
 
 
 def is_number(value: Any) -> bool:
     """Whether a JSON value is a number (JSON's true and false are not)."""
     return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _is_finite(number: float) -> bool:
+    """Whether floating point has such a number; JSON's integers may be too large for it."""
+    try:
+        return math.isfinite(number)
+    except OverflowError:
+        return False
 
 
 def _shown(value: Any) -> str:

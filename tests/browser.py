@@ -1,0 +1,299 @@
+"""A real browser on a real JupyterLab, for tests that assert on what a user meets.
+
+`JupyterServer` is a server of its own: a random port, temporary folders for notebooks, settings and
+workspaces, nothing of the user's. `LabNotebook` is one notebook open in it.
+"""
+
+from __future__ import annotations
+
+import ast
+import contextlib
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import threading
+import time
+import uuid
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import nbformat
+from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Locator, Page
+
+REPOSITORY = Path(__file__).resolve().parent.parent
+ARTEFACTS = Path(os.environ.get("GLID_NB_ARTEFACTS", REPOSITORY / "artefacts"))
+
+CHROMIUM_FLAGS = (
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+    "--disable-dev-shm-usage",
+)
+
+# What pages say that is no fault of ours; everything else of the kind "error" fails a test.
+_HARMLESS = (
+    # JupyterLab asks for a workspace and settings that a fresh server does not have.
+    re.compile(r"Failed to load resource.*404.*/(lab/api/|api/contents|favicon)"),
+)
+
+_SETTINGS = {
+    # No question about news, no look-up of newer versions.
+    "apputils-extension/notification": {"fetchNews": "false", "checkForUpdates": False},
+    # Cells outside the window stay in the page.
+    "notebook-extension/tracker": {"windowingMode": "none", "autoStartDefaultKernel": True},
+}
+
+_READY = """() => {
+  const panel = window.jupyterapp?.shell?.currentWidget;
+  return panel?.context?.isReady && panel.sessionContext?.isReady &&
+    panel.sessionContext.session?.kernel?.status === 'idle';
+}"""
+
+_EVALUATE = """async ({setup, expression}) => {
+  const kernel = window.jupyterapp.shell.currentWidget.sessionContext.session.kernel;
+  const future = kernel.requestExecute({
+    code: setup, silent: true, store_history: false,
+    user_expressions: {value: `__import__('json').dumps(${expression})`},
+  });
+  const reply = (await future.done).content;
+  if (reply.status !== 'ok') return {error: `${reply.ename}: ${reply.evalue}`};
+  const value = reply.user_expressions.value;
+  if (value.status !== 'ok') return {error: `${value.ename}: ${value.evalue}`};
+  return {text: value.data['text/plain']};
+}"""
+
+_RUN_ALL = "() => window.jupyterapp.commands.execute('notebook:run-all-cells')"
+
+
+def chromium() -> str:
+    """The browser: ``$GLID_NB_CHROMIUM``, or Chromium (or Chrome) on the PATH."""
+    named = os.environ.get("GLID_NB_CHROMIUM")
+    names = [named] if named else ["chromium", "chromium-browser", "google-chrome"]
+    for name in names:
+        found = shutil.which(name)
+        if found:
+            return found
+    raise RuntimeError(
+        f"no browser found as {', '.join(names)}; run tools/chromium.sh, or name one in "
+        "$GLID_NB_CHROMIUM"
+    )
+
+
+class JupyterServer:
+    """JupyterLab in a process of its own, on a free port of this machine, without a token.
+
+    Parameters
+    ----------
+    folder
+        Empty; notebooks go to ``folder/notebooks``, everything else beside it.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.notebooks = folder / "notebooks"
+        self.notebooks.mkdir(parents=True)
+        settings = folder / "settings"
+        for name, values in _SETTINGS.items():
+            file = settings / "@jupyterlab" / f"{name}.jupyterlab-settings"
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(json.dumps(values))
+        environment = {
+            **os.environ,
+            "JUPYTER_CONFIG_DIR": str(folder / "config"),
+            "JUPYTER_DATA_DIR": str(folder / "data"),
+            "JUPYTER_RUNTIME_DIR": str(folder / "runtime"),
+            "JUPYTERLAB_SETTINGS_DIR": str(settings),
+            "JUPYTERLAB_WORKSPACES_DIR": str(folder / "workspaces"),
+            "IPYTHONDIR": str(folder / "ipython"),
+            # The kernels import the package that is being tested.
+            "PYTHONPATH": os.pathsep.join(
+                [str(REPOSITORY), *filter(None, [os.environ.get("PYTHONPATH")])]
+            ),
+        }
+        flags = (
+            "--no-browser",
+            "--allow-root",
+            "--ServerApp.ip=127.0.0.1",
+            "--ServerApp.port=0",
+            f"--ServerApp.root_dir={self.notebooks}",
+            "--IdentityProvider.token=",
+            "--ServerApp.password=",
+            "--ServerApp.terminals_enabled=False",
+            "--LabApp.expose_app_in_browser=True",
+            "--LabApp.extension_manager=readonly",
+            "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
+        )
+        self._log: list[str] = []
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", "jupyterlab", *flags],
+            cwd=self.notebooks,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        self.url = self._first_url()
+        # The pipe must be emptied as long as the server writes into it.
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+
+    def _first_url(self) -> str:
+        assert self._process.stderr is not None
+        for line in self._process.stderr:
+            self._log.append(line)
+            found = re.search(r"(http://127\.0\.0\.1:\d+)/", line)
+            if found:
+                return found[1]
+        raise RuntimeError("JupyterLab did not start:\n" + "".join(self._log))
+
+    def _read(self) -> None:
+        assert self._process.stderr is not None
+        self._log.extend(self._process.stderr)
+
+    @property
+    def log(self) -> str:
+        """What the server wrote so far."""
+        return "".join(self._log)
+
+    def close(self) -> None:
+        """End the server and its kernels."""
+        self._process.terminate()
+        try:
+            self._process.wait(30)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        self._reader.join()
+        assert self._process.stderr is not None
+        self._process.stderr.close()
+
+
+class Watch:
+    """Collects what goes wrong in the pages of a browser context."""
+
+    def __init__(self, context: BrowserContext) -> None:
+        self.errors: list[str] = []
+        context.on("console", self._console)
+        context.on("weberror", lambda e: self.errors.append(f"uncaught: {e.error}"))
+
+    def _console(self, message: ConsoleMessage) -> None:
+        if message.type != "error":
+            return
+        text = f"{message.text} ({message.location.get('url', '')})"
+        if not any(pattern.search(text) for pattern in _HARMLESS):
+            self.errors.append(text)
+
+    def check(self) -> None:
+        """Fail if there were errors."""
+        assert not self.errors, "errors in the browser's console:\n" + "\n".join(self.errors)
+
+
+@contextlib.contextmanager
+def watched_page(browser: Browser, **settings: Any) -> Iterator[Page]:
+    """A page in a context of its own; an error in its console fails the test at the end."""
+    context = browser.new_context(**{"viewport": {"width": 1366, "height": 768}, **settings})
+    watch = Watch(context)
+    page = context.new_page()
+    page.set_default_timeout(30_000)
+    try:
+        yield page
+        watch.check()
+    finally:
+        context.close()
+
+
+class LabNotebook:
+    """One notebook, open in JupyterLab, its cells run.
+
+    Attributes
+    ----------
+    page
+        Playwright's page, for everything a hand and an eye can do.
+    """
+
+    def __init__(self, page: Page, server: JupyterServer, cells: Sequence[str]) -> None:
+        self.page = page
+        self._name = f"test-{uuid.uuid4().hex[:10]}"
+        book = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(c) for c in cells])
+        book.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
+        nbformat.write(book, server.notebooks / f"{self._name}.ipynb")
+        self._url = f"{server.url}/lab/workspaces/{self._name}/tree/{self._name}.ipynb"
+        page.goto(self._url)
+        self._wait_until_ready()
+        # The notebook gets the whole window, as people do it.
+        page.evaluate(
+            """() => { const app = window.jupyterapp;
+              if (app.shell.leftCollapsed === false) app.shell.collapseLeft(); }"""
+        )
+        self.run_all()
+
+    def _wait_until_ready(self) -> None:
+        self.page.wait_for_function(_READY, timeout=90_000, polling=200)
+
+    def run_all(self, timeout: float = 120.0) -> None:
+        """Run all cells and wait for the last one; an exception in one fails the test."""
+        self.page.set_default_timeout(timeout * 1000)
+        self.page.evaluate(_RUN_ALL)
+        self.page.set_default_timeout(30_000)
+        outputs = self.page.evaluate(
+            """() => window.jupyterapp.shell.currentWidget.content.model.toJSON().cells
+              .flatMap(c => c.outputs || []).filter(o => o.output_type === 'error')
+              .map(o => `${o.ename}: ${o.evalue}`)"""
+        )
+        assert not outputs, f"a cell raised {outputs}"
+
+    def reload(self) -> None:
+        """Save the notebook and load the page anew; the kernel lives on."""
+        self.page.evaluate("() => window.jupyterapp.commands.execute('docmanager:save')")
+        self.page.goto(self._url)
+        self._wait_until_ready()
+
+    def outputs(self) -> Locator:
+        """The output areas of all cells, in order."""
+        return self.page.locator(".jp-OutputArea-child .jp-OutputArea-output")
+
+    def value(self, expression: str, setup: str = "") -> Any:
+        """The value of a Python expression in the kernel, through JSON."""
+        reply = self.page.evaluate(_EVALUATE, {"setup": setup, "expression": expression})
+        if "error" in reply:
+            raise AssertionError(f"the kernel says of {expression!r}: {reply['error']}")
+        return json.loads(ast.literal_eval(reply["text"]))
+
+    def wait_for(self, condition: str, timeout: float = 30.0) -> None:
+        """Wait until a Python expression in the kernel is true."""
+        end = time.monotonic() + timeout
+        while not self.value(f"bool({condition})"):
+            if time.monotonic() > end:
+                raise AssertionError(f"the kernel did not reach {condition!r} in {timeout:g} s")
+            self.page.wait_for_timeout(50)  # lets the page work; the kernel has no event for us
+
+    def theme(self, name: str) -> None:
+        """Change JupyterLab's theme, for example to "JupyterLab Dark"."""
+        self.page.evaluate(
+            "theme => window.jupyterapp.commands.execute('apputils:change-theme', {theme})", name
+        )
+        self.page.wait_for_function(
+            "name => document.body.dataset.jpThemeName === name", arg=name, timeout=10_000
+        )
+
+    def screenshot(self, name: str, of: Locator | None = None) -> Path:
+        """Save what is seen, of the whole window or of one element, to look at later."""
+        ARTEFACTS.mkdir(exist_ok=True)
+        path = ARTEFACTS / f"{name}.png"
+        (of if of is not None else self.page).screenshot(path=path)
+        return path
+
+    def shut_down(self) -> None:
+        """End the kernel."""
+        self.page.evaluate(
+            "() => window.jupyterapp.shell.currentWidget?.sessionContext?.shutdown()"
+        )

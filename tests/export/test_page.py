@@ -1,0 +1,48 @@
+"""The standalone page: whole, and without the network; see also tests/widgets."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+
+import numpy as np
+
+from glid_nb.certificate import certify
+from glid_nb.export import page_html
+
+from .shapes import bent, picture
+
+
+def data_of(page: str) -> dict:
+    found = re.search(r'<script type="application/json" id="data">(.*?)</script>', page, re.DOTALL)
+    assert found is not None
+    return json.loads(found[1])
+
+
+def floats(text: str) -> np.ndarray:
+    return np.frombuffer(base64.b64decode(text), "<f4").reshape(-1, 2)
+
+
+def test_the_page_holds_everything_and_may_not_use_the_network() -> None:
+    page = page_html(picture(), bent())
+    assert "default-src 'none'" in page
+    assert not re.search(r"""(src|href)\s*=\s*["'](?!data:)""", page)
+    assert "http" not in re.sub(r"http-equiv", "", page)
+    assert "{{" not in page
+    data = data_of(page)
+    vertices = floats(data["source"])
+    np.testing.assert_allclose(floats(data["deformed"]), bent()(vertices), atol=1e-5)
+    assert data["picture"].startswith("data:image/png;base64,")
+
+
+def test_a_title_cannot_break_out() -> None:
+    page = page_html(picture(), bent(), title="</title><script>alert(1)</script>{{data}}")
+    assert "<script>alert" not in page
+    assert "&lt;script&gt;alert(1)&lt;/script&gt;{{data}}" in page
+    assert page.count('"deformed"') == 1
+
+
+def test_bounds_are_stated_only_if_they_are_proved() -> None:
+    assert "Proved not to fold" in page_html(picture(), bent(), certify(bent()))
+    assert "Proved" not in page_html(picture(), bent())

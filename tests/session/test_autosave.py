@@ -1,0 +1,115 @@
+"""Autosaving: the latest document wins, not too often, and nothing is lost."""
+
+from __future__ import annotations
+
+import gc
+import subprocess
+import sys
+import threading
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from glid_nb.session.autosave import Autosave
+from glid_nb.session.document import load_document
+
+from .test_document import document
+
+
+def test_the_first_save_is_immediate_and_the_latest_wins(tmp_path: Path) -> None:
+    path = tmp_path / "a.glid"
+    base = document()
+    autosave = Autosave(path, interval=60)
+    autosave.submit(replace(base, active=0))
+    assert autosave.flush(timeout=60)
+    assert load_document(path).active == 0
+    for active in (1, 0, 1, 0, 1):
+        autosave.submit(replace(base, active=active))
+    assert autosave.n_saved == 1  # the interval is not over
+    assert autosave.flush(timeout=60)
+    assert autosave.n_saved == 2
+    assert load_document(path).active == 1
+    autosave.close()
+
+
+def test_the_interval_is_kept(tmp_path: Path) -> None:
+    autosave = Autosave(tmp_path / "a.glid", interval=0.5)
+    base = document()
+    end = time.monotonic() + 1.2
+    while time.monotonic() < end:
+        autosave.submit(base)
+        threading.Event().wait(0.01)
+    assert autosave.n_saved <= 3
+    autosave.close()
+    assert 2 <= autosave.n_saved <= 4
+    assert autosave.error is None
+
+
+def test_closing_saves_what_is_pending_and_ends_the_thread(tmp_path: Path) -> None:
+    path = tmp_path / "a.glid"
+    before = threading.active_count()
+    autosave = Autosave(path, interval=60)
+    base = document()
+    autosave.submit(base)
+    autosave.flush()
+    autosave.submit(replace(base, active=0))
+    autosave.close()
+    assert load_document(path).active == 0
+    assert threading.active_count() == before
+    autosave.close()
+    with pytest.raises(RuntimeError, match="closed"):
+        autosave.submit(base)
+
+
+def test_dropping_it_saves_too(tmp_path: Path) -> None:
+    path = tmp_path / "a.glid"
+    before = threading.active_count()
+    autosave = Autosave(path, interval=60)
+    autosave.submit(document())
+    autosave.flush()
+    autosave.submit(replace(document(), active=0))
+    del autosave
+    gc.collect()
+    assert load_document(path).active == 0
+    assert threading.active_count() == before
+
+
+def test_a_failure_is_reported_and_the_next_save_tries_again(tmp_path: Path) -> None:
+    folder = tmp_path / "gone"
+    seen: list[Exception] = []
+    autosave = Autosave(folder / "a.glid", interval=0, on_error=seen.append)
+    autosave.submit(document())
+    assert autosave.flush(timeout=60)
+    assert isinstance(autosave.error, FileNotFoundError)
+    assert [type(error) for error in seen] == [FileNotFoundError]
+    folder.mkdir()
+    autosave.submit(document())
+    assert autosave.flush(timeout=60)
+    assert autosave.error is None
+    assert load_document(folder / "a.glid").active == 1
+    autosave.close()
+
+
+def test_the_end_of_the_process_saves_too(tmp_path: Path) -> None:
+    path = tmp_path / "a.glid"
+    source = f"""
+from glid_nb.geometry import Cage, Domain
+from glid_nb.imaging import TraceOptions
+from glid_nb.session import Autosave, Document
+import numpy as np
+domain = Domain.from_cage(Cage([[0, 0], [4, 0], [0, 3]]))
+image = np.zeros((3, 4, 4), np.uint8)
+autosave = Autosave({str(path)!r}, interval=600)
+for component in range(5):
+    autosave.submit(Document(
+        image, domain.cage, domain, TraceOptions(component=component), None, (), 0))
+"""
+    subprocess.run([sys.executable, "-c", source], check=True, timeout=120)
+    assert load_document(path).trace_options.component == 4
+
+
+def test_a_negative_interval_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="interval"):
+        Autosave(tmp_path / "a.glid", interval=-1)

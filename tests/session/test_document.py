@@ -1,0 +1,474 @@
+"""Documents as files: exact, and refused with a sentence when something is wrong."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import zipfile
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from PIL import Image
+
+from glid_nb.energies import AMIPS, CustomEnergy, SymmetricDirichlet
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging import Scribbles, TraceOptions
+from glid_nb.session.document import (
+    Document,
+    DocumentError,
+    NamedPose,
+    load_document,
+    save_document,
+)
+from glid_nb.solvers import Options, Pose
+
+from ..domains import domain, random_map
+
+Data = dict[str, Any]
+
+
+def picture(seed: int = 0, size: tuple[int, int] = (40, 30)) -> np.ndarray:
+    """Noise in all four channels, so colours under alpha 0 too."""
+    rng = np.random.default_rng(seed)
+    return rng.integers(0, 256, (size[1], size[0], 4), dtype=np.uint8)
+
+
+def named(name: str, map: HarmonicMap, **changes: Any) -> NamedPose:
+    pose = Pose([[2.0, 0.1], [-2.0, 1 / 3]], [[2.5, 0.0], [-2.0, -0.0]])
+    return replace(NamedPose(name, pose, SymmetricDirichlet(), Options(), map), **changes)
+
+
+def document(seed: int = 1, scribbles: Scribbles | None = None) -> Document:
+    ring = domain("ring")
+    poses = (
+        named("at rest", HarmonicMap.identity(ring)),
+        named(
+            "bent, “with” ünicode",
+            random_map("ring", 0.01, seed),
+            energy=AMIPS(0.1 + 0.2),
+            options=Options(p2p_weight=np.float64(1 / 3), conformal=True),
+        ),
+    )
+    options = TraceOptions(
+        method="color" if scribbles is None else "scribbles",
+        background=(0.1, 0.2, 1 / 3),
+        scribbles=scribbles,
+        max_edge=math.inf,
+        drop_holes=[(1.5, 2.5)],
+    )
+    return Document(picture(), ring.cage, ring, options, scribbles, poses, 1)
+
+
+def assert_same(a: Document, b: Document) -> None:
+    assert a.image.tobytes() == b.image.tobytes()
+    assert a.image.shape == b.image.shape
+    assert b.cage is b.domain.cage
+    assert a.domain.to_dict() == b.domain.to_dict()
+    assert replace(a.trace_options, method="auto", scribbles=None) == replace(
+        b.trace_options, method="auto", scribbles=None
+    )
+    assert a.trace_options.method == b.trace_options.method
+    assert (a.scribbles is None) == (b.scribbles is None)
+    assert (a.trace_options.scribbles is None) == (b.trace_options.scribbles is None)
+    if a.scribbles is not None and b.scribbles is not None:
+        for key in ("foreground", "background"):
+            one, other = getattr(a.scribbles, key), getattr(b.scribbles, key)
+            assert type(one) is type(other)
+            assert len(one) == len(other)
+            for stroke, same in zip(one, other, strict=True):
+                assert stroke.dtype == same.dtype
+                assert stroke.tobytes() == same.tobytes()
+    assert a.active == b.active
+    for pose, other in zip(a.poses, b.poses, strict=True):
+        assert pose.name == other.name
+        assert pose.energy == other.energy
+        assert pose.options == other.options
+        assert other.map.domain is b.domain
+        for one, same in (
+            (pose.map.phi, other.map.phi),
+            (pose.map.psi, other.map.psi),
+            (pose.pose.handles, other.pose.handles),
+            (pose.pose.targets, other.pose.targets),
+        ):
+            assert one.tobytes() == same.tobytes()
+
+
+MASK = np.arange(1200).reshape(30, 40) % 7 == 0
+SCRIBBLES = {
+    "none": None,
+    "strokes": Scribbles([[[1, 2], [3.1, 4.2]], [[5, 5]]], []),
+    "masks": Scribbles(MASK, ~MASK),
+    "one mask": Scribbles([[[0.1, 0.2]]], MASK),
+}
+
+
+@pytest.mark.parametrize("scribbles", SCRIBBLES.values(), ids=SCRIBBLES.keys())
+def test_reopening_gives_exactly_the_same(tmp_path: Path, scribbles: Scribbles | None) -> None:
+    before = document(scribbles=scribbles)
+    save_document(before, tmp_path / "a.glid")
+    after = load_document(tmp_path / "a.glid")
+    assert_same(before, after)
+    save_document(after, tmp_path / "b.glid")
+    assert (tmp_path / "a.glid").read_bytes() == (tmp_path / "b.glid").read_bytes()
+
+
+@given(seed=st.integers(0, 1000), size=st.sampled_from([0.0, 1e-300, 1e-3, 0.02]))
+@settings(max_examples=10)
+def test_maps_are_bit_identical(
+    tmp_path_factory: pytest.TempPathFactory, seed: int, size: float
+) -> None:
+    base = document()
+    pose = named("any", random_map("ring", size, seed))
+    path = tmp_path_factory.mktemp("documents") / "a.glid"
+    before = replace(base, poses=(pose,), active=0)
+    save_document(before, path)
+    assert_same(before, load_document(path))
+
+
+def test_a_document_may_have_no_poses(tmp_path: Path) -> None:
+    before = replace(document(), poses=(), active=0)
+    assert before.active_pose is None
+    save_document(before, tmp_path / "a.glid")
+    assert_same(before, load_document(tmp_path / "a.glid"))
+
+
+def test_painted_scribbles_are_kept_though_they_are_not_used(tmp_path: Path) -> None:
+    before = replace(document(), scribbles=SCRIBBLES["strokes"])
+    assert before.trace_options.scribbles is None
+    save_document(before, tmp_path / "a.glid")
+    assert_same(before, load_document(tmp_path / "a.glid"))
+
+
+def test_the_value_does_not_follow_the_callers_array() -> None:
+    pixels = picture()
+    ring = domain("ring")
+    kept = Document(pixels, ring.cage, ring, TraceOptions(), None, (), 0)
+    before = kept.image.copy()
+    pixels[:] = 0
+    assert (kept.image == before).all()
+    with pytest.raises(ValueError, match="read-only"):
+        kept.image[0, 0, 0] = 1
+    assert replace(kept, active=0).image is kept.image
+
+
+@pytest.mark.parametrize(
+    ("change", "culprit"),
+    [
+        ({"active": 2}, "active must be 0 to 1"),
+        ({"active": -1}, "active"),
+        ({"active": True}, "active"),
+        ({"image": picture()[..., :3]}, "image"),
+        ({"image": picture() / 255}, "image"),
+        ({"cage": domain("ell").cage}, "cage"),
+        ({"domain": domain("ell")}, "cage"),
+        ({"domain": None}, "domain must be of the class Domain"),
+        ({"poses": ("pose",)}, r"poses\[0\]"),
+        (
+            {"trace_options": TraceOptions(scribbles=Scribbles([[[1, 1]]]))},
+            "scribbles are not those",
+        ),
+        ({"poses": (named("foreign", HarmonicMap.identity(domain("annulus"))),)}, "'foreign'"),
+    ],
+)
+def test_parts_that_do_not_fit_are_refused(change: dict[str, Any], culprit: str) -> None:
+    with pytest.raises(DocumentError, match=culprit):
+        replace(document(), **change)
+
+
+@pytest.mark.parametrize(
+    ("change", "culprit"),
+    [
+        ({"name": ""}, "name"),
+        ({"name": "x" * 201}, "201"),
+        ({"name": 7}, "name"),
+        ({"pose": Pose([[0.0, 0.0]], [[0, 0]])}, "lies outside the domain"),
+        ({"map": None}, "map of the pose"),
+    ],
+)
+def test_a_wrong_pose_is_refused(change: dict[str, Any], culprit: str) -> None:
+    with pytest.raises(DocumentError, match=culprit):
+        replace(document().poses[0], **change)
+
+
+FOLDED = random_map("ring", 3.0, 5)
+
+
+@pytest.mark.parametrize(
+    ("pose", "culprit"),
+    [
+        (named("folded", FOLDED), r"poses\[0\] \('folded'\): its map is not certified"),
+        (
+            named(
+                "custom",
+                HarmonicMap.identity(domain("ring")),
+                energy=CustomEnergy(lambda x, y: (x + y) * (1 + 1 / (x - y) ** 2)),
+            ),
+            "custom.*Python function",
+        ),
+    ],
+)
+def test_what_could_not_be_opened_is_not_saved(
+    tmp_path: Path, pose: NamedPose, culprit: str
+) -> None:
+    path = tmp_path / "a.glid"
+    save_document(document(), path)
+    before = path.read_bytes()
+    with pytest.raises(DocumentError, match=culprit):
+        save_document(replace(document(), poses=(pose,), active=0), path)
+    assert path.read_bytes() == before
+    assert [p.name for p in tmp_path.iterdir()] == ["a.glid"]
+
+
+# Files that are wrong. Each is made from a valid one.
+
+
+@pytest.fixture(scope="module")
+def valid(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+    path = tmp_path_factory.mktemp("valid") / "a.glid"
+    save_document(document(scribbles=SCRIBBLES["one mask"]), path)
+    with zipfile.ZipFile(path) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def zipped(members: dict[str, bytes]) -> bytes:
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in members.items():
+            archive.writestr(name, data)
+    return buffer.getvalue()
+
+
+def refuse(folder: Path, data: bytes, culprit: str) -> None:
+    path = folder / "broken.glid"
+    path.write_bytes(data)
+    with pytest.raises(DocumentError, match=rf"(?s)broken\.glid: .*{culprit}"):
+        load_document(path)
+    assert [p.name for p in folder.iterdir()] == ["broken.glid"]
+
+
+def changed(**changes: Any) -> Callable[[Data], Any]:
+    return lambda data: {**data, **changes}
+
+
+def without(key: str) -> Callable[[Data], Any]:
+    return lambda data: {k: v for k, v in data.items() if k != key}
+
+
+def in_pose(**changes: Any) -> Callable[[Data], Any]:
+    return lambda d: {**d, "poses": [d["poses"][0], {**d["poses"][1], **changes}]}
+
+
+def in_part(part: str, **changes: Any) -> Callable[[Data], Any]:
+    return lambda d: {**d, part: {**d[part], **changes}}
+
+
+NAN, INFINITY = float("nan"), float("inf")
+BAD: list[tuple[str, Callable[[Data], Any], str]] = [
+    ("a list", lambda d: [d], "object"),
+    ("another format", changed(format="glid_nb-map"), "format"),
+    ("a newer version", changed(version=2), "version 2 .*newer"),
+    ("a version as text", changed(version="1"), "version '1'"),
+    *[
+        (f"no {key}", without(key), key)
+        for key in ("format", "version", "image_size_px", "domain", "trace_options", "poses")
+    ],
+    ("no active", without("active"), "active"),
+    ("an unknown key", changed(script="rm"), "unknown key 'script'"),
+    ("another size", changed(image_size_px=[30, 40]), "image.png has 40 x 30"),
+    ("a huge size", changed(image_size_px=[100000, 100000]), "image_size_px"),
+    ("a negative size", changed(image_size_px=[-40, 30]), "image_size_px"),
+    ("a size as text", changed(image_size_px=["40", 30]), "image_size_px"),
+    ("active beyond", changed(active=2), "active"),
+    ("active as text", changed(active="1"), "active"),
+    ("active true", changed(active=True), "active"),
+    ("poses as an object", changed(poses={}), "poses"),
+    ("a pose as a number", changed(poses=[3]), r"poses\[0\]"),
+    ("too many poses", lambda d: {**d, "poses": d["poses"] * 501}, "1002"),
+    ("a pose without phi", lambda d: {**d, "poses": [without("phi")(d["poses"][0])]}, "phi"),
+    ("an unknown key in a pose", in_pose(colour="red"), "unknown key 'colour'"),
+    ("a name as a number", in_pose(name=3), r"poses\[1\]"),
+    ("an empty name", in_pose(name=""), r"poses\[1\].*name"),
+    ("phi too short", in_pose(phi=[[0, 0]]), r"poses\[1\].*phi"),
+    ("phi of text", in_pose(phi="0"), "phi"),
+    ("phi with a truth value", in_pose(phi=[[True, 0]]), "phi"),
+    ("psi beyond floating point", in_pose(psi=[[10**400, 0]]), "psi"),
+    ("a handle outside", in_pose(handles=[[0, 0], [2, 0]]), "handle 0 .*outside"),
+    ("a handle as text", in_pose(handles=[["2", 0], [-2, 0]]), r"handles\[0\]"),
+    ("a target too far", in_pose(targets=[[10**400, 0], [0, 0]]), r"targets\[0\]"),
+    ("one target", in_pose(targets=[[0, 0]]), "2 handles but 1 targets"),
+    ("an unknown energy", in_pose(energy={"name": "mips"}), "mips"),
+    ("an energy without s", in_pose(energy={"name": "amips", "s": -1}), "energy"),
+    ("an energy as text", in_pose(energy="iso"), "energy"),
+    ("an unknown option", in_pose(options={"speed": 9}), "unknown key 'speed'"),
+    ("a wrong option", in_pose(options={"p2p_weight": -1}), "p2p_weight"),
+    ("an option as a list", in_pose(options={"hessian": []}), "hessian"),
+    ("a wrong trace option", in_part("trace_options", threshold=2), "threshold"),
+    ("an unknown trace option", in_part("trace_options", thresh=0), "unknown key 'thresh'"),
+    ("a list as a trace option", in_part("trace_options", background_at=3), "background_at"),
+    ("scribbles gone", changed(scribbles=None), "scribbles"),
+    ("a stroke as text", in_part("scribbles", foreground=["x"]), "foreground"),
+    ("an empty stroke", in_part("scribbles", foreground=[[]]), "foreground"),
+    ("another mask", in_part("scribbles", foreground="mask"), "scribbles-foreground.png"),
+    ("a mask of another name", in_part("scribbles", background="/etc/passwd"), "background"),
+    ("no offset cage", lambda d: {**d, "domain": without("offset_cage")(d["domain"])}, "offset"),
+    ("no domain at all", changed(domain={}), "cage"),
+    ("hole points outside", in_part("domain", hole_points=[[2, 0]]), "hole 1"),
+    ("an unknown key in the domain", in_part("domain", colour=1), "unknown"),
+    (
+        "a reversed offset cage",
+        lambda d: in_part("domain", offset_cage=d["domain"]["offset_cage"][::-1])(d),
+        "run as saved",
+    ),
+    (
+        "a folded map",
+        in_pose(
+            phi=[[v.real, v.imag] for v in FOLDED.phi.tolist()],
+            psi=[[v.real, v.imag] for v in FOLDED.psi.tolist()],
+        ),
+        r"poses\[1\].*not certified",
+    ),
+]
+
+
+@pytest.mark.parametrize(("change", "culprit"), [b[1:] for b in BAD], ids=[b[0] for b in BAD])
+def test_wrong_json_is_refused(
+    tmp_path: Path, valid: dict[str, bytes], change: Callable[[Data], Any], culprit: str
+) -> None:
+    text = json.dumps(change(json.loads(valid["document.json"])))
+    refuse(tmp_path, zipped({**valid, "document.json": text.encode()}), culprit)
+
+
+@pytest.mark.parametrize("value", [NAN, INFINITY, -INFINITY])
+@pytest.mark.parametrize(
+    "place",
+    [
+        lambda v: in_pose(phi=[[v, 0]]),
+        lambda v: in_pose(handles=[[v, 0], [2, 0]]),
+        lambda v: in_part("domain", cage=[[v, 0]]),
+        lambda v: in_part("trace_options", threshold=v),
+        lambda v: changed(active=v),
+    ],
+    ids=["phi", "handles", "cage", "threshold", "active"],
+)
+def test_no_number_that_is_not_one(
+    tmp_path: Path, valid: dict[str, bytes], place: Callable[[float], Any], value: float
+) -> None:
+    text = json.dumps(place(value)(json.loads(valid["document.json"])))
+    refuse(tmp_path, zipped({**valid, "document.json": text.encode()}), "which is no number")
+
+
+def png(size: tuple[int, int], mode: str = "RGBA") -> bytes:
+    buffer = io.BytesIO()
+    Image.new(mode, size).save(buffer, format="PNG")
+    return buffer.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("members", "culprit"),
+    [
+        ({"document.json": b""}, "not JSON"),
+        ({"document.json": b"\xff\xfe"}, "not JSON"),
+        ({"document.json": b"[" * 100_000}, "not JSON"),
+        ({"image.png": b""}, "no PNG"),
+        ({"image.png": b"GIF89a"}, "no PNG"),
+        ({"image.png": png((41, 30))}, "41 x 30"),
+        ({"image.png": png((40, 30), "RGB")}, "mode RGB"),
+        ({"image.png": png((40, 30))[:-30]}, "image.png is damaged"),
+        ({"scribbles-background.png": png((40, 30))}, "scribbles-background.png"),
+        ({"../../evil.txt": b"x"}, "evil.txt.*does not belong"),
+        ({"/etc/passwd": b"x"}, "passwd.*does not belong"),
+        ({"folder/": b""}, "folder/.*does not belong"),
+    ],
+)
+def test_wrong_members_are_refused(
+    tmp_path: Path, valid: dict[str, bytes], members: dict[str, bytes], culprit: str
+) -> None:
+    refuse(tmp_path, zipped({**valid, **members}), culprit)
+
+
+@pytest.mark.parametrize("name", ["document.json", "image.png", "scribbles-background.png"])
+def test_a_missing_member_is_named(tmp_path: Path, valid: dict[str, bytes], name: str) -> None:
+    rest = {key: data for key, data in valid.items() if key != name}
+    refuse(tmp_path, zipped(rest), f"{name} is missing")
+
+
+def test_a_zip_bomb_is_refused_unopened(tmp_path: Path, valid: dict[str, bytes]) -> None:
+    bomb = b" " * (100 << 20)
+    data = zipped({**valid, "document.json": bomb})
+    assert len(data) < 1 << 20
+    refuse(tmp_path, data, "document.json unpacks to 104,857,600 bytes")
+
+
+def test_a_member_that_lies_about_its_size_is_refused(
+    tmp_path: Path, valid: dict[str, bytes]
+) -> None:
+    data = zipped({**valid, "document.json": b" " * (80 << 20)})
+    honest, lie = (80 << 20).to_bytes(4, "little"), (1000).to_bytes(4, "little")
+    assert data.count(honest) == 2  # in the member's header and in the directory
+    refuse(tmp_path, data.replace(honest, lie), "zip file")
+
+
+def test_a_picture_bomb_is_refused_before_it_is_decoded(
+    tmp_path: Path, valid: dict[str, bytes]
+) -> None:
+    refuse(tmp_path, zipped({**valid, "image.png": png((7000, 7000))}), "7000 x 7000")
+
+
+def test_a_repeated_member_is_refused(tmp_path: Path, valid: dict[str, bytes]) -> None:
+    buffer = io.BytesIO(zipped(valid))
+    with (
+        pytest.warns(UserWarning, match="Duplicate"),
+        zipfile.ZipFile(buffer, "a") as archive,
+    ):
+        archive.writestr("document.json", valid["document.json"])
+    refuse(tmp_path, buffer.getvalue(), "document.json twice")
+
+
+def test_an_encrypted_member_is_refused(tmp_path: Path, valid: dict[str, bytes]) -> None:
+    data = bytearray(zipped(valid))
+    for signature, flags in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
+        data[data.index(signature) + flags] |= 1
+    refuse(tmp_path, bytes(data), "encrypted")
+
+
+@pytest.mark.parametrize(
+    "data",
+    [b"", b"PK", b"no zip at all", b"\x00" * 1000, zipped({}), zipped({"a.txt": b"foreign"})],
+    ids=["empty", "two letters", "prose", "zeros", "empty zip", "foreign zip"],
+)
+def test_what_is_no_document_is_refused(tmp_path: Path, data: bytes) -> None:
+    refuse(tmp_path, data, "zip|missing|belong")
+
+
+@given(data=st.data())
+@settings(max_examples=60)
+def test_damage_anywhere_is_refused_or_harmless(
+    tmp_path_factory: pytest.TempPathFactory, valid: dict[str, bytes], data: st.DataObject
+) -> None:
+    """Whatever byte is changed or cut: the same document, or a DocumentError."""
+    raw = bytearray(zipped(valid))
+    where = data.draw(st.integers(0, len(raw) - 1))
+    if data.draw(st.booleans()):
+        raw = raw[:where]
+    else:
+        raw[where] ^= data.draw(st.integers(1, 255))
+    path = tmp_path_factory.mktemp("damage") / "a.glid"
+    path.write_bytes(bytes(raw))
+    try:
+        loaded = load_document(path)
+    except DocumentError as error:
+        assert "a.glid" in str(error)  # noqa: PT017 - either answer is right
+    else:
+        assert_same(document(scribbles=SCRIBBLES["one mask"]), loaded)
+
+
+def test_a_file_that_is_not_there_is_an_os_error(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError):
+        load_document(tmp_path / "nowhere.glid")

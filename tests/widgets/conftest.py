@@ -1,0 +1,64 @@
+"""Fixtures of the tests that drive a real browser; see tests/browser.py."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from ..browser import (
+    CHROMIUM_FLAGS,
+    JupyterServer,
+    LabNotebook,
+    chromium,
+    watched_page,
+)
+
+OpenNotebook = Callable[..., LabNotebook]
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    """Chromium, one for all tests."""
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=chromium(), headless=True, args=list(CHROMIUM_FLAGS)
+        )
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def page(browser: Browser) -> Iterator[Page]:
+    """An empty page; an error in its console fails the test."""
+    with watched_page(browser) as page:
+        yield page
+
+
+@pytest.fixture(scope="session")
+def jupyter(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JupyterServer]:
+    """JupyterLab, one server for all tests."""
+    server = JupyterServer(tmp_path_factory.mktemp("jupyter"))
+    yield server
+    server.close()
+
+
+@pytest.fixture
+def open_notebook(browser: Browser, jupyter: JupyterServer) -> Iterator[OpenNotebook]:
+    """``open_notebook(cells, **context)``: a notebook in JupyterLab with its cells run.
+
+    ``context`` are settings of Playwright's browser context, such as ``has_touch=True``. One
+    notebook per test; an error in the browser's console fails the test.
+    """
+    with contextlib.ExitStack() as stack:
+
+        def open_one(cells: Sequence[str], **settings: Any) -> LabNotebook:
+            page = stack.enter_context(watched_page(browser, **settings))
+            book = LabNotebook(page, jupyter, cells)
+            stack.callback(book.shut_down)
+            return book
+
+        yield open_one
