@@ -6,7 +6,7 @@ from there to the new targets is the solver's part.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -114,7 +114,7 @@ def drop_hole(state: EditState, index: int) -> EditState:
     if not 0 <= index < old.n_holes:
         raise EditError(f"there is no hole {index + 1}; the domain has {old.n_holes}")
 
-    def others(values: Sequence[Any]) -> list[Any]:
+    def others(values: Iterable[Any]) -> list[Any]:
         return [value for i, value in enumerate(values) if i != index]
 
     cage = Cage(old.cage.exterior, others(old.cage.holes))

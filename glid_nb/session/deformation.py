@@ -289,7 +289,7 @@ class Deformation:
         with self._lock:
             self.begin_drag([handle])
             try:
-                self.drag_to([to])
+                self.drag_to(np.asarray(to, dtype=float)[None])
             finally:
                 self.end_drag()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -158,6 +159,11 @@ class EditState:
     def pose(self) -> Pose:
         """Handles and targets of the pose that is edited."""
         return self.current.pose
+
+    @functools.cached_property
+    def identity(self) -> HarmonicMap:
+        """The map that moves nothing."""
+        return HarmonicMap.identity(self.domain)
 
     def with_current(self, current: EditedPose) -> EditState:
         """The same with another value of the pose that is edited."""

@@ -1,0 +1,43 @@
+"""JavaScript modules that import each other, joined into the one module that a widget may have."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+_FOLDER = Path(__file__).parent / "js"
+_IMPORT = re.compile(r'^import\s+\{[^}]*\}\s+from\s+"\./([\w./-]+)";\n', re.MULTILINE)
+_EXPORT = re.compile(r"^export (?=(?:async )?(?:class|const|function) )", re.MULTILINE)
+
+
+def bundle(entry: str) -> str:
+    """The text of ``js/entry`` after that of all modules it imports, each once.
+
+    Modules import by name, ``import { a, b } from "./other.js";``, from their own folder, and share
+    one scope when joined, so their top-level names must differ. Only the entry has a default
+    export.
+
+    Raises
+    ------
+    ValueError
+        When modules import each other in a circle.
+    """
+    done: dict[str, str] = {}
+
+    def add(path: Path, above: tuple[Path, ...]) -> None:
+        if path in above:
+            raise ValueError(f"{path.name} imports itself by way of {above[-1].name}")
+        if str(path) in done:
+            return
+        text = path.read_text(encoding="utf-8")
+        for found in _IMPORT.finditer(text):
+            add(path.parent / found[1], (*above, path))
+        done[str(path)] = _EXPORT.sub("", _IMPORT.sub("", text))
+
+    add(_FOLDER / entry, ())
+    return "\n".join(done.values())
+
+
+def stylesheet(name: str) -> str:
+    """The text of ``js/name``."""
+    return (_FOLDER / name).read_text(encoding="utf-8")
