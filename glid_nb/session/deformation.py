@@ -409,7 +409,7 @@ class Deformation:
             self._solver.paused = value
             if not value and not self.state.current.solved:
                 self._submit()
-        self._tell("status")
+        self._tell("state", "status")
 
     def step(self) -> None:
         """One compiled call of the solver, also while paused."""
