@@ -67,6 +67,10 @@ from .session import load_scribbles as load_scribbles
 from .session import save_document as save_document
 from .session import suggest_pose as suggest_pose
 
+# In the notebook
+from .session import TracingModel as TracingModel
+from .widgets import CageTracer as CageTracer
+
 # Bundled pictures
 from . import samples as samples
 

@@ -64,14 +64,17 @@ def _check_distinct(loop: NDArray[np.float64], name: str, resolution: float) -> 
     if (0, len(loop) - 1) in set(map(tuple, pairs.tolist())) and len(pairs) == 1:
         raise GeometryError(
             f"{name}: the last vertex {j} repeats vertex 0 at {place(loop[0])}; "
-            "loops close by themselves, leave the last vertex out"
+            "loops close by themselves, leave the last vertex out",
+            loop[0],
         )
     advice = (
         "; leave one of them out"
         if j == i + 1
         else ", so the loop touches itself there; move one of them"
     )
-    raise GeometryError(f"{name}: vertices {i} and {j} coincide at {place(loop[i])}{advice}")
+    raise GeometryError(
+        f"{name}: vertices {i} and {j} coincide at {place(loop[i])}{advice}", loop[i]
+    )
 
 
 def _check_not_flat(loop: NDArray[np.float64], name: str, resolution: float) -> None:
@@ -82,7 +85,8 @@ def _check_not_flat(loop: NDArray[np.float64], name: str, resolution: float) -> 
         raise GeometryError(
             f"{name}: all {len(loop)} vertices lie on one line, through vertex 0 at "
             f"{place(loop[0])} and vertex {far} at {place(loop[far])}, so its area is zero; "
-            "move a vertex off the line or remove the loop"
+            "move a vertex off the line or remove the loop",
+            loop[0],
         )
 
 
@@ -117,7 +121,8 @@ def _check_fold_back(loop: NDArray[np.float64], name: str, resolution: float) ->
         n = len(loop)
         raise GeometryError(
             f"{name}: the edges {_edge((i - 1) % n, n)} and {_edge(i, n)} lie on top of each "
-            f"other, a spike without width at vertex {i} {place(loop[i])}; leave vertex {i} out"
+            f"other, a spike without width at vertex {i} {place(loop[i])}; leave vertex {i} out",
+            loop[i],
         )
 
 
@@ -139,7 +144,8 @@ def _raise_crossing(
     e, f = e_all[first], f_all[first]
     between = shapely.shortest_line(edges[e], edges[f])
     common = shapely.get_coordinates(shapely.intersection(edges[e], edges[f]))
-    at = place(common[0] if len(common) else shapely.get_coordinates(between)[0])
+    point = common[0] if len(common) else shapely.get_coordinates(between)[0]
+    at = place(point)
     a, b = int(loop_of[e]), int(loop_of[f])
     edge_a, edge_b = _edge(int(index[e]), len(loops[a])), _edge(int(index[f]), len(loops[b]))
     verb = "cross" if crossing[first] else "touch"
@@ -147,13 +153,15 @@ def _raise_crossing(
         advice = "reorder or move the vertices" if crossing[first] else "move the vertices apart"
         raise GeometryError(
             f"{loop_name(a)}: the edges {edge_a} and {edge_b} {verb} at {at}; {advice} so that the "
-            "loop does not meet itself"
+            "loop does not meet itself",
+            point,
         )
     name_a = "the exterior loop" if a == 0 else loop_name(a)
     raise GeometryError(
         f"{loop_name(b)} {verb + 'es'} {name_a}: edge {edge_b} of {loop_name(b)} and edge {edge_a} "
         f"of {name_a} {verb} at {at}; "
-        f"move {loop_name(b)} away or merge the two loops"
+        f"move {loop_name(b)} away or merge the two loops",
+        point,
     )
 
 
@@ -173,16 +181,19 @@ def _check_nesting(loops: list[NDArray[np.float64]]) -> None:
         if (i, 0) in around:
             raise GeometryError(
                 f"{loop_name(i)} contains the exterior loop (vertex 0 of the exterior loop at "
-                f"{place(loops[0][0])} lies in it); swap the two loops"
+                f"{place(loops[0][0])} lies in it); swap the two loops",
+                loops[0][0],
             )
         if (0, i) not in around:
             raise GeometryError(
                 f"{loop_name(i)} lies outside the exterior loop ({at}); "
-                "remove it or move it into the exterior loop"
+                "remove it or move it into the exterior loop",
+                loop[0],
             )
     for o, i in sorted(around):
         if o > 0:
             raise GeometryError(
                 f"{loop_name(i)} lies within {loop_name(o)} (vertex 0 at {place(loops[i][0])}); "
-                "remove the inner one: a hole has no domain inside it"
+                "remove the inner one: a hole has no domain inside it",
+                loops[i][0],
             )

@@ -11,7 +11,17 @@ from numpy.typing import ArrayLike, NDArray
 
 
 class GeometryError(ValueError):
-    """A polygon, offset or domain that cannot be used; the message says where and what to do."""
+    """A polygon, offset or domain that cannot be used; the message says where and what to do.
+
+    Attributes
+    ----------
+    point
+        The place that the message speaks of, for a picture that shows it; None if there is none.
+    """
+
+    def __init__(self, message: str, point: ArrayLike | None = None) -> None:
+        super().__init__(message)
+        self.point = None if point is None else tuple(map(float, np.asarray(point)))
 
 
 def loop_name(index: int) -> str:

@@ -88,7 +88,8 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
         i = int(np.argmin(local))
         raise GeometryError(
             f"no offset cage fits: the {corners.describe(i)} lies in a passage too narrow for any "
-            "offset; widen the passage, merge the two sides or remove the vertex"
+            "offset; widen the passage, merge the two sides or remove the vertex",
+            corners.points[i],
         )
     loops = corners.split(corners.moved(local))
     try:

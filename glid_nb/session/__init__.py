@@ -13,6 +13,7 @@ from glid_nb.session.problem import Problem, load_pose
 from glid_nb.session.report import build_report
 from glid_nb.session.scribbles import load_scribbles
 from glid_nb.session.suggest import suggest_pose
+from glid_nb.session.tracing import TracingModel, TracingProblem
 
 __all__ = [
     "Autosave",
@@ -21,6 +22,8 @@ __all__ = [
     "InputFileError",
     "NamedPose",
     "Problem",
+    "TracingModel",
+    "TracingProblem",
     "build_report",
     "load_document",
     "load_pose",

@@ -15,13 +15,14 @@ pytestmark = [pytest.mark.browser, pytest.mark.slow]
     "script", ["console.error('broken')", "setTimeout(() => { throw new Error('broken') })"]
 )
 def test_an_error_in_the_console_fails(browser: Browser, script: str) -> None:
-    with (
-        pytest.raises(AssertionError, match="broken"),
-        watched_page(browser) as page,
-    ):
-        page.goto("about:blank")
-        with page.expect_event("console" if "console" in script else "pageerror"):
-            page.evaluate(script)
+    def visit() -> None:
+        with watched_page(browser) as page:
+            page.goto("about:blank")
+            with page.expect_event("console" if "console" in script else "pageerror"):
+                page.evaluate(script)
+
+    with pytest.raises(AssertionError, match="broken"):
+        visit()
 
 
 def test_a_notebook_runs_and_the_kernel_answers(open_notebook: OpenNotebook) -> None:

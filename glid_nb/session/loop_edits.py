@@ -1,0 +1,111 @@
+"""Edits of a cage's vertices by hand, as functions of loops that may become invalid."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TypeAlias
+
+import numpy as np
+import shapely
+from numpy.typing import ArrayLike, NDArray
+
+from glid_nb.geometry import Cage, GeometryError
+
+Loop: TypeAlias = NDArray[np.float64]
+Loops: TypeAlias = tuple[Loop, ...]
+"""The exterior, then the holes: read-only (n, 2) arrays. They need not bound a domain."""
+
+
+def move_vertex(loops: Loops, loop: int, index: int, to: ArrayLike) -> Loops:
+    """The loops with one vertex elsewhere."""
+    vertices = _loop(loops, loop, index).copy()
+    vertices[index] = checked_point(to)
+    return _with(loops, loop, vertices)
+
+
+def insert_vertex(loops: Loops, loop: int, edge: int, at: ArrayLike) -> Loops:
+    """The loops with a vertex between vertex ``edge`` and the next one."""
+    vertices = _loop(loops, loop, edge)
+    return _with(loops, loop, np.insert(vertices, edge + 1, checked_point(at), axis=0))
+
+
+def delete_vertices(loops: Loops, vertices: Iterable[tuple[int, int]]) -> Loops:
+    """The loops without some vertices (loop, index); a hole with fewer than three left goes.
+
+    Raises
+    ------
+    GeometryError
+        When the exterior loop would have fewer than three left.
+    """
+    gone: dict[int, set[int]] = {}
+    for loop, index in vertices:
+        _loop(loops, loop, index)
+        gone.setdefault(loop, set()).add(index)
+    if len(loops) and len(loops[0]) - len(gone.get(0, ())) < 3:
+        raise GeometryError(
+            "the exterior loop needs at least 3 vertices; move its vertices instead", loops[0][0]
+        )
+    rest = (np.delete(loop, list(gone.get(i, ())), axis=0) for i, loop in enumerate(loops))
+    return tuple(_read_only(loop) for i, loop in enumerate(rest) if i == 0 or len(loop) >= 3)
+
+
+def nearest_edge(loops: Loops, point: ArrayLike) -> tuple[int, int, Loop]:
+    """The edge (loop, index) next to a point, and the edge's nearest point."""
+    p = checked_point(point)
+    best = (np.inf, 0, 0, p)
+    for i, loop in enumerate(loops):
+        along = np.roll(loop, -1, axis=0) - loop
+        square = np.maximum((along**2).sum(axis=1), np.finfo(float).tiny)
+        t = np.clip(((p - loop) * along).sum(axis=1) / square, 0, 1)
+        foot = loop + t[:, None] * along
+        distance = np.hypot(*(foot - p).T)
+        j = int(np.argmin(distance))
+        if distance[j] < best[0]:
+            best = (float(distance[j]), i, j, foot[j])
+    return best[1:]
+
+
+def around(loops: Loops, point: ArrayLike) -> int | None:
+    """Index of the hole loop that goes around a point, or None."""
+    x, y = checked_point(point)
+    for i, loop in enumerate(loops[1:], start=1):
+        if shapely.contains_xy(shapely.Polygon(loop), x, y):
+            return i
+    return None
+
+
+def checked_point(point: ArrayLike) -> Loop:
+    """A finite (2,) point.
+
+    Raises
+    ------
+    GeometryError
+        When it is none.
+    """
+    try:
+        p = np.asarray(point, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise GeometryError(f"a point must be a pair of numbers, not {point!r:.60}") from error
+    if p.shape != (2,) or not np.isfinite(p).all():
+        raise GeometryError(f"a point must be a pair of finite numbers, not {point!r:.60}")
+    return p
+
+
+def _loop(loops: Loops, loop: int, index: int) -> Loop:
+    if not 0 <= loop < len(loops):
+        raise GeometryError(f"there is no loop {loop}; there are {len(loops)}, counted from 0")
+    if not 0 <= index < len(loops[loop]):
+        raise GeometryError(
+            f"{Cage.loop_name(loop)} has no vertex {index}; it has {len(loops[loop])}, "
+            "counted from 0"
+        )
+    return loops[loop]
+
+
+def _with(loops: Loops, index: int, loop: Loop) -> Loops:
+    return (*loops[:index], _read_only(loop), *loops[index + 1 :])
+
+
+def _read_only(loop: Loop) -> Loop:
+    loop.setflags(write=False)
+    return loop

@@ -1,0 +1,527 @@
+"""The model behind the cage tracer: what is chosen, what comes of it, and every way back."""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal
+
+import numpy as np
+import shapely
+from numpy.typing import ArrayLike, NDArray
+
+from glid_nb.geometry import Cage, Domain, GeometryError
+from glid_nb.imaging import (
+    Hole,
+    PixelFrame,
+    Scribbles,
+    TraceError,
+    TraceOptions,
+    Tracer,
+    Tracing,
+    as_rgba8,
+    read_image,
+)
+from glid_nb.imaging.options import Point
+from glid_nb.imaging.read import ImageSource
+from glid_nb.imaging.trace import with_changes
+from glid_nb.session import loop_edits
+from glid_nb.session.document import Document
+from glid_nb.session.loop_edits import Loops
+
+Brush = Literal["foreground", "background"]
+
+_MOST_STEPS = 200
+_KEPT_OUTCOMES = 12  # each holds a mask of the picture's size
+
+
+@dataclass(frozen=True)
+class TracingProblem:
+    """Why the loops that are shown are no cage.
+
+    Attributes
+    ----------
+    message
+        A sentence that says what is wrong and what to do.
+    point
+        Where, (x, y) in pixels; None when it is nowhere in particular.
+    """
+
+    message: str
+    point: Point | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class TracingState:
+    """What somebody chose; everything else follows from it. Undo goes back to one of these.
+
+    Attributes
+    ----------
+    image
+        (h, w, 4) read-only uint8, or None before there is a picture.
+    options
+        How to trace, without scribbles.
+    scribbles
+        What was painted; used when ``options.method`` is "scribbles".
+    loops
+        The loops as edited by hand, world coordinates; None when they are as traced.
+    fallback
+        The last valid domain before this state, in use while this state's own is not valid.
+    """
+
+    image: NDArray[np.uint8] | None = None
+    options: TraceOptions = field(default_factory=TraceOptions)
+    scribbles: Scribbles | None = None
+    loops: Loops | None = None
+    fallback: Domain | None = None
+
+    @property
+    def trace_options(self) -> TraceOptions:
+        """The options with the scribbles that they use."""
+        if self.options.method != "scribbles":
+            return self.options
+        return replace(self.options, scribbles=self.scribbles or _NO_SCRIBBLES)
+
+
+@dataclass(frozen=True, eq=False)
+class TracingOutcome:
+    """What follows from a state.
+
+    Attributes
+    ----------
+    tracing
+        The automatic part; None where it failed.
+    loops
+        The loops to show, world coordinates, valid or not.
+    domain
+        From the loops if they are valid, else the state's fallback.
+    problems
+        Why they are not; empty when they are.
+    """
+
+    tracing: Tracing | None
+    loops: Loops
+    domain: Domain | None
+    problems: tuple[TracingProblem, ...]
+
+
+_EMPTY = TracingOutcome(None, (), None, ())
+_NO_SCRIBBLES = Scribbles([], [])
+# TraceOptions itself refuses the method without scribbles; the state keeps them apart.
+_METHOD_OF_SCRIBBLES: dict[str, Any] = {"method": "scribbles", "scribbles": _NO_SCRIBBLES}
+
+
+class TracingModel:
+    """Traces a cage from a picture, interactively, with undo; a widget is a view of one.
+
+    Every action makes a new immutable state. A state whose loops are no cage may exist (a vertex
+    was dragged across an edge, a threshold leaves nothing): `problems` says where and why, and
+    `cage` stays the last valid one. Actions may come from several threads.
+
+    Points are in the picture's pixels, x right and y down from its top left corner. An action takes
+    an optional `gesture`, any value: consecutive actions of the same gesture, such as the moves of
+    one drag, are one step to undo.
+
+    Parameters
+    ----------
+    image
+        A picture, as in `read_image`; None to begin without one.
+    options
+        How to trace at first.
+
+    Raises
+    ------
+    TraceError
+        The picture cannot be read. (That it shows no shape is a problem, not an error.)
+    """
+
+    def __init__(
+        self, image: ImageSource | None = None, options: TraceOptions | None = None
+    ) -> None:
+        chosen = options if options is not None else TraceOptions()
+        state = TracingState(
+            None if image is None else _pixels(image),
+            replace(chosen, scribbles=_NO_SCRIBBLES if chosen.method == "scribbles" else None),
+            chosen.scribbles,
+        )
+        self._begin(state)
+
+    @classmethod
+    def from_document(cls, document: Document) -> TracingModel:
+        """A model that stands where the document's tracing did."""
+        model = cls.__new__(cls)
+        options = document.trace_options
+        state = TracingState(
+            document.image,
+            replace(options, scribbles=_NO_SCRIBBLES if options.method == "scribbles" else None),
+            document.scribbles,
+            document.cage.loops,
+            document.domain,
+        )
+        model._begin(state)
+        # Exactly what tracing gives anew was not edited by hand.
+        tracing = model.tracing
+        if tracing is not None and _equal(tracing.cage.loops, document.cage.loops):
+            model._state = replace(state, loops=None)
+        return model
+
+    def _begin(self, state: TracingState) -> None:
+        self._lock = threading.RLock()
+        self._callbacks: list[Callable[[], None]] = []
+        self._past: list[TracingState] = []
+        self._future: list[TracingState] = []
+        self._state = state
+        self._gesture: Any = None
+        self._tracer: Tracer | None = None
+        self._outcomes: OrderedDict[TracingState, TracingOutcome] = OrderedDict()
+
+    # What there is to see
+
+    @property
+    def state(self) -> TracingState:
+        """What is chosen now."""
+        return self._state
+
+    @property
+    def image(self) -> NDArray[np.uint8] | None:
+        """The picture, (h, w, 4) read-only uint8."""
+        return self._state.image
+
+    @property
+    def frame(self) -> PixelFrame | None:
+        """Pixels to world coordinates and back."""
+        if self._state.image is None:
+            return None
+        height, width = self._state.image.shape[:2]
+        return PixelFrame(width=width, height=height)
+
+    @property
+    def options(self) -> TraceOptions:
+        """The options, with the scribbles that they use."""
+        return self._state.trace_options
+
+    @property
+    def scribbles(self) -> Scribbles | None:
+        """What was painted, used or not."""
+        return self._state.scribbles
+
+    @property
+    def outcome(self) -> TracingOutcome:
+        """What follows from the state; computed on first use."""
+        with self._lock:
+            state = self._state
+            if state not in self._outcomes:
+                self._outcomes[state] = self._evaluate(state)
+                while len(self._outcomes) > _KEPT_OUTCOMES:
+                    self._outcomes.popitem(last=False)
+            self._outcomes.move_to_end(state)
+            return self._outcomes[state]
+
+    @property
+    def tracing(self) -> Tracing | None:
+        """The automatic part of the outcome; None when it failed."""
+        return self.outcome.tracing
+
+    @property
+    def loops(self) -> tuple[NDArray[np.float64], ...]:
+        """The loops that are shown, (n, 2) in pixels, valid or not; the exterior first."""
+        frame = self.frame
+        return () if frame is None else tuple(frame.to_pixel(p) for p in self.outcome.loops)
+
+    @property
+    def holes(self) -> tuple[Hole, ...]:
+        """The holes of the shape, kept or not."""
+        return () if self.tracing is None else self.tracing.holes
+
+    @property
+    def cage(self) -> Cage | None:
+        """The last valid cage; None before there is one."""
+        return None if self.domain is None else self.domain.cage
+
+    @property
+    def domain(self) -> Domain | None:
+        """The domain of the last valid cage; None before there is one."""
+        return self.outcome.domain
+
+    @property
+    def problems(self) -> tuple[TracingProblem, ...]:
+        """Why the loops that are shown are not the cage; empty when they are."""
+        return self.outcome.problems
+
+    @property
+    def edited(self) -> bool:
+        """Whether vertices were edited by hand since the last tracing."""
+        return self._state.loops is not None
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether there is a state to go back to."""
+        return bool(self._past)
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether a state was undone."""
+        return bool(self._future)
+
+    def on_change(self, callback: Callable[[], None]) -> Callable[[], None]:
+        """Call ``callback`` after every change; the result ends that."""
+        self._callbacks.append(callback)
+
+        def stop() -> None:
+            if callback in self._callbacks:
+                self._callbacks.remove(callback)
+
+        return stop
+
+    # What can be done
+
+    def open(self, image: ImageSource) -> None:
+        """Take another picture, with the default options.
+
+        Raises
+        ------
+        TraceError
+            It cannot be read; nothing has changed then.
+        """
+        self._push(TracingState(image=_pixels(image)))
+
+    def set_options(self, gesture: Any = None, **changes: Any) -> None:
+        """Trace with changed options, fields of `TraceOptions`. Edits by hand go; undo brings them.
+
+        Raises
+        ------
+        TraceError
+            An unknown field, or a value out of its range; nothing has changed then.
+        """
+        with self._lock:
+            before = self._state
+            if "scribbles" in changes:
+                raise TraceError("scribbles are painted: use paint(...) and clear_scribbles()")
+            if changes.get("method") == "scribbles":
+                changes = {**changes, **_METHOD_OF_SCRIBBLES}
+            elif "method" in changes:
+                changes = {**changes, "scribbles": None}
+            options = with_changes(before.options, changes)
+            if options == before.options and before.loops is None:
+                return
+            state = replace(before, options=options, loops=None)
+            self._replace(state, gesture)
+        self._notify()
+
+    def pick_background(self, point: Point) -> None:
+        """Find the foreground by the distance from the colour of a pixel."""
+        self._index(point)
+        self.set_options(method="color", background=None, background_at=point, invert=None)
+
+    def pick_component(self, point: Point) -> None:
+        """Trace the component around a pixel."""
+        self._index(point)
+        self.set_options(component=0, component_at=point)
+
+    def paint(self, brush: Brush, stroke: ArrayLike) -> None:
+        """Add a stroke over the shape or over what is around it, (k, 2) pixels, and trace by it.
+
+        Raises
+        ------
+        TraceError
+            The stroke is no list of finite points; nothing has changed then.
+        """
+        with self._lock:
+            old = self._state.scribbles or _NO_SCRIBBLES
+            strokes = {"foreground": old.foreground, "background": old.background}
+            if brush not in strokes:
+                raise TraceError(f"there is no brush {brush!r}; use foreground or background")
+            if isinstance(strokes[brush], np.ndarray):
+                raise TraceError(f"the {brush} was given as a mask, which cannot be painted over")
+            try:
+                scribbles = Scribbles(**{**strokes, brush: (*strokes[brush], stroke)})
+            except TraceError:
+                raise
+            except (TypeError, ValueError) as error:
+                raise TraceError(f"a stroke must be a list of pixels (x, y): {error}") from error
+            options = with_changes(self._state.options, _METHOD_OF_SCRIBBLES)
+            self._replace(replace(self._state, options=options, scribbles=scribbles, loops=None))
+        self._notify()
+
+    def clear_scribbles(self) -> None:
+        """Remove all strokes."""
+        if self._state.scribbles is None:
+            return
+        loops = None if self._state.options.method == "scribbles" else self._state.loops
+        self._push(replace(self._state, scribbles=None, loops=loops))
+
+    def toggle_hole(self, number: int) -> None:
+        """Drop a hole, or keep it if it was dropped. Other loops keep their edits."""
+        with self._lock:
+            state, frame = self._state, self.frame
+            if frame is None or not 0 <= number < len(self.holes):
+                raise TraceError(f"there is no hole {number}; there are {len(self.holes)}")
+            hole = self.holes[number]
+            region = shapely.Polygon(hole.loop)
+            keep, drop = (
+                [p for p in points if not shapely.contains_xy(region, *p)]
+                for points in (state.options.keep_holes, state.options.drop_holes)
+            )
+            (drop if hole.kept else keep).append(hole.pixel)
+            new = replace(state, options=replace(state.options, keep_holes=keep, drop_holes=drop))
+            if state.loops is not None:
+                new = replace(new, loops=self._loops_with(new, hole))
+            self._replace(new)
+        self._notify()
+
+    def move_vertex(self, loop: int, index: int, to: Point, gesture: Any = None) -> None:
+        """Move a vertex of a loop that is shown."""
+        self._edit(
+            lambda loops: loop_edits.move_vertex(loops, loop, index, self._world(to)), gesture
+        )
+
+    def insert_vertex(self, at: Point) -> tuple[int, int]:
+        """Add a vertex on the edge next to a point; its (loop, index)."""
+        with self._lock:
+            loops = self.outcome.loops
+            if not loops:
+                raise GeometryError("there is no loop yet to add a vertex to")
+            loop, edge, foot = loop_edits.nearest_edge(loops, self._world(at))
+            self._edit(lambda loops: loop_edits.insert_vertex(loops, loop, edge, foot))
+        return loop, edge + 1
+
+    def delete_vertices(self, vertices: Iterable[tuple[int, int]]) -> None:
+        """Delete vertices (loop, index); a hole that keeps fewer than three goes altogether.
+
+        Raises
+        ------
+        GeometryError
+            The exterior would keep fewer than three; nothing has changed then.
+        """
+        chosen = list(vertices)
+        if chosen:
+            self._edit(lambda loops: loop_edits.delete_vertices(loops, chosen))
+
+    def discard_edits(self) -> None:
+        """Go back to the loops as traced; undo brings the edits back."""
+        if self.edited:
+            self._push(replace(self._state, loops=None))
+
+    def undo(self) -> bool:
+        """Go back one step; whether there was one."""
+        return self._travel(self._past, self._future)
+
+    def redo(self) -> bool:
+        """Take back the last undo; whether there was one."""
+        return self._travel(self._future, self._past)
+
+    # How it is done
+
+    def _push(self, state: TracingState) -> None:
+        with self._lock:
+            self._replace(state)
+        self._notify()
+
+    def _replace(self, state: TracingState, gesture: Any = None) -> None:
+        """Make ``state`` the current one: a step of its own, or part of a gesture under way."""
+        with self._lock:
+            if gesture is None or gesture != self._gesture:
+                self._past.append(self._state)
+                del self._past[:-_MOST_STEPS]
+            same_picture = state.image is self._state.image
+            fallback = self.outcome.domain if same_picture else None
+            self._future.clear()
+            self._gesture = gesture
+            self._state = replace(state, fallback=fallback)
+
+    def _travel(self, here: list[TracingState], there: list[TracingState]) -> bool:
+        with self._lock:
+            if not here:
+                return False
+            there.append(self._state)
+            self._state = here.pop()
+            self._gesture = None
+        self._notify()
+        return True
+
+    def _notify(self) -> None:
+        for callback in tuple(self._callbacks):
+            callback()
+
+    def _edit(self, change: Callable[[Loops], Loops], gesture: Any = None) -> None:
+        with self._lock:
+            self._replace(replace(self._state, loops=change(self.outcome.loops)), gesture)
+        self._notify()
+
+    def _evaluate(self, state: TracingState) -> TracingOutcome:
+        if state.image is None:
+            return _EMPTY
+        if self._tracer is None or self._tracer.image is not state.image:
+            self._tracer = Tracer(state.image)
+        frame = self._tracer.frame
+        problems: list[TracingProblem] = []
+        tracing = None
+        try:
+            tracing = self._tracer.trace(state.trace_options)
+        except (TraceError, GeometryError) as error:
+            problems.append(_problem(error, frame))
+        loops, cage = state.loops, None
+        if loops is None and tracing is not None:
+            loops, cage = tracing.cage.loops, tracing.cage
+        if loops is None:
+            shown = () if state.fallback is None else state.fallback.cage.loops
+            return TracingOutcome(None, shown, state.fallback, tuple(problems))
+        try:
+            if cage is None:
+                cage = Cage(loops[0], loops[1:])
+            same = state.fallback is not None and _equal(cage.loops, state.fallback.cage.loops)
+            domain = state.fallback if same else Domain.from_cage(cage)
+        except GeometryError as error:
+            problems.append(_problem(error, frame))
+            domain = state.fallback
+        return TracingOutcome(tracing, loops, domain, tuple(problems))
+
+    def _loops_with(self, state: TracingState, hole: Hole) -> Loops:
+        """The edited loops without a hole that is dropped, or with one that is kept again."""
+        frame, loops = self.frame, state.loops
+        assert frame is not None
+        assert loops is not None
+        pixel = frame.to_world(hole.pixel)
+        if hole.kept:
+            index = loop_edits.around(loops, pixel)
+            return loops if index is None else (*loops[:index], *loops[index + 1 :])
+        tracing = self._evaluate(replace(state, loops=None)).tracing
+        traced = () if tracing is None else tracing.cage.loops
+        index = loop_edits.around(traced, pixel)
+        return loops if index is None else (*loops, traced[index])
+
+    def _world(self, point: Point) -> NDArray[np.float64]:
+        frame = self.frame
+        if frame is None:
+            raise TraceError("there is no picture yet; open one first")
+        return frame.to_world(loop_edits.checked_point(point))
+
+    def _index(self, point: Point) -> None:
+        """Raise unless the point lies in the picture."""
+        frame = self.frame
+        if frame is None:
+            raise TraceError("there is no picture yet; open one first")
+        x, y = loop_edits.checked_point(point)
+        frame.index_at((float(x), float(y)))
+
+
+def _problem(error: TraceError | GeometryError, frame: PixelFrame) -> TracingProblem:
+    point = error.point if isinstance(error, GeometryError) else None
+    if point is None:
+        return TracingProblem(str(error))
+    x, y = frame.to_pixel(point)
+    return TracingProblem(str(error), (float(x), float(y)))
+
+
+def _pixels(image: ImageSource) -> NDArray[np.uint8]:
+    pixels = as_rgba8(read_image(image))
+    if pixels.flags.writeable:
+        pixels = pixels.copy()  # an array of the caller's
+        pixels.setflags(write=False)
+    return pixels
+
+
+def _equal(loops: Loops, others: Loops) -> bool:
+    return len(loops) == len(others) and all(map(np.array_equal, loops, others))

@@ -1,0 +1,50 @@
+"""Joining the page's modules."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from glid_nb.widgets import bundle as bundling
+from glid_nb.widgets.bundle import bundle, stylesheet
+
+
+def test_every_module_comes_once_and_before_its_users() -> None:
+    text = bundle("tracer/main.js")
+    assert not re.search(r"^import |^export (?!default)", text, re.MULTILINE)
+    assert text.count("class Viewport {") == 1
+    assert text.index("class Viewport {") < text.index("class Stage {")
+    assert text.index("function make(") < text.index("class Panel {")
+    assert text.rstrip().endswith("export default { render };")
+
+
+def test_top_level_names_differ() -> None:
+    names = re.findall(r"^(?:const|function|class) (\w+)", bundle("tracer/main.js"), re.MULTILINE)
+    assert len(names) == len(set(names))
+
+
+def test_imports_name_what_is_exported() -> None:
+    folder = Path(bundling.__file__).parent / "js" / "tracer"
+    for module in folder.glob("*.js"):
+        text = module.read_text()
+        for names, other in re.findall(r'^import \{ ([^}]*) \} from "\./([^"]+)";', text, re.M):
+            exported = (folder / other).read_text()
+            for name in names.split(", "):
+                assert re.search(rf"^export (class|const|function) {name}\b", exported, re.M)
+                assert len(re.findall(rf"\b{name}\b", text)) > 1, f"{module.name}: {name} unused"
+
+
+def test_a_circle_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "a.js").write_text('import { b } from "./b.js";\nexport const a = b;\n')
+    (tmp_path / "b.js").write_text('import { a } from "./a.js";\nexport const b = a;\n')
+    monkeypatch.setattr(bundling, "_FOLDER", tmp_path)
+    with pytest.raises(ValueError, match=r"a\.js imports itself by way of b\.js"):
+        bundle("a.js")
+
+
+def test_the_stylesheet_uses_only_variables_that_it_defines() -> None:
+    text = stylesheet("tracer/tracer.css")
+    defined = set(re.findall(r"(--glid-[\w-]+):", text)) | {"--glid-height"}
+    assert set(re.findall(r"var\((--glid-[\w-]+)", text)) <= defined

@@ -1,0 +1,242 @@
+"""The tracer without a browser: what the page is told, and what it may ask for."""
+
+from __future__ import annotations
+
+import io
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from glid_nb import samples
+from glid_nb.geometry import Cage
+from glid_nb.imaging import TraceError, TraceOptions
+from glid_nb.session import TracingModel
+from glid_nb.widgets import CageTracer
+
+from ..session.test_tracing import DRAWING, IN_SMALL_DISC
+
+
+class Page:
+    """A page's end of the line."""
+
+    def __init__(self, tracer: CageTracer, name: str = "page 1") -> None:
+        self.tracer, self.name, self.sent = tracer, name, 0
+        self.answers: list[dict[str, Any]] = []
+        tracer.send = lambda content, buffers=None: self.answers.append(content)  # noqa: ARG005
+
+    def ask(self, action: str, buffers: tuple[bytes, ...] = (), **content: Any) -> str | None:
+        """Send a message, through JSON; the refusal."""
+        self.sent += 1
+        message = {"action": action, "view": self.name, "id": self.sent, **content}
+        self.tracer._handle_custom_msg(
+            json.loads(json.dumps(message)), [memoryview(b) for b in buffers]
+        )
+        answer = self.answers[-1]
+        assert (answer["view"], answer["ack"]) == (self.name, self.sent)
+        return answer["refusal"]
+
+
+def cage_of(tracer: CageTracer) -> Cage:
+    assert tracer.cage is not None
+    return tracer.cage
+
+
+@pytest.fixture
+def tracer() -> CageTracer:
+    return CageTracer(DRAWING)
+
+
+@pytest.fixture
+def page(tracer: CageTracer) -> Page:
+    return Page(tracer)
+
+
+def test_the_page_is_told_everything(tracer: CageTracer) -> None:
+    shown = json.loads(json.dumps(tracer.shown, allow_nan=False))
+    assert shown["size"] == [160, 120]
+    assert [len(loop) for loop in shown["loops"]] == [len(p) for p in cage_of(tracer).loops]
+    np.testing.assert_allclose(shown["loops"][0], tracer.tracing_model.loops[0], atol=0.006)
+    assert shown["automatic"]["method"] == "color"
+    assert shown["n_components"] == 2
+    assert [hole["kept"] for hole in shown["holes"]] == [True, True]
+    assert shown["problems"] == []
+    picture = Image.open(io.BytesIO(tracer.picture))
+    assert picture.size == (160, 120)
+    assert len(json.dumps(shown)) < 20_000
+
+
+def test_a_large_transparent_picture_is_shown_smaller_but_traced_whole() -> None:
+    image = np.zeros((1200, 2400, 4), np.uint8)
+    image[200:900, 300:2000] = (200, 100, 50, 255)
+    tracer = CageTracer(image)
+    picture = Image.open(io.BytesIO(tracer.picture))
+    assert picture.size == (1600, 800)
+    assert picture.mode == "RGBA"
+    assert tracer.shown["size"] == [2400, 1200]
+
+
+def test_without_a_picture() -> None:
+    tracer = CageTracer()
+    assert tracer.picture == b""
+    assert tracer.shown["size"] is None
+    assert tracer.cage is None
+    assert Page(tracer).ask("move_vertex", loop=0, index=0, to=[1, 1]) is not None
+
+
+def test_every_action_reaches_the_model(tracer: CageTracer, page: Page) -> None:
+    model = tracer.tracing_model
+    assert page.ask("set_options", changes={"offset": 6}) is None
+    assert tracer.options.offset == 6
+    assert page.ask("toggle_hole", number=0) is None
+    assert cage_of(tracer).n_holes == 1
+    n = cage_of(tracer).n_vertices
+    x, y = model.loops[0][3]
+    assert page.ask("move_vertex", loop=0, index=3, to=[x + 1, y]) is None
+    np.testing.assert_allclose(model.loops[0][3], [x + 1, y])
+    assert page.ask("insert_vertex", at=list(model.loops[0][:2].mean(axis=0))) is None
+    assert cage_of(tracer).n_vertices == n + 1
+    assert page.ask("delete_vertices", vertices=[[0, 1]]) is None
+    assert cage_of(tracer).n_vertices == n
+    assert tracer.shown["edited"]
+    assert page.ask("discard_edits") is None
+    assert not tracer.shown["edited"]
+    assert page.ask("pick_component", at=list(IN_SMALL_DISC)) is None
+    assert tracer.shown["component"] == 1
+    assert page.ask("undo") is None
+    assert tracer.shown["component"] == 0
+    assert page.ask("redo") is None
+    assert tracer.shown["component"] == 1
+    assert page.ask("paint", brush="foreground", stroke=[[60, 20], [60, 100]]) is None
+    assert tracer.shown["strokes"]["foreground"] == [[[60, 20], [60, 100]]]
+    assert page.ask("clear_scribbles") is None
+    assert tracer.shown["strokes"]["foreground"] == []
+    assert page.ask("pick_background", at=[2, 2]) is None
+    assert tracer.options.background_at == (2, 2)
+
+
+@pytest.mark.parametrize(
+    ("action", "content", "culprit"),
+    [
+        ("set_options", {"changes": {"offset": -1}}, "offset"),
+        ("set_options", {"changes": {"ofset": 1}}, "did you mean"),
+        ("move_vertex", {"loop": 9, "index": 0, "to": [1, 1]}, "no loop 9"),
+        ("toggle_hole", {"number": 99}, "no hole 99"),
+        ("paint", {"brush": "foreground", "stroke": []}, "stroke"),
+        ("pick_background", {"at": [-5, 0]}, "outside"),
+        ("format_disk", {}, "cannot do"),
+    ],
+)
+def test_a_refusal_is_a_sentence_and_changes_nothing(
+    tracer: CageTracer, page: Page, action: str, content: dict[str, Any], culprit: str
+) -> None:
+    state, shown = tracer.tracing_model.state, tracer.shown
+    refusal = page.ask(action, **content)
+    assert refusal is not None
+    assert culprit in refusal
+    assert tracer.tracing_model.state is state
+    assert tracer.shown == shown
+
+
+def test_a_bug_is_shown_acknowledged_and_not_swallowed(tracer: CageTracer, page: Page) -> None:
+    with pytest.raises(KeyError):
+        tracer._receive(tracer, {"view": "a", "id": 1, "action": "toggle_hole"}, [])
+    assert page.answers[-1] == {"view": "a", "ack": 1, "refusal": "KeyError: 'number'"}
+
+
+def test_a_problem_is_shown_with_its_place(tracer: CageTracer, page: Page) -> None:
+    cage = tracer.cage
+    i = int(np.argmin(tracer.tracing_model.loops[0][:, 0]))
+    assert page.ask("move_vertex", loop=0, index=i, to=[150, 60]) is None
+    (problem,) = tracer.shown["problems"]
+    assert "cross" in problem["message"]
+    assert 0 < problem["point"][0] < 160
+    assert tracer.cage is cage
+    assert tracer.shown["loops"][0][i] == [150, 60]
+
+
+def png(image: np.ndarray) -> bytes:
+    buffer = io.BytesIO()
+    Image.fromarray(image).save(buffer, format="PNG")
+    return buffer.getvalue()
+
+
+class TestUpload:
+    def send(self, page: Page, data: bytes, part: int) -> str | None:
+        for start in range(0, len(data), part):
+            refusal = page.ask(
+                "upload",
+                (data[start : start + part],),
+                name="a.png",
+                size=len(data),
+                start=start,
+            )
+        return refusal
+
+    @pytest.mark.parametrize("part", [100, 1 << 20])
+    def test_a_file_arrives_in_parts(self, part: int) -> None:
+        tracer = CageTracer()
+        assert self.send(Page(tracer), png(DRAWING), part) is None
+        assert (tracer.image == DRAWING).all()
+        assert cage_of(tracer).n_holes == 2
+        assert tracer.picture
+
+    def test_what_is_no_picture_changes_nothing(self, tracer: CageTracer, page: Page) -> None:
+        cage = tracer.cage
+        refusal = self.send(page, b"no picture at all", 5)
+        assert refusal is not None
+        assert "no picture in a format" in refusal
+        assert tracer.cage is cage
+
+    def test_a_part_that_is_missing_is_noticed(self, page: Page) -> None:
+        data = png(DRAWING)
+        page.ask("upload", (data[:100],), name="a.png", size=len(data), start=0)
+        refusal = page.ask("upload", (data[200:],), name="a.png", size=len(data), start=200)
+        assert refusal is not None
+        assert "interrupted" in refusal
+
+    def test_too_large_a_file_is_refused_at_its_first_part(self, page: Page) -> None:
+        refusal = page.ask("upload", (b"x",), name="a.png", size=1 << 40, start=0)
+        assert refusal is not None
+        assert "can be uploaded" in refusal
+
+
+def test_code_and_hand_share_the_model(tracer: CageTracer) -> None:
+    seen: list[float | None] = []
+    stop = tracer.on_change(lambda: seen.append(tracer.options.offset))
+    tracer.tracing_model.set_options(offset=3)
+    assert tracer.shown["options"]["offset"] == 3
+    Page(tracer).ask("undo")
+    assert seen == [3, None]
+    stop()
+    other = CageTracer(model=tracer.tracing_model)
+    Page(other).ask("set_options", changes={"offset": 5})
+    assert tracer.shown["options"]["offset"] == 5
+    other.close()
+    tracer.tracing_model.set_options(offset=7)
+    assert tracer.shown["options"]["offset"] == 7
+
+
+def test_a_slider_drag_is_one_step(tracer: CageTracer, page: Page) -> None:
+    for offset in (1, 2, 3):
+        page.ask("set_options", changes={"offset": offset}, gesture="page 1/4")
+    page.ask("undo")
+    assert tracer.options.offset is None
+
+
+def test_wrong_arguments() -> None:
+    with pytest.raises(ValueError, match="not both"):
+        CageTracer(DRAWING, model=TracingModel())
+    with pytest.raises(TraceError, match="no such file"):
+        CageTracer("nowhere.png")
+    assert CageTracer(DRAWING, TraceOptions(offset=2)).options.offset == 2
+
+
+def test_the_picture_is_sent_only_when_it_changes(tracer: CageTracer) -> None:
+    before = tracer.picture
+    tracer.tracing_model.set_options(offset=3)
+    assert tracer.picture is before
+    tracer.tracing_model.open(samples.image("bar"))
+    assert tracer.picture is not before
