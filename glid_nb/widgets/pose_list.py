@@ -35,7 +35,9 @@ class PoseList(ipywidgets.VBox):
         )
         self.refusal = ipywidgets.HTML()
         model = deformation
-        self.save = self._button("Save", "bookmark", "Keep this pose, go on with a copy", model.save_pose)
+        self.save = self._button(
+            "Save", "bookmark", "Keep this pose, go on with a copy", model.save_pose
+        )
         self.duplicate = self._button(
             "", "copy", "Duplicate", lambda: model.duplicate_pose(model.state.active)
         )

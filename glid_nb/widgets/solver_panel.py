@@ -98,7 +98,9 @@ class SolverPanel(ipywidgets.VBox):
         ]
         grid = ipywidgets.GridBox(
             [item for label, control in rows for item in (ipywidgets.Label(label), control)],
-            layout=ipywidgets.Layout(grid_template_columns="110px minmax(0, 1fr)", grid_gap="2px 8px"),
+            layout=ipywidgets.Layout(
+                grid_template_columns="110px minmax(0, 1fr)", grid_gap="2px 8px"
+            ),
         )
         buttons = ipywidgets.HBox(
             [self.pause, self.step, self.reset, self.clear],
