@@ -76,8 +76,8 @@ class DeformCanvas(ipywidgets.HBox):
         self,
         image: ImageSource,
         deformation: Deformation | Domain,
-        width: int = 640,
-        height: int = 560,
+        width: int = 600,
+        height: int = 500,
         *,
         n_vertices: int = N_VERTICES,
         evaluated_in: EvaluatedIn | None = None,
@@ -104,6 +104,11 @@ class DeformCanvas(ipywidgets.HBox):
         self._receiving = threading.Lock()
         self._panels_at = 0.0
         super().__init__([self.pane], **kwargs)
+        # A box that may scroll would shrink to nothing inside another one.
+        self.layout.overflow, self.layout.flex = "visible", "0 0 auto"
+        self.layout.align_items = "flex-start"
+        self._resize()
+        self.pane.stage.observe(self._resize, ["height"])
         self._stop = self.deformation.observe(self._on_model)
         self.pane.stage.on_msg(self._receive)
         self.observe(self._show_overlay, ["overlay"])
@@ -144,6 +149,9 @@ class DeformCanvas(ipywidgets.HBox):
             n_vertices=self._n_vertices,
             evaluated_in=self._evaluated_in,
         )
+
+    def _resize(self, _: Any = None) -> None:
+        self.layout.height = f"{self.pane.stage.height}px"
 
     # From the model
 

@@ -29,7 +29,7 @@ from glid_nb.widgets.toolbar import Toolbar
 from glid_nb.widgets.tracer import CageTracer
 
 _TRACE, _DEFORM = 0, 1
-_SIDE_WIDTH = 480
+_SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
 
 
@@ -77,8 +77,8 @@ class Editor(ipywidgets.VBox):
         image: ImageSource | None = None,
         path: str | Path | None = None,
         *,
-        width: int = 640,
-        height: int = 520,
+        width: int = 600,
+        height: int = 500,
         n_vertices: int = N_VERTICES,
         **kwargs: Any,
     ) -> None:
@@ -99,7 +99,7 @@ class Editor(ipywidgets.VBox):
         self.canvas: DeformCanvas | None = None
         """The canvas of the Deform tab; None while nothing is traced."""
         self._parts: list[Any] = []
-        self.tabs = ipywidgets.Tab(titles=("Trace", "Deform"))
+        self.tabs = ipywidgets.Tab()
         """The two tabs."""
         super().__init__([self.tabs], **kwargs)
         self.add_class("glid-editor")
@@ -198,6 +198,7 @@ class Editor(ipywidgets.VBox):
             deform = ipywidgets.HTML(_EMPTY)
             chosen = _TRACE
         self.tabs.children = (self.tracer, deform)
+        self.tabs.titles = ("Trace", "Deform")
         self.tabs.selected_index = chosen
 
     def _deform_tab(self) -> ipywidgets.Widget:
@@ -205,22 +206,22 @@ class Editor(ipywidgets.VBox):
         assert image is not None
         canvas = DeformCanvas(image, model, *self._size, n_vertices=self._n_vertices)
         toolbar = Toolbar(canvas)
-        monitor = SolverMonitor(model, _SIDE_WIDTH, 330)
+        monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
         poses, panel = PoseList(model), SolverPanel(model)
         files = FilePanel(self.model)
         self.canvas, self.monitor, self.pose_list = canvas, monitor, poses
         self.solver_panel, self.toolbar, self.files = panel, toolbar, files
         self._parts += [toolbar, canvas, monitor, poses, panel, files]
-        more = ipywidgets.Tab(
-            [monitor.image, poses, panel, files], titles=("Monitor", "Poses", "Solver", "Files")
-        )
-        more.layout.width = f"{_SIDE_WIDTH + 34}px"
-        more.layout.flex = "0 0 auto"
+        more = ipywidgets.Tab([monitor.image, panel, files], titles=("Monitor", "Solver", "Files"))
+        more.layout.min_height = f"{_PLOTS_HEIGHT + 64}px"
+        side = ipywidgets.VBox([more, poses])
+        side.layout.width = f"{_SIDE_WIDTH + 34}px"
+        side.layout.flex, side.layout.overflow = "0 0 auto", "visible"
         left = ipywidgets.VBox([toolbar, canvas, monitor.line])
-        left.layout.flex = "0 1 auto"
-        body = ipywidgets.HBox([left, more])
+        left.layout.flex, left.layout.overflow = "0 0 auto", "visible"
+        body = ipywidgets.HBox([left, side])
         body.layout.align_items = "flex-start"
-        body.layout.flex_flow = "row wrap"
+        body.layout.flex_flow, body.layout.overflow = "row wrap", "visible"
         return body
 
     def _take_down(self) -> None:

@@ -99,7 +99,7 @@ class SolverPanel(ipywidgets.VBox):
         grid = ipywidgets.GridBox(
             [item for label, control in rows for item in (ipywidgets.Label(label), control)],
             layout=ipywidgets.Layout(
-                grid_template_columns="110px minmax(0, 1fr)", grid_gap="2px 8px"
+                grid_template_columns="124px minmax(0, 1fr)", grid_gap="2px 8px"
             ),
         )
         buttons = ipywidgets.HBox(

@@ -24,10 +24,10 @@ class Stage(anywidget.AnyWidget):
     _esm = bundle("canvas/main.js")
     _css = stylesheet("canvas/canvas.css")
 
-    width = traitlets.Int(640).tag(sync=True)
+    width = traitlets.Int(600).tag(sync=True)
     """Width in CSS pixels; the page changes it when the corner is dragged."""
 
-    height = traitlets.Int(560).tag(sync=True)
+    height = traitlets.Int(500).tag(sync=True)
     """Height in CSS pixels."""
 
     view = traitlets.List(traitlets.Float(), [0.0, 0.0, 0.04]).tag(sync=True)

@@ -37,7 +37,7 @@ class Toolbar(ipywidgets.HBox):
         self.overlay = ipywidgets.Dropdown(
             options=[(overlay.label, name) for name, overlay in OVERLAYS.items()],
             tooltip="What the shape shows",
-            layout=ipywidgets.Layout(width="150px"),
+            layout=ipywidgets.Layout(width="136px"),
         )
         self.toggles = {
             name: ipywidgets.ToggleButton(

@@ -25,15 +25,15 @@ export class Shapes {
     if (turn !== this.loading) return; // there are newer ones
     this.forget();
     Object.assign(this, { camera, renderer, materials });
-    // When the kernel changes a uniform, pythreejs replaces them all.
+    // When the kernel changes a uniform, pythreejs replaces them all, on the event "change".
     this.onUniforms = () => this.refresh();
-    for (const material of materials) material.on("change:uniforms", this.onUniforms);
+    for (const material of materials) material.on("change", this.onUniforms);
     this.refresh();
     if (this.frame) this.look(this.frame, this.unit);
   }
 
   forget() {
-    for (const material of this.materials) material.off("change:uniforms", this.onUniforms);
+    for (const material of this.materials) material.off("change", this.onUniforms);
     this.materials = [];
   }
 
