@@ -64,8 +64,18 @@ from .session import build_report as build_report
 from .session import load_document as load_document
 from .session import load_pose as load_pose
 from .session import load_scribbles as load_scribbles
+from .session import python_code as python_code
 from .session import save_document as save_document
 from .session import suggest_pose as suggest_pose
+
+# Results for other programs
+from .export import animation_bytes as animation_bytes
+from .export import cage_svg as cage_svg
+from .export import mesh_glb as mesh_glb
+from .export import mesh_obj as mesh_obj
+from .export import page_html as page_html
+from .export import picture_png as picture_png
+from .export import textured_mesh as textured_mesh
 
 # In the notebook
 from .session import TracingModel as TracingModel

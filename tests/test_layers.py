@@ -20,7 +20,7 @@ LAYERS = (
     ("certificate",),
     ("solvers",),
     ("imaging", "compare"),
-    ("samples",),
+    ("samples", "export"),
     ("session",),
     ("widgets",),
     ("cli",),

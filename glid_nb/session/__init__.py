@@ -12,6 +12,7 @@ from glid_nb.session.json_file import InputFileError
 from glid_nb.session.problem import Problem, load_pose
 from glid_nb.session.report import build_report
 from glid_nb.session.scribbles import load_scribbles
+from glid_nb.session.script import python_code
 from glid_nb.session.suggest import suggest_pose
 from glid_nb.session.tracing import TracingModel, TracingProblem
 
@@ -28,6 +29,7 @@ __all__ = [
     "load_document",
     "load_pose",
     "load_scribbles",
+    "python_code",
     "save_document",
     "suggest_pose",
 ]

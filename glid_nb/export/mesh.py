@@ -1,0 +1,125 @@
+"""The deformed shape as a textured triangle mesh: Wavefront OBJ and binary glTF."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import trimesh
+from numpy.typing import ArrayLike, NDArray
+from PIL import Image
+from trimesh.exchange.obj import export_obj
+from trimesh.visual import TextureVisuals
+from trimesh.visual.material import PBRMaterial, SimpleMaterial
+
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging import PixelFrame, as_rgba8
+from glid_nb.imaging.mesh import deformed_mesh
+
+VERTICES = 5000
+"""About how many vertices a mesh gets by default."""
+
+# Height, in world units, of the highest sheet over the lowest where the shape overlaps itself.
+_RELIEF = 0.02
+
+
+@dataclass(frozen=True, eq=False)
+class TexturedMesh:
+    """A deformed shape, ready for a program that draws triangles.
+
+    Attributes
+    ----------
+    positions : (v, 3) array
+        World units, y up. z rises by 0.02 from what is covered to what covers it, so that a viewer
+        with a depth buffer shows the sheets of an overlapping shape in the right order.
+    texture_coordinates : (v, 2) array
+        (u, v) in the picture, (0, 0) at its bottom left corner.
+    triangles : (t, 3) int array
+        Counter-clockwise, the lower ones first.
+    texture : (h, w, 4) uint8 array
+        The picture.
+    """
+
+    positions: NDArray[np.float64]
+    texture_coordinates: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    texture: NDArray[np.uint8]
+
+
+def textured_mesh(
+    image: ArrayLike,
+    map: HarmonicMap,
+    n_vertices: int = VERTICES,
+    tolerance: float | None = None,
+) -> TexturedMesh:
+    """Triangulate a map's domain and give each vertex its image and its place in the picture.
+
+    Parameters
+    ----------
+    image : (h, w, 4), (h, w, 3) or (h, w) array
+        The picture that the map's cage was traced from.
+    map : HarmonicMap
+        The map.
+    n_vertices : int
+        About how many vertices to spread evenly, at least 3.
+    tolerance : float, optional
+        World units: edges that stray further than this from the map are split.
+
+    Raises
+    ------
+    ValueError
+        When an argument is out of range; the message names it.
+    """
+    texture = as_rgba8(image)
+    height, width = texture.shape[:2]
+    mesh = deformed_mesh(map, n_vertices, tolerance)
+    u, v = (PixelFrame(width, height).to_pixel(mesh.vertices) / [width, height]).T
+    span = np.ptp(mesh.heights) or 1.0
+    z = _RELIEF * (mesh.heights - mesh.heights.min()) / span
+    return TexturedMesh(
+        np.column_stack([mesh.images, z]), np.column_stack([u, 1 - v]), mesh.triangles, texture
+    )
+
+
+def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
+    """A mesh as Wavefront OBJ: the files ``name.obj``, ``name.mtl`` and ``name.png``, by name.
+
+    They belong into one folder: the OBJ file names the material file, and that the texture.
+    """
+    material = SimpleMaterial(
+        image=Image.fromarray(mesh.texture),
+        name=name,
+        diffuse=[255, 255, 255, 255],
+        ambient=[255, 255, 255, 255],
+        specular=[0, 0, 0, 255],
+        glossiness=0.0,
+    )
+    text, files = export_obj(
+        _trimesh(mesh, material),
+        include_normals=False,
+        include_texture=True,
+        return_texture=True,
+        mtl_name=f"{name}.mtl",
+        header="glid_nb",
+    )
+    return {f"{name}.obj": text.encode("utf-8"), **files}
+
+
+def mesh_glb(mesh: TexturedMesh) -> bytes:
+    """A mesh as binary glTF 2.0 (.glb), its texture inside."""
+    material = PBRMaterial(
+        baseColorTexture=Image.fromarray(mesh.texture),
+        metallicFactor=0.0,
+        roughnessFactor=1.0,
+        alphaMode="BLEND",
+        doubleSided=True,
+    )
+    data = _trimesh(mesh, material).export(file_type="glb")
+    assert isinstance(data, bytes)
+    return data
+
+
+def _trimesh(mesh: TexturedMesh, material: SimpleMaterial | PBRMaterial) -> trimesh.Trimesh:
+    visual = TextureVisuals(uv=mesh.texture_coordinates, material=material)
+    # process: it would merge vertices and so reorder them.
+    return trimesh.Trimesh(mesh.positions, mesh.triangles, visual=visual, process=False)

@@ -1,0 +1,97 @@
+"""A web page that shows a result: one file, no network, nothing to install."""
+
+from __future__ import annotations
+
+import base64
+import html
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from glid_nb.certificate import Certificate
+from glid_nb.export.picture import png
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging import PixelFrame, as_rgba8
+from glid_nb.imaging.mesh import deformed_mesh
+
+_FOLDER = Path(__file__).parent
+_VERTICES = 4000
+_TOLERANCE = 0.004  # world units; the picture is 20 long
+_MARGIN = 0.04  # of the canvas, as in a rendering with view="fit"
+
+
+def page_html(
+    image: ArrayLike,
+    map: HarmonicMap,
+    certificate: Certificate | None = None,
+    title: str = "Deformed picture",
+    tolerance: float = _TOLERANCE,
+) -> str:
+    """A page that shows the warped picture, to zoom and move, from a file or a server.
+
+    The page holds the triangulated shape and the picture; it evaluates no map. Its security policy
+    forbids it the network.
+
+    Parameters
+    ----------
+    image : (h, w, 4), (h, w, 3) or (h, w) array
+        The picture that the map's cage was traced from.
+    map : HarmonicMap
+        The map.
+    certificate : Certificate, optional
+        Its proof, whose bounds are then stated.
+    title : str
+        The page's title and heading.
+    tolerance : float
+        How far straight edges may stray from the map, world units.
+    """
+    texture = as_rgba8(image)
+    height, width = texture.shape[:2]
+    mesh = deformed_mesh(map, _VERTICES, tolerance)
+    places = PixelFrame(width, height).to_pixel(mesh.vertices) / [width, height]
+    data = {
+        "deformed": _base64(mesh.images.astype("<f4")),
+        "source": _base64(mesh.vertices.astype("<f4")),
+        "texture": _base64(places.astype("<f4")),
+        "triangles": _base64(mesh.triangles.astype("<u4")),
+        "bounds": _bounds(mesh.images),
+        "source_bounds": _bounds(mesh.vertices),
+        "margin": _MARGIN,
+        "picture": "data:image/png;base64," + _base64(png(texture)),
+    }
+    parts = {
+        "title": html.escape(title),
+        "caption": html.escape(_caption(certificate)),
+        "style": _read("page.css"),
+        "script": _read("page.js"),
+        "data": json.dumps(data, allow_nan=False),
+    }
+    # In one pass: what is put in is not searched again.
+    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _read("page.html"))
+
+
+def _caption(certificate: Certificate | None) -> str:
+    if certificate is None or not certificate.certified:
+        return ""
+    return (
+        "Proved not to fold anywhere: "
+        f"σ₂ ≥ {certificate.sigma2_lower:.3g}, σ₁ ≤ {certificate.sigma1_upper:.3g}, "
+        f"k ≤ {certificate.k_upper:.3g}"
+    )
+
+
+def _bounds(points: NDArray[np.float64]) -> list[float]:
+    return [*points.min(axis=0).tolist(), *points.max(axis=0).tolist()]
+
+
+def _base64(data: NDArray[Any] | bytes) -> str:
+    raw = data if isinstance(data, bytes) else data.tobytes()
+    return base64.b64encode(raw).decode("ascii")
+
+
+def _read(name: str) -> str:
+    return (_FOLDER / name).read_text(encoding="utf-8")

@@ -1,0 +1,95 @@
+"""Animations, read back frame by frame."""
+
+from __future__ import annotations
+
+import io
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image, ImageSequence
+
+from glid_nb.export import animation_bytes
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.solvers import Pose
+
+from .shapes import bent, domain, picture, pose
+
+
+def drag(count: int = 4) -> tuple[list[HarmonicMap], list[Pose]]:
+    start, end = HarmonicMap.identity(domain()), bent()
+    maps = [
+        HarmonicMap(domain(), start.phi + t * (end.phi - start.phi), start.psi)
+        for t in np.linspace(0, 1, count)
+    ]
+    handles = pose().handles
+    return maps, [Pose(handles, m(handles)) for m in maps]
+
+
+def frames(data: bytes) -> tuple[Image.Image, list[np.ndarray]]:
+    read = Image.open(io.BytesIO(data))
+    return read, [np.asarray(f.convert("RGB")).astype(int) for f in ImageSequence.Iterator(read)]
+
+
+@pytest.mark.parametrize(("format", "name"), [("gif", "GIF"), ("apng", "PNG")])
+def test_every_map_is_a_frame(format: Any, name: str) -> None:
+    maps, poses = drag()
+    data = animation_bytes(
+        picture(), maps, poses, size=120, format=format, frames_per_second=10, background=(0, 0, 0)
+    )
+    read, shown = frames(data)
+    assert read.format == name
+    assert read.info["duration"] == 100
+    assert read.info["loop"] == 0
+    assert len(shown) == 4
+    assert max(shown[0].shape) in (120, 121)
+    assert all((f[0, 0] < 8).all() for f in shown)
+    changes = [np.abs(a - b).mean() for a, b in pairwise(shown)]
+    assert min(changes) > 1
+    assert np.abs(shown[0] - shown[-1]).mean() > max(changes)
+
+
+def test_all_frames_show_the_same_part_of_the_plane() -> None:
+    """A map that does not change gives frames that do not, though others widen the view."""
+    maps, _ = drag(2)
+    _, shown = frames(animation_bytes(picture(), [maps[0], maps[1], maps[0]], format="apng"))
+    np.testing.assert_array_equal(shown[0], shown[2])
+
+
+def test_there_and_back_has_no_jump() -> None:
+    maps, _ = drag(4)
+    data = animation_bytes(picture(), maps, size=60, there_and_back=True, format="apng")
+    _, shown = frames(data)
+    assert len(shown) == 6
+    np.testing.assert_array_equal(shown[1], shown[5])
+    np.testing.assert_array_equal(shown[2], shown[4])
+
+
+def test_the_marks_are_drawn() -> None:
+    maps, (there,) = drag(1)
+    poses = [there.with_targets(there.targets + np.array([0.0, 1.5]))]
+    _, (plain,) = frames(animation_bytes(picture(), maps, size=300, format="apng"))
+    _, (marked,) = frames(animation_bytes(picture(), maps, poses, size=300, format="apng"))
+    cyan = np.abs(marked - [0, 213, 224]).max(axis=2) < 30
+    assert (cyan & (np.abs(plain - [0, 213, 224]).max(axis=2) > 60)).sum() > 40
+    dark = marked.max(axis=2) < 70
+    assert (dark & (plain.max(axis=2) > 90)).sum() > 10
+
+
+@pytest.mark.parametrize(
+    ("changes", "culprit"),
+    [
+        ({"maps": []}, "maps is empty"),
+        ({"poses": []}, "4 maps but 0 poses"),
+        ({"size": 3}, "size"),
+        ({"frames_per_second": 0}, "frames_per_second"),
+        ({"frames_per_second": float("nan")}, "frames_per_second"),
+        ({"background": (0, 0, 256)}, "background"),
+        ({"format": "mp4"}, "format 'mp4'"),
+    ],
+)
+def test_wrong_arguments_are_named(changes: dict[str, Any], culprit: str) -> None:
+    arguments = {"maps": drag()[0], **changes}
+    with pytest.raises(ValueError, match=culprit):
+        animation_bytes(picture(), **arguments)

@@ -1,0 +1,130 @@
+"""Copy as Python: the lines are run, and their map is compared."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from glid_nb.energies import AMIPS, CustomEnergy, SymmetricDirichlet
+from glid_nb.geometry import Domain
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.session.document import Document, DocumentError, NamedPose
+from glid_nb.session.script import python_code
+from glid_nb.session.tracing import TracingModel
+from glid_nb.solvers import Options, Pose, solve
+
+from .test_tracing import DRAWING, far_vertex
+
+HANDLES = [[-6.0, 0.0], [1.5, 0.0], [-1.0, 4.5]]
+TARGETS = [[-6.5, 1.0], [1.5, 0.0], [-1.0, 5.2]]
+
+
+def run(code: str) -> dict[str, Any]:
+    scope: dict[str, Any] = {}
+    exec(compile(code, "<copied>", "exec"), scope)
+    return scope
+
+
+def document_of(model: TracingModel, **changes: Any) -> Document:
+    assert model.domain is not None
+    assert model.image is not None
+    pose = Pose(HANDLES, TARGETS)
+    energy, options = changes.pop("energy", SymmetricDirichlet()), changes.pop("options", Options())
+    domain = changes.pop("domain", model.domain)
+    map = changes.pop("map", None) or solve(domain, pose, energy, options).map
+    named = NamedPose("wave", pose, energy, options, map)
+    return Document(model.image, domain.cage, domain, model.options, model.scribbles, (named,), 0)
+
+
+@pytest.fixture(scope="module")
+def model() -> TracingModel:
+    return TracingModel(DRAWING)
+
+
+@pytest.fixture(scope="module")
+def solved(model: TracingModel) -> Document:
+    return document_of(model)
+
+
+@pytest.fixture
+def picture(tmp_path: Path) -> str:
+    path = tmp_path / "it's a picture.png"
+    Image.fromarray(DRAWING).save(path)
+    return str(path)
+
+
+@pytest.mark.slow
+def test_the_lines_make_the_same_map(solved: Document, picture: str) -> None:
+    code = python_code(solved, picture)
+    assert len(code.splitlines()) <= 12
+    assert "glid.trace(image)" in code
+    scope = run(code)
+    pose = solved.active_pose
+    assert pose is not None
+    assert scope["map"].distance(pose.map) < 1e-6
+    assert scope["result"].certificate.certified
+
+
+@pytest.mark.slow
+def test_options_energy_and_edits_are_written() -> None:
+    edited = TracingModel(DRAWING)
+    edited.move_vertex(0, far_vertex(edited), (5.0, 61.0))
+    document = document_of(
+        edited, energy=AMIPS(0.3), options=Options(p2p_weight=2e4, iterations_per_call=2)
+    )
+    code = python_code(document, "nowhere.png")
+    assert "read_image" not in code  # the cage is not what tracing gives
+    assert "glid.AMIPS(s=0.3), glid.Options(p2p_weight=20000.0, iterations_per_call=2)" in code
+    scope = run(code)
+    np.testing.assert_array_equal(scope["cage"].exterior, document.cage.exterior)
+    pose = document.active_pose
+    assert pose is not None
+    assert scope["map"].distance(pose.map) < 1e-6
+
+
+def test_exact_lines_need_no_solve(model: TracingModel, picture: str) -> None:
+    assert model.domain is not None
+    document = document_of(model, map=HarmonicMap.identity(model.domain))
+    scope = run(python_code(document, picture, exact=True))
+    pose = document.active_pose
+    assert pose is not None
+    assert scope["map"].phi.tobytes() == pose.map.phi.tobytes()
+    assert scope["map"].psi.tobytes() == pose.map.psi.tobytes()
+
+
+def test_trace_options_are_written(picture: str) -> None:
+    other = TracingModel(DRAWING)
+    other.set_options(offset=2.5, max_edge=float("inf"))
+    other.toggle_hole(1)
+    assert other.domain is not None
+    document = document_of(other, map=HarmonicMap.identity(other.domain))
+    code = python_code(document, picture, exact=True)
+    assert "offset=2.5" in code
+    assert "max_edge=float('inf')" in code
+    np.testing.assert_array_equal(run(code)["cage"].exterior, document.cage.exterior)
+
+
+def test_an_offset_cage_of_ones_own_is_written(model: TracingModel, picture: str) -> None:
+    assert model.cage is not None
+    domain = Domain.from_cage(model.cage, 0.3)
+    document = document_of(model, domain=domain, map=HarmonicMap.identity(domain))
+    made = run(python_code(document, picture, exact=True))["domain"]
+    np.testing.assert_array_equal(made.offset_cage.exterior, domain.offset_cage.exterior)
+    np.testing.assert_array_equal(made.hole_points, domain.hole_points)
+
+
+def test_what_cannot_be_written_is_refused(model: TracingModel) -> None:
+    assert model.domain is not None
+    document = document_of(model, map=HarmonicMap.identity(model.domain))
+    with pytest.raises(DocumentError, match="no pose yet"):
+        python_code(replace(document, poses=()))
+    pose = document.active_pose
+    assert pose is not None
+    custom = CustomEnergy(lambda x, y: (x + y) * (1 + 1 / (x - y) ** 2))
+    with pytest.raises(DocumentError, match=r"'wave'.*Python function"):
+        python_code(replace(document, poses=(replace(pose, energy=custom),)))
