@@ -12,6 +12,7 @@ from glid_nb._runtime import enable_compilation_cache
 from glid_nb.certificate import Certificate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import ImageSource
+from glid_nb.imaging.render import View
 from glid_nb.session import Document, load_document
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditedPose
@@ -20,6 +21,7 @@ from glid_nb.session.status_line import StatusLine
 from glid_nb.solvers import Pose
 from glid_nb.widgets import cells
 from glid_nb.widgets.canvas import DeformCanvas
+from glid_nb.widgets.exporting import export
 from glid_nb.widgets.file_panel import FilePanel
 from glid_nb.widgets.monitor import SolverMonitor
 from glid_nb.widgets.pose_list import PoseList
@@ -37,7 +39,7 @@ class Editor(ipywidgets.VBox):
     """Trace a picture, pin points of it, drag them: it follows and never folds over.
 
     The Trace tab finds the cage, the Deform tab moves it. Everything can also be done from code, by
-    the same path: `trace`, `add_handle`, `drag`, `solve`, `save`, `load`.
+    the same path: `trace`, `add_handle`, `drag`, `solve`, `save`, `load`, `export`.
 
     Parameters
     ----------
@@ -167,6 +169,21 @@ class Editor(ipywidgets.VBox):
     def solve(self, timeout: float | None = None) -> bool:
         """Wait until the shape has come to rest; whether it did within ``timeout`` seconds."""
         return self.deformation.solve(timeout)
+
+    def export(
+        self, path: str | Path, size: tuple[int, int] | None = None, view: View = "source"
+    ) -> tuple[Path, ...]:
+        """Write what is shown for other programs; the suffix says how.
+
+        ``.png``, ``.obj``, ``.glb``, ``.svg``, ``.html`` or ``.py``; ``size`` and ``view`` are a
+        picture's, as in `glid_nb.render`. Returns the files that were written.
+
+        Raises
+        ------
+        ExportError
+            For another suffix.
+        """
+        return export(self.model, path, size, view)
 
     def save(self, path: str | Path) -> None:
         """Write a session file."""

@@ -10,12 +10,14 @@ from typing import Any
 import ipywidgets
 
 from glid_nb.session.editor_model import EditorModel
+from glid_nb.session.script import python_code
+from glid_nb.widgets.exporting import FORMATS, export
 
 _WIDE = ipywidgets.Layout(width="auto", flex="1 1 auto")
 
 
 class FilePanel(ipywidgets.VBox):
-    """Files of an editor: sessions to open and save.
+    """Files of an editor: sessions to open and save, and exports.
 
     Parameters
     ----------
@@ -31,10 +33,29 @@ class FilePanel(ipywidgets.VBox):
         self.open_button = _button("Open", "folder-open", "Go on with the session file", self._open)
         self.message = ipywidgets.HTML()
         """What was done, or why it was not."""
-        session = ipywidgets.HBox(
-            [ipywidgets.Label("Session"), self.path, self.save_button, self.open_button]
+        self.format = ipywidgets.Dropdown(
+            options=[(label, suffix) for suffix, label in FORMATS.items()],
+            tooltip="What to export",
+            layout=_WIDE,
         )
-        super().__init__([session, self.message], **kwargs)
+        self.export_button = _button(
+            "Export", "download", "Write it beside the session", self._export
+        )
+        self.code_button = _button(
+            "Copy as Python", "code", "The lines that make this map", self._code
+        )
+        self.code = ipywidgets.Textarea(
+            rows=9, layout=ipywidgets.Layout(width="auto", display="none")
+        )
+        """The lines of "Copy as Python", to be selected and copied."""
+        rows = [
+            [ipywidgets.Label("Session"), self.path, self.save_button, self.open_button],
+            [ipywidgets.Label("Export"), self.format, self.export_button],
+            [self.code_button],
+        ]
+        for row in rows[:2]:
+            row[0].layout.width = "58px"
+        super().__init__([*map(ipywidgets.HBox, rows), self.code, self.message], **kwargs)
         self.add_class("glid-files")
 
     def _save(self) -> str:
@@ -46,6 +67,16 @@ class FilePanel(ipywidgets.VBox):
         path = Path(self.path.value)
         self.model.load(path)
         return f"Opened {path.resolve()}"
+
+    def _export(self) -> str:
+        path = Path(self.path.value).with_suffix(self.format.value)
+        files = export(self.model, path)
+        return "Wrote " + ", ".join(str(file.resolve()) for file in files)
+
+    def _code(self) -> str:
+        self.code.value = python_code(self.model.document)
+        self.code.layout.display = "flex"
+        return "Select the lines and copy them."
 
     def _act(self, action: Callable[[], str]) -> None:
         try:

@@ -9,21 +9,21 @@ import pythreejs as three
 from numpy.typing import NDArray
 from PIL import Image
 
-LARGEST_SIDE = 2048
-"""Pixels of a texture's side at most; every graphics card can hold it."""
+LARGEST_SIDE = 1600
+"""Pixels of a texture's side at most: more than a canvas has, and little enough to send."""
 
 
 def picture_texture(image: NDArray[np.uint8]) -> Any:
-    """A texture of a picture (h, w, 4), premultiplied by alpha.
-
-    Its sides are powers of two, which WebGL 1 asks for where a texture is to look well when it is
-    seen small.
-    """
-    width, height = (min(_power_of_two(n), LARGEST_SIDE) for n in (image.shape[1], image.shape[0]))
-    premultiplied = Image.fromarray(image).convert("RGBa")
-    resized = premultiplied.resize((width, height), Image.Resampling.BICUBIC)
+    """A texture of a picture (h, w, 4), premultiplied by alpha."""
+    height, width = image.shape[:2]
+    scale = min(1.0, LARGEST_SIDE / max(height, width))
+    picture = Image.fromarray(image).convert("RGBa")
+    if scale < 1:
+        size = (max(1, round(scale * width)), max(1, round(scale * height)))
+        picture = picture.resize(size, Image.Resampling.LANCZOS)
     # The bytes are those of RGBa; a DataTexture begins at the bottom.
-    pixels = np.frombuffer(resized.tobytes(), dtype=np.uint8).reshape(height, width, 4)
+    pixels = np.frombuffer(picture.tobytes(), dtype=np.uint8)
+    pixels = pixels.reshape(picture.height, picture.width, 4)
     return three.DataTexture(
         data=np.ascontiguousarray(pixels[::-1]),
         format="RGBAFormat",
@@ -33,7 +33,3 @@ def picture_texture(image: NDArray[np.uint8]) -> Any:
         generateMipmaps=True,
         anisotropy=4,
     )
-
-
-def _power_of_two(n: int) -> int:
-    return 1 << max(n - 1, 1).bit_length()
