@@ -72,7 +72,6 @@ class Hand:
         self.book, self.page = book, book.page
         self.pad = self.page.locator(".glid-pad").nth(pad)
         self.pad.wait_for()
-        self.pad.scroll_into_view_if_needed()
         self.settle()
 
     def settle(self) -> None:
@@ -81,23 +80,27 @@ class Hand:
 
     def place(self, point: Sequence[float]) -> tuple[float, float]:
         """Where a point is in the page."""
+        return self.places([point])[0]
+
+    def places(self, points: Sequence[Sequence[float]]) -> list[tuple[float, float]]:
+        """Where points are in the page, which is scrolled to show the pad."""
+        self.pad.scroll_into_view_if_needed()
         box = self.pad.bounding_box()
         assert box is not None
         (cx, cy, unit), width, height = self.book.value(
             "[canvas.pane.stage.view, canvas.pane.stage.width, canvas.pane.stage.height]"
         )
-        x, y = point
-        return (
-            box["x"] + (x - cx) / unit + width / 2,
-            box["y"] + (cy - y) / unit + height / 2,
-        )
+        return [
+            (box["x"] + (x - cx) / unit + width / 2, box["y"] + (cy - y) / unit + height / 2)
+            for x, y in points
+        ]
 
     def click(self, point: Sequence[float], **options: Any) -> None:
         self.page.mouse.click(*self.place(point), **options)
 
     def drag(self, points: Sequence[Sequence[float]], pause: float = 1000 / 60) -> None:
         """Press at the first point, move along the others, let go at the last."""
-        places = [self.place(point) for point in points]
+        places = self.places(points)
         self.page.mouse.move(*places[0])
         self.page.mouse.down()
         for place in places[1:]:

@@ -27,7 +27,11 @@ export class Input {
     this.on("lostpointercapture", (e) => this.up(e, "cancel"));
     this.on("pointerleave", () => this.hover(-1));
     this.on("wheel", (e) => this.wheel(e), { passive: false });
-    this.on("contextmenu", (e) => e.preventDefault());
+    // The right button removes a handle; neither the browser's nor JupyterLab's menu may open.
+    this.on("contextmenu", (e) => {
+      e.preventDefault();
+      e.stopPropagation();
+    });
     this.on("keydown", (e) => this.keydown(e));
     this.on("keyup", (e) => { if (e.key === " ") this.space = false; this.cursorShape(); });
     this.on("focus", () => this.focus(true));
