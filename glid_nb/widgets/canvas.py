@@ -72,6 +72,9 @@ class DeformCanvas(ipywidgets.HBox):
     show_source = traitlets.Bool(False)
     """Whether the undeformed shape with the handles is drawn beside the result."""
 
+    # ipywidgets closes also what was refused while it was made.
+    _complete = False
+
     def __init__(
         self,
         image: ImageSource,
@@ -117,6 +120,7 @@ class DeformCanvas(ipywidgets.HBox):
         self.observe(self._show_source, ["show_source"])
         self._draw()
         self.fit()
+        self._complete = True
         # Overlays that were given as arguments.
         self._show_overlay()
         self._show_lines()
@@ -129,6 +133,8 @@ class DeformCanvas(ipywidgets.HBox):
 
     def close(self) -> None:
         """Remove the canvas from the page and free its renderers; a model of its own ends too."""
+        if not self._complete:
+            return
         self._stop()
         for pane in (self.pane, self.source):
             if pane is not None:

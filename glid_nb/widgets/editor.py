@@ -74,6 +74,9 @@ class Editor(ipywidgets.VBox):
     >>> editor.close()
     """
 
+    # ipywidgets closes also what was refused while it was made.
+    _complete = False
+
     def __init__(
         self,
         image: ImageSource | None = None,
@@ -108,6 +111,7 @@ class Editor(ipywidgets.VBox):
         self._build()
         self.model.on_replaced(self._build)
         self.tabs.observe(self._on_tab, ["selected_index"])
+        self._complete = True
         cells.register(self)
 
     # From code
@@ -195,6 +199,8 @@ class Editor(ipywidgets.VBox):
 
     def close(self) -> None:
         """Take the editor from the page, end its threads and free its renderers."""
+        if not self._complete:
+            return
         self._take_down()
         self.model.close()
         self.tabs.close()
