@@ -93,7 +93,8 @@ class DeformCanvas(ipywidgets.HBox):
             Deformation(deformation) if isinstance(deformation, Domain) else deformation
         )
         """The model that this is a view of."""
-        self._n_vertices, self._evaluated_in = n_vertices, evaluated_in
+        self._n_vertices = n_vertices
+        self._evaluated_in: EvaluatedIn | None = evaluated_in
         self.pane = self._pane((width, height), interactive=True)
         self.source: Pane | None = None
         self.gestures = Gestures(self.deformation, self.fit)
@@ -202,7 +203,7 @@ class DeformCanvas(ipywidgets.HBox):
             raise
         else:
             stage.notice = notice
-            stage.cursor = self.gestures.cursor
+            stage.set_trait("cursor", self.gestures.cursor)
         finally:
             with self._waiting_lock:
                 self._waiting[message["view"]] = events[-1]["seq"]

@@ -69,7 +69,7 @@ class FilePanel(ipywidgets.VBox):
         return f"Opened {path.resolve()}"
 
     def _export(self) -> str:
-        path = Path(self.path.value).with_suffix(self.format.value)
+        path = Path(self.path.value).with_suffix(str(self.format.value))
         files = export(self.model, path)
         return "Wrote " + ", ".join(str(file.resolve()) for file in files)
 

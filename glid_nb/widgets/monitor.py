@@ -145,7 +145,7 @@ def _live_certificate(frame: Frame) -> Certificate:
     """What the solver has proved of a frame, as the plots take it."""
     panels = frame.panels
     unknown = np.full(len(panels), np.nan)
-    start, end = (np.stack([z.real, z.imag], axis=1) for z in (panels.start, panels.end))
+    start, end = (np.stack([np.real(z), np.imag(z)], axis=1) for z in (panels.start, panels.end))
     proof = PanelCertificate(
         start, end, panels.loop, panels.depth, frame.sigma2_lower, unknown, unknown
     )

@@ -34,7 +34,7 @@ class Pane(ipywidgets.GridBox):
         evaluated_in: EvaluatedIn | None,
     ) -> None:
         self._image, self._energy, self._n_vertices = image, energy, n_vertices
-        self._evaluated_in = evaluated_in
+        self._evaluated_in: EvaluatedIn | None = evaluated_in
         self._overlay, self._lines = "texture", (False, False)
         self._scene = self._new_scene(map)
         self._renderer, camera = renderer(self._scene, *size)

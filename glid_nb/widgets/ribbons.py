@@ -43,7 +43,7 @@ def ribbon(start: Array, end: Array) -> Ribbon:
     corner = 4 * np.arange(count)[:, None, None]
     triangles = corner + np.array([[0, 1, 2], [2, 1, 3]])
     return Ribbon(
-        np.stack([points.real, points.imag], axis=1),
+        np.stack([np.real(points), np.imag(points)], axis=1),
         np.stack([along.real, along.imag, side], axis=1).astype(np.float32),
         triangles.reshape(-1, 3).astype(np.uint32),
     )

@@ -135,7 +135,7 @@ class Layer:
 
     def _evaluated(self, map: HarmonicMap) -> tuple[Array, Array]:
         fz, fzb = map.wirtinger(self._points)
-        derivatives = np.stack([fz.real, fz.imag, fzb.real, -fzb.imag], axis=1)
+        derivatives = np.stack([np.real(fz), np.imag(fz), np.real(fzb), -np.imag(fzb)], axis=1)
         return map(self._points).astype(np.float32), derivatives.astype(np.float32)
 
 
@@ -246,8 +246,16 @@ class Scene:
             layer.close()
         self._texture.close()
 
-    def _layer(self, *arguments: Any) -> Layer:
-        return Layer(*arguments, self.shader_map, self.map, self.evaluated_in)
+    def _layer(
+        self,
+        points: Array,
+        triangles: Array,
+        attributes: dict[str, Any],
+        shaders: tuple[str, str],
+        uniforms: dict[str, dict[str, Any]],
+    ) -> Layer:
+        domain = (self.shader_map, self.map, self.evaluated_in)
+        return Layer(points, triangles, attributes, shaders, uniforms, *domain)
 
     def _line(
         self,

@@ -164,7 +164,7 @@ class SolverPanel(ipywidgets.VBox):
             self._here.showing = False
 
     def _set_energy(self, _: Any) -> None:
-        name, s = self.energy.value, self.s.value
+        name, s = str(self.energy.value), self.s.value
         if not self._showing and name != "custom":
             self._act(lambda: self.deformation.set_energy(energy_by_name(name, s)))
 
