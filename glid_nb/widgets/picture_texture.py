@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -9,21 +10,20 @@ import pythreejs as three
 from numpy.typing import NDArray
 from PIL import Image
 
-LARGEST_SIDE = 1600
-"""Pixels of a texture's side at most: more than a canvas has, and little enough to send."""
+LARGEST_SIDE = 2048
+"""Pixels of a texture's side at most; every graphics card can hold it."""
 
 
 def picture_texture(image: NDArray[np.uint8]) -> Any:
-    """A texture of a picture (h, w, 4), premultiplied by alpha."""
-    height, width = image.shape[:2]
-    scale = min(1.0, LARGEST_SIDE / max(height, width))
-    picture = Image.fromarray(image).convert("RGBa")
-    if scale < 1:
-        size = (max(1, round(scale * width)), max(1, round(scale * height)))
-        picture = picture.resize(size, Image.Resampling.LANCZOS)
+    """A texture of a picture (h, w, 4), premultiplied by alpha.
+
+    Its sides are powers of two, the nearest ones: three.js asks for that where a texture is to look
+    well when it is seen small.
+    """
+    size = (_nearest_power_of_two(image.shape[1]), _nearest_power_of_two(image.shape[0]))
+    picture = Image.fromarray(image).convert("RGBa").resize(size, Image.Resampling.BICUBIC)
     # The bytes are those of RGBa; a DataTexture begins at the bottom.
-    pixels = np.frombuffer(picture.tobytes(), dtype=np.uint8)
-    pixels = pixels.reshape(picture.height, picture.width, 4)
+    pixels = np.frombuffer(picture.tobytes(), dtype=np.uint8).reshape(size[1], size[0], 4)
     return three.DataTexture(
         data=np.ascontiguousarray(pixels[::-1]),
         format="RGBAFormat",
@@ -33,3 +33,7 @@ def picture_texture(image: NDArray[np.uint8]) -> Any:
         generateMipmaps=True,
         anisotropy=4,
     )
+
+
+def _nearest_power_of_two(n: int) -> int:
+    return min(1 << round(math.log2(n)), LARGEST_SIDE)

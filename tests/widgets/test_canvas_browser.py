@@ -169,7 +169,7 @@ def test_touch_drags_and_pinches(open_notebook: OpenNotebook) -> None:
     book.wait_for("len(model.pose) == 2")
     hand.settle()
     # Without pausing at the start, which would be a long press.
-    first, *others = hand.places(line(THREE[1], [6.5, 2.0], 12))
+    first, *others = hand.places(line(THREE[1], [6.5, 2.0], 4))
     touch("touchStart", first)
     for place in others:
         touch("touchMove", place)

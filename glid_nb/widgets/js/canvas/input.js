@@ -5,7 +5,7 @@ import { markAt } from "./marks.js";
 
 const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
 const WHEEL_SPEED = 0.0015, WHEEL_LINE = 33;
-const LONG_PRESS = 600, LONG_PRESS_SLACK = 8; // ms, CSS pixels
+const LONG_PRESS = 600, LONG_PRESS_GRACE = 100, LONG_PRESS_SLACK = 8; // ms, ms, CSS pixels
 
 // Keys that the kernel acts on; the others go on to the notebook.
 const KEYS = new Set([
@@ -82,14 +82,19 @@ export class Input {
     this.grip = e.button === 0 && !e.shiftKey && mark >= 0 ? this.gripAt(mark, place) : null;
     this.send("down", e, place);
     if (e.pointerType === "touch" && mark >= 0) {
-      this.longPress = setTimeout(() => {
-        this.letGo();
-        this.mode = null;
-        this.send("cancel", e, place);
-        this.link.put({ type: "remove", x: 0, y: 0, id: e.pointerId, handle: mark });
-      }, LONG_PRESS);
+      this.longPress = setTimeout(() => this.pressedLong(e, place, mark), LONG_PRESS);
     }
     this.cursorShape();
+  }
+
+  pressedLong(e, place, mark) {
+    // A busy page may have moves waiting that were made in time; they cancel this.
+    this.longPress = setTimeout(() => {
+      this.letGo();
+      this.mode = null;
+      this.send("cancel", e, place);
+      this.link.put({ type: "remove", x: 0, y: 0, id: e.pointerId, handle: mark });
+    }, LONG_PRESS_GRACE);
   }
 
   // Which targets go with the hand, so that they can be drawn before the kernel answers.
