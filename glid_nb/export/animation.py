@@ -82,7 +82,7 @@ def animation_bytes(
         pictures.append(picture)
     if there_and_back:
         pictures += pictures[-2:0:-1]
-    return _encoded(pictures, 1000.0 / frames_per_second, format)
+    return _encoded(pictures, 1000.0 / frames_per_second, background, format)
 
 
 def _check(
@@ -162,12 +162,17 @@ def _with_marks(
     return Image.alpha_composite(picture.convert("RGBA"), small).convert("RGB")
 
 
-def _encoded(pictures: list[Image.Image], milliseconds: float, format: Format) -> bytes:
+def _encoded(
+    pictures: list[Image.Image],
+    milliseconds: float,
+    background: tuple[int, int, int],
+    format: Format,
+) -> bytes:
     buffer = io.BytesIO()
     first, *rest = pictures
     if format == "gif":
         # One palette for all frames, or flat areas flicker.
-        palette = _palette(pictures)
+        palette = _palette(pictures, background)
         first, *rest = (
             p.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG) for p in pictures
         )
@@ -192,11 +197,17 @@ def _encoded(pictures: list[Image.Image], milliseconds: float, format: Format) -
     return buffer.getvalue()
 
 
-def _palette(pictures: list[Image.Image]) -> Image.Image:
-    """A picture whose palette suits all frames, from at most eight of them."""
+def _palette(pictures: list[Image.Image], background: tuple[int, int, int]) -> Image.Image:
+    """A picture whose palette suits all frames, from at most eight of them.
+
+    It holds the background itself, which would else be an average and show a texture.
+    """
     chosen = pictures[:: max(1, math.ceil(len(pictures) / 8))]
     width, height = pictures[0].size
     montage = Image.new("RGB", (width, height * len(chosen)))
     for i, picture in enumerate(chosen):
         montage.paste(picture, (0, i * height))
-    return montage.quantize(255, method=Image.Quantize.MEDIANCUT)
+    colors = montage.quantize(255, method=Image.Quantize.MEDIANCUT).getpalette() or []
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([*colors[: 3 * 255], *background])
+    return palette

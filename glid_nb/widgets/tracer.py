@@ -16,6 +16,7 @@ from glid_nb.imaging import TraceError, TraceOptions, Tracing
 from glid_nb.imaging.read import ImageSource
 from glid_nb.session import TracingModel
 from glid_nb.widgets.bundle import bundle, stylesheet
+from glid_nb.widgets.subshells import answer_during_cells
 from glid_nb.widgets.tracer_view import described, displayed
 
 _LARGEST_UPLOAD = 64 << 20
@@ -83,6 +84,7 @@ class CageTracer(anywidget.AnyWidget):
         self._pushed_image: NDArray[np.uint8] | None = None
         self._upload = _Upload()
         super().__init__(height=height, **kwargs)
+        answer_during_cells(self)
         self._push()
         self._stop = self.tracing_model.on_change(self._push)
         self.on_msg(self._receive)

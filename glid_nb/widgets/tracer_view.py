@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import io
 import math
 from typing import Any
@@ -66,7 +67,7 @@ def displayed(image: NDArray[np.uint8] | None) -> bytes:
     scale = _LONGEST_SIDE / max(picture.size)
     if scale < 1:
         size = (max(1, round(picture.width * scale)), max(1, round(picture.height * scale)))
-        picture = picture.resize(size, Image.Resampling.LANCZOS)
+        picture = picture.resize(size, Image.Resampling.LANCZOS, reducing_gap=2.0)
     buffer = io.BytesIO()
     if image[..., 3].min() == 255:
         picture.convert("RGB").save(buffer, format="JPEG", quality=92)
@@ -83,6 +84,7 @@ def _options(options: TraceOptions) -> dict[str, Any]:
     return values
 
 
+@functools.lru_cache(maxsize=256)  # by identity; most changes leave the holes as they are
 def _hole(hole: Hole) -> dict[str, Any]:
     ring = shapely.LinearRing(hole.loop)
     loop = shapely.get_coordinates(ring.simplify(0.5))[:-1]

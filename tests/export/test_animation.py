@@ -57,6 +57,12 @@ def test_all_frames_show_the_same_part_of_the_plane() -> None:
     np.testing.assert_array_equal(shown[0], shown[2])
 
 
+def test_a_gif_keeps_the_background_as_it_is() -> None:
+    _, (shown,) = frames(animation_bytes(picture(), drag(1)[0], size=120, background=(250, 240, 9)))
+    corner = shown[:8, :8].reshape(-1, 3)
+    np.testing.assert_array_equal(corner, np.broadcast_to([250, 240, 9], corner.shape))
+
+
 def test_there_and_back_has_no_jump() -> None:
     maps, _ = drag(4)
     data = animation_bytes(picture(), maps, size=60, there_and_back=True, format="apng")

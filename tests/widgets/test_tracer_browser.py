@@ -112,6 +112,7 @@ def test_tracing_by_the_controls(open_notebook: OpenNotebook) -> None:
     assert book.value("[h.kept for h in tracer.tracing.holes][:4]") == [False, True, True, False]
     hand.settle()
     assert "6 holes" in hand.status
+    hand.root.locator(".glid-hint", has_text="Click to keep this hole").wait_for()
     book.screenshot("tracer-holes", hand.root)
     hand.button("Undo").click()
     book.wait_for("tracer.cage.n_holes == 7")
@@ -124,12 +125,22 @@ def test_tracing_by_the_controls(open_notebook: OpenNotebook) -> None:
     samples = Path(__file__).parents[2] / "glid_nb" / "samples" / "pictures"
     chooser.value.set_files(samples / "teapot.png")
     book.wait_for("tracer.image.shape == (1400, 1600, 4) and tracer.cage.n_holes == 1")
-    chooser_file = Path(__file__)
     with hand.page.expect_file_chooser() as chooser:
         hand.button("Open a picture").click()
-    chooser.value.set_files(chooser_file)
+    chooser.value.set_files(Path(__file__))
     hand.root.locator(".glid-status", has_text="no picture in a format").wait_for()
     assert book.value("tracer.cage.n_holes") == 1
+    hand.page.evaluate(DROP, [hand.stage.element_handle(), [*(samples / "bar.png").read_bytes()]])
+    book.wait_for("tracer.cage.n_holes == 0 and tracer.image.shape[0] < 1400")
+
+
+DROP = """([stage, bytes]) => {
+  const dataTransfer = new DataTransfer();
+  dataTransfer.items.add(new File([new Uint8Array(bytes)], "bar.png", {type: "image/png"}));
+  for (const name of ["dragenter", "dragover", "drop"]) {
+    stage.dispatchEvent(new DragEvent(name, {dataTransfer, bubbles: true, cancelable: true}));
+  }
+}"""
 
 
 def test_vertices_by_hand(open_notebook: OpenNotebook) -> None:
@@ -255,6 +266,28 @@ def test_scribbles_themes_and_a_reload(open_notebook: OpenNotebook) -> None:
     )
     hand.button("Undo").click()
     book.wait_for("len(tracer.options.scribbles.background) == 0")
+
+
+def test_it_answers_while_another_cell_runs(open_notebook: OpenNotebook) -> None:
+    hand = tracer_of(open_notebook, "frog")
+    # Code that waits for an event which only a change by hand sets.
+    hand.page.evaluate(
+        """() => {
+          const kernel = jupyterapp.shell.currentWidget.sessionContext.session.kernel;
+          window.running = kernel.requestExecute({code: `
+import threading
+changed = threading.Event()
+stop = tracer.on_change(changed.set)
+in_time = changed.wait(60)
+stop()`}).done;
+        }"""
+    )
+    hand.page.wait_for_function(
+        "() => jupyterapp.shell.currentWidget.sessionContext.session.kernel.status === 'busy'"
+    )
+    hand.root.get_by_role("radio", name="Brightness").click()
+    hand.page.evaluate("() => window.running")
+    assert hand.book.value("[in_time, tracer.options.method]") == [True, "threshold"]
 
 
 def test_two_views_and_code_agree(open_notebook: OpenNotebook) -> None:

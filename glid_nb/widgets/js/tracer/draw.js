@@ -1,6 +1,7 @@
 // Draws the stage: picture, cage, vertices, holes, strokes and the places of problems.
 
 const HALO = "rgba(255, 255, 255, 0.9)";
+const SPECK = 12; // CSS pixels; dropped holes smaller than this show under the pointer only
 const CHECK = 8; // CSS pixels per square of the checkerboard under transparent pictures
 
 export function drawStage(ctx, scene) {
@@ -22,7 +23,8 @@ export function drawStage(ctx, scene) {
     const loop = hole.loop.map((p) => viewport.toStage(p));
     const hovered = scene.hover?.hole === i;
     if (hovered) fillPath(ctx, [loop], hole.kept ? colors.warnSoft : colors.accentSoft);
-    if (hovered || !hole.kept) strokePath(ctx, [loop], colors.faint, 1.25, [4, 3]);
+    const visible = Math.sqrt(hole.area) * viewport.scale > SPECK;
+    if (hovered || (!hole.kept && visible)) strokePath(ctx, [loop], colors.faint, 1.25, [4, 3]);
   });
   drawStrokes(ctx, scene, viewport);
   if (loops.length) drawCage(ctx, scene, loops);

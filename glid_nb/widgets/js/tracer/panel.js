@@ -114,7 +114,7 @@ export class Panel {
 
   update(shown) {
     const { options, automatic } = shown;
-    this.element.inert = !shown.size;
+    this.element.hidden = !shown.size;
     if (!shown.size) return;
     const longer = Math.max(...shown.size);
     const { threshold, smoothing, offset, simplify, min_hole_area } = this.numbers;

@@ -39,6 +39,7 @@ export class Stage {
     this.moved = null; // a vertex that the kernel has not confirmed yet: {loop, index, to}
     this.drag = null;
     this.pointers = new Map();
+    this.rests = null; // where the pointer is
     this.lastClick = { time: -Infinity, at: [0, 0] };
     this.listen();
     this.resizer = new ResizeObserver(() => this.resize());
@@ -69,7 +70,8 @@ export class Stage {
       const [loop, index] = key.split(":").map(Number);
       if (!shown.loops[loop]?.[index]) this.selected.delete(key);
     }
-    if (!this.drag) this.hover = null;
+    // What lies under the pointer may have become something else.
+    if (!this.drag) this.setHover(this.rests && this.tool === "edit" && shown.size ? this.find(this.rests) : null);
     this.redraw();
   }
 
@@ -84,7 +86,7 @@ export class Stage {
 
   setTool(tool) {
     this.tool = tool;
-    this.hover = null;
+    this.setHover(null);
     this.cursor();
     this.redraw();
     this.onTool(tool);
@@ -206,7 +208,10 @@ export class Stage {
     on("pointerup", (e) => this.up(e));
     on("pointercancel", (e) => this.cancel(e));
     on("lostpointercapture", (e) => this.pointers.has(e.pointerId) && this.cancel(e));
-    on("pointerleave", () => this.setHover(null));
+    on("pointerleave", () => {
+      this.rests = null;
+      this.setHover(null);
+    });
     on("contextmenu", (e) => e.preventDefault());
     on("keydown", (e) => this.key(e));
     on("keyup", (e) => {
@@ -307,6 +312,7 @@ export class Stage {
   move(e) {
     const position = this.position(e);
     const { drag } = this;
+    this.rests = e.pointerType === "touch" ? null : position;
     if (this.pointers.has(e.pointerId)) this.pointers.set(e.pointerId, position);
     if (drag?.kind === "pinch") return this.pinch();
     if (!drag) {
@@ -424,7 +430,7 @@ export class Stage {
 
   setHover(hover) {
     this.hover = hover;
-    const hole = hover?.hole === undefined ? null : this.shown.holes[hover.hole];
+    const hole = this.shown?.holes[hover?.hole];
     if (hole) this.hint = hole.kept ? "Click to drop this hole" : "Click to keep this hole";
     else if (hover?.edge) this.hint = "Double-click to add a vertex here";
     else if (hover?.vertex) this.hint = "Drag to move · right-click or Delete to delete";
