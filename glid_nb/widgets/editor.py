@@ -114,6 +114,15 @@ class Editor(ipywidgets.VBox):
         self._complete = True
         cells.register(self)
 
+    def __repr__(self) -> str:
+        """What a notebook shows where it cannot show widgets."""
+        if not self.model.has_shape:
+            return "Editor(nothing traced yet)"
+        state = self.deformation.state
+        return (
+            f"Editor({len(state.poses)} poses, {len(state.pose)} handles in {state.current.name!r})"
+        )
+
     # From code
 
     @property
