@@ -20,11 +20,12 @@ from glid_nb.widgets.gestures import Gestures
 from glid_nb.widgets.overlays import OVERLAYS
 from glid_nb.widgets.pane import Pane
 from glid_nb.widgets.scene import N_VERTICES, EvaluatedIn
+from glid_nb.widgets.subshells import answer_during_cells
 
 Array = NDArray[Any]
 
 _PANELS_INTERVAL = 0.2  # seconds: panels are drawn anew no more often
-_SOURCE_SHARE = 0.6  # of the result's width
+_SOURCE_SHARE = 0.4  # of the width
 
 
 class DeformCanvas(ipywidgets.HBox):
@@ -115,6 +116,7 @@ class DeformCanvas(ipywidgets.HBox):
         self.pane.stage.observe(self._resize, ["height"])
         self._stop = self.deformation.observe(self._on_model)
         self.pane.stage.on_msg(self._receive)
+        answer_during_cells(self.pane.stage)
         self.observe(self._show_overlay, ["overlay"])
         self.observe(self._show_lines, ["show_cage", "show_offset_cage"])
         self.observe(self._show_panels, ["show_panels"])
@@ -236,16 +238,20 @@ class DeformCanvas(ipywidgets.HBox):
 
     def _show_source(self, _: Any = None) -> None:
         if self.show_source and self.source is None:
-            stage = self.pane.stage
-            size = (round(_SOURCE_SHARE * stage.width), stage.height)
-            self.source = self._pane(size, interactive=False)
+            # The two share the room that the result had.
+            stage, width = self.pane.stage, round(_SOURCE_SHARE * self.pane.stage.width)
+            stage.width -= width
+            self.source = self._pane((width, stage.height), interactive=False)
             self.source.show_lines(self.show_cage, self.show_offset_cage)
             self.children = [self.source, self.pane]
             self._draw()
+            self.fit()
         elif not self.show_source and self.source is not None:
             closing, self.source = self.source, None
             self.children = [self.pane]
+            self.pane.stage.width += closing.stage.width
             closing.close()
+            self.fit()
 
 
 def _as_panels(proof: PanelCertificate) -> Panels:

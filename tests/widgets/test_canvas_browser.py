@@ -106,8 +106,12 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     overlay.select_option(label="Picture and grid")
     page.locator(".glid-toolbar button", has_text="Source").click()
     book.wait_for("canvas.source is not None")
-    page.locator(".glid-pad").nth(1).wait_for()
-    hand.wait_until_drawn()
+    pads = page.locator(".glid-pad")
+    pads.nth(1).wait_for()
+    left, right = (pads.nth(i).bounding_box() for i in (0, 1))
+    assert left is not None
+    assert right is not None
+    assert left["x"] + left["width"] <= right["x"]
     book.screenshot("editor-source")
     page.locator(".glid-toolbar button", has_text="Source").click()
     book.wait_for("canvas.source is None")
