@@ -50,7 +50,7 @@ class Pane(ipywidgets.GridBox):
         for part in (self._renderer, self.stage):
             part.layout.grid_area = "a"
         super().__init__([self._renderer, self.stage])
-        self.add_class("glid-canvas")
+        self.add_class("glid-pane")
         self.layout.grid_template_areas = "'a'"
         self.layout.flex = "0 0 auto"
         self._resize()

@@ -52,7 +52,7 @@ class Toolbar(ipywidgets.HBox):
             [self.undo, self.redo, self.reset, self.fit, self.overlay, *self.toggles.values()],
             **kwargs,
         )
-        self.add_class("glid-toolbar")
+        self.add_class("glid-tools")
         self._show()
         self._stop = model.observe(self._on_model)
 

@@ -88,7 +88,7 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     energy.select_option(label="Symmetric Dirichlet")
     hand.settle()
 
-    overlay = page.locator(".glid-toolbar select")
+    overlay = page.locator(".glid-tools select")
     plain = hand.color_at([0.0, -0.5])
     for label in ("Stretch σ₁", "Dilatation k", "Energy density", "Stretch σ₂"):
         overlay.select_option(label=label)
@@ -97,14 +97,14 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     colored = hand.color_at([0.0, -0.5])
     assert max(abs(a - b) for a, b in zip(colored, plain, strict=True)) > 20
     for label in ("Cage", "Offset", "Certificate"):
-        page.locator(".glid-toolbar button", has_text=label).click()
+        page.locator(".glid-tools button", has_text=label).click()
     book.wait_for(
         "canvas.show_panels and canvas.show_cage and canvas.pane.scene.panels is not None"
     )
     page.wait_for_timeout(500)
     book.screenshot("editor-overlays")
     overlay.select_option(label="Picture and grid")
-    page.locator(".glid-toolbar button", has_text="Source").click()
+    page.locator(".glid-tools button", has_text="Source").click()
     book.wait_for("canvas.source is not None")
     pads = page.locator(".glid-pad")
     pads.nth(1).wait_for()
@@ -113,7 +113,7 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     assert right is not None
     assert left["x"] + left["width"] <= right["x"]
     book.screenshot("editor-source")
-    page.locator(".glid-toolbar button", has_text="Source").click()
+    page.locator(".glid-tools button", has_text="Source").click()
     book.wait_for("canvas.source is None")
     # The line in words.
     page.locator(".glid-editor").get_by_text("Converged").first.wait_for()
