@@ -92,7 +92,12 @@ from .export import textured_mesh as textured_mesh
 
 # In the notebook
 from .session import TracingModel as TracingModel
+from .session.deformation import Deformation as Deformation
 from .widgets import CageTracer as CageTracer
+from .widgets import DeformCanvas as DeformCanvas
+from .widgets import Editor as Editor
+from .widgets import SolverMonitor as SolverMonitor
+from .widgets import SolverPanel as SolverPanel
 
 # Bundled pictures
 from . import samples as samples

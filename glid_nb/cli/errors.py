@@ -11,6 +11,10 @@ class BadFileError(ValueError):
     """The content of a file was refused."""
 
 
+class CommandError(ValueError):
+    """A command cannot do what it is asked to."""
+
+
 @contextmanager
 def about(path: Path) -> Iterator[None]:
     """Put the name of the file in front of what is refused of its content."""

@@ -62,3 +62,17 @@ def open_notebook(browser: Browser, jupyter: JupyterServer) -> Iterator[OpenNote
             return book
 
         yield open_one
+
+
+@pytest.fixture
+def sent(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
+    """What widgets send to the page from now on: pairs of data and buffers."""
+    from ipywidgets import Widget
+
+    messages: list[Any] = []
+
+    def send(_: Any, message: dict[str, Any], buffers: Any = None) -> None:
+        messages.append((message, list(buffers or [])))
+
+    monkeypatch.setattr(Widget, "_send", send)
+    return messages

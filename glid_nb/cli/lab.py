@@ -1,0 +1,67 @@
+"""Open JupyterLab on the editor's notebook.
+
+The notebook is copied into the folder as editor.ipynb, unless there is one already. What stands
+after `--` goes to JupyterLab as it is.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import glid_nb
+from glid_nb.cli.errors import CommandError
+
+NOTEBOOK = "editor.ipynb"
+"""Name of the copy."""
+
+_NAME = Path("notebooks") / "02_editor.ipynb"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.add_argument(
+        "folder",
+        nargs="?",
+        type=Path,
+        default=Path(),
+        metavar="FOLDER",
+        help="where to work; made if it is not there (default: here)",
+    )
+    parser.add_argument(
+        "--print", action="store_true", help="only print the command that would be run"
+    )
+    parser.add_argument("jupyter", nargs="*", metavar="ARGUMENT", help="for JupyterLab, after --")
+
+
+def run(chosen: argparse.Namespace) -> None:
+    """Run the command."""
+    if importlib.util.find_spec("jupyterlab") is None:
+        raise CommandError(
+            "JupyterLab is not installed here; install it with: pip install 'glid-nb[lab]'"
+        )
+    folder: Path = chosen.folder
+    notebook = folder / NOTEBOOK
+    command = [sys.executable, "-m", "jupyterlab", str(notebook), *chosen.jupyter]
+    if chosen.print:
+        print(" ".join(command))
+        return
+    folder.mkdir(parents=True, exist_ok=True)
+    if not notebook.exists():
+        shutil.copyfile(bundled_notebook(), notebook)
+    status = subprocess.run(command, check=False).returncode
+    if status:
+        raise CommandError(f"JupyterLab ended with the exit code {status}")
+
+
+def bundled_notebook() -> Path:
+    """The editor's notebook: inside an installed package, or beside it in a checkout."""
+    package = Path(glid_nb.__file__).resolve().parent
+    for folder in (package, package.parent):
+        if (folder / _NAME).is_file():
+            return folder / _NAME
+    raise CommandError(f"{_NAME} is missing from this installation; install glid-nb again")

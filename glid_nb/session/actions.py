@@ -1,0 +1,209 @@
+"""What a hand can do in the deformation editor: functions from one state to the next.
+
+They never change the map to one that is not certified: they keep it, or take the identity. Going
+from there to the new targets is the solver's part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from glid_nb.energies import Energy
+from glid_nb.geometry import Cage, Domain
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.session.edit_state import EditedPose, EditError, EditState
+from glid_nb.solvers import Pose
+
+Array = NDArray[Any]
+
+# Handles nearer to each other than this share of the cage's size would be one for any eye.
+_LEAST_DISTANCE = 1e-6
+
+
+def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None = None) -> EditState:
+    """Pin points of the domain (h, 2); by default where they are now, so that nothing moves."""
+    points = _points(points)
+    pose, cage = state.pose, state.domain.cage
+    outside = np.flatnonzero(~cage.contains(points))
+    if outside.size:
+        raise EditError(
+            f"{_text(points[outside[0]])} lies outside the shape; a handle needs a place on it"
+        )
+    for i, point in enumerate(points):
+        others = np.concatenate([pose.handles, points[:i]])
+        gap = np.linalg.norm(others - point, axis=1)
+        if (gap < _LEAST_DISTANCE * cage.longer_side).any():
+            raise EditError(f"there already is a handle at {_text(point)}")
+    wanted = state.map(points) if targets is None else _points(targets)
+    return _with_pose(
+        state,
+        Pose(np.concatenate([pose.handles, points]), np.concatenate([pose.targets, wanted])),
+    )
+
+
+def remove_handles(state: EditState, indices: Iterable[int]) -> EditState:
+    """Let go of some handles."""
+    chosen = _checked_indices(state, indices)
+    kept = np.setdiff1d(np.arange(len(state.pose)), chosen)
+    return _with_pose(state, Pose(state.pose.handles[kept], state.pose.targets[kept]))
+
+
+def clear_handles(state: EditState) -> EditState:
+    """Let go of all handles; the shape relaxes."""
+    return _with_pose(state, Pose([], []))
+
+
+def move_targets(state: EditState, indices: Iterable[int], targets: ArrayLike) -> EditState:
+    """Put the targets of some handles elsewhere; anywhere."""
+    chosen = _checked_indices(state, indices)
+    moved = np.array(state.pose.targets)
+    moved[chosen] = _points(targets)
+    return _with_pose(state, state.pose.with_targets(moved))
+
+
+def nudge(state: EditState, indices: Iterable[int], delta: ArrayLike) -> EditState:
+    """Shift the targets of some handles by ``delta`` (2,)."""
+    chosen = _checked_indices(state, indices)
+    return move_targets(state, chosen, state.pose.targets[chosen] + np.asarray(delta, dtype=float))
+
+
+def reset(state: EditState) -> EditState:
+    """The undeformed shape: the identity map, and every target on its handle."""
+    pose = state.pose.with_targets(state.pose.handles)
+    current = state.current.changed(pose=pose, map=HarmonicMap.identity(state.domain))
+    return state.with_current(current)
+
+
+def set_energy(state: EditState, energy: Energy) -> EditState:
+    """Minimise another energy."""
+    return state.with_current(state.current.changed(energy=energy))
+
+
+def set_options(state: EditState, **changes: Any) -> EditState:
+    """Solve with other options; their names are those of :class:`~glid_nb.solvers.Options`."""
+    options = replace(state.current.options, **changes)
+    return state.with_current(state.current.changed(options=options))
+
+
+def set_pose(state: EditState, pose: Pose) -> EditState:
+    """Other handles and targets altogether; the shape stays until the solver moves it."""
+    pose.check_inside(state.domain)
+    return _with_pose(state, pose)
+
+
+def set_domain(state: EditState, domain: Domain) -> EditState:
+    """Another domain: all poses keep the handles that lie in it, and begin at the identity."""
+    identity = HarmonicMap.identity(domain)
+
+    def moved(pose: EditedPose) -> EditedPose:
+        inside = domain.cage.contains(pose.pose.handles)
+        kept = Pose(pose.pose.handles[inside], pose.pose.targets[inside])
+        return pose.changed(pose=kept, map=identity)
+
+    return replace(state, domain=domain, poses=tuple(map(moved, state.poses)))
+
+
+def drop_hole(state: EditState, index: int) -> EditState:
+    """Fill a hole of the domain, counted from 0; the handles around it stay."""
+    old = state.domain
+    if not 0 <= index < old.n_holes:
+        raise EditError(f"there is no hole {index + 1}; the domain has {old.n_holes}")
+
+    def others(values: Iterable[Any]) -> list[Any]:
+        return [value for i, value in enumerate(values) if i != index]
+
+    cage = Cage(old.cage.exterior, others(old.cage.holes))
+    offset_cage = Cage(old.offset_cage.exterior, others(old.offset_cage.holes))
+    return set_domain(state, Domain(cage, offset_cage, others(old.hole_points), old.notes))
+
+
+def save_pose(state: EditState, name: str | None = None) -> EditState:
+    """Keep the pose as it is now under a name, and go on with a copy of it after it."""
+    kept = state.current if name is None else replace(state.current, name=_checked_name(name))
+    copy = replace(kept, name=_free_name(state, kept.name))
+    return _with_inserted(state.with_current(kept), state.active + 1, copy)
+
+
+def duplicate_pose(state: EditState, index: int) -> EditState:
+    """A copy of a pose after it, which is edited from then on."""
+    pose = state.poses[_checked_pose(state, index)]
+    return _with_inserted(state, index + 1, replace(pose, name=_free_name(state, pose.name)))
+
+
+def rename_pose(state: EditState, index: int, name: str) -> EditState:
+    """Another name for a pose."""
+    poses = list(state.poses)
+    poses[_checked_pose(state, index)] = replace(poses[index], name=_checked_name(name))
+    return replace(state, poses=tuple(poses))
+
+
+def delete_pose(state: EditState, index: int) -> EditState:
+    """Take a pose from the list; the last one cannot be."""
+    _checked_pose(state, index)
+    if len(state.poses) == 1:
+        raise EditError("the only pose cannot be deleted; reset it instead")
+    poses = state.poses[:index] + state.poses[index + 1 :]
+    active = state.active - (index < state.active)
+    return replace(state, poses=poses, active=min(active, len(poses) - 1))
+
+
+def go_to_pose(state: EditState, index: int) -> EditState:
+    """Edit another pose of the list."""
+    return replace(state, active=_checked_pose(state, index))
+
+
+def _with_inserted(state: EditState, index: int, pose: EditedPose) -> EditState:
+    poses = (*state.poses[:index], pose, *state.poses[index:])
+    return replace(state, poses=poses, active=index)
+
+
+def _with_pose(state: EditState, pose: Pose) -> EditState:
+    return state.with_current(state.current.changed(pose=pose))
+
+
+def _points(values: ArrayLike) -> Array:
+    points = np.array(values, dtype=float)
+    points = points[None] if points.shape == (2,) else points
+    if points.ndim != 2 or points.shape[1] != 2:
+        raise EditError(f"points must be [x, y] pairs; the shape is {points.shape}")
+    if not np.isfinite(points).all():
+        raise EditError("a coordinate is not finite; points must be pairs of finite numbers")
+    return points
+
+
+def _checked_indices(state: EditState, indices: Iterable[int]) -> Array:
+    chosen = np.array([int(i) for i in indices], dtype=int)
+    wrong = [i for i in chosen if not 0 <= i < len(state.pose)]
+    if wrong:
+        raise EditError(f"there is no handle {wrong[0]}; the pose has {len(state.pose)}")
+    return chosen
+
+
+def _checked_pose(state: EditState, index: int) -> int:
+    if not 0 <= index < len(state.poses):
+        raise EditError(f"there is no pose {index + 1}; the list has {len(state.poses)}")
+    return index
+
+
+def _checked_name(name: str) -> str:
+    name = name.strip()
+    if not 1 <= len(name) <= 200:
+        raise EditError("the name of a pose must have 1 to 200 characters")
+    return name
+
+
+def _free_name(state: EditState, name: str) -> str:
+    """``name`` with the next free number at its end."""
+    stem = name.rstrip("0123456789").rstrip() or "Pose"
+    taken = {pose.name for pose in state.poses} | {name}
+    numbers = (f"{stem[:190]} {i}" for i in range(1, len(taken) + 2))
+    return next(candidate for candidate in numbers if candidate not in taken)
+
+
+def _text(point: Array) -> str:
+    return f"({point[0]:.4g}, {point[1]:.4g})"

@@ -1,0 +1,90 @@
+"""Which point of the undeformed shape is seen at a place: the inverse of a map."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glid_nb.geometry import Domain, triangulate
+from glid_nb.harmonic import HarmonicMap
+
+Array = NDArray[Any]
+
+_MESH_VERTICES = 2000
+_NEWTON_STEPS = 6
+_ROUNDING = 1e-9
+
+
+class PointFinder:
+    """Inverts the maps of one domain.
+
+    A coarse mesh of the domain says where to look; Newton's method finds the point.
+
+    Parameters
+    ----------
+    domain : Domain
+    """
+
+    def __init__(self, domain: Domain) -> None:
+        self.domain = domain
+
+    @functools.cached_property
+    def _mesh(self) -> tuple[Array, Array]:
+        mesh = triangulate(self.domain.cage, _MESH_VERTICES)
+        return mesh.vertices, mesh.triangles
+
+    def find(self, map: HarmonicMap, point: Any) -> Array | None:
+        """The point z (2,) of the domain with f(z) = ``point``; None where there is no shape.
+
+        Where the shape overlaps itself, the sheet that is drawn last, on top, counts.
+        """
+        point = np.asarray(point, dtype=float)
+        vertices, triangles = self._mesh
+        guess = _in_triangles(map(vertices)[triangles], vertices[triangles], point)
+        if guess is None:
+            return None
+        refined = _newton(map, guess, point)
+        for candidate in (refined, guess):
+            if candidate is not None and self.domain.cage.contains(candidate[None])[0]:
+                return candidate
+        return None
+
+
+def _in_triangles(images: Array, corners: Array, point: Array) -> Array | None:
+    """Linear interpolation within the last of the triangles (t, 3, 2) that hold the point."""
+    a, b, c = (images[:, k] - point for k in range(3))
+
+    def cross(p: Array, q: Array) -> Array:
+        return p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
+
+    weights = np.stack([cross(b, c), cross(c, a), cross(a, b)], axis=1)
+    total = weights.sum(axis=1)
+    # Coarse triangles may be flat or flipped where the map itself is neither.
+    holding = np.flatnonzero(
+        (weights >= -_ROUNDING * np.abs(total)[:, None]).all(axis=1) & (total > 0)
+    )
+    if not holding.size:
+        return None
+    last = holding[-1]
+    return weights[last] @ corners[last] / total[last]
+
+
+def _newton(map: HarmonicMap, start: Array, point: Array) -> Array | None:
+    z = np.array(start)
+    for _ in range(_NEWTON_STEPS):
+        gap = map(z[None])[0] - point
+        fz, fzb = (complex(d[0]) for d in map.wirtinger(z[None]))
+        w = complex(*gap)
+        determinant = abs(fz) ** 2 - abs(fzb) ** 2
+        if not determinant > 0:
+            return None
+        dz = (fzb * w.conjugate() - fz.conjugate() * w) / determinant
+        z = z + np.array([dz.real, dz.imag])
+        if not np.isfinite(z).all():
+            return None
+        if abs(dz) < _ROUNDING:
+            break
+    return z

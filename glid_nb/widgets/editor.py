@@ -1,0 +1,267 @@
+"""The editor: trace, pin, drag."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import ipywidgets
+from numpy.typing import ArrayLike
+
+from glid_nb._runtime import enable_compilation_cache
+from glid_nb.certificate import Certificate
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging.read import ImageSource
+from glid_nb.imaging.render import View
+from glid_nb.session import Document, load_document
+from glid_nb.session.deformation import Deformation
+from glid_nb.session.edit_state import EditedPose
+from glid_nb.session.editor_model import EditorModel
+from glid_nb.session.status_line import StatusLine
+from glid_nb.solvers import Pose
+from glid_nb.widgets import cells
+from glid_nb.widgets.canvas import DeformCanvas
+from glid_nb.widgets.exporting import export
+from glid_nb.widgets.file_panel import FilePanel
+from glid_nb.widgets.monitor import SolverMonitor
+from glid_nb.widgets.pose_list import PoseList
+from glid_nb.widgets.scene import N_VERTICES
+from glid_nb.widgets.solver_panel import SolverPanel
+from glid_nb.widgets.toolbar import Toolbar
+from glid_nb.widgets.tracer import CageTracer
+
+_TRACE, _DEFORM = 0, 1
+_SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
+_EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
+
+
+class Editor(ipywidgets.VBox):
+    """Trace a picture, pin points of it, drag them: it follows and never folds over.
+
+    The Trace tab finds the cage, the Deform tab moves it. Everything can also be done from code, by
+    the same path: `trace`, `add_handle`, `drag`, `solve`, `save`, `load`, `export`.
+
+    Parameters
+    ----------
+    image
+        A picture, as in `glid_nb.read_image`. Without one the editor asks for a file.
+    path : path, optional
+        A session file. If it exists, the editor goes on from there (give no picture then);
+        in any case it is kept up to date while something changes.
+    width, height : int
+        Size of the canvas in CSS pixels.
+    n_vertices : int
+        Vertices of the mesh that the picture is drawn on.
+
+    Raises
+    ------
+    TraceError
+        The picture cannot be read.
+    DocumentError
+        The session file cannot be read.
+
+    Examples
+    --------
+    >>> import glid_nb as glid
+    >>> editor = glid.Editor(glid.samples.image("bar"), n_vertices=500)
+    >>> left, right = editor.add_handle((-8, 0)), editor.add_handle((8, 0))
+    >>> editor.drag(right, to=(7, 3))
+    >>> editor.solve()
+    >>> editor.map([[8, 0]]).round(2)
+    array([[7., 3.]])
+    >>> editor.certificate.certified
+    True
+    >>> editor.close()
+    """
+
+    # ipywidgets closes also what was refused while it was made.
+    _complete = False
+
+    def __init__(
+        self,
+        image: ImageSource | None = None,
+        path: str | Path | None = None,
+        *,
+        width: int = 600,
+        height: int = 500,
+        n_vertices: int = N_VERTICES,
+        **kwargs: Any,
+    ) -> None:
+        enable_compilation_cache()
+        document: Document | None = None
+        if path is not None and Path(path).exists():
+            if image is not None:
+                raise ValueError(
+                    f"{path} exists; leave the picture out to go on with that session, or give "
+                    "another path"
+                )
+            document = load_document(path)
+        self.model = EditorModel(image, document=document, path=path)
+        """The editor without its widgets."""
+        self._size, self._n_vertices = (width, height), n_vertices
+        self.tracer: CageTracer
+        """The Trace tab."""
+        self.canvas: DeformCanvas | None = None
+        """The canvas of the Deform tab; None while nothing is traced."""
+        self._parts: list[Any] = []
+        self.tabs = ipywidgets.Tab()
+        """The two tabs."""
+        super().__init__([self.tabs], **kwargs)
+        self.add_class("glid-editor")
+        self._build()
+        self.model.on_replaced(self._build)
+        self.tabs.observe(self._on_tab, ["selected_index"])
+        self._complete = True
+        cells.register(self)
+
+    def __repr__(self) -> str:
+        """What a notebook shows where it cannot show widgets."""
+        if not self.model.has_shape:
+            return "Editor(nothing traced yet)"
+        state = self.deformation.state
+        return (
+            f"Editor({len(state.poses)} poses, {len(state.pose)} handles in {state.current.name!r})"
+        )
+
+    # From code
+
+    @property
+    def deformation(self) -> Deformation:
+        """The model of the Deform tab."""
+        return self.model.deformation
+
+    @property
+    def map(self) -> HarmonicMap:
+        """The certified map that is shown."""
+        return self.deformation.map
+
+    @property
+    def certificate(self) -> Certificate:
+        """The proof of `map`."""
+        return self.deformation.certificate
+
+    @property
+    def pose(self) -> Pose:
+        """Handles and targets of the pose that is edited."""
+        return self.deformation.pose
+
+    @property
+    def poses(self) -> tuple[EditedPose, ...]:
+        """All poses."""
+        return self.deformation.poses
+
+    @property
+    def status(self) -> StatusLine:
+        """What is going on, in words."""
+        return self.deformation.status
+
+    @property
+    def document(self) -> Document:
+        """Picture, cage and poses as one value."""
+        return self.model.document
+
+    def trace(self, **options: Any) -> None:
+        """Trace with changed options, fields of `glid_nb.TraceOptions`, and deform what is found.
+
+        Raises
+        ------
+        TraceError
+            An unknown option or a value out of its range.
+        """
+        self.model.tracing.set_options(**options)
+        self.model.apply_tracing()
+
+    def add_handle(self, point: ArrayLike, to: ArrayLike | None = None) -> int:
+        """Pin a point of the undeformed shape; returns the handle's index."""
+        return self.deformation.add_handle(point, to)
+
+    def drag(self, handle: int, to: ArrayLike) -> None:
+        """Drag a handle's target; the shape follows in the background."""
+        self.deformation.drag(handle, to)
+
+    def solve(self, timeout: float | None = None) -> bool:
+        """Wait until the shape has come to rest; whether it did within ``timeout`` seconds."""
+        return self.deformation.solve(timeout)
+
+    def export(
+        self, path: str | Path, size: tuple[int, int] | None = None, view: View = "source"
+    ) -> tuple[Path, ...]:
+        """Write what is shown for other programs; the suffix says how.
+
+        ``.png``, ``.obj``, ``.glb``, ``.svg``, ``.html`` or ``.py``; ``size`` and ``view`` are a
+        picture's, as in `glid_nb.render`. Returns the files that were written.
+
+        Raises
+        ------
+        ExportError
+            For another suffix.
+        """
+        return export(self.model, path, size, view)
+
+    def save(self, path: str | Path) -> None:
+        """Write a session file."""
+        self.model.save(path)
+
+    def load(self, path: str | Path) -> None:
+        """Go on with a session file."""
+        self.model.load(path)
+
+    def close(self) -> None:
+        """Take the editor from the page, end its threads and free its renderers."""
+        if not self._complete:
+            return
+        self._take_down()
+        self.model.close()
+        self.tabs.close()
+        super().close()
+
+    # The widgets
+
+    def _build(self) -> None:
+        """New views of new models."""
+        self._take_down()
+        self.tracer = CageTracer(model=self.model.tracing, height=self._size[1])
+        self._parts.append(self.tracer)
+        if self.model.has_shape:
+            deform = self._deform_tab()
+            chosen = _DEFORM
+        else:
+            self.canvas = None
+            deform = ipywidgets.HTML(_EMPTY)
+            chosen = _TRACE
+        self.tabs.children = (self.tracer, deform)
+        self.tabs.titles = ("Trace", "Deform")
+        self.tabs.selected_index = chosen
+
+    def _deform_tab(self) -> ipywidgets.Widget:
+        model, image = self.model.deformation, self.model.tracing.image
+        assert image is not None
+        canvas = DeformCanvas(image, model, *self._size, n_vertices=self._n_vertices)
+        toolbar = Toolbar(canvas)
+        monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
+        poses, panel = PoseList(model), SolverPanel(model)
+        files = FilePanel(self.model)
+        self.canvas, self.monitor, self.pose_list = canvas, monitor, poses
+        self.solver_panel, self.toolbar, self.files = panel, toolbar, files
+        self._parts += [toolbar, canvas, monitor, poses, panel, files]
+        more = ipywidgets.Tab([monitor.image, panel, files], titles=("Monitor", "Solver", "Files"))
+        more.layout.min_height = f"{_PLOTS_HEIGHT + 64}px"
+        side = ipywidgets.VBox([more, poses])
+        side.layout.width = f"{_SIDE_WIDTH + 34}px"
+        side.layout.flex, side.layout.overflow = "0 0 auto", "visible"
+        left = ipywidgets.VBox([toolbar, canvas, monitor.line])
+        left.layout.flex, left.layout.overflow = "0 0 auto", "visible"
+        body = ipywidgets.HBox([left, side])
+        body.layout.align_items = "flex-start"
+        body.layout.flex_flow, body.layout.overflow = "row wrap", "visible"
+        return body
+
+    def _take_down(self) -> None:
+        parts, self._parts = self._parts, []
+        for part in parts:
+            part.close()
+
+    def _on_tab(self, change: Any) -> None:
+        """What was traced is deformed when somebody goes to look at it."""
+        if change["new"] == _DEFORM:
+            self.model.apply_tracing()

@@ -1,0 +1,221 @@
+"""What pointers and keys on the canvas mean for a deformation; without a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glid_nb.session.deformation import Deformation
+from glid_nb.session.edit_state import EditError
+
+Array = NDArray[Any]
+Event = Mapping[str, Any]
+
+_SLOP, _SLOP_ON_SHAPE = 2.0, 5.0  # pixels that a pressed pointer may move without dragging
+_NUDGE, _NUDGE_SHIFT = 0.1, 0.5  # world units
+_CURSOR, _CURSOR_SHIFT = 6.0, 30.0  # pixels
+_ARROWS = {
+    "ArrowLeft": (-1, 0),
+    "ArrowRight": (1, 0),
+    "ArrowUp": (0, 1),
+    "ArrowDown": (0, -1),
+}
+_LEFT, _RIGHT = 0, 2
+
+
+@dataclass
+class _Press:
+    """A pressed pointer."""
+
+    start: Array
+    source: Array | None
+    """The point of the undeformed shape below it; None over a handle or beside the shape."""
+    targets: Array | None
+    """Where the held targets were when the pointer was at ``start``; None over no handle."""
+    dragging: bool = False
+
+
+class Gestures:
+    """Turns events of the page into actions.
+
+    An event is a mapping with ``type`` ("down", "move", "up", "cancel", "remove" or "key"), the
+    place ``x``, ``y`` in world units, ``reach``, the radius of what the pointer hits, and ``unit``,
+    the size of a pixel, both in world units, ``button``, ``shift``, ``key`` and ``handle``.
+
+    Parameters
+    ----------
+    deformation : Deformation
+    fit : callable
+        Called without arguments to make everything visible.
+    """
+
+    def __init__(self, deformation: Deformation, fit: Callable[[], None]) -> None:
+        self.deformation = deformation
+        self._fit = fit
+        self._press: _Press | None = None
+        self.cursor: list[float] | None = None
+        """Where the keyboard's cursor is."""
+
+    def handle(self, events: Iterable[Event]) -> str:
+        """Act on events in order; returns why something was refused, or an empty text."""
+        refusal = ""
+        for event in events:
+            try:
+                getattr(self, f"_{event['type']}")(event)
+                if event["type"] in ("down", "key", "remove"):
+                    refusal = ""
+            except EditError as error:
+                refusal = str(error)
+                self._press = None
+        return refusal
+
+    def hit(self, point: Array, reach: float) -> int | None:
+        """The handle whose target, or else whose image, is nearest within reach."""
+        pose = self.deformation.pose
+        if not len(pose):
+            return None
+        for places in (pose.targets, self.deformation.map(pose.handles)):
+            gap = np.linalg.norm(places - point, axis=1)
+            nearest = int(np.argmin(gap))
+            if gap[nearest] <= reach:
+                return nearest
+        return None
+
+    def _down(self, event: Event) -> None:
+        model, point = self.deformation, _place(event)
+        if self._press is not None and self._press.dragging:
+            model.end_drag()
+        self._press, self.cursor = None, None
+        hit = self.hit(point, event["reach"])
+        if event["button"] == _RIGHT:
+            if hit is not None:
+                model.remove_handles(hit)
+            return
+        if event["button"] != _LEFT:
+            return
+        if hit is None:
+            source = None if event["shift"] else model.find(point)
+            self._press = _Press(point, source, None)
+        elif event["shift"]:
+            chosen = model.selection
+            model.select([i for i in chosen if i != hit] if hit in chosen else [*chosen, hit])
+        else:
+            if hit not in model.selection:
+                model.select([hit])
+            self._press = _Press(point, None, model.pose.targets[list(model.selection)])
+
+    def _move(self, event: Event) -> None:
+        press, model, point = self._press, self.deformation, _place(event)
+        if press is None:
+            return
+        moved = float(np.linalg.norm(point - press.start))
+        if press.targets is None:
+            if press.source is None or moved <= _SLOP_ON_SHAPE * event["unit"]:
+                return
+            # A pull on the shape itself pins the point below the pointer and takes it along.
+            self._pin(press)
+        assert press.targets is not None
+        if not press.dragging:
+            if moved <= _SLOP * event["unit"]:
+                return
+            model.begin_drag(model.selection)
+            press.dragging = True
+        elif not model.dragged:  # undone, or the handle was removed
+            self._press = None
+            return
+        held = list(model.dragged)
+        if len(held) != len(press.targets):
+            press.start, press.targets = point, model.pose.targets[held]
+        model.drag_to(press.targets + (point - press.start))
+
+    def _up(self, event: Event) -> None:
+        press, self._press = self._press, None
+        if press is None:
+            return
+        if press.dragging:
+            self.deformation.end_drag()
+        elif press.targets is None:
+            if press.source is not None:
+                self._pin(press)
+            elif not event["shift"]:
+                self.deformation.select([])
+
+    def _cancel(self, _: Event) -> None:
+        self._press = None
+        self.deformation.cancel_drag()
+
+    def _remove(self, event: Event) -> None:
+        self.deformation.remove_handles(event["handle"])
+
+    def _pin(self, press: _Press) -> None:
+        model = self.deformation
+        assert press.source is not None
+        index = model.add_handle(press.source)
+        model.select([index])
+        press.targets = model.pose.targets[[index]]
+
+    def _key(self, event: Event) -> None:
+        key, model = event["key"], self.deformation
+        if key in _ARROWS:
+            self._arrow(event)
+        elif key == "Enter":
+            self._enter(event)
+        elif key in ("Delete", "Backspace"):
+            if model.selection:
+                model.remove_handles(*model.selection)
+        elif key == "Escape":
+            if model.dragged:
+                self._cancel(event)
+            else:
+                model.select([])
+                self.cursor = None
+        elif key in ("undo", "redo", "reset"):
+            getattr(model, key)()
+        elif key == "0":
+            model.reset()
+        elif key in ("f", "F"):
+            self._fit()
+        elif key in (",", "."):
+            self._next(1 if key == "." else -1)
+        elif key in ("a", "A"):
+            model.select(range(len(model.pose)))
+
+    def _arrow(self, event: Event) -> None:
+        direction, model = np.array(_ARROWS[event["key"]], dtype=float), self.deformation
+        if model.selection and self.cursor is None:
+            model.nudge(model.selection, direction * (_NUDGE_SHIFT if event["shift"] else _NUDGE))
+            return
+        step = (_CURSOR_SHIFT if event["shift"] else _CURSOR) * event["unit"]
+        self.cursor = (
+            np.array(self.cursor or [event["x"], event["y"]]) + step * direction
+        ).tolist()
+
+    def _enter(self, event: Event) -> None:
+        if self.cursor is None:
+            self.cursor = [event["x"], event["y"]]
+            return
+        model, point = self.deformation, np.array(self.cursor)
+        hit = self.hit(point, event["reach"])
+        if hit is None:
+            source = model.find(point)
+            if source is None:
+                raise EditError("the cursor is beside the shape; move it onto the shape")
+            hit = model.add_handle(source)
+        model.select([hit])
+        self.cursor = None
+
+    def _next(self, step: int) -> None:
+        model = self.deformation
+        count = len(model.pose)
+        if count:
+            last = model.selection[-1] if model.selection else (-1 if step > 0 else count)
+            model.select([(last + step) % count])
+            self.cursor = None
+
+
+def _place(event: Event) -> Array:
+    return np.array([event["x"], event["y"]], dtype=float)

@@ -1,0 +1,70 @@
+// The picture, or a colour for how much it is distorted. Colours are premultiplied by alpha.
+
+precision highp float;
+
+uniform float overlay;       // 0 picture, 1 picture and grid, 2 sigma_1, 3 sigma_2, 4 k, 5 energy
+uniform vec2 energy;         // which energy, and its parameter s
+uniform vec2 color_range;    // values at the ends of the colour map
+uniform vec3 colors[N_COLORS];
+uniform float pixel;         // world units of one pixel on the screen
+uniform float grid_spacing;  // world units of the undeformed picture
+uniform sampler2D map;
+
+varying vec2 v_source;
+varying vec2 v_uv;
+varying vec2 v_fz;
+varying vec2 v_fzb_conj;
+
+const float HALF_LINE = 0.6;  // pixels
+
+vec3 color_at(float t) {
+  float place = clamp(t, 0.0, 1.0) * float(N_COLORS - 1);
+  vec3 color = colors[0];
+  for (int i = 1; i < N_COLORS; i++) {
+    color = mix(color, colors[i], clamp(place - float(i - 1), 0.0, 1.0));
+  }
+  return color;
+}
+
+// E(x, y) of Table 1, x = |f_z|^2 and y = |f_zbar|^2.
+float energy_density(float x, float y) {
+  float isometric = (x + y) * (1.0 + 1.0 / ((x - y) * (x - y)));
+  if (energy.x < 0.5) return isometric;
+  if (energy.x < 1.5) return exp(energy.y * isometric);
+  if (energy.x < 2.5) return exp((2.0 * energy.y * (x + y) + 1.0) / (x - y) + x - y);
+  return 2.0 * (x + y) - 4.0 * sqrt(x) + 2.0;
+}
+
+// How much of this pixel a line of the grid covers, from the distance that a step on the screen
+// makes in the undeformed picture: the rows of the inverse Jacobian.
+float grid_cover() {
+  vec2 a = v_fz, b = vec2(v_fzb_conj.x, -v_fzb_conj.y);
+  vec2 f_x = a + b, f_y = vec2(b.y - a.y, a.x - b.x);
+  float determinant = max(f_x.x * f_y.y - f_x.y * f_y.x, 1e-6);
+  vec2 per_pixel = vec2(length(f_y), length(f_x)) / determinant * pixel;
+  vec2 away = abs(fract(v_source / grid_spacing - 0.5) - 0.5) * grid_spacing / per_pixel;
+  vec2 cover = clamp(HALF_LINE + 0.5 - away, 0.0, 1.0);
+  return max(cover.x, cover.y);
+}
+
+void main() {
+  vec4 texel = texture2D(map, v_uv);
+  if (overlay < 0.5) {
+    gl_FragColor = texel;
+    return;
+  }
+  if (overlay < 1.5) {
+    gl_FragColor = mix(texel, vec4(vec3(0.12), 1.0) * 0.9, 0.7 * grid_cover());
+    return;
+  }
+  float r = length(v_fz), g = length(v_fzb_conj);
+  float value = r + g;
+  if (overlay > 2.5) value = r - g;
+  if (overlay > 3.5) value = g / max(r, 1e-6);
+  if (overlay > 4.5) value = energy_density(r * r, g * g);
+  vec3 color = color_at((value - color_range.x) / (color_range.y - color_range.x));
+  // The picture shines through, so that one still sees what is where.
+  float shade = dot(texel.rgb, vec3(0.299, 0.587, 0.114)) + (1.0 - texel.a) * 0.75;
+  float cover = mix(0.35, 1.0, texel.a);
+  gl_FragColor = vec4(color * mix(0.72, 1.12, shade), 1.0) * cover;
+}

@@ -1,0 +1,22 @@
+// A vertex of a line along a curve of the undeformed shape, of a width in pixels.
+
+attribute vec3 ribbon;  // the curve's direction, and which side of it this vertex is on: -1 or 1
+attribute float margin;
+
+uniform float pixel;
+uniform float half_width;  // pixels
+
+varying float v_side;
+varying float v_margin;
+
+void main() {
+  vec2 f, fz, fzb_conj;
+  harmonic_map(position.xy, f, fz, fzb_conj);
+  vec2 along = multiply(fz, ribbon.xy) + multiply(conjugate(fzb_conj), conjugate(ribbon.xy));
+  along /= max(length(along), 1e-12);
+  float reach = half_width + 0.75;  // room for the soft edge
+  vec2 shifted = f + vec2(-along.y, along.x) * ribbon.z * reach * pixel;
+  v_side = ribbon.z * reach;
+  v_margin = margin;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(shifted, 0.0, 1.0);
+}

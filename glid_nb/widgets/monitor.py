@@ -1,0 +1,163 @@
+"""What the solver is doing: a line in words and three plots, live."""
+
+from __future__ import annotations
+
+import html
+import time
+from collections import deque
+from typing import Any
+
+import ipywidgets
+import numpy as np
+
+from glid_nb.certificate import Certificate
+from glid_nb.certificate.certify import PanelCertificate
+from glid_nb.session.deformation import Deformation
+from glid_nb.session.live_solver import Frame
+from glid_nb.session.status_line import StatusLine, rounded_down
+from glid_nb.widgets.background import Background
+from glid_nb.widgets.live_plots import LivePlots
+
+INTERVAL = 0.1
+"""Least number of seconds between two drawings of the plots."""
+
+_TONES = {
+    "idle": "#7f7f7f",
+    "working": "#0072b2",
+    "good": "#009e73",
+    "blocked": "#e69f00",
+    "error": "#d55e00",
+}
+_RATE_WINDOW = 1.0  # seconds over which frames are counted
+
+
+class SolverMonitor(ipywidgets.VBox):
+    """A status line, and plots of the energy, the iterations and the certificate.
+
+    Parameters
+    ----------
+    deformation : Deformation
+        The model to watch.
+    width, height : int
+        Size of the plots in CSS pixels.
+    plots : bool
+        Whether there are plots at all.
+    """
+
+    def __init__(
+        self,
+        deformation: Deformation,
+        width: int = 500,
+        height: int = 340,
+        plots: bool = True,
+        **kwargs: Any,
+    ) -> None:
+        self.deformation = deformation
+        """The model that this is a view of."""
+        self.line = ipywidgets.HTML()
+        """The status line."""
+        self.image = ipywidgets.Image(format="png", width=width, height=height)
+        """The plots."""
+        self._size = (width, height)
+        self._plots: LivePlots | None = None
+        self._frames: deque[float] = deque()
+        self._background = Background(self._update, INTERVAL)
+        self._drawn: Any = None
+        self._with_plots = plots
+        super().__init__([self.line, self.image] if plots else [self.line], **kwargs)
+        self.add_class("glid-monitor")
+        self.image.layout.width, self.image.layout.height = f"{width}px", f"{height}px"
+        self._stop = deformation.observe(self._on_model)
+        self._background.ask()
+
+    @property
+    def text(self) -> str:
+        """The status line without its looks."""
+        return self._words(self.deformation.status)
+
+    def refresh(self, timeout: float | None = None) -> bool:
+        """Draw what is still to be drawn; whether that was done within ``timeout`` seconds."""
+        self._background.ask()
+        return self._background.wait(timeout)
+
+    def close(self) -> None:
+        """Stop watching; the model lives on."""
+        self._stop()
+        self._background.close()
+        super().close()
+
+    def _on_model(self, what: str) -> None:
+        if what == "frame":
+            self._frames.append(time.monotonic())
+        if what != "selection":
+            self._background.ask()
+
+    def _update(self) -> None:
+        """In the background: the line, and the plots if there is something new."""
+        status = self.deformation.status
+        self.line.value = (
+            f'<div style="display:flex;align-items:center;gap:8px;line-height:1.4">'
+            f'<span style="flex:none;width:10px;height:10px;border-radius:5px;'
+            f'background:{_TONES[status.level]}"></span>'
+            f"<span>{html.escape(self._words(status))}</span></div>"
+        )
+        if self._with_plots:
+            self._draw()
+        if self.deformation.busy:
+            self._background.ask()
+
+    def _words(self, status: StatusLine) -> str:
+        state = self.deformation.state
+        words = status.text
+        if status.level == "good":
+            proof = self.deformation.certificate
+            words = (
+                f"{words.split(' · ')[0]} · certified σ₂ ≥ {rounded_down(proof.sigma2_lower)}, "
+                f"σ₁ ≤ {_rounded_up(proof.sigma1_upper)}, k ≤ {_rounded_up(proof.k_upper)}"
+            )
+        if not state.current.solved and self.deformation.busy:
+            words += f" · {self._rate()} frames/s"
+        return words
+
+    def _rate(self) -> int:
+        now = time.monotonic()
+        while self._frames and self._frames[0] < now - _RATE_WINDOW:
+            self._frames.popleft()
+        return len(self._frames)
+
+    def _draw(self) -> None:
+        model = self.deformation
+        state, frame = model.state, model.frame
+        if (state.map, frame) == self._drawn:
+            return
+        if self._plots is None or self._plots.cage is not state.domain.cage:
+            self._plots = LivePlots(state.domain.cage, *self._size)
+        solution = state.current.solution
+        if frame is not None and frame.solution is None and len(frame.sigma2_lower):
+            self.image.value = self._plots.draw(frame.history, _live_certificate(frame))
+        else:
+            history = solution.history if solution is not None else ()
+            self.image.value = self._plots.draw(history, model.certificate, state.map)
+        self._drawn = (state.map, frame)
+
+
+def _live_certificate(frame: Frame) -> Certificate:
+    """What the solver has proved of a frame, as the plots take it."""
+    panels = frame.panels
+    unknown = np.full(len(panels), np.nan)
+    start, end = (np.stack([np.real(z), np.imag(z)], axis=1) for z in (panels.start, panels.end))
+    proof = PanelCertificate(
+        start, end, panels.loop, panels.depth, frame.sigma2_lower, unknown, unknown
+    )
+    least = float(frame.sigma2_lower.min())
+    return Certificate(
+        True, least, np.nan, np.nan, (), proof, "hermite", "Certified step by step by the solver."
+    )
+
+
+def _rounded_up(value: float) -> str:
+    """Three digits of an upper bound that still is one."""
+    if not (value > 0 and np.isfinite(value)):
+        return f"{value:.3g}"
+    unit = 10.0 ** (np.floor(np.log10(value)) - 2)
+    return f"{np.ceil(value / unit) * unit:.3g}"

@@ -1,0 +1,87 @@
+"""What the canvas can show over the picture: names, ranges, colours."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.colors import to_hex
+from numpy.typing import NDArray
+
+from glid_nb.energies import AMIPS, ARAP, Energy, ExponentialSymmetricDirichlet, SymmetricDirichlet
+from glid_nb.imaging.style import distortion_colors
+from glid_nb.solvers.restarts import isometry_energy
+
+N_COLORS = 10
+"""Stops of the colour map in the shader."""
+
+# The kinds that picture.frag knows.
+_KINDS: dict[type[Energy], int] = {
+    SymmetricDirichlet: 0,
+    ExponentialSymmetricDirichlet: 1,
+    AMIPS: 2,
+    ARAP: 3,
+}
+
+
+@dataclass(frozen=True)
+class Overlay:
+    """One way to colour the shape."""
+
+    number: int
+    """As ``picture.frag`` counts them."""
+    label: str
+    """What a menu calls it."""
+
+
+OVERLAYS: dict[str, Overlay] = {
+    "texture": Overlay(0, "Picture"),
+    "mesh": Overlay(1, "Picture and grid"),
+    "sigma1": Overlay(2, "Stretch σ₁"),
+    "sigma2": Overlay(3, "Stretch σ₂"),
+    "k": Overlay(4, "Dilatation k"),
+    "energy": Overlay(5, "Energy density"),
+}
+"""By the name of the trait ``DeformCanvas.overlay``."""
+
+
+def energy_kind(energy: Energy) -> tuple[float, float] | None:
+    """The kind of an energy in the shader and its parameter; None for a user's own function."""
+    kind = _KINDS.get(type(energy))
+    return None if kind is None else (float(kind), float(getattr(energy, "s", 1.0)))
+
+
+def color_range(name: str, energy: Energy) -> tuple[float, float]:
+    """The values at the pale and at the dark end of the colour map.
+
+    Fixed, so that colours mean the same from frame to frame and from picture to picture.
+    """
+    if name == "sigma1":
+        return 1.0, 3.0
+    if name == "sigma2":
+        return 1.0, 0.0
+    if name == "k":
+        return 0.0, 1.0
+    if name == "energy":
+        least = isometry_energy(energy)
+        return least, least + 4.0 * max(least, 1.0)
+    return 0.0, 1.0
+
+
+def color_stops() -> NDArray[np.float64]:
+    """(n, 3) colours, evenly spaced, from isometric to distorted."""
+    return distortion_colors()(np.linspace(0.0, 1.0, N_COLORS))[:, :3]
+
+
+def legend(name: str, energy: Energy) -> dict[str, Any]:
+    """The colour bar as the page draws it; empty where there is nothing to explain."""
+    if OVERLAYS[name].number < 2 or (name == "energy" and energy_kind(energy) is None):
+        return {}
+    low, high = color_range(name, energy)
+    ticks = np.linspace(low, high, 5 if name == "energy" else 3)
+    return {
+        "title": OVERLAYS[name].label,
+        "colors": [to_hex(color) for color in color_stops()],
+        "ticks": [f"{value:.3g}" for value in ticks],
+    }

@@ -1,0 +1,147 @@
+"""One renderer with the pad over it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import ipywidgets
+import numpy as np
+from numpy.typing import NDArray
+
+from glid_nb.energies import Energy
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.widgets.overlays import legend
+from glid_nb.widgets.scene import EvaluatedIn, Scene, renderer
+from glid_nb.widgets.stage import Stage, marks_of
+
+Array = NDArray[Any]
+
+_ROOM = 1.12  # what is fitted leaves a border
+
+
+class Pane(ipywidgets.GridBox):
+    """A picture under a map, with marks over it; renderer and pad share one grid cell."""
+
+    def __init__(
+        self,
+        image: Array,
+        map: HarmonicMap,
+        energy: Energy,
+        size: tuple[int, int],
+        *,
+        interactive: bool,
+        n_vertices: int,
+        evaluated_in: EvaluatedIn | None,
+    ) -> None:
+        self._image, self._energy, self._n_vertices = image, energy, n_vertices
+        self._evaluated_in: EvaluatedIn | None = evaluated_in
+        self._overlay, self._lines = "texture", (False, False)
+        self._scene = self._new_scene(map)
+        self._renderer, camera = renderer(self._scene, *size)
+        self.stage = Stage(
+            width=size[0],
+            height=size[1],
+            interactive=interactive,
+            renderer=self._renderer,
+            camera=camera,
+            materials=self._materials(),
+            coefficients=self._wire(map),
+        )
+        for part in (self._renderer, self.stage):
+            part.layout.grid_area = "a"
+        super().__init__([self._renderer, self.stage])
+        self.add_class("glid-pane")
+        self.layout.grid_template_areas = "'a'"
+        self.layout.flex = "0 0 auto"
+        self._resize()
+        self.stage.observe(self._resize, ["width", "height"])
+        self.stage.observe(self._check_uniforms, ["uniform_vectors"])
+        self.fit(map, ())
+
+    @property
+    def scene(self) -> Scene:
+        """What pythreejs draws."""
+        return self._scene
+
+    def show(
+        self, map: HarmonicMap, targets: Array, images: Array, selected: tuple[int, ...]
+    ) -> None:
+        """Draw this map and these marks, in one message."""
+        if map.domain is not self._scene.domain:
+            self._replace_scene(map)
+        self._scene.show_map(map)
+        with self.stage.hold_sync():
+            self.stage.coefficients = self._wire(map)
+            self.stage.marks = marks_of(targets, images, selected)
+
+    def show_overlay(self, name: str, energy: Energy) -> None:
+        """Another way to colour the shape."""
+        self._overlay, self._energy = name, energy
+        self._scene.show_overlay(name, energy)
+        self.stage.legend = legend(name, energy)
+
+    def show_lines(self, cage: bool, offset_cage: bool) -> None:
+        """Whether the two cages are drawn."""
+        self._lines = (cage, offset_cage)
+        self._scene.show_lines(cage, offset_cage)
+
+    def show_panels(self, panels: Any, sigma2_lower: Array) -> None:
+        """The boundary's panels, coloured by margin; None for none."""
+        if self._scene.show_panels(panels, sigma2_lower):
+            self._update_children()
+
+    def fit(self, map: HarmonicMap, points: Any) -> None:
+        """Make the whole shape visible, and these points."""
+        outline = map(np.concatenate(map.domain.cage.loops))
+        everything = np.concatenate([outline, np.reshape(points, (-1, 2))])
+        low, high = everything.min(axis=0), everything.max(axis=0)
+        x, y = (low + high) / 2
+        width, height = self.stage.width, self.stage.height
+        unit = _ROOM * max((high[0] - low[0]) / width, (high[1] - low[1]) / height, 1e-6)
+        self.stage.view = [float(x), float(y), float(unit)]
+
+    def close(self) -> None:
+        """Free the renderer: a page has only eight."""
+        self._scene.close()
+        for part in (self.stage, self._renderer.scene, self._renderer.camera, self._renderer):
+            part.close()
+        super().close()
+
+    def _new_scene(self, map: HarmonicMap, vectors: int | None = None) -> Scene:
+        extra = {} if vectors is None else {"uniform_vectors": vectors}
+        return Scene(self._image, map, self._energy, self._n_vertices, self._evaluated_in, **extra)
+
+    def _replace_scene(self, map: HarmonicMap) -> None:
+        old = self._scene
+        vectors = self.stage.uniform_vectors
+        self._scene = self._new_scene(map, None if vectors == 0 else vectors)
+        self._scene.show_overlay(self._overlay, self._energy)
+        self._scene.show_lines(*self._lines)
+        self._update_children()
+        old.close()
+
+    def _update_children(self) -> None:
+        self._renderer.scene.children = [layer.mesh for layer in self._scene.layers]
+        self.stage.materials = self._materials()
+
+    def _materials(self) -> list[Any]:
+        return [layer.material for layer in self._scene.layers]
+
+    def _wire(self, map: HarmonicMap) -> bytes:
+        scene = self._scene
+        return scene.shader_map.wire(map) if scene.evaluated_in == "shader" else b""
+
+    def _resize(self, _: Any = None) -> None:
+        width, height = self.stage.width, self.stage.height
+        self._renderer.width, self._renderer.height = width, height
+        for part in (self, self._renderer, self.stage):
+            part.layout.width, part.layout.height = f"{width}px", f"{height}px"
+        self.layout.grid_template_columns = f"{width}px"
+        self.layout.grid_template_rows = f"{height}px"
+
+    def _check_uniforms(self, _: Any) -> None:
+        """The page says what its shaders hold: where that is too little, the kernel computes."""
+        scene, vectors = self._scene, self.stage.uniform_vectors
+        if scene.evaluated_in == "shader" and not scene.shader_map.fits(vectors):
+            self._replace_scene(scene.map)
+            self.stage.coefficients = b""

@@ -1,0 +1,88 @@
+"""Lines of a width in pixels along curves of the undeformed shape, as triangles for a shader."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from glid_nb.geometry import Domain
+from glid_nb.geometry.panels import Panels
+from glid_nb.geometry.sampling import subdivided
+
+Array = NDArray[Any]
+
+_PIECES_PER_SIDE = 80
+_PANEL_PIECES = 2
+# The map is not defined beyond the offset cage, so its outline is drawn a little inside, by this
+# share of its distance to the cage.
+_INSIDE = 0.15
+
+
+class Ribbon(NamedTuple):
+    """Pieces of curves, four vertices each."""
+
+    points: Array
+    """(4 s, 2) where the vertices are on the curve."""
+    ribbon: Array
+    """(4 s, 3) float32: the curve's unit direction, and the side, -1 or 1."""
+    triangles: Array
+    """(2 s, 3) uint32"""
+
+
+def ribbon(start: Array, end: Array) -> Ribbon:
+    """Ribbons along straight pieces from ``start`` to ``end``, (s,) complex."""
+    count = len(start)
+    direction = (end - start) / np.maximum(np.abs(end - start), 1e-300)
+    points = np.stack([start, start, end, end], axis=1).ravel()
+    along = np.repeat(direction, 4)
+    side = np.tile([-1.0, 1.0, -1.0, 1.0], count)
+    corner = 4 * np.arange(count)[:, None, None]
+    triangles = corner + np.array([[0, 1, 2], [2, 1, 3]])
+    return Ribbon(
+        np.stack([np.real(points), np.imag(points)], axis=1),
+        np.stack([along.real, along.imag, side], axis=1).astype(np.float32),
+        triangles.reshape(-1, 3).astype(np.uint32),
+    )
+
+
+def cage_ribbon(domain: Domain) -> Ribbon:
+    """The cage's loops."""
+    return _loops_ribbon(domain.cage_loops_complex, domain.cage.longer_side)
+
+
+def offset_ribbon(domain: Domain) -> Ribbon:
+    """The offset cage's loops, drawn a little on the side of the cage."""
+    rings = [shapely.LinearRing(loop) for loop in domain.offset_cage.loops]
+    outline = shapely.MultiLineString([np.vstack([p, p[:1]]) for p in domain.cage.loops])
+    gap = min(float(shapely.distance(ring, outline)) for ring in rings)
+    polygon = shapely.Polygon(domain.offset_cage.exterior, domain.offset_cage.holes)
+    inner = shapely.buffer(polygon, -_INSIDE * gap, join_style="mitre")
+    loops = [shapely.get_coordinates(ring)[:-1] for ring in shapely.get_rings(inner)]
+    return _loops_ribbon([p[:, 0] + 1j * p[:, 1] for p in loops], domain.cage.longer_side)
+
+
+def panel_ribbon(panels: Panels) -> Ribbon:
+    """The boundary's panels."""
+    t = np.linspace(0.0, 1.0, _PANEL_PIECES + 1)
+    points = panels.start[:, None] + (panels.end - panels.start)[:, None] * t
+    return ribbon(points[:, :-1].ravel(), points[:, 1:].ravel())
+
+
+def panel_values(values: Array) -> Array:
+    """A value per panel, repeated for every vertex of `panel_ribbon`."""
+    return np.repeat(values, 4 * _PANEL_PIECES)
+
+
+def _loops_ribbon(loops: Sequence[Array], side: float) -> Ribbon:
+    starts, ends = [], []
+    for loop in loops:
+        lengths = np.abs(np.roll(loop, -1) - loop)
+        pieces = np.maximum(np.ceil(lengths / (side / _PIECES_PER_SIDE)), 1).astype(np.int64)
+        points = subdivided(loop, pieces)
+        starts.append(points)
+        ends.append(np.roll(points, -1))
+    return ribbon(np.concatenate(starts), np.concatenate(ends))

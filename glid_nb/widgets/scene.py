@@ -1,0 +1,321 @@
+"""What pythreejs draws: the picture on its mesh, and lines along the boundary.
+
+The only module, with `picture_texture`, that knows pythreejs.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import numpy as np
+import pythreejs as three
+from numpy.typing import NDArray
+
+from glid_nb.energies import Energy
+from glid_nb.geometry import triangulate
+from glid_nb.geometry.panels import Panels
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging import PixelFrame
+from glid_nb.imaging.style import BLUE, GREY
+from glid_nb.widgets.overlays import (
+    N_COLORS,
+    OVERLAYS,
+    color_range,
+    color_stops,
+    energy_kind,
+)
+from glid_nb.widgets.picture_texture import picture_texture
+from glid_nb.widgets.ribbons import (
+    Ribbon,
+    cage_ribbon,
+    offset_ribbon,
+    panel_ribbon,
+    panel_values,
+)
+from glid_nb.widgets.shader import UNIFORM_VECTORS, ShaderMap, glsl
+
+Array = NDArray[Any]
+EvaluatedIn = Literal["shader", "kernel"]
+
+N_VERTICES = 10_000
+"""Vertices of the picture's mesh, by default."""
+
+_GRID_LINES = 40  # along the longer side
+_CAGE_WIDTH, _OFFSET_WIDTH, _PANEL_WIDTH = 0.9, 0.6, 2.2  # half, in pixels
+_FULL_MARGIN = 0.5  # a certified sigma_2 from which on a panel has the palest colour
+
+
+class Layer:
+    """A mesh whose vertices the map moves.
+
+    Parameters
+    ----------
+    points : (v, 2) array
+        Places in the undeformed shape.
+    triangles : (t, 3) array
+    attributes : dict
+        Further arrays per vertex.
+    shaders : (str, str)
+        Names of the vertex and the fragment shader.
+    uniforms : dict
+        Uniforms beside those of the map. At most one texture, and that last: pythreejs binds every
+        texture to the last name.
+    """
+
+    def __init__(
+        self,
+        points: Array,
+        triangles: Array,
+        attributes: dict[str, Any],
+        shaders: tuple[str, str],
+        uniforms: dict[str, dict[str, Any]],
+        shader_map: ShaderMap,
+        map: HarmonicMap,
+        evaluated_in: EvaluatedIn,
+    ) -> None:
+        self._points, self._in_kernel = points, evaluated_in == "kernel"
+        flat = np.concatenate([points, np.zeros((len(points), 1))], axis=1).astype(np.float32)
+        arrays = {
+            "position": three.BufferAttribute(flat, normalized=False),
+            "index": three.BufferAttribute(triangles.astype(np.uint32).ravel(), normalized=False),
+            **attributes,
+        }
+        if self._in_kernel:
+            image, derivatives = self._evaluated(map)
+            arrays["image"] = three.BufferAttribute(image, normalized=False)
+            arrays["derivatives"] = three.BufferAttribute(derivatives, normalized=False)
+            head = glsl("image_buffer.glsl")
+        else:
+            uniforms = {**shader_map.uniforms(map), **uniforms}
+            head = shader_map.defines() + glsl("harmonic.glsl")
+        colors = f"#define N_COLORS {N_COLORS}\n"
+        self.attributes = arrays
+        self._uniforms = uniforms
+        self.material = three.ShaderMaterial(
+            vertexShader=head + glsl(shaders[0]),
+            fragmentShader=colors + glsl(shaders[1]),
+            uniforms=uniforms,
+            side="DoubleSide",
+            transparent=True,
+            premultipliedAlpha=True,
+            depthTest=False,
+            depthWrite=False,
+        )
+        geometry = three.BufferGeometry(attributes=arrays)
+        # A mesh that grows out of its first bounding sphere would vanish.
+        self.mesh = three.Mesh(geometry, self.material, frustumCulled=False)
+
+    @property
+    def n_vertices(self) -> int:
+        """Vertices of the mesh."""
+        return len(self._points)
+
+    def show_map(self, map: HarmonicMap) -> None:
+        """Bring the vertex buffers up to date, where the kernel computes them."""
+        if self._in_kernel and self.mesh.visible:
+            image, derivatives = self._evaluated(map)
+            self.attributes["image"].array = image
+            self.attributes["derivatives"].array = derivatives
+
+    def set_uniforms(self, changes: dict[str, Any]) -> None:
+        """Give some uniforms other values."""
+        new = {
+            name: {**u, "value": changes.get(name, u["value"])}
+            for name, u in self._uniforms.items()
+        }
+        self._uniforms = self.material.uniforms = new
+
+    def close(self) -> None:
+        """Free what the page holds of this layer."""
+        for attribute in self.attributes.values():
+            attribute.close()
+        self.mesh.geometry.close()
+        self.material.close()
+        self.mesh.close()
+
+    def _evaluated(self, map: HarmonicMap) -> tuple[Array, Array]:
+        fz, fzb = map.wirtinger(self._points)
+        derivatives = np.stack([np.real(fz), np.imag(fz), np.real(fzb), -np.imag(fzb)], axis=1)
+        return map(self._points).astype(np.float32), derivatives.astype(np.float32)
+
+
+class Scene:
+    """The picture and the lines of one domain, under one map.
+
+    Parameters
+    ----------
+    image : (h, w, 4) uint8 array
+        Straight alpha.
+    map : HarmonicMap
+        The first map; its domain is the scene's.
+    energy : Energy
+        For the overlay that shows its density.
+    n_vertices : int
+        Vertices of the picture's mesh.
+    evaluated_in : "shader" or "kernel", optional
+        Who computes the vertices; by default the shader where it can hold the domain.
+    uniform_vectors : int
+        What the page's shaders hold.
+    """
+
+    def __init__(
+        self,
+        image: Array,
+        map: HarmonicMap,
+        energy: Energy,
+        n_vertices: int = N_VERTICES,
+        evaluated_in: EvaluatedIn | None = None,
+        uniform_vectors: int = UNIFORM_VECTORS,
+    ) -> None:
+        domain = map.domain
+        self.domain = domain
+        self.shader_map = ShaderMap(domain)
+        fits = self.shader_map.fits(uniform_vectors)
+        if evaluated_in is None:
+            evaluated_in = "shader" if fits else "kernel"
+        self.evaluated_in: EvaluatedIn = evaluated_in
+        self._energy, self._overlay = energy, "texture"
+        self.map = map
+        height, width = image.shape[:2]
+        self.frame = PixelFrame(width, height)
+        self._texture = picture_texture(image)
+        mesh = triangulate(domain.cage, n_vertices)
+        self.picture = self._layer(
+            mesh.vertices,
+            mesh.triangles,
+            {},
+            ("picture.vert", "picture.frag"),
+            {**self._picture_uniforms(), "map": {"value": self._texture}},
+        )
+        self.cage = self._line(cage_ribbon(domain), BLUE, 0.9, _CAGE_WIDTH)
+        self.offset_cage = self._line(offset_ribbon(domain), GREY, 0.9, _OFFSET_WIDTH)
+        self.panels: Layer | None = None
+        self._panels: Panels | None = None
+        for line in (self.cage, self.offset_cage):
+            line.mesh.visible = False
+
+    @property
+    def layers(self) -> tuple[Layer, ...]:
+        """All layers, the lowest first."""
+        lines = (self.cage, self.offset_cage, *([self.panels] if self.panels else []))
+        return (self.picture, *lines)
+
+    def show_map(self, map: HarmonicMap) -> None:
+        """Another map; where the shader evaluates it, the page does the rest."""
+        self.map = map
+        for layer in self.layers:
+            layer.show_map(map)
+
+    def show_overlay(self, name: str, energy: Energy) -> None:
+        """Another way to colour the shape."""
+        if (name, energy) != (self._overlay, self._energy):
+            self._overlay, self._energy = name, energy
+            self.picture.set_uniforms({k: u["value"] for k, u in self._picture_uniforms().items()})
+
+    def show_lines(self, cage: bool, offset_cage: bool) -> None:
+        """Whether the cage and the offset cage are drawn."""
+        for layer, visible in ((self.cage, cage), (self.offset_cage, offset_cage)):
+            if layer.mesh.visible != visible:
+                layer.mesh.visible = visible
+                layer.show_map(self.map)
+
+    def show_panels(self, panels: Panels | None, sigma2_lower: Array) -> bool:
+        """The boundary's panels coloured by margin, or none; whether there is another layer now."""
+        if panels is None:
+            if self.panels is not None:
+                self.panels.mesh.visible = False
+            return False
+        margin = np.clip(np.nan_to_num(sigma2_lower) / _FULL_MARGIN, 0.0, 1.0)
+        values = panel_values(np.rint(255 * (1 - margin)).astype(np.uint8))
+        if panels is self._panels and self.panels is not None:
+            self.panels.attributes["margin"].array = values
+            self.panels.mesh.visible = True
+            return False
+        if self.panels is not None:
+            self.panels.close()
+        attribute = three.BufferAttribute(values, normalized=True)
+        self.panels = self._line(
+            panel_ribbon(panels), GREY, 1.0, _PANEL_WIDTH, {"margin": attribute}
+        )
+        self._panels = panels
+        return True
+
+    def close(self) -> None:
+        """Free what the page holds."""
+        for layer in self.layers:
+            layer.close()
+        self._texture.close()
+
+    def _layer(
+        self,
+        points: Array,
+        triangles: Array,
+        attributes: dict[str, Any],
+        shaders: tuple[str, str],
+        uniforms: dict[str, dict[str, Any]],
+    ) -> Layer:
+        domain = (self.shader_map, self.map, self.evaluated_in)
+        return Layer(points, triangles, attributes, shaders, uniforms, *domain)
+
+    def _line(
+        self,
+        line: Ribbon,
+        color: str,
+        opacity: float,
+        half_width: float,
+        extra: dict[str, Any] | None = None,
+    ) -> Layer:
+        margin = np.zeros(len(line.points), dtype=np.uint8)
+        rgb = [int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+        return self._layer(
+            line.points,
+            line.triangles,
+            {
+                "ribbon": three.BufferAttribute(line.ribbon, normalized=False),
+                "margin": three.BufferAttribute(margin, normalized=True),
+                **(extra or {}),
+            },
+            ("ribbon.vert", "ribbon.frag"),
+            {
+                "pixel": {"value": 0.02},
+                "half_width": {"value": half_width},
+                "line_color": {"value": [*rgb, opacity]},
+                "by_margin": {"value": 1.0 if extra else 0.0},
+                "colors": {"value": color_stops().ravel().tolist()},
+            },
+        )
+
+    def _picture_uniforms(self) -> dict[str, dict[str, Any]]:
+        xmin, ymin, xmax, ymax = self.frame.bounds
+        kind = energy_kind(self._energy)
+        # The shader cannot know a user's own function; the picture is shown instead.
+        unknown = self._overlay == "energy" and kind is None
+        number = 0 if unknown else OVERLAYS[self._overlay].number
+        return {
+            "frame": {"value": [xmin, ymin, xmax - xmin, ymax - ymin]},
+            "overlay": {"value": float(number)},
+            "energy": {"value": list(kind or (0.0, 1.0))},
+            "color_range": {"value": list(color_range(self._overlay, self._energy))},
+            "colors": {"value": color_stops().ravel().tolist()},
+            "pixel": {"value": 0.02},
+            "grid_spacing": {"value": self.domain.cage.longer_side / _GRID_LINES},
+        }
+
+
+def renderer(scene: Scene, width: int, height: int) -> tuple[Any, Any]:
+    """A pythreejs renderer of a scene, and its camera, whose frame the page sets."""
+    camera = three.OrthographicCamera(-10, 10, 10, -10, 0, 10, position=[0, 0, 5])
+    root = three.Scene(children=[layer.mesh for layer in scene.layers], background=None)
+    view = three.Renderer(
+        camera=camera,
+        scene=root,
+        controls=[],
+        width=width,
+        height=height,
+        antialias=True,
+        alpha=True,
+        background_opacity=0,
+        clearOpacity=0,
+        sortObject=False,
+    )
+    return view, camera

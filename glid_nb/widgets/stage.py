@@ -1,0 +1,77 @@
+"""The pad over a renderer: pointers and keys in, handles and colour bar out."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import anywidget
+import ipywidgets
+import traitlets
+
+from glid_nb.widgets.bundle import bundle, stylesheet
+
+_REFERENCE: dict[str, Any] = ipywidgets.widget_serialization
+
+
+class Stage(anywidget.AnyWidget):
+    """What lies over a pythreejs renderer in the same place.
+
+    It draws handles and targets, hands pointers and keys to the kernel in world coordinates, pans
+    and zooms the renderer's camera without the kernel, and puts the coefficients of a map into the
+    renderer's materials, so that a frame is these coefficients and the marks.
+    """
+
+    _esm = bundle("canvas/main.js")
+    _css = stylesheet("canvas/canvas.css")
+
+    width = traitlets.Int(600).tag(sync=True)
+    """Width in CSS pixels; the page changes it when the corner is dragged."""
+
+    height = traitlets.Int(500).tag(sync=True)
+    """Height in CSS pixels."""
+
+    view = traitlets.List(traitlets.Float(), [0.0, 0.0, 0.04]).tag(sync=True)
+    """Centre (x, y) in world units, and the world units of one CSS pixel."""
+
+    coefficients = traitlets.Bytes(b"").tag(sync=True)
+    """The map, as ``ShaderMap.wire`` writes it; empty where the kernel evaluates."""
+
+    marks = traitlets.Dict({"targets": [], "images": [], "selected": []}).tag(sync=True)
+    """Targets and images of the handles, lists of [x, y], and indices of those selected."""
+
+    cursor = traitlets.List(default_value=None, allow_none=True).tag(sync=True)
+    """Where the keyboard's cursor is, [x, y]; None while it is not used."""
+
+    legend = traitlets.Dict({}).tag(sync=True)
+    """The colour bar: ``title``, ``colors`` and ``ticks``; empty for none."""
+
+    notice = traitlets.Unicode("").tag(sync=True)
+    """Why the last thing that was tried is not possible; empty for nothing."""
+
+    interactive = traitlets.Bool(True).tag(sync=True)
+    """Whether the pad takes pointers and keys."""
+
+    uniform_vectors = traitlets.Int(0).tag(sync=True)
+    """How many vectors of uniforms the page's shaders hold; 0 while no page has said."""
+
+    renderer = traitlets.Instance(ipywidgets.Widget).tag(sync=True, **_REFERENCE)
+    """The pythreejs renderer below."""
+
+    camera = traitlets.Instance(ipywidgets.Widget).tag(sync=True, **_REFERENCE)
+    """Its camera."""
+
+    materials = traitlets.List([]).tag(sync=True, **_REFERENCE)
+    """The materials that take the coefficients."""
+
+    def acknowledge(self, view: str, number: int) -> None:
+        """Tell the page's view that its events up to ``number`` were dealt with."""
+        self.send({"view": view, "ack": number})
+
+
+def marks_of(targets: Any, images: Any, selected: Any) -> dict[str, Any]:
+    """The trait ``marks``: points rounded to what a screen can show."""
+    return {
+        "targets": [[round(float(x), 5), round(float(y), 5)] for x, y in targets],
+        "images": [[round(float(x), 5), round(float(y), 5)] for x, y in images],
+        "selected": [int(i) for i in selected],
+    }

@@ -1,0 +1,76 @@
+"""Buttons above the canvas."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import ipywidgets
+
+from glid_nb.widgets.canvas import DeformCanvas
+from glid_nb.widgets.overlays import OVERLAYS
+
+_TOGGLES = (
+    ("show_cage", "Cage", "Draw the cage"),
+    ("show_offset_cage", "Offset", "Draw the offset cage, which carries the basis"),
+    ("show_panels", "Certificate", "Colour the boundary by its certified margin"),
+    ("show_source", "Source", "Show the undeformed shape beside the result"),
+)
+
+
+class Toolbar(ipywidgets.HBox):
+    """Undo, redo, reset, fit, and what the canvas shows.
+
+    Parameters
+    ----------
+    canvas : DeformCanvas
+    """
+
+    def __init__(self, canvas: DeformCanvas, **kwargs: Any) -> None:
+        model = canvas.deformation
+        self.canvas = canvas
+        """The canvas that the buttons belong to."""
+        self.undo = _icon("undo", "Undo (Ctrl+Z)", model.undo)
+        self.redo = _icon("repeat", "Redo (Ctrl+Shift+Z)", model.redo)
+        self.reset = _icon("home", "The undeformed shape (0)", model.reset)
+        self.fit = _icon("expand", "Make everything visible (F)", canvas.fit)
+        self.overlay = ipywidgets.Dropdown(
+            options=[(overlay.label, name) for name, overlay in OVERLAYS.items()],
+            tooltip="What the shape shows",
+            layout=ipywidgets.Layout(width="136px"),
+        )
+        self.toggles = {
+            name: ipywidgets.ToggleButton(
+                description=label, tooltip=tooltip, layout=ipywidgets.Layout(width="auto")
+            )
+            for name, label, tooltip in _TOGGLES
+        }
+        ipywidgets.link((canvas, "overlay"), (self.overlay, "value"))
+        for name, toggle in self.toggles.items():
+            ipywidgets.link((canvas, name), (toggle, "value"))
+        super().__init__(
+            [self.undo, self.redo, self.reset, self.fit, self.overlay, *self.toggles.values()],
+            **kwargs,
+        )
+        self.add_class("glid-tools")
+        self._show()
+        self._stop = model.observe(self._on_model)
+
+    def close(self) -> None:
+        """Stop watching."""
+        self._stop()
+        super().close()
+
+    def _on_model(self, what: str) -> None:
+        if what == "state":
+            self._show()
+
+    def _show(self) -> None:
+        model = self.canvas.deformation
+        self.undo.disabled, self.redo.disabled = not model.can_undo, not model.can_redo
+
+
+def _icon(name: str, tooltip: str, act: Callable[[], None]) -> ipywidgets.Button:
+    button = ipywidgets.Button(icon=name, tooltip=tooltip, layout=ipywidgets.Layout(width="38px"))
+    button.on_click(lambda _: act())
+    return button

@@ -1,0 +1,106 @@
+"""The editor's actions as pure functions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from glid_nb.energies import AMIPS
+from glid_nb.session import actions
+from glid_nb.session.edit_state import EditError, EditState
+from glid_nb.solvers import OptionError, Pose
+
+from ..domains import domain
+
+
+@pytest.fixture
+def state() -> EditState:
+    return EditState.initial(domain("ring"), Pose([[2, 0], [-2, 0]], [[2.5, 0], [-2, 0]]))
+
+
+def test_a_handle_is_pinned_where_it_is(state: EditState) -> None:
+    new = actions.add_handles(state, (0, 2))
+    assert new.pose.handles[2].tolist() == [0, 2]
+    np.testing.assert_allclose(new.pose.targets[2], [0, 2], atol=1e-9)
+    assert len(state.pose) == 2
+    assert new.map is state.map
+    assert not new.current.solved
+
+
+@pytest.mark.parametrize(
+    ("action", "message"),
+    [
+        (lambda s: actions.add_handles(s, (0, 0)), "outside the shape"),
+        (lambda s: actions.add_handles(s, (2, 0)), "already is a handle"),
+        (lambda s: actions.add_handles(s, [(0, 2), (0, 2)]), "already is a handle"),
+        (lambda s: actions.add_handles(s, (np.nan, 2)), "not finite"),
+        (lambda s: actions.move_targets(s, [0], (np.inf, 2)), "not finite"),
+        (lambda s: actions.move_targets(s, [2], (0, 0)), "no handle 2"),
+        (lambda s: actions.remove_handles(s, [-1]), "no handle -1"),
+        (lambda s: actions.drop_hole(s, 1), "no hole 2"),
+        (lambda s: actions.delete_pose(s, 0), "only pose"),
+        (lambda s: actions.go_to_pose(s, 1), "no pose 2"),
+        (lambda s: actions.rename_pose(s, 0, " "), "1 to 200 characters"),
+    ],
+)
+def test_what_cannot_be_done_is_refused(
+    state: EditState, action: Callable[[EditState], EditState], message: str
+) -> None:
+    with pytest.raises(EditError, match=message):
+        action(state)
+
+
+def test_a_wrong_option_is_refused(state: EditState) -> None:
+    with pytest.raises(OptionError, match="p2p_weight"):
+        actions.set_options(state, p2p_weight=-1.0)
+
+
+def test_handles_are_removed_and_cleared(state: EditState) -> None:
+    assert actions.remove_handles(state, [0]).pose.handles.tolist() == [[-2, 0]]
+    assert len(actions.clear_handles(state).pose) == 0
+
+
+def test_targets_move_and_are_nudged(state: EditState) -> None:
+    moved = actions.move_targets(state, [1], (-3, 1))
+    assert moved.pose.targets.tolist() == [[2.5, 0], [-3, 1]]
+    assert actions.nudge(moved, [0, 1], (0.5, 0)).pose.targets.tolist() == [[3, 0], [-2.5, 1]]
+
+
+def test_reset_goes_back_to_the_undeformed_shape(state: EditState) -> None:
+    new = actions.reset(state)
+    assert new.pose.targets.tolist() == state.pose.handles.tolist()
+    np.testing.assert_allclose(new.map([[2, 0]]), [[2, 0]], atol=1e-9)
+
+
+def test_a_dropped_hole_keeps_the_handles(state: EditState) -> None:
+    new = actions.drop_hole(state, 0)
+    assert new.domain.n_holes == 0
+    assert new.pose.handles.tolist() == state.pose.handles.tolist()
+    assert actions.add_handles(new, (0, 0)).pose.handles[2].tolist() == [0, 0]
+    assert new.map.domain is new.domain
+
+
+def test_another_domain_keeps_the_handles_inside(state: EditState) -> None:
+    new = actions.set_domain(state, domain("ell"))
+    assert new.pose.handles.tolist() == [[2, 0], [-2, 0]]
+    third = actions.add_handles(state, (0, 2.5))
+    assert len(actions.set_domain(third, domain("twin")).pose) == 0
+
+
+def test_the_list_of_poses(state: EditState) -> None:
+    two = actions.save_pose(state, "left")
+    assert [p.name for p in two.poses] == ["left", "left 1"]
+    assert two.active == 1
+    assert two.pose is state.pose
+    moved = actions.set_energy(actions.move_targets(two, [0], (0, 2)), AMIPS(0.5))
+    back = actions.go_to_pose(moved, 0)
+    assert back.pose is state.pose
+    assert back.current.energy == state.current.energy
+    assert actions.go_to_pose(back, 1).pose is moved.pose
+    three = actions.duplicate_pose(back, 0)
+    assert [p.name for p in three.poses] == ["left", "left 2", "left 1"]
+    fewer = actions.delete_pose(three, 0)
+    assert (len(fewer.poses), fewer.active) == (2, 0)
+    assert actions.rename_pose(fewer, 1, " right ").poses[1].name == "right"

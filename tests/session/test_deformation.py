@@ -1,0 +1,291 @@
+"""The deformation editor's model: what the hand does, the thread behind it."""
+
+from __future__ import annotations
+
+import gc
+import signal
+import threading
+import weakref
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from glid_nb.certificate import certify
+from glid_nb.energies import AMIPS
+from glid_nb.session.deformation import Deformation
+from glid_nb.session.edit_state import EditError
+from glid_nb.solvers import Status
+
+from ..domains import domain
+
+TIMEOUT = 120.0
+
+
+@pytest.fixture
+def ring() -> Iterator[Deformation]:
+    """Two solved handles on a ring."""
+    with Deformation(domain("ring")) as deformation:
+        deformation.add_handles([(2, 0), (-2, 0)])
+        assert deformation.solve(TIMEOUT)
+        yield deformation
+
+
+def test_a_drag_is_solved_to_its_end(ring: Deformation) -> None:
+    ring.drag(0, to=(3, 0.5))
+    assert ring.solve(TIMEOUT)
+    np.testing.assert_allclose(ring.map([[2, 0]]), [[3, 0.5]], atol=1e-3)
+    assert ring.state.current.solved
+    assert ring.status.level == "good"
+    assert "Converged" in ring.status.text
+
+
+def test_a_drag_is_one_step_and_undo_is_exact(ring: Deformation) -> None:
+    before, steps = ring.state, len(ring.history.past)
+    ring.begin_drag([0])
+    for x in np.linspace(2, 3, 20):
+        ring.drag_to([(x, 0.2)])
+    ring.end_drag()
+    assert len(ring.history.past) == steps + 1
+    assert ring.solve(TIMEOUT)
+    after = ring.state
+    ring.undo()
+    assert ring.state is before
+    ring.redo()
+    assert ring.state is after
+
+
+def test_a_cancelled_drag_leaves_no_trace(ring: Deformation) -> None:
+    before, history = ring.state, ring.history
+    ring.begin_drag([0])
+    ring.drag_to([(3, 0)])
+    ring.solve(TIMEOUT)
+    assert ring.state is not before
+    ring.cancel_drag()
+    assert ring.state is before
+    assert ring.history.past == history.past
+    assert ring.dragged == ()
+
+
+def test_undo_during_a_drag_cancels_it(ring: Deformation) -> None:
+    before = ring.state
+    ring.begin_drag([0])
+    ring.drag_to([(3, 0)])
+    ring.undo()
+    assert ring.state is before
+
+
+def test_a_drag_that_goes_nowhere_is_no_step(ring: Deformation) -> None:
+    steps = len(ring.history.past)
+    ring.begin_drag([0])
+    ring.end_drag()
+    assert len(ring.history.past) == steps
+
+
+def test_another_action_splits_a_drag(ring: Deformation) -> None:
+    steps = len(ring.history.past)
+    ring.begin_drag([1])
+    ring.drag_to([(-2.4, 0)])
+    ring.add_handle((0, 2))
+    ring.remove_handles(0)
+    assert ring.dragged == (0,)
+    ring.drag_to([(-2.6, 0)])
+    ring.end_drag()
+    assert len(ring.history.past) == steps + 4
+    np.testing.assert_allclose(ring.pose.targets[0], [-2.6, 0])
+    ring.undo()
+    np.testing.assert_allclose(ring.pose.targets[0], [-2.4, 0])
+
+
+def test_every_frame_is_certified(ring: Deformation) -> None:
+    maps = []
+    ring.observe(lambda name: maps.append(ring.map) if name == "frame" else None)
+    ring.begin_drag([0])
+    for angle in np.linspace(0, 3, 15):
+        ring.drag_to([(3 * np.cos(angle), 3 * np.sin(angle))])
+        ring.solve(TIMEOUT)
+    ring.end_drag()
+    assert len({id(m) for m in maps}) >= 15
+    for map_ in maps[:: max(1, len(maps) // 20)]:
+        assert certify(map_).certified
+
+
+@pytest.mark.slow
+def test_an_unreachable_target_is_followed_as_far_as_it_goes(ring: Deformation) -> None:
+    ring.add_handle((0, 2))
+    # Three pinned points cannot change their orientation without a fold.
+    ring.drag(2, to=(0, -200))
+    assert ring.solve(TIMEOUT)
+    assert certify(ring.map).certified
+    solution = ring.state.current.solution
+    assert solution is not None
+    if solution.status is Status.BLOCKED:
+        assert ring.status.level == "blocked"
+    assert np.isfinite(ring.map(ring.pose.handles)).all()
+
+
+def test_solver_errors_reach_the_status(ring: Deformation, monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(*_: object, **__: object) -> None:
+        raise RuntimeError("no more magic smoke")
+
+    shown = ring.map
+    with monkeypatch.context() as patch:
+        patch.setattr("glid_nb.session.live_solver.solve", broken)
+        ring.drag(0, to=(2.5, 0))
+        assert ring.solve(TIMEOUT)
+        assert ring.status.level == "error"
+        assert "no more magic smoke" in ring.status.text
+        assert ring.map is shown
+    ring.drag(0, to=(2.6, 0))
+    assert ring.solve(TIMEOUT)
+    assert ring.status.level == "good"
+
+
+@pytest.mark.slow
+def test_changing_the_energy_while_solving(ring: Deformation) -> None:
+    ring.begin_drag([0])
+    ring.drag_to([(3, 1)])
+    ring.set_energy(AMIPS(0.5))
+    ring.drag_to([(3, 1.2)])
+    ring.end_drag()
+    assert ring.solve(TIMEOUT)
+    assert ring.state.current.energy == AMIPS(0.5)
+    np.testing.assert_allclose(ring.map([[2, 0]]), [[3, 1.2]], atol=1e-2)
+    assert certify(ring.map).certified
+
+
+@pytest.mark.slow
+def test_conformal_maps_begin_at_one(ring: Deformation) -> None:
+    ring.drag(0, to=(2.5, 0.5))
+    ring.solve(TIMEOUT)
+    ring.set_options(conformal=True)
+    assert ring.solve(TIMEOUT)
+    assert np.ptp(np.abs(ring.map.psi)) == 0
+    ring.undo()
+    ring.solve(TIMEOUT)
+    assert not ring.state.current.options.conformal
+
+
+@pytest.mark.slow
+def test_dropping_a_hole_with_handles_near_it(ring: Deformation) -> None:
+    ring.add_handle((0, 1.3))
+    ring.drag(2, to=(0, 1.0))
+    ring.solve(TIMEOUT)
+    before = ring.state
+    ring.drop_hole(0)
+    ring.select([2])
+    assert ring.solve(TIMEOUT)
+    assert ring.domain.n_holes == 0
+    assert certify(ring.map).certified
+    assert ring.find((0, 0)) is not None
+    ring.undo()
+    assert ring.state is before
+
+
+def test_pausing_and_stepping(ring: Deformation) -> None:
+    ring.paused = True
+    assert ring.status.text.startswith("Paused")
+    shown = ring.map
+    ring.drag(0, to=(4, 2))
+    assert ring.map is shown
+    ring.step()
+    assert ring.solve(TIMEOUT)
+    assert ring.map is not shown
+    assert not ring.state.current.solved
+    ring.paused = False
+    assert ring.solve(TIMEOUT)
+    assert ring.state.current.solved
+
+
+def test_poses_keep_their_maps(ring: Deformation) -> None:
+    ring.save_pose("rest")
+    ring.drag(0, to=(3, 1))
+    ring.solve(TIMEOUT)
+    bent = ring.map
+    ring.go_to_pose(0)
+    np.testing.assert_allclose(ring.map([[2, 0]]), [[2, 0]], atol=1e-6)
+    ring.go_to_pose(1)
+    assert ring.map is bent
+
+
+def test_find_inverts_the_map(ring: Deformation) -> None:
+    ring.drag(0, to=(3, 1))
+    ring.solve(TIMEOUT)
+    inside = np.array([[0, 2], [-1.5, -1.5], [2, 0], [2.5, 0.3]])
+    for point, image in zip(inside, ring.map(inside), strict=True):
+        found = ring.find(image)
+        assert found is not None
+        np.testing.assert_allclose(found, point, atol=1e-7)
+    assert ring.find((0, 0)) is None
+    assert ring.find((100, 0)) is None
+
+
+def test_selection_follows_the_handles(ring: Deformation) -> None:
+    ring.select([1, 1, 7])
+    assert ring.selection == (1,)
+    ring.remove_handles(0)
+    assert ring.selection == (0,)
+    ring.undo()
+    assert ring.selection == (1,)
+
+
+def test_what_is_refused_changes_nothing(ring: Deformation) -> None:
+    state, history = ring.state, ring.history
+    with pytest.raises(EditError):
+        ring.add_handle((0, 0))
+    with pytest.raises(EditError, match="nothing is being dragged"):
+        ring.drag_to([(0, 0)])
+    assert ring.state is state
+    assert ring.history is history
+
+
+def test_the_thread_dies_with_the_model() -> None:
+    deformation = Deformation(domain("ring"))
+    thread = deformation._solver._worker._thread
+    assert thread is not None
+    gone = weakref.ref(deformation)
+    deformation.observe(lambda _: None)
+    del deformation
+    gc.collect()
+    assert gone() is None
+    thread.join(TIMEOUT)
+    assert not thread.is_alive()
+
+
+def test_closing_ends_the_thread(ring: Deformation) -> None:
+    ring.close()
+    assert not ring.alive
+    ring.drag(0, to=(3, 0))
+    assert ring.solve(1.0)
+    assert certify(ring.map).certified
+
+
+def test_an_interrupt_stops_the_solve_only(
+    ring: Deformation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from glid_nb.session import live_solver
+
+    real, entered, go_on = live_solver.solve, threading.Event(), threading.Event()
+
+    def slow(*arguments: object) -> object:
+        entered.set()
+        assert go_on.wait(TIMEOUT)
+        return real(*arguments)
+
+    monkeypatch.setattr("glid_nb.session.live_solver.solve", slow)
+    ring.drag(0, to=(4, 2))
+    assert entered.wait(TIMEOUT)
+    timer = threading.Timer(0.2, lambda: signal.raise_signal(signal.SIGINT))
+    previous = signal.signal(signal.SIGINT, signal.default_int_handler)
+    timer.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            ring.solve()
+    finally:
+        signal.signal(signal.SIGINT, previous)
+        timer.join()
+        go_on.set()
+    monkeypatch.undo()
+    assert ring.solve(TIMEOUT)
+    assert ring.alive
+    assert ring.state.current.solved

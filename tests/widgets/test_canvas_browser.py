@@ -1,0 +1,236 @@
+"""The deformation canvas and the editor in a real browser."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from .conftest import OpenNotebook
+from .editor_page import EDITOR, SETUP, Hand, line
+
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
+
+THREE = [(-6.0, 0.0), (6.0, 0.0), (0.0, 0.5)]
+
+
+def test_click_drag_undo_and_redo(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, EDITOR])
+    hand = Hand(book)
+    for point in THREE:
+        hand.click(point)
+    book.wait_for("len(model.pose) == 3")
+    np.testing.assert_allclose(hand.handles, THREE, atol=0.1)
+    hand.settle()
+    before = hand.targets
+
+    # 60 moves a second, released above the canvas.
+    beyond = [5.0, 9.0]
+    hand.drag([*line(THREE[1], [7.0, 3.0], 45), *line([7.0, 3.0], beyond, 15)])
+    hand.settle()
+    assert hand.certified()
+    np.testing.assert_allclose(hand.targets[1], beyond, atol=0.1)
+    np.testing.assert_allclose(hand.targets[0], before[0], atol=1e-9)
+    gap = book.value("float(abs(model.map(model.pose.handles) - model.pose.targets).max())")
+    assert gap < 0.01
+    hand.wait_until_drawn()
+    book.screenshot("editor-dragged")
+    after = hand.targets
+
+    hand.page.keyboard.press("Control+z")
+    book.wait_for(f"abs(model.pose.targets - {before}).max() == 0")
+    hand.wait_until_drawn()
+    hand.page.keyboard.press("Control+Shift+Z")
+    book.wait_for(f"abs(model.pose.targets - {after}).max() == 0")
+    hand.wait_until_drawn()
+    # Escape leaves no trace of a drag.
+    steps = book.value("len(model.history.past)")
+    hand.page.mouse.move(*hand.place(after[0]))
+    hand.page.mouse.down()
+    hand.page.mouse.move(*hand.place([-5.0, 2.0]))
+    book.wait_for("len(model.dragged) == 1")
+    hand.page.keyboard.press("Escape")
+    book.wait_for("not model.dragged")
+    hand.page.mouse.up()
+    assert hand.targets == after
+    assert book.value("len(model.history.past)") == steps
+    # The right button removes, F fits, and what is drawn is where it should be.
+    hand.click(after[2], button="right")
+    book.wait_for("len(model.pose) == 2")
+    hand.settle()
+    view = book.value("list(canvas.pane.stage.view)")
+    hand.page.keyboard.press("f")
+    book.wait_for(f"list(canvas.pane.stage.view) != {view}")
+    hand.wait_until_drawn()
+    points = [[-5.0, 0.5], [-2.0, -1.0], [0.5, 0.0], [3.1, 1.0], [5.2, -1.2]]
+    for point, image in zip(points, book.value(f"model.map({points}).tolist()"), strict=True):
+        seen = hand.color_at(image)
+        # 10 pixels of the picture are one unit; green and blue count them.
+        wanted = 100 + 10 * point[0]
+        assert abs(seen[1] - wanted) < 6, (point, seen)
+        assert abs(seen[2] - (255 - wanted)) < 6, (point, seen)
+
+
+def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, EDITOR])
+    hand = Hand(book)
+    for point in THREE:
+        hand.click(point)
+    book.wait_for("len(model.pose) == 3")
+    hand.drag(line(THREE[1], [5.0, 2.5], 10))
+    hand.settle()
+    page = book.page
+    page.locator(".lm-TabBar-tabLabel", has_text="Solver").click()
+    energy = page.locator(".glid-solver-panel select").first
+    energy.select_option(label="AMIPS")
+    book.wait_for("model.state.current.energy.name == 'amips'")
+    hand.settle()
+    assert hand.certified()
+    energy.select_option(label="Symmetric Dirichlet")
+    hand.settle()
+
+    overlay = page.locator(".glid-tools select")
+    plain = hand.color_at([0.0, -0.5])
+    for label in ("Stretch σ₁", "Dilatation k", "Energy density", "Stretch σ₂"):
+        overlay.select_option(label=label)
+        page.locator(".glid-legend-title", has_text=label).wait_for()
+        hand.wait_until_drawn()
+    colored = hand.color_at([0.0, -0.5])
+    assert max(abs(a - b) for a, b in zip(colored, plain, strict=True)) > 20
+    for label in ("Cage", "Offset", "Certificate"):
+        page.locator(".glid-tools button", has_text=label).click()
+    book.wait_for(
+        "canvas.show_panels and canvas.show_cage and canvas.pane.scene.panels is not None"
+    )
+    page.wait_for_timeout(500)
+    book.screenshot("editor-overlays")
+    overlay.select_option(label="Picture and grid")
+    page.locator(".glid-tools button", has_text="Source").click()
+    book.wait_for("canvas.source is not None")
+    pads = page.locator(".glid-pad")
+    pads.nth(1).wait_for()
+    left, right = (pads.nth(i).bounding_box() for i in (0, 1))
+    assert left is not None
+    assert right is not None
+    assert left["x"] + left["width"] <= right["x"]
+    book.screenshot("editor-source")
+    page.locator(".glid-tools button", has_text="Source").click()
+    book.wait_for("canvas.source is None")
+    # The line in words.
+    page.locator(".glid-editor").get_by_text("Converged").first.wait_for()
+
+
+def test_by_keyboard_alone(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, EDITOR])
+    hand = Hand(book)
+    keys = hand.page.keyboard
+    hand.pad.focus()
+    keys.press("Enter")  # the cursor appears in the middle
+    for _ in range(3):
+        keys.press("Shift+ArrowLeft")
+    keys.press("Enter")
+    book.wait_for("len(model.pose) == 1 and model.selection == (0,)")
+    x = hand.handles[0][0]
+    assert x < -1
+    keys.press("Escape")
+    keys.press("Enter")
+    for _ in range(3):
+        keys.press("Shift+ArrowRight")
+    keys.press("Enter")
+    book.wait_for("len(model.pose) == 2 and model.selection == (1,)")
+    before = hand.targets[1]
+    keys.press("ArrowUp")
+    keys.press("Shift+ArrowRight")
+    book.wait_for(
+        f"abs(model.pose.targets[1] - [{before[0]} + 0.5, {before[1]} + 0.1]).max() < 1e-9"
+    )
+    hand.settle()
+    assert hand.certified()
+    keys.press(",")
+    book.wait_for("model.selection == (0,)")
+    keys.press("Delete")
+    book.wait_for("len(model.pose) == 1")
+    keys.press("0")
+    book.wait_for("abs(model.pose.targets - model.pose.handles).max() == 0")
+    # The notebook did not take the keys for its own.
+    assert len(book.value("get_ipython().history_manager.input_hist_raw[1:3]")) == 2
+    keys.press("Control+z")
+    keys.press("Control+z")
+    book.wait_for("len(model.pose) == 2")
+
+
+def test_touch_drags_and_pinches(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, EDITOR], has_touch=True)
+    hand = Hand(book)
+    session = book.page.context.new_cdp_session(book.page)
+
+    def touch(kind: str, *points: tuple[float, float]) -> None:
+        fingers = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
+
+    for point in THREE[:2]:
+        touch("touchStart", hand.place(point))
+        touch("touchEnd")
+    book.wait_for("len(model.pose) == 2")
+    hand.settle()
+    # Without pausing at the start, which would be a long press.
+    first, *others = hand.places(line(THREE[1], [6.5, 2.0], 4))
+    touch("touchStart", first)
+    for place in others:
+        touch("touchMove", place)
+    touch("touchEnd")
+    hand.settle()
+    np.testing.assert_allclose(hand.targets[1], [6.5, 2.0], atol=0.1)
+    assert hand.certified()
+    unit = book.value("canvas.pane.stage.view[2]")
+    count = book.value("len(model.history.past)")
+    centre = hand.place([0.0, 0.0])
+    for spread in (20, 30, 40, 60, 80):
+        ends = ((centre[0] - spread, centre[1]), (centre[0] + spread, centre[1]))
+        touch("touchStart" if spread == 20 else "touchMove", *ends)
+    touch("touchEnd")
+    book.wait_for(f"canvas.pane.stage.view[2] < 0.5 * {unit}")
+    assert book.value("len(model.history.past)") == count
+    # The wheel zooms about the pointer.
+    target = hand.place([1.0, 0.5])
+    unit = book.value("canvas.pane.stage.view[2]")
+    book.page.mouse.move(*target)
+    book.page.mouse.wheel(0, 300)
+    book.wait_for(f"canvas.pane.stage.view[2] > 1.2 * {unit}")
+    np.testing.assert_allclose(hand.place([1.0, 0.5]), target, atol=0.5)
+
+
+def test_two_views_and_a_reload(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, EDITOR, "canvas"])
+    hand, other = Hand(book), Hand(book, pad=1)
+    hand.click(THREE[0])
+    book.wait_for("len(model.pose) == 1")
+    hand.settle()
+    other.pad.scroll_into_view_if_needed()
+    other.click(THREE[1])
+    book.wait_for("len(model.pose) == 2")
+    hand.settle()
+    other.drag(line(THREE[1], [6.0, 2.0], 10))
+    hand.settle()
+    state = hand.targets
+    hand.wait_until_drawn()
+    book.screenshot("editor-two-views")
+    book.reload()
+    again = Hand(book)
+    assert again.targets == state
+    again.wait_until_drawn()
+    again.drag(line(state[1], [6.0, 1.0], 5))
+    again.settle()
+    np.testing.assert_allclose(again.targets[1], [6.0, 1.0], atol=0.1)
+
+
+def test_a_rerun_closes_the_old_editor(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, EDITOR])
+    hand = Hand(book)
+    hand.click(THREE[0])
+    book.wait_for("len(model.pose) == 1")
+    book.value("None", setup="old = model")
+    book.run_all()
+    Hand(book)
+    assert not book.value("old.alive")
+    assert book.value("model.alive and model is not old")
+    assert book.page.locator(".jupyter-threejs").count() == 1

@@ -1,0 +1,223 @@
+"""The editor and its parts without a browser."""
+
+from __future__ import annotations
+
+import gc
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import glid_nb as glid
+from glid_nb.session.edit_state import EditError
+from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
+from glid_nb.widgets.background import Background
+from glid_nb.widgets.exporting import ExportError
+from glid_nb.widgets.overlays import OVERLAYS
+
+from ..domains import domain
+
+TIMEOUT = 120.0
+
+
+def bar() -> np.ndarray:
+    """An opaque bar of 16 x 4 units with a hole, 200 x 100 pixels."""
+    y, x = np.mgrid[:100, :200]
+    picture = np.zeros((100, 200, 4), np.uint8)
+    inside = (abs(x - 99.5) < 80) & (abs(y - 49.5) < 20)
+    picture[inside & (np.hypot(x - 99.5, y - 49.5) > 8)] = (200, 120, 40, 255)
+    return picture
+
+
+@pytest.fixture(autouse=True)
+def no_cache(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The process's JAX configuration stays as it is."""
+    monkeypatch.setattr("glid_nb.widgets.editor.enable_compilation_cache", lambda: None)
+
+
+@pytest.fixture
+def editor() -> Iterator[Editor]:
+    editor = Editor(bar(), n_vertices=300)
+    yield editor
+    editor.close()
+
+
+@pytest.mark.slow
+def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
+    assert editor.document.cage.n_holes == 1
+    left, right = editor.add_handle((-7, 0)), editor.add_handle((7, 0))
+    editor.drag(right, to=(6, 2))
+    assert editor.solve(TIMEOUT)
+    np.testing.assert_allclose(editor.map([[7, 0]]), [[6, 2]], atol=0.01)
+    assert editor.certificate.certified
+    assert editor.status.level == "good"
+    assert "certified σ₂ ≥" in editor.monitor.text
+    assert left == 0
+
+    # Nothing is lost.
+    path = tmp_path / "bar.glid"
+    editor.deformation.rename_pose(0, "bent")
+    editor.save(path)
+    phi = editor.map.phi
+    editor.deformation.reset()
+    editor.load(path)
+    assert [pose.name for pose in editor.poses] == ["bent"]
+    assert np.array_equal(editor.map.phi, phi)
+    assert editor.canvas is not None
+    assert editor.canvas.deformation is editor.deformation
+
+    # Exports.
+    for suffix in (".png", ".obj", ".glb", ".svg", ".html", ".py"):
+        for file in editor.export(tmp_path / f"out{suffix}"):
+            assert file.stat().st_size > 100
+    with Image.open(editor.export(tmp_path / "big.png", size=(400, 200))[0]) as picture:
+        assert picture.size == (400, 200)
+        expected = glid.render(bar(), editor.map, size=(400, 200))
+        assert np.array_equal(np.asarray(picture), expected)
+    with pytest.raises(ExportError, match=r"\.xyz"):
+        editor.export(tmp_path / "out.xyz")
+
+    # Tracing anew is a step that undo takes back.
+    editor.trace(drop_holes=[[100.0, 50.0]])
+    assert editor.deformation.domain.n_holes == 0
+    assert editor.solve(TIMEOUT)
+    editor.deformation.undo()
+    assert np.array_equal(editor.map.phi, phi)
+
+
+@pytest.mark.slow
+def test_a_session_file_is_kept_up_to_date(tmp_path: Path) -> None:
+    path = tmp_path / "session.glid"
+    editor = Editor(bar(), path=path, n_vertices=300)
+    editor.add_handle((-7, 0))
+    editor.drag(editor.add_handle((7, 0)), to=(6, 1))
+    editor.solve(TIMEOUT)
+    phi = editor.map.phi
+    editor.close()
+    with pytest.raises(ValueError, match="exists"):
+        Editor(bar(), path=path)
+    again = Editor(path=path, n_vertices=300)
+    assert np.array_equal(again.map.phi, phi)
+    assert again.pose.targets.tolist()[1] == [6, 1]
+    again.close()
+
+
+def test_without_a_picture_it_asks_for_one() -> None:
+    editor = Editor()
+    assert editor.tabs.selected_index == 0
+    assert editor.canvas is None
+    with pytest.raises(EditError, match="open a picture"):
+        editor.add_handle((0, 0))
+    editor.close()
+
+
+@pytest.mark.slow
+def test_the_canvas_shows_what_the_model_holds() -> None:
+    image = np.full((60, 60, 4), 255, np.uint8)
+    canvas = DeformCanvas(image, domain("ring"), n_vertices=200, show_source=True)
+    model, stage = canvas.deformation, canvas.pane.stage
+    assert model.solve(TIMEOUT)
+    model.add_handles([(2, 0), (-2, 0)])
+    model.drag(0, to=(2.5, 0.5))
+    assert model.solve(TIMEOUT)
+    assert stage.marks["targets"] == [[2.5, 0.5], [-2.0, 0.0]]
+    np.testing.assert_allclose(stage.marks["images"][0], [2.5, 0.5], atol=1e-3)
+    assert stage.coefficients == canvas.pane.scene.shader_map.wire(model.map)
+    assert canvas.source is not None
+    assert canvas.source.stage.marks["images"] == [[2.0, 0.0], [-2.0, 0.0]]
+    for name in OVERLAYS:
+        canvas.overlay = name
+    assert stage.legend["title"] == "Energy density"
+    canvas.overlay = "texture"
+    assert stage.legend == {}
+    canvas.show_panels = True
+    assert canvas.pane.scene.panels is not None
+    assert len(stage.materials) == 4
+    model.drop_hole(0)
+    assert model.solve(TIMEOUT)
+    assert canvas.pane.scene.domain is model.domain
+    canvas.show_source = False
+    assert canvas.source is None
+    canvas.close()
+    assert not model.alive
+
+
+def test_the_panel_and_the_model_show_each_other() -> None:
+    from glid_nb.session.deformation import Deformation
+    from glid_nb.widgets import PoseList, SolverPanel
+
+    with Deformation(domain("ring")) as model:
+        panel, poses = SolverPanel(model), PoseList(model)
+        assert model.solve(TIMEOUT)
+        model.paused = True  # nothing here needs a solve
+        assert panel.pause.value
+        panel.energy.value = "amips"
+        panel.s.value = 0.5
+        assert model.state.current.energy == glid.AMIPS(0.5)
+        model.undo()
+        model.undo()
+        assert panel.energy.value == "iso"
+        panel.weight.value = 1e3
+        assert model.state.current.options.p2p_weight == 1e3
+        panel.hessian.value = "projected"
+        assert model.state.current.options.hessian == "projected"
+        poses.save.click()
+        assert poses.list.options == (("Pose 1", 0), ("Pose 2", 1))
+        poses.name.value = "second"
+        assert model.poses[1].name == "second"
+        poses.list.index = 0
+        assert model.state.active == 0
+        poses.delete.click()
+        assert [pose.name for pose in model.poses] == ["second"]
+        poses.name.value = "x" * 300
+        assert "200 characters" in poses.refusal.value
+        assert poses.name.value == "second"
+
+
+def test_the_monitor_draws_plots_and_words() -> None:
+    from glid_nb.session.deformation import Deformation
+
+    with Deformation(domain("ring")) as model:
+        monitor = SolverMonitor(model, 400, 300)
+        model.add_handles([(2, 0), (-2, 0)])
+        model.drag(0, to=(2.5, 0.5))
+        assert model.solve(TIMEOUT)
+        assert monitor.refresh(TIMEOUT)
+        assert bytes(monitor.image.value).startswith(b"\x89PNG")
+        assert "Converged · certified σ₂ ≥" in monitor.line.value
+        before = bytes(monitor.image.value)
+        model.drag(0, to=(3.0, 1.0))
+        assert model.solve(TIMEOUT)
+        assert monitor.refresh(TIMEOUT)
+        assert bytes(monitor.image.value) != before
+        monitor.close()
+
+
+def test_background_work_is_rare_but_always_done() -> None:
+    class Counter:
+        times: list[float]
+
+        def __init__(self) -> None:
+            self.times = []
+
+        def work(self) -> None:
+            self.times.append(time.monotonic())
+
+    counter = Counter()
+    background = Background(counter.work, 0.05)
+    end = time.monotonic() + 0.3
+    while time.monotonic() < end:
+        background.ask()
+    assert background.wait(TIMEOUT)
+    assert (np.diff(counter.times) >= 0.049).all()
+    assert counter.times[-1] >= end - 0.1
+    thread = background._worker._thread
+    assert thread is not None
+    del counter
+    gc.collect()
+    background.ask()
+    thread.join(TIMEOUT)
+    assert not thread.is_alive()

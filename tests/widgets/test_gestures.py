@@ -1,0 +1,159 @@
+"""What pointers and keys mean, without a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from glid_nb.certificate import certify
+from glid_nb.session.deformation import Deformation
+from glid_nb.widgets.gestures import Gestures
+
+from ..domains import domain
+
+TIMEOUT = 120.0
+
+
+class Hand:
+    """Sends events as the page does: world units, pixels of 0.02 units."""
+
+    def __init__(self, model: Deformation) -> None:
+        self.fitted = 0
+        self.gestures = Gestures(model, self._fit)
+        self.model = model
+
+    def _fit(self) -> None:
+        self.fitted += 1
+
+    def send(self, type: str, x: float = 0, y: float = 0, **more: Any) -> str:
+        event = {"type": type, "x": x, "y": y, "id": 1, "button": 0, "shift": False}
+        return self.gestures.handle([{**event, "reach": 0.26, "unit": 0.02, **more}])
+
+    def click(self, x: float, y: float, **more: Any) -> str:
+        return self.send("down", x, y, **more) or self.send("up", x, y, **more)
+
+    def drag(self, *points: tuple[float, float], **more: Any) -> None:
+        self.send("down", *points[0], **more)
+        for point in points[1:]:
+            self.send("move", *point, **more)
+        self.send("up", *points[-1], **more)
+
+    def key(self, key: str, **more: Any) -> str:
+        return self.send("key", key=key, **more)
+
+
+@pytest.fixture
+def hand() -> Iterator[Hand]:
+    with Deformation(domain("ring")) as model:
+        yield Hand(model)
+
+
+def test_a_click_adds_a_handle_below_the_pointer(hand: Hand) -> None:
+    assert hand.click(2, 0) == ""
+    np.testing.assert_allclose(hand.model.pose.handles, [[2, 0]], atol=1e-9)
+    assert hand.model.selection == (0,)
+    hand.click(0, 0)  # in the hole: no handle, and nothing is selected any more
+    assert len(hand.model.pose) == 1
+    assert hand.model.selection == ()
+
+
+def test_a_drag_moves_a_target_and_a_trembling_click_does_not(hand: Hand) -> None:
+    hand.click(2, 0)
+    hand.click(-2, 0)
+    hand.drag((2.1, 0), (2.11, 0.01))
+    np.testing.assert_allclose(hand.model.pose.targets[0], [2, 0], atol=1e-9)
+    steps = len(hand.model.history.past)
+    hand.drag((2.1, 0), (2.5, 0), (3.1, 0.4))
+    np.testing.assert_allclose(hand.model.pose.targets[0], [3, 0.4], atol=1e-9)
+    assert len(hand.model.history.past) == steps + 1
+    assert hand.model.solve(TIMEOUT)
+    assert certify(hand.model.map).certified
+
+
+def test_a_pull_on_the_shape_takes_the_point_along(hand: Hand) -> None:
+    hand.click(-2, 0)
+    hand.drag((2, 0), (2.05, 0), (2.6, 0.3))
+    np.testing.assert_allclose(hand.model.pose.targets[1], [2.6, 0.3], atol=1e-9)
+    np.testing.assert_allclose(hand.model.pose.handles[1], [2, 0], atol=1e-6)
+
+
+def test_shift_selects_several_that_move_together(hand: Hand) -> None:
+    for place in ((2, 0), (-2, 0), (0, 2)):
+        hand.click(*place)
+    hand.click(2, 0, shift=True)
+    assert hand.model.selection == (2, 0)
+    hand.drag((0, 2), (0.5, 2.5))
+    np.testing.assert_allclose(
+        hand.model.pose.targets, [[2.5, 0.5], [-2, 0], [0.5, 2.5]], atol=1e-6
+    )
+    hand.click(2.5, 0.5, shift=True)
+    assert hand.model.selection == (2,)
+
+
+def test_escape_and_undo_take_a_drag_back(hand: Hand) -> None:
+    hand.click(2, 0)
+    assert hand.model.solve(TIMEOUT)
+    before = hand.model.state
+    for key in ("Escape", "undo"):
+        hand.send("down", 2, 0)
+        hand.send("move", 3, 0)
+        hand.key(key)
+        assert hand.model.state is before
+        hand.send("move", 3.5, 0)
+        hand.send("up", 3.5, 0)
+        assert hand.model.state is before
+
+
+def test_removing_by_button_and_key(hand: Hand) -> None:
+    for place in ((2, 0), (-2, 0), (0, 2)):
+        hand.click(*place)
+    hand.click(-2, 0, button=2)
+    np.testing.assert_allclose(hand.model.pose.handles, [[2, 0], [0, 2]], atol=1e-9)
+    hand.key("a")
+    hand.key("Delete")
+    assert len(hand.model.pose) == 0
+    hand.key("undo")
+    assert len(hand.model.pose) == 2
+    hand.send("remove", handle=1)
+    assert len(hand.model.pose) == 1
+
+
+def test_arrows_nudge_or_move_the_cursor(hand: Hand) -> None:
+    hand.key("Enter", x=2.0, y=0.0)
+    assert hand.gestures.cursor == [2.0, 0.0]
+    hand.key("ArrowUp")
+    assert hand.gestures.cursor == pytest.approx([2.0, 0.12])
+    hand.key("Enter")
+    assert hand.model.selection == (0,)
+    assert hand.gestures.cursor is None
+    hand.key("ArrowRight")
+    np.testing.assert_allclose(hand.model.pose.targets, [[2.1, 0.12]], atol=1e-9)
+    hand.key("Escape")
+    assert hand.model.selection == ()
+    hand.key(".")
+    assert hand.model.selection == (0,)
+    hand.key("0")
+    np.testing.assert_allclose(hand.model.pose.targets, hand.model.pose.handles)
+    hand.key("f")
+    assert hand.fitted == 1
+
+
+def test_a_refusal_is_told_and_changes_nothing(hand: Hand) -> None:
+    hand.key("Enter", x=0.0, y=0.0)
+    assert "beside the shape" in hand.key("Enter")
+    assert len(hand.model.pose) == 0
+    assert hand.key("Escape") == ""
+
+
+def test_an_event_after_its_handle_went_is_harmless(hand: Hand) -> None:
+    hand.click(2, 0)
+    hand.send("down", 2, 0)
+    hand.send("move", 2.5, 0)
+    hand.model.clear_handles()
+    hand.send("move", 3, 0)
+    hand.send("up", 3, 0)
+    assert len(hand.model.pose) == 0
+    assert not hand.model.dragged

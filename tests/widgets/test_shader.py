@@ -1,0 +1,159 @@
+"""The map in the shader: it agrees with NumPy, and a frame is small on the wire."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from playwright.sync_api import Page
+
+from glid_nb.energies import SymmetricDirichlet
+from glid_nb.geometry import triangulate
+from glid_nb.widgets.scene import Scene
+from glid_nb.widgets.shader import ShaderMap, glsl
+
+from ..domains import NAMES, domain, random_map
+
+PICTURE = np.full((40, 40, 4), 255, np.uint8)
+
+# Runs the very file that the canvas uses and reads the positions back.
+_RUN = """async ({head, cage, coefficients, holes, points}) => {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const text = `#version 300 es
+    precision highp float;
+    in vec2 z; out vec2 f; out vec2 fz; out vec2 fzb_conj;
+    ${head}
+    void main() { harmonic_map(z, f, fz, fzb_conj); gl_Position = vec4(0); gl_PointSize = 1.0; }`;
+  const program = gl.createProgram();
+  const fragment = `#version 300 es
+    precision highp float;
+    out vec4 color;
+    void main() { color = vec4(1); }`;
+  const check = (done, log) => { if (!done) throw new Error(log); };
+  for (const [kind, source] of [[gl.VERTEX_SHADER, text], [gl.FRAGMENT_SHADER, fragment]]) {
+    const shader = gl.createShader(kind);
+    gl.shaderSource(shader, source);
+    gl.compileShader(shader);
+    check(gl.getShaderParameter(shader, gl.COMPILE_STATUS), gl.getShaderInfoLog(shader));
+    gl.attachShader(program, shader);
+  }
+  gl.transformFeedbackVaryings(program, ['f', 'fz', 'fzb_conj'], gl.INTERLEAVED_ATTRIBS);
+  gl.linkProgram(program);
+  check(gl.getProgramParameter(program, gl.LINK_STATUS), gl.getProgramInfoLog(program));
+  gl.useProgram(program);
+  for (const [name, value] of Object.entries({cage, coefficients, holes})) {
+    gl.uniform4fv(gl.getUniformLocation(program, name), new Float32Array(value));
+  }
+  const count = points.length / 2;
+  gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+  gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(points), gl.STATIC_DRAW);
+  const place = gl.getAttribLocation(program, 'z');
+  gl.enableVertexAttribArray(place);
+  gl.vertexAttribPointer(place, 2, gl.FLOAT, false, 0, 0);
+  const result = gl.createBuffer();
+  gl.bindBuffer(gl.TRANSFORM_FEEDBACK_BUFFER, result);
+  gl.bufferData(gl.TRANSFORM_FEEDBACK_BUFFER, 24 * count, gl.STATIC_READ);
+  gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, result);
+  gl.enable(gl.RASTERIZER_DISCARD);
+  gl.beginTransformFeedback(gl.POINTS);
+  gl.drawArrays(gl.POINTS, 0, count);
+  gl.endTransformFeedback();
+  const out = new Float32Array(6 * count);
+  gl.getBufferSubData(gl.TRANSFORM_FEEDBACK_BUFFER, 0, out);
+  return Array.from(out);
+}"""
+
+
+@pytest.mark.browser
+@pytest.mark.slow
+@pytest.mark.parametrize("name", NAMES)
+def test_the_shader_agrees_with_numpy(page: Page, name: str) -> None:
+    map_ = random_map(name, 0.3, seed=5)
+    shader = ShaderMap(map_.domain)
+    points = triangulate(map_.domain.cage, 1500).vertices.astype(np.float32)
+    coefficients, holes = shader.coefficients(map_)
+    page.goto("about:blank")
+    seen = page.evaluate(
+        _RUN,
+        {
+            "head": shader.defines() + glsl("harmonic.glsl"),
+            "cage": shader.cage.ravel().tolist(),
+            "coefficients": coefficients.ravel().tolist(),
+            "holes": holes.ravel().tolist(),
+            "points": points.ravel().tolist(),
+        },
+    )
+    f, fz, fzb_conj = np.split(np.reshape(seen, (-1, 6)), 3, axis=1)
+    exact = points.astype(float)
+    np.testing.assert_allclose(f, map_(exact), atol=1e-4)
+    a, b = map_.wirtinger(exact)
+    np.testing.assert_allclose(fz @ [1, 1j], a, atol=2e-3)
+    np.testing.assert_allclose(fzb_conj @ [1, 1j], b.conj(), atol=2e-3)
+
+
+def test_the_chain_holds_every_loop_closed() -> None:
+    shader = ShaderMap(domain("twin"))
+    loops = domain("twin").offset_loops_complex
+    assert shader.n_chain == sum(map(len, loops)) + len(loops)
+    starts = np.flatnonzero(shader.cage[:, 2] == 0)
+    assert len(starts) == len(loops)
+    for start, loop in zip(starts, loops, strict=True):
+        chain = shader.cage[start : start + len(loop) + 1, :2] @ [1, 1j]
+        np.testing.assert_allclose(chain, [loop[-1], *loop], atol=1e-6)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_uniform_looks_like_a_matrix(name: str) -> None:
+    """pythreejs takes lists of 2, 3, 4, 9 and 16 numbers for vectors and matrices."""
+    map_ = random_map(name, 0.1, seed=1)
+    for uniform in ShaderMap(map_.domain).uniforms(map_).values():
+        assert len(uniform["value"]) not in (2, 3, 4, 9, 16)
+
+
+def _wire_size(widget_messages: list[Any]) -> int:
+    import json
+
+    return sum(
+        len(json.dumps(data, default=str)) + sum(len(memoryview(b).cast("B")) for b in buffers)
+        for data, buffers in widget_messages
+    )
+
+
+@pytest.mark.parametrize("n_vertices", [1_000, 100_000])
+def test_a_frame_is_small_at_any_resolution(n_vertices: int, sent: list[Any]) -> None:
+    from glid_nb.widgets.pane import Pane
+
+    map_ = random_map("annulus", 0.01, seed=2)
+    pane = Pane(
+        PICTURE,
+        map_,
+        SymmetricDirichlet(),
+        (300, 300),
+        interactive=True,
+        n_vertices=n_vertices,
+        evaluated_in=None,
+    )
+    assert pane.scene.evaluated_in == "shader"
+    sent.clear()
+    moved = random_map("annulus", 0.01, seed=3)
+    handles = np.zeros((8, 2)) + np.arange(8)[:, None]
+    pane.show(moved, handles, handles, (1,))
+    assert 0 < _wire_size(sent) < 4_000
+    pane.close()
+
+
+def test_the_kernel_evaluates_what_a_shader_cannot_hold(sent: list[Any]) -> None:
+    map_ = random_map("annulus", 0.01, seed=2)
+    scene = Scene(PICTURE, map_, SymmetricDirichlet(), 500, uniform_vectors=100)
+    assert scene.evaluated_in == "kernel"
+    image = scene.picture.attributes["image"].array
+    points = scene.picture.attributes["position"].array[:, :2]
+    np.testing.assert_allclose(image, map_(points), atol=1e-5)
+    moved = random_map("annulus", 0.01, seed=3)
+    sent.clear()
+    scene.show_map(moved)
+    image = scene.picture.attributes["image"].array
+    np.testing.assert_allclose(image, moved(points), atol=1e-5)
+    assert _wire_size(sent) > 24 * len(points)
+    scene.close()
