@@ -23,6 +23,7 @@ LAYERS = (
     ("samples", "export"),
     ("session",),
     ("comparisons",),
+    ("benchmarks",),
     ("widgets",),
     ("cli",),
     ("__main__",),

@@ -15,7 +15,7 @@ from glid_nb.solvers import Iteration, Options, Progress, Result, Status, solve
 
 @double_precision
 def run_newton(inputs: Inputs, **options: Any) -> MethodResult:
-    """One solve; it is repeated to measure its times when it had to compile."""
+    """One solve."""
     settings: dict[str, Any] = {"restarts": 0, **options}
     chosen = Options(
         p2p_weight=inputs.p2p_weight,
@@ -40,12 +40,7 @@ def run_newton(inputs: Inputs, **options: Any) -> MethodResult:
         return _result(inputs, still, Status.STOPPED, (start,))
     else:
         result = solve(*arguments, chosen, inputs.start, report)
-    times = [entry.time for entry in result.history]
-    if np.isnan(times).any():
-        again = replace(chosen, max_iterations=result.iterations)
-        timed = solve(*arguments, again, inputs.start)
-        times = [entry.time for entry in timed.history]
-    steps = [_step(entry, t) for entry, t in zip(result.history, times, strict=True)]
+    steps = [_step(entry, entry.time) for entry in result.history]
     return _result(inputs, result, result.status, (start, *steps))
 
 

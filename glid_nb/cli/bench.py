@@ -1,0 +1,56 @@
+"""Measure the solver's speed on this machine.
+
+Times the paper's settings and ours on the same problems, drag steps, cold and warm starts, growth
+with sizes, and batches, and writes OUT.md with a figure and the raw measurements in the folder OUT.
+A run that was interrupted goes on where it stopped.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import glid_nb
+from glid_nb.cli.output import check_folder
+from glid_nb.cli.progress import Progress
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.add_argument(
+        "--out",
+        type=Path,
+        default=Path("glid-nb-benchmarks"),
+        metavar="OUT",
+        help="folder of the figure; the page is OUT.md (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--reference",
+        type=Path,
+        metavar="DIR",
+        help="folder of problems to solve (default: the bundled samples)",
+    )
+    parser.add_argument(
+        "--repeats", type=int, default=9, metavar="N", help="timings of each kind (default 9)"
+    )
+    parser.add_argument("--quick", action="store_true", help="small sizes only, to try it out")
+    parser.add_argument("--fresh", action="store_true", help="measure again what is there already")
+
+
+def run(chosen: argparse.Namespace) -> None:
+    """Run the command."""
+    # Not part of the public face: it writes a report, it is no tool to build on.
+    from glid_nb.benchmarks import bench_all  # noqa: PLC0415
+
+    check_folder(chosen.out)
+    glid_nb.enable_compilation_cache()
+    with Progress().step("measuring") as detail:
+        page = bench_all(
+            chosen.out,
+            chosen.reference,
+            repeats=chosen.repeats,
+            quick=chosen.quick,
+            fresh=chosen.fresh,
+            detail=detail,
+        )
+    print(page)

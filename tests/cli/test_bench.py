@@ -1,0 +1,56 @@
+"""The benchmarks run from end to end and write their page; no number is judged here."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+import glid_nb
+from glid_nb.benchmarks.shapes import flower, ring_of_handles
+from glid_nb.benchmarks.solving import iterations_to
+from glid_nb.benchmarks.timing import scaled, summary
+
+
+def test_summary_and_share_of_timings() -> None:
+    timing = summary([3.0, 1.0, 2.0, 4.0, 5.0])
+    assert timing == {"median": 3.0, "low": 2.0, "high": 4.0, "least": 1.0, "runs": 5}
+    assert scaled(timing, 0.5) == {"median": 1.5, "low": 1.0, "high": 2.0, "least": 0.5, "runs": 5}
+
+
+@pytest.mark.parametrize(("vertices", "holes"), [(50, 0), (40, 50), (300, 7)])
+def test_flowers_hold_their_handles(vertices: int, holes: int) -> None:
+    domain = flower(vertices, holes)
+    assert len(domain.cage.exterior) == vertices
+    assert len(domain.cage.holes) == holes
+    if not holes:
+        assert domain.cage.contains(ring_of_handles(64).handles).all()
+
+
+def test_iterations_to_a_gap_are_counted_from_the_history() -> None:
+    domain = flower(50, 0)
+    result = glid_nb.solve(domain, ring_of_handles(4), options=glid_nb.Options(restarts=0))
+    count = iterations_to(result, 1e-6)
+    energies = [entry.energy for entry in result.history]
+    assert energies[count - 1] <= result.energy * (1 + 1e-6)
+    assert count == 1 or energies[count - 2] > result.energy * (1 + 1e-6)
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(900)
+def test_bench_writes_its_page(run, tmp_path: Path, problem_data: dict) -> None:
+    folder = tmp_path / "problems"
+    folder.mkdir()
+    (folder / "bar.json").write_text(json.dumps(problem_data))
+    out = tmp_path / "speed"
+    words = ["bench", "--quick", "--repeats", 2, "--reference", folder, "--out", out]
+    outcome = run(*words)
+    assert outcome.code == 0, outcome.err
+    text = (tmp_path / "speed.md").read_text()
+    assert "| bar |" in text
+    assert (out / "scaling.png").exists()
+    solves = [
+        json.loads((out / "data" / f"bar-{m}.json").read_text()) for m in ("paper", "default")
+    ]
+    assert all(s["certified"] and s["to_gap"]["median"] > 0 for s in solves)
