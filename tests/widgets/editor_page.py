@@ -119,6 +119,15 @@ class Hand:
     def certified(self) -> bool:
         return self.book.value("glid.certify(model.map).certified")
 
+    def wait_for_target(self, index: int, wanted: Sequence[float]) -> None:
+        """Wait until the page's events have put a target there, nothing is held and all is solved.
+
+        The page sends one batch at a time, so its last moves come after the pointer was let go.
+        """
+        near = f"abs(model.pose.targets[{index}] - {list(wanted)}).max() < 0.1"
+        self.book.wait_for(f"{near} and not model.dragged", 60)
+        self.settle()
+
     def coefficients(self) -> list[float]:
         """phi and psi in the shader of the page's picture, as three.js has them."""
         identity = self.book.value("canvas.pane.scene.picture.material.model_id")
