@@ -77,7 +77,11 @@ def _piece_bounds(
     ratios = [jnp.maximum(b, 0) / a for a, b in zip(p_square, q_square, strict=True)]
     kappa = jnp.sqrt(_greatest(ratios))
     k = (kappa * p_least + e_g) / (p_least - e_f)
-    return sigma2, sigma1, jnp.where((p_least_square > 0) & (p_least > e_f), k, jnp.inf)
+    k = jnp.where((p_least_square > 0) & (p_least > e_f), k, jnp.inf)
+    # k = (sigma_1 - sigma_2) / (sigma_1 + sigma_2) grows with sigma_1 and falls with sigma_2, which
+    # bounds it by less than 1 wherever sigma_2 is proved positive.
+    from_sigma = (sigma1 - sigma2) / (sigma1 + sigma2)
+    return sigma2, sigma1, jnp.where(sigma2 > 0, jnp.minimum(k, from_sigma), k)
 
 
 def _control_points(

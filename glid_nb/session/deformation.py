@@ -51,7 +51,7 @@ class Deformation:
     ...     left = deformation.add_handle((-0.8, 0))
     ...     right = deformation.add_handle((0.8, 0))
     ...     deformation.drag(right, to=(1.2, 0.2))
-    ...     deformation.solve()
+    ...     solved = deformation.solve()
     ...     deformation.map([[0.8, 0]]).round(3)
     array([[1.2, 0.2]])
     """

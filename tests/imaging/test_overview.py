@@ -73,7 +73,9 @@ def pose(bent: HarmonicMap) -> Pose:
 
 @pytest.fixture(scope="module")
 def result(bent: HarmonicMap, certificate: Certificate, pose: Pose) -> Any:
-    return SimpleNamespace(map=bent, certificate=certificate, history=HISTORY, pose=pose)
+    return SimpleNamespace(
+        map=bent, certificate=certificate, history=HISTORY, pose=pose, start_energy=40.0
+    )
 
 
 @pytest.fixture(scope="module")
