@@ -35,7 +35,8 @@ class CustomEnergy(Energy):
     Raises
     ------
     EnergyError
-        When it cannot be called, or is not finite at the isometry.
+        When it cannot be called with two numbers or differentiated, returns no single number, or
+        is not finite at the isometry.
 
     Examples
     --------
@@ -51,7 +52,13 @@ class CustomEnergy(Energy):
         if not callable(self.function):
             raise EnergyError(f"a custom energy must be a function E(x, y), got {self.function!r}")
         if self.function not in _checked:
-            _check_isometry(self)
+            try:
+                _check_isometry(self)
+            except TypeError as error:
+                raise EnergyError(
+                    "the custom energy must be a function E(x, y) of two numbers that returns one "
+                    f"and that JAX can differentiate; trying it out gave: {error}"
+                ) from error
             _checked.add(self.function)
 
     def density(self, x: Scalars, y: Scalars) -> Scalars:

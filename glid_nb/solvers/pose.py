@@ -15,6 +15,10 @@ from glid_nb.geometry import Domain
 Array = NDArray[Any]
 
 
+# Farther away, the rounding of a coordinate would be felt in the proof.
+_FARTHEST = 1e6
+
+
 class PoseError(ValueError):
     """The handles or their targets are not valid."""
 
@@ -28,12 +32,13 @@ class Pose:
     handles : (h, 2) array_like
         Points ``p_i`` of the domain, world coordinates.
     targets : (h, 2) array_like
-        Desired images ``q_i``; anywhere.
+        Desired images ``q_i``; anywhere within 10^6 units.
 
     Raises
     ------
     PoseError
-        When shapes or counts differ, a coordinate is not finite, or two handles coincide.
+        When shapes or counts differ, a coordinate is not finite or out of scale, or two handles
+        coincide.
     """
 
     handles: Array
@@ -102,6 +107,13 @@ def _checked_points(points: Any, name: str) -> Array:
     if bad.size:
         i = int(bad[0])
         raise PoseError(f"{name}[{i}] is {_text(array[i])}; coordinates must be finite numbers")
+    far = np.flatnonzero((np.abs(array) > _FARTHEST).any(axis=1))
+    if far.size:
+        i = int(far[0])
+        raise PoseError(
+            f"{name}[{i}] is {_text(array[i])}; coordinates beyond {_FARTHEST:g} are out of scale "
+            "(a picture's longer side is 20 units)"
+        )
     array.flags.writeable = False
     return array
 

@@ -98,8 +98,9 @@ def solve(
         "arap"); by default the symmetric Dirichlet energy.
     options : Options, optional
     start : HarmonicMap or Result, optional
-        Where to start; by default the identity. The result of an earlier solve on the same
-        domain also passes on its panels.
+        Where to start; by default the identity. Unless ``options.align`` is off, the start is
+        first moved rigidly towards the targets. The result of an earlier solve on the same domain
+        also passes on its panels.
     callback : callable, optional
         Called with a :class:`Progress` between compiled calls; returning ``True`` stops the solve.
 

@@ -278,3 +278,11 @@ def test_a_custom_energy_must_be_finite_at_the_isometry() -> None:
     """As its docstring says."""
     with pytest.raises(EnergyError, match="isometry"):
         CustomEnergy(lambda x, y: x / y)
+
+
+@pytest.mark.parametrize(
+    "function", [lambda x: x, lambda x, y: jnp.stack([x, y])], ids=["one argument", "two values"]
+)
+def test_a_custom_energy_of_another_form_is_refused(function: Any) -> None:
+    with pytest.raises(EnergyError, match=r"must be a function E\(x, y\) of two numbers"):
+        CustomEnergy(function)

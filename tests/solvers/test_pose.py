@@ -72,6 +72,7 @@ def test_targets_may_coincide() -> None:
         ([[math.nan, 0]], [[0, 0]], r"handles\[0\] is \(nan, 0\)"),
         ([[0, 0], [1, 0]], [[0, 0], [0, math.nan]], r"targets\[1\] is \(0, nan\)"),
         ([[0, 0]], [[math.inf, 0]], r"targets\[0\] is \(inf, 0\)"),
+        ([[0, 0]], [[1e200, 0]], r"targets\[0\] is \(1e\+200, 0\); .* out of scale"),
         ([[0, None]], [[0, 0]], r"handles\[0\]"),
         ([0, 0], [[0, 0]], r"handles must be a list of \[x, y\] pairs; the shape is \(2,\)"),
         ([[0, 0, 0]], [[0, 0]], r"handles must be .* \(1, 3\)"),
