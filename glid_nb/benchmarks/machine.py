@@ -66,8 +66,8 @@ def floor(matrices: Matrices, n_unknowns: int) -> dict[str, float]:
 
     ``products``: the basis matrices are read once for the direction and, at the energy's nodes,
     once more for the gradient, and the certificate reads its remainders. ``hessian``: twelve real
-    products of (c, h) by (h, c), half of the sixteen of a Hessian without its symmetries counted
-    as complex. ``factor``: Cholesky factor and two triangular solves, timed at this size.
+    products of (c, h) by (h, c). ``factor``: Cholesky factor and two triangular solves, timed at
+    this size.
     """
     rate = rates()
     columns, h = matrices.hessian_nodes.shape[0] // 2, matrices.hessian_nodes.shape[1]

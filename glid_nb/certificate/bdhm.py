@@ -17,7 +17,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Complex, Float, Int
 
-from glid_nb.certificate.bounds import EndValues, PanelBounds, distances, modulus, turning
+from glid_nb.certificate.bounds import distances, modulus
 from glid_nb.harmonic.cauchy import Singularities
 
 
@@ -70,23 +70,6 @@ def constants(coefficients: Complex[Array, "k n"], weights: SegmentWeights) -> F
         return vertices + weights.constants[:, m:] @ modulus(row[m:])
 
     return jnp.stack([one(row) for row in coefficients], axis=1)
-
-
-def panel_bounds(
-    values: EndValues, variation_fz: Float[Array, " p"], variation_fzb: Float[Array, " p"]
-) -> PanelBounds:
-    """Bounds on each segment by Equation (26), ``variation`` being ``L l``."""
-    mean_fz = (modulus(values.fz_start) + modulus(values.fz_end)) / 2
-    mean_fzb = (modulus(values.fzb_start) + modulus(values.fzb_end)) / 2
-    fz_least = mean_fz - variation_fz / 2
-    fzb_most = mean_fzb + variation_fzb / 2
-    return PanelBounds(
-        fz_least - fzb_most,
-        mean_fz + variation_fz / 2 + fzb_most,
-        jnp.where(fz_least > 0, fzb_most / fz_least, jnp.inf),
-        2 * mean_fz > variation_fz,
-        turning(values),
-    )
 
 
 def _loops(following: Int[Array, " m"]) -> Int[Array, " m"]:

@@ -247,18 +247,20 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Any, method:
     ends = EndValues(
         *(v[:, k] for k in (0, 1) for v in values), *(s[:, k] for k in (0, 1) for s in slopes)
     )
-    module = _METHODS[method]
     if method == "bdhm":
+        bounds_of = lipschitz.bounds_from_variation
         remainder = bdhm.constants(coefficients, bdhm.segment_weights(start, end, singularities))
         remainder = jnp.abs(chord)[:, None] * remainder
     else:
+        module = _METHODS[method]
+        bounds_of = module.panel_bounds
         jumps = jnp.abs(cauchy.slope_jumps(coefficients, singularities))
         weights = derivative_bound_weights(start, end, singularities, module.DERIVATIVE_ORDER)
         remainder = module.remainder_factor(jnp.abs(chord))[:, None] * (weights @ jumps.T)
     factor = rounding.slack_factor(coefficients.shape[1]) * jnp.abs(coefficients).max()
     slack = factor * rounding.panel_scale(start, end, singularities)
     remainder = remainder + slack[:, None]
-    bounds = module.panel_bounds(ends, remainder[:, 0], remainder[:, 1])
+    bounds = bounds_of(ends, remainder[:, 0], remainder[:, 1])
     f, g = (modulus(values[0][:, k]) for k in (0, 1))
     return {
         "sigma2_lower": bounds.sigma2_lower,

@@ -27,6 +27,13 @@ def panel_bounds(
     """
     variation_fz = (modulus(values.dfz_start) + modulus(values.dfz_end)) / 2 + remainder_fz
     variation_fzb = (modulus(values.dfzb_start) + modulus(values.dfzb_end)) / 2 + remainder_fzb
+    return bounds_from_variation(values, variation_fz, variation_fzb)
+
+
+def bounds_from_variation(
+    values: EndValues, variation_fz: Float[Array, " p"], variation_fzb: Float[Array, " p"]
+) -> PanelBounds:
+    """Bounds on each segment by Equation (26), ``variation`` being ``L l``."""
     mean_fz = (modulus(values.fz_start) + modulus(values.fz_end)) / 2
     mean_fzb = (modulus(values.fzb_start) + modulus(values.fzb_end)) / 2
     fz_least = mean_fz - variation_fz / 2

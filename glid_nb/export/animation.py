@@ -15,7 +15,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.mesh import DeformedMesh, deformed_mesh
 from glid_nb.imaging.rasterise import render_mesh
-from glid_nb.imaging.render import OutputFrame
+from glid_nb.imaging.render import OutputFrame, outline_points
 from glid_nb.imaging.style import CYAN, INK
 from glid_nb.imaging.texture import Texture
 from glid_nb.solvers import Pose
@@ -109,7 +109,7 @@ def _check(
 
 def _common_frame(maps: list[HarmonicMap], size: int) -> OutputFrame:
     """A frame that holds all the deformed shapes: their boundaries bound them."""
-    loops = [map(_dense(map.domain.cage.exterior)) for map in maps]
+    loops = [map(outline_points(map)) for map in maps]
     low = np.min([loop.min(axis=0) for loop in loops], axis=0)
     high = np.max([loop.max(axis=0) for loop in loops], axis=0)
     extent = (high - low) / (1 - 2 * _MARGIN)
@@ -117,11 +117,6 @@ def _common_frame(maps: list[HarmonicMap], size: int) -> OutputFrame:
     width, height = (max(1, math.ceil(side * scale)) for side in extent)
     x, y = (low + high) / 2
     return OutputFrame((width, height), scale, (float(x), float(y)))
-
-
-def _dense(loop: NDArray[np.float64]) -> NDArray[np.float64]:
-    t = np.linspace(0, 1, 16, endpoint=False)[:, None, None]
-    return (loop + t * (np.roll(loop, -1, axis=0) - loop)).reshape(-1, 2)
 
 
 def _drawn(texture: Texture, mesh: DeformedMesh, frame: OutputFrame) -> NDArray[np.uint8]:

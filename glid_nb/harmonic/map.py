@@ -167,8 +167,8 @@ class HarmonicMap:
             "format": FORMAT,
             "version": FORMAT_VERSION,
             **self.domain.to_dict(),
-            "phi": [[v.real, v.imag] for v in self.phi.tolist()],
-            "psi": [[v.real, v.imag] for v in self.psi.tolist()],
+            "phi": complex_to_pairs(self.phi),
+            "psi": complex_to_pairs(self.psi),
         }
 
     @classmethod
@@ -195,7 +195,8 @@ class HarmonicMap:
             if not np.array_equal(real_array(loop), kept):
                 wanted = "counter-clockwise" if i == 0 else "clockwise"
                 raise MapError(f"the offset cage's {Cage.loop_name(i)} must run {wanted}")
-        return cls(domain, _complex_list(data["phi"], "phi"), _complex_list(data["psi"], "psi"))
+        phi, psi = (complex_from_pairs(data[key], f'"{key}"') for key in ("phi", "psi"))
+        return cls(domain, phi, psi)
 
     def save(self, path: str | Path) -> None:
         """Write the map as JSON, atomically."""
@@ -279,11 +280,23 @@ def _compiled(kernel: Callable[..., Any]) -> Callable[..., Any]:
     return jax.jit(kernel)
 
 
-def _complex_list(values: Any, name: str) -> Array:
+def complex_to_pairs(values: Array) -> list[list[float]]:
+    """Coefficients as [re, im] pairs, as JSON has no complex numbers."""
+    return [[v.real, v.imag] for v in values.tolist()]
+
+
+def complex_from_pairs(value: Any, name: str) -> Array:
+    """The coefficients that :func:`complex_to_pairs` wrote, bit for bit.
+
+    Raises
+    ------
+    MapError
+        For anything else; the message begins with ``name``.
+    """
     try:
-        array = real_array(values)
+        array = real_array(value)
     except (TypeError, ValueError) as error:
-        raise MapError(f'"{name}" must be a list of [re, im] pairs of numbers') from error
+        raise MapError(f"{name} must be a list of [re, im] pairs of numbers") from error
     if array.ndim != 2 or array.shape[1] != 2:
-        raise MapError(f'"{name}" must be a list of [re, im] pairs; its shape is {array.shape}')
+        raise MapError(f"{name} must be a list of [re, im] pairs; its shape is {array.shape}")
     return array.view(complex)[:, 0]  # keeps signed zeros and infinities

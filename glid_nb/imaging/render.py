@@ -146,7 +146,7 @@ def rendering(
     xmin, ymin, xmax, ymax = source.bounds
     margin = 0.0
     if view == "fit":
-        outline = map(_outline_points(map))
+        outline = map(outline_points(map))
         (xmin, ymin), (xmax, ymax) = outline.min(axis=0), outline.max(axis=0)
         margin = _MARGIN
     if xmax <= xmin or ymax <= ymin:
@@ -187,7 +187,7 @@ def _check_fits(frame: PixelFrame, map: HarmonicMap) -> None:
         )
 
 
-def _outline_points(map: HarmonicMap) -> NDArray[np.float64]:
+def outline_points(map: HarmonicMap) -> NDArray[np.float64]:
     """Points on the exterior loop, close enough together to bound the deformed shape."""
     loop = map.domain.cage.exterior
     t = np.linspace(0, 1, 16, endpoint=False)[:, None, None]

@@ -15,6 +15,7 @@ from glid_nb.certificate import Certificate, certify
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap, MapError
+from glid_nb.harmonic.map import complex_from_pairs, complex_to_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE
 from glid_nb.session import document_parts as parts
@@ -284,8 +285,8 @@ def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
         **pose.pose.to_dict(),
         "energy": energy,
         "options": asdict(pose.options),
-        "phi": parts.complex_to_list(pose.map.phi),
-        "psi": parts.complex_to_list(pose.map.psi),
+        "phi": complex_to_pairs(pose.map.phi),
+        "psi": complex_to_pairs(pose.map.psi),
     }
 
 
@@ -300,8 +301,8 @@ def _pose_from_dict(index: int, value: Any, domain: Domain) -> NamedPose:
             check_points(data[key], key)
         map = HarmonicMap(
             domain,
-            parts.complex_from_list(data["phi"], "phi"),
-            parts.complex_from_list(data["psi"], "psi"),
+            complex_from_pairs(data["phi"], "phi"),
+            complex_from_pairs(data["psi"], "psi"),
         )
         pose = NamedPose(
             data["name"],

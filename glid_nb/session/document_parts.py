@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from glid_nb._numbers import real_array
 from glid_nb.energies import CustomEnergy, Energy, EnergyError, energy_by_name
 from glid_nb.geometry import Domain, GeometryError
 from glid_nb.imaging import Scribbles, TraceError, TraceOptions
@@ -185,22 +184,6 @@ def domain_from_dict(data: dict[str, Any]) -> Domain:
         # The coefficients of the maps are in the order of the loops' vertices.
         raise InputFileError("domain: its loops must run as saved, or it has unknown keys")
     return domain
-
-
-def complex_to_list(values: NDArray[np.complex128]) -> list[list[float]]:
-    """[re, im] pairs."""
-    return [[v.real, v.imag] for v in values.tolist()]
-
-
-def complex_from_list(values: Any, name: str) -> NDArray[np.complex128]:
-    """The numbers, bit for bit."""
-    try:
-        array = real_array(values)
-    except (TypeError, ValueError) as error:
-        raise InputFileError(f"{name} must be a list of [re, im] pairs of numbers") from error
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise InputFileError(f"{name} must be a list of [re, im] pairs; its shape is {array.shape}")
-    return array.view(complex)[:, 0]
 
 
 def scribbles_to_dict(scribbles: Scribbles) -> tuple[dict[str, Any], dict[str, bytes]]:

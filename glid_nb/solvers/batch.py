@@ -45,6 +45,7 @@ from glid_nb.solvers.solve import (
     descend,
     map_from,
     real_coefficients,
+    ridge_of,
 )
 from glid_nb.solvers.status import Status
 from glid_nb.solvers.unknowns import unknowns_of
@@ -55,7 +56,6 @@ Array = NDArray[Any]
 _SIZES = (1, 4, 16, 64)
 # Bytes that the Hessians of one call may take per device, with what is made on the way to them.
 _MOST_BYTES, _COPIES = 1 << 29, 6
-_RIDGE = 1e-9
 
 
 @double_precision
@@ -140,7 +140,8 @@ class _Batch:
         self.constraints = constraints_of(basis, poses[0], options.p2p_weight)
         self.unknowns = unknowns_of(basis, options.conformal)
         identity = HarmonicMap.identity(domain)
-        starts = [aligned(identity, pose) if options.align else identity for pose in poses]
+        images = identity(poses[0].handles) if options.align else None
+        starts = [aligned(identity, p, images) if options.align else identity for p in poses]
         self.coefficients = np.stack([real_coefficients(basis, start) for start in starts])
         self.targets = np.zeros((len(poses), *self.constraints.targets.shape))
         for padded, pose in zip(self.targets, poses, strict=True):
@@ -173,7 +174,7 @@ class _Batch:
             np.asarray(options.tolerance),
             np.asarray(min(options.iterations_per_call, left)),
             np.asarray(self.discretisation.can_refine),
-            np.asarray(_RIDGE if len(self.poses[0]) < 2 else 0.0),
+            np.asarray(ridge_of(self.poses[0])),
         )
         program = _program(
             self.devices,

@@ -172,7 +172,7 @@ class _Loop:
         basis = self.discretisation.basis
         self.unknowns = unknowns_of(basis, options.conformal)
         self.constraints = constraints_of(basis, pose, options.p2p_weight)
-        self.ridge = _RIDGE if len(pose) < 2 else 0.0
+        self.ridge = ridge_of(pose)
         if options.align:
             map_ = aligned(map_, pose)
         self.coefficients: Any = jnp.asarray(real_coefficients(basis, map_))
@@ -303,9 +303,8 @@ class _Loop:
 def _starting_point(
     domain: Domain, options: Options, start: HarmonicMap | Result | None
 ) -> tuple[HarmonicMap, Discretisation]:
-    fresh = discretise(domain, options.sampling, options.certificate)
     if start is None:
-        return HarmonicMap.identity(domain), fresh
+        return HarmonicMap.identity(domain), _discretised(domain, options)
     map_ = start.map if isinstance(start, Result) else start
     if map_.domain is not domain and map_.domain.to_dict() != domain.to_dict():
         raise StartError(
@@ -319,11 +318,20 @@ def _starting_point(
     if isinstance(start, Result):
         disc = start.discretisation
         same = (disc.sampling, disc.certificate) == (options.sampling, options.certificate)
-        return canonical(map_), disc if same else fresh
+        return canonical(map_), disc if same else _discretised(domain, options)
     certificate = certify(map_)
     if not certificate.certified:
         raise StartError(f"the map to start from is not certified: {certificate.reason}")
-    return canonical(HarmonicMap(domain, map_.phi, map_.psi)), fresh
+    return canonical(HarmonicMap(domain, map_.phi, map_.psi)), _discretised(domain, options)
+
+
+def _discretised(domain: Domain, options: Options) -> Discretisation:
+    return discretise(domain, options.sampling, options.certificate)
+
+
+def ridge_of(pose: Pose) -> float:
+    """The multiple of its mean that a Hessian's diagonal is raised by from the start."""
+    return _RIDGE if len(pose) < 2 else 0.0
 
 
 def constraints_of(basis: Basis, pose: Pose, weight: float) -> Constraints:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import html
-import threading
 from collections.abc import Callable
 from typing import Any
 
@@ -11,9 +9,10 @@ import ipywidgets
 
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
+from glid_nb.widgets.edit_controls import EditControls
 
 
-class PoseList(ipywidgets.VBox):
+class PoseList(EditControls):
     """The poses of a deformation: jump to one, name it, keep, copy and delete.
 
     Edits belong to the pose that is selected; "Save" keeps it as it is and goes on with a copy.
@@ -24,16 +23,15 @@ class PoseList(ipywidgets.VBox):
         The model that the list shows and changes.
     """
 
+    _refusals = EditError
+
     def __init__(self, deformation: Deformation, rows: int = 3, **kwargs: Any) -> None:
-        self.deformation = deformation
-        """The model that this is a view of."""
         self.list = ipywidgets.Select(rows=rows, layout=ipywidgets.Layout(width="auto", flex="1"))
         self.name = ipywidgets.Text(
             placeholder="Name of the pose",
             continuous_update=False,
             layout=ipywidgets.Layout(width="auto", flex="1 1 90px"),
         )
-        self.refusal = ipywidgets.HTML()
         model = deformation
         self.save = self._button(
             "Save", "bookmark", "Keep this pose, go on with a copy", model.save_pose
@@ -45,23 +43,12 @@ class PoseList(ipywidgets.VBox):
             "", "trash", "Delete", lambda: model.delete_pose(model.state.active)
         )
         bar = ipywidgets.HBox([self.name, self.save, self.duplicate, self.delete])
-        super().__init__([self.list, bar, self.refusal], **kwargs)
+        super().__init__(deformation, [self.list, bar], **kwargs)
         self.add_class("glid-pose-list")
-        # By thread: the model may change in one while the list is used in another.
-        self._here = threading.local()
         self._show()
         self.list.observe(self._go, ["index"])
         self.name.observe(self._rename, ["value"])
-        self._stop = deformation.observe(self._on_model)
-
-    @property
-    def _showing(self) -> bool:
-        return getattr(self._here, "showing", False)
-
-    def close(self) -> None:
-        """Stop watching; the model lives on."""
-        self._stop()
-        super().close()
+        self._watch()
 
     def _button(
         self, label: str, icon: str, tooltip: str, act: Callable[[], None]
@@ -75,30 +62,15 @@ class PoseList(ipywidgets.VBox):
         button.on_click(lambda _: self._act(act))
         return button
 
-    def _act(self, act: Callable[[], None]) -> None:
-        try:
-            act()
-            self.refusal.value = ""
-        except EditError as error:
-            self.refusal.value = f"<span style='color:#d55e00'>{html.escape(str(error))}</span>"
-            self._show()
-
-    def _on_model(self, what: str) -> None:
-        if what == "state" and not self.deformation.dragged:
-            self._show()
-
     def _show(self) -> None:
         state = self.deformation.state
         names = tuple((pose.name, i) for i, pose in enumerate(state.poses))
-        self._here.showing = True
-        try:
+        with self._while_showing():
             if self.list.options != names:
                 self.list.options = names
             self.list.index = state.active
             self.name.value = state.current.name
             self.delete.disabled = len(names) == 1
-        finally:
-            self._here.showing = False
 
     def _go(self, change: Any) -> None:
         if not self._showing and change["new"] is not None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import html
-import threading
 from collections.abc import Callable
 from typing import Any
 
@@ -11,6 +9,7 @@ import ipywidgets
 
 from glid_nb.energies import ENERGY_NAMES, CustomEnergy, energy_by_name
 from glid_nb.session.deformation import Deformation
+from glid_nb.widgets.edit_controls import EditControls
 
 ENERGY_LABELS = {
     "iso": "Symmetric Dirichlet",
@@ -24,7 +23,7 @@ _WITH_PARAMETER = ("exp", "amips")
 _FULL = ipywidgets.Layout(width="auto")
 
 
-class SolverPanel(ipywidgets.VBox):
+class SolverPanel(EditControls):
     """Energy, weight of the targets, variants of the method, and buttons for the solver.
 
     Parameters
@@ -34,8 +33,6 @@ class SolverPanel(ipywidgets.VBox):
     """
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
-        self.deformation = deformation
-        """The model that this is a view of."""
         options = deformation.state.current.options
         menu = [(ENERGY_LABELS[name], name) for name in ENERGY_NAMES]
         self.energy = _dropdown(menu, "What is minimised")
@@ -83,10 +80,6 @@ class SolverPanel(ipywidgets.VBox):
         self.clear = _button(
             "Clear handles", "eraser", "Let go of all handles", deformation.clear_handles
         )
-        self.refusal = ipywidgets.HTML()
-        """Why the last change was refused."""
-        # By thread: the model may change in one while a control is used in another.
-        self._here = threading.local()
         rows = [
             ("Energy", self.energy),
             ("s", self.s),
@@ -108,7 +101,7 @@ class SolverPanel(ipywidgets.VBox):
         )
         for button in buttons.children:
             button.layout.width = "auto"
-        super().__init__([grid, self.conformal, buttons, self.refusal], **kwargs)
+        super().__init__(deformation, [grid, self.conformal, buttons], **kwargs)
         self.add_class("glid-solver-panel")
         self._show()
         for control in (self.energy, self.s):
@@ -123,27 +116,12 @@ class SolverPanel(ipywidgets.VBox):
         ):
             control.observe(self._setter(name), ["value"])
         self.pause.observe(self._set_paused, ["value"])
-        self._stop = deformation.observe(self._on_model)
-
-    @property
-    def _showing(self) -> bool:
-        return getattr(self._here, "showing", False)
-
-    def close(self) -> None:
-        """Stop watching; the model lives on."""
-        self._stop()
-        super().close()
-
-    def _on_model(self, what: str) -> None:
-        if what == "state" and not self.deformation.dragged:
-            self._show()
+        self._watch()
 
     def _show(self) -> None:
-        """Bring the controls up to date, without acting on that."""
         current = self.deformation.state.current
         options, energy = current.options, current.energy
-        self._here.showing = True
-        try:
+        with self._while_showing():
             custom = isinstance(energy, CustomEnergy)
             names = [*self.energy.options]
             if custom and names[-1][1] != "custom":
@@ -160,8 +138,6 @@ class SolverPanel(ipywidgets.VBox):
             self.iterations.value = options.iterations_per_call
             self.pause.value = self.deformation.paused
             self.step.disabled = not self.deformation.paused
-        finally:
-            self._here.showing = False
 
     def _set_energy(self, _: Any) -> None:
         name, s = str(self.energy.value), self.s.value
@@ -178,14 +154,6 @@ class SolverPanel(ipywidgets.VBox):
     def _set_paused(self, change: Any) -> None:
         if not self._showing:
             self.deformation.paused = change["new"]
-
-    def _act(self, action: Callable[[], None]) -> None:
-        try:
-            action()
-            self.refusal.value = ""
-        except ValueError as error:  # the package's refusals are ValueErrors for the user
-            self.refusal.value = f"<span style='color:#d55e00'>{html.escape(str(error))}</span>"
-            self._show()
 
 
 def _dropdown(options: Any, tooltip: str) -> ipywidgets.Dropdown:

@@ -22,7 +22,9 @@ NAMES = ("Archery", "colorbar", "deer", "giraffe", "racoon", "raptor", "rex")
 MOST_ITERATIONS = {
     "rex": 13, "raptor": 8, "deer": 10, "racoon": 24, "giraffe": 25, "colorbar": 12, "Archery": 7,
 }  # fmt: skip
+# All energies for all shapes, but for one that was not published.
 ENERGIES = ("iso,s=1.0", "exp,s=0.2", "exp,s=1.0", "amips,s=0.5", "amips,s=1.0")
+PUBLISHED = [(n, k) for n in NAMES for k in ENERGIES if (n, k) != ("raptor", "amips,s=0.5")]
 
 
 @functools.cache
@@ -34,15 +36,12 @@ def problem(folder: Path, name: str) -> tuple[Domain, Pose, dict]:
 @functools.cache
 def solved(folder: Path, name: str, key: str, paper: bool) -> tuple[Result, dict]:
     domain, pose, results = problem(folder, name)
-    if key not in results:
-        pytest.skip(f"{name} has no result for {key}")
     energy, s = key.split(",s=")
     options = Options.paper(align=True, max_iterations=600) if paper else Options()
     return solve(domain, pose, energy_by_name(energy, float(s)), options), results[key]
 
 
-@pytest.mark.parametrize("key", ENERGIES)
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(("name", "key"), PUBLISHED)
 def test_defaults_reach_the_reference_energy(reference_folder: Path, name: str, key: str) -> None:
     result, reference = solved(reference_folder, name, key, False)
     # The quadratures differ: graded panels against 10^4 uniform samples.

@@ -15,7 +15,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from glid_nb._arrays import AnyArray
 from glid_nb._runtime import COMPILER_OPTIONS
-from glid_nb.certificate import EndValues, PanelBounds, bdhm
+from glid_nb.certificate import EndValues, PanelBounds, bdhm, lipschitz
 from glid_nb.energies import Energy
 from glid_nb.harmonic.cauchy import Singularities
 from glid_nb.solvers import evaluation, line_search
@@ -178,4 +178,4 @@ def _loose_bounds(
     f, g = (samples.nodes[k, :p] + 1j * samples.nodes[k + 1, :p] for k in (0, 2))
     after, zero = matrices.next, jnp.zeros_like(f)
     values = EndValues(f, f[after], g, g[after], zero, zero, zero, zero)
-    return bdhm.panel_bounds(values, variation[:, 0], variation[:, 1])
+    return lipschitz.bounds_from_variation(values, variation[:, 0], variation[:, 1])

@@ -23,7 +23,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import OptionError, Options, Pose
 from glid_nb.solvers.align import aligned
 from glid_nb.solvers.discretisation import discretise, padded
-from glid_nb.solvers.solve import constraints_of
+from glid_nb.solvers.solve import constraints_of, map_from, real_coefficients
 from glid_nb.solvers.unknowns import restrict_hessian, unknowns_of
 
 Array = NDArray[Any]
@@ -99,8 +99,7 @@ class SubspaceProblem:
         map_ = HarmonicMap.identity(domain) if start is None else start
         if options.align:
             map_ = aligned(map_, pose)
-        phi, psi = basis.pad(map_.phi), basis.pad(map_.psi)
-        self.start = np.concatenate([part(v) for v in (phi, psi) for part in (np.real, np.imag)])
+        self.start = real_coefficients(basis, map_)
 
     @property
     def can_refine(self) -> bool:
@@ -149,9 +148,7 @@ class SubspaceProblem:
 
     def map_of(self, coefficients: Any) -> HarmonicMap:
         """The map with these padded coefficients."""
-        disc = self.discretisation
-        rows = np.asarray(coefficients).reshape(4, -1)[:, disc.basis.columns]
-        return HarmonicMap(disc.domain, rows[0] + 1j * rows[1], rows[2] + 1j * rows[3])
+        return map_from(self.discretisation, coefficients)
 
     def _check_hessian_samples(self, count: int) -> None:
         panels = len(self.discretisation.panels)
