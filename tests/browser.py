@@ -71,6 +71,11 @@ _EVALUATE = """async ({setup, expression}) => {
   return {text: value.data['text/plain']};
 }"""
 
+_RUN_ONE = """(index) => {
+  window.jupyterapp.shell.currentWidget.content.activeCellIndex = index;
+  return window.jupyterapp.commands.execute('notebook:run-cell');
+}"""
+
 _RUN_ALL = "() => window.jupyterapp.commands.execute('notebook:run-all-cells')"
 
 
@@ -198,9 +203,15 @@ class Watch:
 
 
 @contextlib.contextmanager
-def watched_page(browser: Browser, **settings: Any) -> Iterator[Page]:
-    """A page in a context of its own; an error in its console fails the test at the end."""
+def watched_page(browser: Browser, script: str = "", **settings: Any) -> Iterator[Page]:
+    """A page in a context of its own; an error in its console fails the test at the end.
+
+    ``script`` runs in the page before anything else does; ``settings`` are those of Playwright's
+    browser context, such as ``has_touch=True``.
+    """
     context = browser.new_context(**{"viewport": {"width": 1366, "height": 768}, **settings})
+    if script:
+        context.add_init_script(script)
     watch = Watch(context)
     page = context.new_page()
     page.set_default_timeout(30_000)
@@ -241,8 +252,15 @@ class LabNotebook:
 
     def run_all(self, timeout: float = 120.0) -> None:
         """Run all cells and wait for the last one; an exception in one fails the test."""
+        self._run(_RUN_ALL, timeout)
+
+    def run_cell(self, index: int, timeout: float = 120.0) -> None:
+        """Run one cell and wait for it; an exception in any cell fails the test."""
+        self._run(_RUN_ONE, timeout, index)
+
+    def _run(self, script: str, timeout: float, argument: Any = None) -> None:
         self.page.set_default_timeout(timeout * 1000)
-        self.page.evaluate(_RUN_ALL)
+        self.page.evaluate(script, argument)
         self.page.set_default_timeout(30_000)
         outputs = self.page.evaluate(
             """() => window.jupyterapp.shell.currentWidget.content.model.toJSON().cells

@@ -21,6 +21,7 @@ from glid_nb.session.status_line import StatusLine
 from glid_nb.solvers import Pose
 from glid_nb.widgets import cells
 from glid_nb.widgets.canvas import DeformCanvas
+from glid_nb.widgets.closing import close_with_parts
 from glid_nb.widgets.exporting import export
 from glid_nb.widgets.file_panel import FilePanel
 from glid_nb.widgets.monitor import SolverMonitor
@@ -213,7 +214,7 @@ class Editor(ipywidgets.VBox):
             return
         self._take_down()
         self.model.close()
-        self.tabs.close()
+        close_with_parts(self.tabs, self.layout)
         super().close()
 
     # The widgets
@@ -259,8 +260,7 @@ class Editor(ipywidgets.VBox):
 
     def _take_down(self) -> None:
         parts, self._parts = self._parts, []
-        for part in parts:
-            part.close()
+        close_with_parts(*parts, *self.tabs.children)
 
     def _on_tab(self, change: Any) -> None:
         """What was traced is deformed when somebody goes to look at it."""

@@ -50,7 +50,7 @@ def jupyter(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JupyterServer]
 def open_notebook(browser: Browser, jupyter: JupyterServer) -> Iterator[OpenNotebook]:
     """``open_notebook(cells, **context)``: a notebook in JupyterLab with its cells run.
 
-    ``context`` are settings of Playwright's browser context, such as ``has_touch=True``. One
+    ``context`` is as for `watched_page`, for example ``has_touch=True``. One
     notebook per test; an error in the browser's console fails the test.
     """
     with contextlib.ExitStack() as stack:

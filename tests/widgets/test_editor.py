@@ -145,6 +145,28 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     assert not model.alive
 
 
+@pytest.mark.slow
+def test_a_closed_editor_leaves_no_widget_behind(tmp_path: Path) -> None:
+    from ipywidgets.widgets import widget
+
+    before = set(widget._instances)
+    editor = Editor(bar(), n_vertices=300)
+    canvas = editor.canvas
+    assert canvas is not None
+    canvas.show_source = canvas.show_panels = True
+    editor.add_handle((-7, 0))
+    assert editor.solve(TIMEOUT)
+    canvas.show_source = False
+    editor.trace(drop_holes=[[100.0, 50.0]])
+    editor.save(tmp_path / "bar.glid")
+    built = len(widget._instances)
+    editor.load(tmp_path / "bar.glid")
+    assert len(widget._instances) <= built
+    editor.close()
+    left = [type(widget._instances[name]).__name__ for name in set(widget._instances) - before]
+    assert left == []
+
+
 def test_the_panel_and_the_model_show_each_other() -> None:
     from glid_nb.session.deformation import Deformation
     from glid_nb.widgets import PoseList, SolverPanel
