@@ -22,7 +22,14 @@ from pathlib import Path
 from typing import Any
 
 import nbformat
-from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Locator, Page
+from playwright.sync_api import (
+    Browser,
+    BrowserContext,
+    ConsoleMessage,
+    Locator,
+    Page,
+    sync_playwright,
+)
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 ARTEFACTS = Path(os.environ.get("GLID_NB_ARTEFACTS", REPOSITORY / "artefacts"))
@@ -91,6 +98,17 @@ def chromium() -> str:
         f"no browser found as {', '.join(names)}; run tools/chromium.sh, or name one in "
         "$GLID_NB_CHROMIUM"
     )
+
+
+@contextlib.contextmanager
+def launched_chromium() -> Iterator[Browser]:
+    """The browser, running."""
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=chromium(), headless=True, args=list(CHROMIUM_FLAGS)
+        )
+        yield browser
+        browser.close()
 
 
 class JupyterServer:

@@ -7,15 +7,9 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page
 
-from ..browser import (
-    CHROMIUM_FLAGS,
-    JupyterServer,
-    LabNotebook,
-    chromium,
-    watched_page,
-)
+from ..browser import JupyterServer, LabNotebook, launched_chromium, watched_page
 
 OpenNotebook = Callable[..., LabNotebook]
 
@@ -23,12 +17,8 @@ OpenNotebook = Callable[..., LabNotebook]
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
     """Chromium, one for all tests."""
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=chromium(), headless=True, args=list(CHROMIUM_FLAGS)
-        )
+    with launched_chromium() as browser:
         yield browser
-        browser.close()
 
 
 @pytest.fixture

@@ -27,7 +27,8 @@ canvas, model = editor.canvas, editor.deformation
 editor
 """
 
-_MANAGER = """async () => {
+# The page's widget manager, which holds the models of the widgets by their identities.
+MANAGER = """async () => {
   const rendermime = window.jupyterapp.shell.currentWidget.content.rendermime;
   const mimeType = 'application/vnd.jupyter.widget-view+json';
   const manager = rendermime.getFactory(mimeType).createRenderer({mimeType})._manager;
@@ -35,14 +36,14 @@ _MANAGER = """async () => {
 }"""
 
 _COEFFICIENTS = f"""async (id) => {{
-  const manager = await ({_MANAGER})();
+  const manager = await ({MANAGER})();
   const material = await manager.get_model(id);
   return Array.from(material.obj.uniforms.coefficients.value);
 }}"""
 
 _SHOWS = f"""async ([id, wanted, pad, view]) => {{
   const shown = await ({_COEFFICIENTS})(id);
-  const manager = await ({_MANAGER})();
+  const manager = await ({MANAGER})();
   const seen = (await manager.get_model(pad)).get('view');
   if (!seen.every((v, i) => Math.abs(v - view[i]) < 1e-9)) return false;
   return shown.length === wanted.length && shown.every((v, i) => Math.abs(v - wanted[i]) < 1e-6);
@@ -50,7 +51,7 @@ _SHOWS = f"""async ([id, wanted, pad, view]) => {{
 
 # What the page's three.js geometry holds, a list of numbers.
 _ATTRIBUTE = f"""async (id) => {{
-  const manager = await ({_MANAGER})();
+  const manager = await ({MANAGER})();
   return Array.from((await manager.get_model(id)).obj.array);
 }}"""
 
@@ -63,7 +64,7 @@ _FRAMES = """async () => {
   for (let i = 0; i < 3; i++) await new Promise((go) => requestAnimationFrame(go));
 }"""
 
-_PIXEL = """([pane, u, v]) => {
+_PIXEL = """(pane, [u, v]) => {
   const canvas = pane.querySelector('.jupyter-threejs canvas');
   const copy = document.createElement('canvas');
   [copy.width, copy.height] = [canvas.width, canvas.height];
@@ -83,6 +84,7 @@ class Hand:
         self.book, self.page = book, book.page
         self.canvas, self.model = canvas, f"{canvas}.deformation"
         self.pad = self.page.locator(".glid-pad").nth(pad)
+        self.pane = self.page.locator(".glid-pane").nth(pad)
         self.pad.wait_for()
         self.settle()
 
@@ -176,15 +178,8 @@ class Hand:
         box = self.pad.bounding_box()
         assert box is not None
         x, y = self.place(point)
-        return self.page.evaluate(
-            _PIXEL,
-            [
-                self.pad.locator(
-                    "xpath=ancestor::*[contains(@class, 'glid-pane')]"
-                ).element_handle(),
-                (x - box["x"]) / box["width"],
-                (y - box["y"]) / box["height"],
-            ],
+        return self.pane.evaluate(
+            _PIXEL, [(x - box["x"]) / box["width"], (y - box["y"]) / box["height"]]
         )
 
 

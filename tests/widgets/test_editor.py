@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import gc
+import shutil
+import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -103,6 +105,35 @@ def test_a_session_file_is_kept_up_to_date(tmp_path: Path) -> None:
     assert np.array_equal(again.map.phi, phi)
     assert again.pose.targets.tolist()[1] == [6, 1]
     again.close()
+
+
+@pytest.mark.slow
+def test_a_save_that_fails_is_shown(tmp_path: Path) -> None:
+    folder = tmp_path / "away"
+    folder.mkdir()
+    editor = Editor(bar(), path=folder / "bar.glid", n_vertices=300)
+    saved = threading.Event()
+    editor.model.on_saved(saved.set)
+    editor.deformation.paused = True  # nothing here needs a solve
+
+    def change() -> None:
+        saved.clear()
+        editor.add_handle((-7, len(editor.pose) / 10))
+        assert saved.wait(TIMEOUT)
+
+    change()
+    assert editor.unsaved.layout.display == "none"
+    shutil.move(folder, tmp_path / "moved")
+    change()
+    assert editor.unsaved.layout.display == "block"
+    assert "No such file" in editor.unsaved.value
+    folder.mkdir()
+    change()
+    assert editor.unsaved.layout.display == "none"
+    shutil.rmtree(folder)
+    editor.add_handle((7, 0))
+    with pytest.warns(RuntimeWarning, match="not saved"):
+        editor.close()
 
 
 def test_without_a_picture_it_asks_for_one() -> None:
