@@ -166,7 +166,7 @@ def start_time(browser: Browser, server: JupyterServer, shape: str, cache: str) 
 
 
 def dragged(browser: Browser, server: JupyterServer, setup: str, n_moves: int) -> Drag:
-    """Drag the last handle on a widening circle, once to warm up and once for the measurement."""
+    """Drag the last handle on a spiral, once to warm up and once for the measurement."""
     with notebook(browser, server, [setup]) as book:
         hand = Hand(book)
         identity, trait, widgets = book.value("[*log.source, log.widgets]")
@@ -175,7 +175,7 @@ def dragged(browser: Browser, server: JupyterServer, setup: str, n_moves: int) -
             hand.settle()
             book.page.evaluate("window.glid.clear()")
             book.value("None", setup="log.clear()")
-            start, seconds = circle(hand, count)
+            start, seconds = spiral(hand, count)
             book.wait_for("not model.dragged", 60)
             hand.settle()
             last = book.value("log.frames[-1]['sample']")
@@ -197,16 +197,15 @@ def dragged(browser: Browser, server: JupyterServer, setup: str, n_moves: int) -
     )
 
 
-def circle(hand: Hand, count: int) -> tuple[np.ndarray, float]:
+def spiral(hand: Hand, count: int) -> tuple[np.ndarray, float]:
     """Drag the last handle; returns where its target was, and the seconds that the drag took."""
     start = np.array(hand.targets[-1])
     side = hand.book.value("float(canvas.deformation.domain.cage.longer_side)")
     turns = np.arange(1, count + 1) / RATE
-    # Wider and wider, so that no two targets are the same.
-    radius = 0.08 * side * (1 + 0.5 * turns / turns[-1])
-    points = start + np.stack(
-        [radius * (np.cos(2 * np.pi * turns) - 1), radius * np.sin(2 * np.pi * turns)], axis=1
-    )
+    # A spiral, so that no two targets are the same.
+    radius = 0.08 * side * (0.5 + 0.5 * turns / turns[-1])
+    angles = 2 * np.pi * turns
+    points = start + radius[:, None] * np.stack([np.cos(angles) - 0.5, np.sin(angles)], axis=1)
     places = hand.places([start, *points])
     mouse = hand.page.mouse
     mouse.move(*places[0])

@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page
 
-from ..browser import JupyterServer, LabNotebook, launched_chromium, watched_page
+from ..browser import JupyterServer, LabNotebook, NotebookPage, launched_chromium, watched_page
 
-OpenNotebook = Callable[..., LabNotebook]
+OpenNotebook = Callable[..., Any]
 
 
 @pytest.fixture(scope="session")
@@ -38,16 +38,21 @@ def jupyter(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JupyterServer]
 
 @pytest.fixture
 def open_notebook(browser: Browser, jupyter: JupyterServer) -> Iterator[OpenNotebook]:
-    """``open_notebook(cells, **context)``: a notebook in JupyterLab with its cells run.
+    """``open_notebook(cells, shown_by=LabNotebook, **context)``: a notebook with its cells run.
 
+    ``shown_by`` makes it of a page, the server and the cells; by default it opens in JupyterLab.
     ``context`` is as for `watched_page`, for example ``has_touch=True``. One
     notebook per test; an error in the browser's console fails the test.
     """
     with contextlib.ExitStack() as stack:
 
-        def open_one(cells: Sequence[str], **settings: Any) -> LabNotebook:
+        def open_one(
+            cells: Sequence[str],
+            shown_by: Callable[..., NotebookPage] = LabNotebook,
+            **settings: Any,
+        ) -> NotebookPage:
             page = stack.enter_context(watched_page(browser, **settings))
-            book = LabNotebook(page, jupyter, cells)
+            book = shown_by(page, jupyter, cells)
             stack.callback(book.shut_down)
             return book
 

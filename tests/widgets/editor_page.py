@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Sequence
 from typing import Any
 
-from ..browser import LabNotebook
+from ..browser import NotebookPage
 
 # A bar of 16 x 4 units in a picture of 200 x 100 pixels, checked so that one sees where it goes.
 SETUP = """
@@ -80,7 +81,7 @@ class Hand:
     ``canvas`` is what the pad's `DeformCanvas` is called in the kernel.
     """
 
-    def __init__(self, book: LabNotebook, pad: int = 0, canvas: str = "canvas") -> None:
+    def __init__(self, book: NotebookPage, pad: int = 0, canvas: str = "canvas") -> None:
         self.book, self.page = book, book.page
         self.canvas, self.model = canvas, f"{canvas}.deformation"
         self.pad = self.page.locator(".glid-pad").nth(pad)
@@ -172,6 +173,13 @@ class Hand:
         )
         self.page.wait_for_function(_SHOWS, arg=[identity, wanted, pad, view], timeout=20_000)
         self.page.evaluate(_FRAMES)
+
+    def wait_for_color(self, point: Sequence[float], wanted: Callable[[list[int]], bool]) -> None:
+        """Wait until the canvas' colour below a point of the world is what is wanted."""
+        end = time.monotonic() + 20
+        while not wanted(seen := self.color_at(point)):
+            assert time.monotonic() < end, f"at {point} the canvas shows {seen}"
+            self.page.evaluate(_FRAMES)
 
     def color_at(self, point: Sequence[float]) -> list[int]:
         """RGBA of the canvas below a point of the world."""
