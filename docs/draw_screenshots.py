@@ -21,11 +21,10 @@ import glid_nb
 from tests.browser import JupyterServer, LabNotebook, launched_chromium, watched_page
 from tests.widgets.editor_page import Hand, line
 
-N_COLORS = 200
 DENSITY = 1.5  # pixels of the screenshot per CSS pixel
 CELL = """
 import glid_nb as glid
-editor = glid.Editor(glid.samples.image({sample!r}), width=620, height=500)
+editor = glid.Editor(glid.samples.image({sample!r}), width=600, height=470)
 canvas, model = editor.canvas, editor.deformation
 editor
 """
@@ -80,9 +79,9 @@ def deform_tab_dark(browser: Browser, server: JupyterServer) -> bytes:
 
     def use(book: LabNotebook) -> None:
         book.theme("JupyterLab Dark")
-        hand = posed(book, "gecko")
         book.value("None", "canvas.overlay, canvas.show_source = 'mesh', True")
-        dragged(hand, 1.0)
+        book.page.locator(".glid-pad").nth(1).wait_for()
+        dragged(posed(book, "gecko", pad=1), 1.0)
 
     return pictured(browser, server, "gecko", use)
 
@@ -98,7 +97,7 @@ def pictured(
     browser: Browser, server: JupyterServer, sample: str, use: Callable[[LabNotebook], None]
 ) -> bytes:
     """The editor with a bundled sample, as PNG, after somebody used it."""
-    settings = {"viewport": {"width": 1300, "height": 900}, "device_scale_factor": DENSITY}
+    settings = {"viewport": {"width": 1360, "height": 980}, "device_scale_factor": DENSITY}
     with watched_page(browser, **settings) as page:
         book = LabNotebook(page, server, [CELL.format(sample=sample)])
         try:
@@ -116,12 +115,12 @@ def pictured(
             book.shut_down()
 
 
-def posed(book: LabNotebook, sample: str) -> Hand:
+def posed(book: LabNotebook, sample: str, pad: int = 0) -> Hand:
     """A hand on the canvas, with a bundled pose's handles where they belong."""
     path = glid_nb.samples.pose_path(sample, "extreme")
     book.value("None", f"pose = glid.load_pose({str(path)!r})\nmodel.set_pose(pose)\ncanvas.fit()")
     book.value("None", "model.set_pose(pose.with_targets(pose.handles))")
-    return Hand(book)
+    return Hand(book, pad)
 
 
 def dragged(hand: Hand, share: float) -> None:
@@ -139,15 +138,16 @@ def dragged(hand: Hand, share: float) -> None:
     for place in places[1:]:
         hand.page.mouse.move(*place)
         hand.page.wait_for_timeout(1000 / 60)
-    hand.book.wait_for(f"abs(model.pose.targets[-1] - {stop}).max() < 0.1", 60)
+    hand.book.wait_for(f"abs(model.pose.targets[-1] - {stop}).max() < 0.1", 300)
     hand.settle()
     hand.wait_until_drawn()
 
 
 def small(png: bytes) -> bytes:
-    """The same picture with few colours."""
+    """The same picture with few colours, rare ones among them."""
     image = Image.open(io.BytesIO(png)).convert("RGB")
-    quantised = image.quantize(N_COLORS, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    method, dither = Image.Quantize.MAXCOVERAGE, Image.Dither.NONE
+    quantised = image.quantize(256, method=method, kmeans=1, dither=dither)
     buffer = io.BytesIO()
     quantised.save(buffer, format="PNG", optimize=True)
     return buffer.getvalue()

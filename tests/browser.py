@@ -223,7 +223,9 @@ class Watch:
     def _console(self, message: ConsoleMessage) -> None:
         if message.type != "error":
             return
-        text = f"{message.text} ({message.location.get('url', '')})"
+        self._note(f"{message.text} ({message.location.get('url', '')})")
+
+    def _note(self, text: str) -> None:
         if not any(pattern.search(text) for pattern in _HARMLESS):
             self.errors.append(text)
 

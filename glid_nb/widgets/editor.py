@@ -262,6 +262,7 @@ class Editor(ipywidgets.VBox):
         side.layout.flex, side.layout.overflow = "0 0 auto", "visible"
         left = ipywidgets.VBox([toolbar, canvas, monitor.line])
         left.layout.flex, left.layout.overflow = "0 0 auto", "visible"
+        left.layout.margin = "0 14px 0 0"
         body = ipywidgets.HBox([left, side])
         body.layout.align_items = "flex-start"
         body.layout.flex_flow, body.layout.overflow = "row wrap", "visible"
