@@ -216,9 +216,7 @@ class Watch:
     def __init__(self, context: BrowserContext) -> None:
         self.errors: list[str] = []
         context.on("console", self._console)
-        context.on(
-            "weberror", lambda e: self.errors.append(f"uncaught: {e.error.stack or e.error}")
-        )
+        context.on("weberror", lambda e: self._note(f"uncaught: {e.error.stack or e.error}"))
 
     def _console(self, message: ConsoleMessage) -> None:
         if message.type != "error":
