@@ -1,11 +1,13 @@
 """A real browser on a real JupyterLab, for tests that assert on what a user meets.
 
 `JupyterServer` is a server of its own: a random port, temporary folders for notebooks, settings and
-workspaces, nothing of the user's. `LabNotebook` is one notebook open in it.
+workspaces, nothing of the user's. `LabNotebook` is one notebook open in it, in JupyterLab or in
+Notebook; `VoilaPage` is one that Voila shows.
 """
 
 from __future__ import annotations
 
+import abc
 import ast
 import contextlib
 import json
@@ -19,10 +21,18 @@ import time
 import uuid
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import nbformat
-from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Locator, Page
+from jupyter_client.blocking.client import BlockingKernelClient
+from playwright.sync_api import (
+    Browser,
+    BrowserContext,
+    ConsoleMessage,
+    Locator,
+    Page,
+    sync_playwright,
+)
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 ARTEFACTS = Path(os.environ.get("GLID_NB_ARTEFACTS", REPOSITORY / "artefacts"))
@@ -43,6 +53,11 @@ CHROMIUM_FLAGS = (
 _HARMLESS = (
     # JupyterLab asks for a workspace and settings that a fresh server does not have.
     re.compile(r"Failed to load resource.*404.*/(lab/api/|api/contents|favicon)"),
+    # Notebook 7.6 asks its own settings for a plugin that it does not have.
+    re.compile(r"reading 'schema'\).*/static/notebook/notebook_core", re.DOTALL),
+    # Voila fetches fonts and MathJax from elsewhere, and tries to load extensions of JupyterLab.
+    re.compile(r"ERR_(NAME_NOT_RESOLVED|INTERNET_DISCONNECTED).*https://cdn"),
+    re.compile(r"shared module is not a function.*@jupyterlab/.*/voila/", re.DOTALL),
 )
 
 _SETTINGS = {
@@ -71,6 +86,11 @@ _EVALUATE = """async ({setup, expression}) => {
   return {text: value.data['text/plain']};
 }"""
 
+_RUN_ONE = """(index) => {
+  window.jupyterapp.shell.currentWidget.content.activeCellIndex = index;
+  return window.jupyterapp.commands.execute('notebook:run-cell');
+}"""
+
 _RUN_ALL = "() => window.jupyterapp.commands.execute('notebook:run-all-cells')"
 
 
@@ -88,6 +108,17 @@ def chromium() -> str:
     )
 
 
+@contextlib.contextmanager
+def launched_chromium() -> Iterator[Browser]:
+    """The browser, running."""
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=chromium(), headless=True, args=list(CHROMIUM_FLAGS)
+        )
+        yield browser
+        browser.close()
+
+
 class JupyterServer:
     """JupyterLab in a process of its own, on a free port of this machine, without a token.
 
@@ -100,6 +131,7 @@ class JupyterServer:
     def __init__(self, folder: Path) -> None:
         self.notebooks = folder / "notebooks"
         self.notebooks.mkdir(parents=True)
+        self.runtime = folder / "runtime"
         settings = folder / "settings"
         for name, values in _SETTINGS.items():
             file = settings / "@jupyterlab" / f"{name}.jupyterlab-settings"
@@ -109,7 +141,7 @@ class JupyterServer:
             **os.environ,
             "JUPYTER_CONFIG_DIR": str(folder / "config"),
             "JUPYTER_DATA_DIR": str(folder / "data"),
-            "JUPYTER_RUNTIME_DIR": str(folder / "runtime"),
+            "JUPYTER_RUNTIME_DIR": str(self.runtime),
             "JUPYTERLAB_SETTINGS_DIR": str(settings),
             "JUPYTERLAB_WORKSPACES_DIR": str(folder / "workspaces"),
             "IPYTHONDIR": str(folder / "ipython"),
@@ -128,6 +160,7 @@ class JupyterServer:
             "--ServerApp.password=",
             "--ServerApp.terminals_enabled=False",
             "--LabApp.expose_app_in_browser=True",
+            "--JupyterNotebookApp.expose_app_in_browser=True",
             "--LabApp.extension_manager=readonly",
             "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
         )
@@ -183,12 +216,14 @@ class Watch:
     def __init__(self, context: BrowserContext) -> None:
         self.errors: list[str] = []
         context.on("console", self._console)
-        context.on("weberror", lambda e: self.errors.append(f"uncaught: {e.error}"))
+        context.on("weberror", lambda e: self._note(f"uncaught: {e.error.stack or e.error}"))
 
     def _console(self, message: ConsoleMessage) -> None:
         if message.type != "error":
             return
-        text = f"{message.text} ({message.location.get('url', '')})"
+        self._note(f"{message.text} ({message.location.get('url', '')})")
+
+    def _note(self, text: str) -> None:
         if not any(pattern.search(text) for pattern in _HARMLESS):
             self.errors.append(text)
 
@@ -198,9 +233,15 @@ class Watch:
 
 
 @contextlib.contextmanager
-def watched_page(browser: Browser, **settings: Any) -> Iterator[Page]:
-    """A page in a context of its own; an error in its console fails the test at the end."""
+def watched_page(browser: Browser, script: str = "", **settings: Any) -> Iterator[Page]:
+    """A page in a context of its own; an error in its console fails the test at the end.
+
+    ``script`` runs in the page before anything else does; ``settings`` are those of Playwright's
+    browser context, such as ``has_touch=True``.
+    """
     context = browser.new_context(**{"viewport": {"width": 1366, "height": 768}, **settings})
+    if script:
+        context.add_init_script(script)
     watch = Watch(context)
     page = context.new_page()
     page.set_default_timeout(30_000)
@@ -211,8 +252,8 @@ def watched_page(browser: Browser, **settings: Any) -> Iterator[Page]:
         context.close()
 
 
-class LabNotebook:
-    """One notebook, open in JupyterLab, its cells run.
+class NotebookPage(abc.ABC):
+    """A notebook that a page shows and a kernel has run.
 
     Attributes
     ----------
@@ -226,7 +267,44 @@ class LabNotebook:
         book = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(c) for c in cells])
         book.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
         nbformat.write(book, server.notebooks / f"{self._name}.ipynb")
-        self._url = f"{server.url}/lab/workspaces/{self._name}/tree/{self._name}.ipynb"
+
+    @abc.abstractmethod
+    def value(self, expression: str, setup: str = "") -> Any:
+        """The value of a Python expression in the kernel, through JSON."""
+
+    @abc.abstractmethod
+    def shut_down(self) -> None:
+        """End the kernel."""
+
+    def wait_for(self, condition: str, timeout: float = 30.0) -> None:
+        """Wait until a Python expression in the kernel is true."""
+        end = time.monotonic() + timeout
+        while not self.value(f"bool({condition})"):
+            if time.monotonic() > end:
+                raise AssertionError(f"the kernel did not reach {condition!r} in {timeout:g} s")
+            self.page.wait_for_timeout(50)  # lets the page work; the kernel has no event for us
+
+    def screenshot(self, name: str, of: Locator | None = None) -> Path:
+        """Save what is seen, of the whole window or of one element, to look at later."""
+        ARTEFACTS.mkdir(exist_ok=True)
+        path = ARTEFACTS / f"{name}.png"
+        (of if of is not None else self.page).screenshot(path=path)
+        return path
+
+
+class LabNotebook(NotebookPage):
+    """One notebook, open in JupyterLab or in Notebook (``interface``), its cells run."""
+
+    def __init__(
+        self,
+        page: Page,
+        server: JupyterServer,
+        cells: Sequence[str],
+        interface: Literal["lab", "notebook"] = "lab",
+    ) -> None:
+        super().__init__(page, server, cells)
+        where = f"lab/workspaces/{self._name}/tree" if interface == "lab" else "notebooks"
+        self._url = f"{server.url}/{where}/{self._name}.ipynb"
         page.goto(self._url)
         self._wait_until_ready()
         # The notebook gets the whole window, as people do it.
@@ -241,8 +319,15 @@ class LabNotebook:
 
     def run_all(self, timeout: float = 120.0) -> None:
         """Run all cells and wait for the last one; an exception in one fails the test."""
+        self._run(_RUN_ALL, timeout)
+
+    def run_cell(self, index: int, timeout: float = 120.0) -> None:
+        """Run one cell and wait for it; an exception in any cell fails the test."""
+        self._run(_RUN_ONE, timeout, index)
+
+    def _run(self, script: str, timeout: float, argument: Any = None) -> None:
         self.page.set_default_timeout(timeout * 1000)
-        self.page.evaluate(_RUN_ALL)
+        self.page.evaluate(script, argument)
         self.page.set_default_timeout(30_000)
         outputs = self.page.evaluate(
             """() => window.jupyterapp.shell.currentWidget.content.model.toJSON().cells
@@ -262,19 +347,10 @@ class LabNotebook:
         return self.page.locator(".jp-OutputArea-child .jp-OutputArea-output")
 
     def value(self, expression: str, setup: str = "") -> Any:
-        """The value of a Python expression in the kernel, through JSON."""
         reply = self.page.evaluate(_EVALUATE, {"setup": setup, "expression": expression})
         if "error" in reply:
             raise AssertionError(f"the kernel says of {expression!r}: {reply['error']}")
         return json.loads(ast.literal_eval(reply["text"]))
-
-    def wait_for(self, condition: str, timeout: float = 30.0) -> None:
-        """Wait until a Python expression in the kernel is true."""
-        end = time.monotonic() + timeout
-        while not self.value(f"bool({condition})"):
-            if time.monotonic() > end:
-                raise AssertionError(f"the kernel did not reach {condition!r} in {timeout:g} s")
-            self.page.wait_for_timeout(50)  # lets the page work; the kernel has no event for us
 
     def theme(self, name: str) -> None:
         """Change JupyterLab's theme, for example to "JupyterLab Dark"."""
@@ -285,15 +361,39 @@ class LabNotebook:
             "name => document.body.dataset.jpThemeName === name", arg=name, timeout=10_000
         )
 
-    def screenshot(self, name: str, of: Locator | None = None) -> Path:
-        """Save what is seen, of the whole window or of one element, to look at later."""
-        ARTEFACTS.mkdir(exist_ok=True)
-        path = ARTEFACTS / f"{name}.png"
-        (of if of is not None else self.page).screenshot(path=path)
-        return path
-
     def shut_down(self) -> None:
-        """End the kernel."""
         self.page.evaluate(
             "() => window.jupyterapp.shell.currentWidget?.sessionContext?.shutdown()"
         )
+
+
+class VoilaPage(NotebookPage):
+    """One notebook, run and shown by Voila; the kernel is asked beside the page."""
+
+    def __init__(self, page: Page, server: JupyterServer, cells: Sequence[str]) -> None:
+        super().__init__(page, server, cells)
+        page.goto(f"{server.url}/voila/render/{self._name}.ipynb", timeout=120_000)
+        kernel = page.evaluate(
+            "JSON.parse(document.getElementById('jupyter-config-data').textContent).kernelId"
+        )
+        self._client = BlockingKernelClient(
+            connection_file=str(server.runtime / f"kernel-{kernel}.json")
+        )
+        self._client.load_connection_file()
+        self._client.start_channels()
+
+    def value(self, expression: str, setup: str = "") -> Any:
+        asked = {"value": f"__import__('json').dumps({expression})"}
+        reply = self._client.execute_interactive(
+            setup, silent=True, user_expressions=asked, timeout=60
+        )["content"]
+        value = reply if reply["status"] != "ok" else reply["user_expressions"]["value"]
+        if value["status"] != "ok":
+            raise AssertionError(
+                f"the kernel says of {expression!r}: {value['ename']}: {value['evalue']}"
+            )
+        return json.loads(ast.literal_eval(value["data"]["text/plain"]))
+
+    def shut_down(self) -> None:
+        self._client.shutdown()
+        self._client.stop_channels()

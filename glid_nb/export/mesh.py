@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-import trimesh
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
-from trimesh.exchange.obj import export_obj
-from trimesh.visual import TextureVisuals
-from trimesh.visual.material import PBRMaterial, SimpleMaterial
 
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.mesh import deformed_mesh
+
+# trimesh takes a second to import, which only an export should cost: the functions import it.
+if TYPE_CHECKING:
+    from trimesh import Trimesh
+    from trimesh.visual.material import Material
 
 VERTICES = 5000
 """About how many vertices a mesh gets by default."""
@@ -86,6 +88,9 @@ def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
 
     They belong into one folder: the OBJ file names the material file, and that the texture.
     """
+    from trimesh.exchange.obj import export_obj  # noqa: PLC0415
+    from trimesh.visual.material import SimpleMaterial  # noqa: PLC0415
+
     material = SimpleMaterial(
         image=Image.fromarray(mesh.texture),
         name=name,
@@ -107,6 +112,8 @@ def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
 
 def mesh_glb(mesh: TexturedMesh) -> bytes:
     """A mesh as binary glTF 2.0 (.glb), its texture inside."""
+    from trimesh.visual.material import PBRMaterial  # noqa: PLC0415
+
     material = PBRMaterial(
         baseColorTexture=Image.fromarray(mesh.texture),
         metallicFactor=0.0,
@@ -119,7 +126,10 @@ def mesh_glb(mesh: TexturedMesh) -> bytes:
     return data
 
 
-def _trimesh(mesh: TexturedMesh, material: SimpleMaterial | PBRMaterial) -> trimesh.Trimesh:
+def _trimesh(mesh: TexturedMesh, material: Material) -> Trimesh:
+    from trimesh import Trimesh  # noqa: PLC0415
+    from trimesh.visual import TextureVisuals  # noqa: PLC0415
+
     visual = TextureVisuals(uv=mesh.texture_coordinates, material=material)
     # process: it would merge vertices and so reorder them.
-    return trimesh.Trimesh(mesh.positions, mesh.triangles, visual=visual, process=False)
+    return Trimesh(mesh.positions, mesh.triangles, visual=visual, process=False)

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from matplotlib import colormaps
-from matplotlib.axes import Axes
 from matplotlib.colors import Colormap, ListedColormap
+
+if TYPE_CHECKING:  # half a second of imports that the editor's first canvas does not wait for
+    from matplotlib.axes import Axes
 
 # The ink of axes and text, and Okabe and Ito's colours.
 INK = "#2b2b2b"

@@ -27,21 +27,21 @@ class Autosave:
         The file.
     interval : float
         Least number of seconds between two saves; the first is made at once.
-    on_error : callable, optional
-        Called, in the thread, with the exception of a save that failed. The next submission tries
-        again.
+    on_done : callable, optional
+        Called, in the thread, after each save: with the exception if it failed, else with None. The
+        next submission tries again.
     """
 
     def __init__(
         self,
         path: str | Path,
         interval: float = INTERVAL,
-        on_error: Callable[[Exception], None] | None = None,
+        on_done: Callable[[Exception | None], None] | None = None,
     ) -> None:
         if not interval >= 0:
             raise ValueError(f"interval is {interval}; it must be at least 0 seconds")
         self.path = Path(path)
-        self._worker = _Worker(self.path, interval, on_error)
+        self._worker = _Worker(self.path, interval, on_done)
         # Also at the end of the process.
         self._finalizer = weakref.finalize(self, self._worker.close)
 
@@ -75,9 +75,9 @@ class _Worker:
     """
 
     def __init__(
-        self, path: Path, interval: float, on_error: Callable[[Exception], None] | None
+        self, path: Path, interval: float, on_done: Callable[[Exception | None], None] | None
     ) -> None:
-        self._path, self._interval, self._on_error = path, interval, on_error
+        self._path, self._interval, self._on_done = path, interval, on_done
         self._changed = threading.Condition()
         self._pending: Document | None = None
         self._hurry = self._busy = self._closed = False
@@ -132,12 +132,12 @@ class _Worker:
             except Exception as error:  # reported; the thread must live on
                 failure = error
             last = time.monotonic()
+            self.error = failure
+            self.n_saved += failure is None
             try:
-                if failure is not None and self._on_error is not None:
-                    self._on_error(failure)
+                if self._on_done is not None:
+                    self._on_done(failure)
             finally:
                 with self._changed:
-                    self.error = failure
-                    self.n_saved += failure is None
                     self._busy = False
                     self._changed.notify_all()

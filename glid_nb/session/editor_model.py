@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -42,6 +43,7 @@ class EditorModel:
     ) -> None:
         self._lock = threading.RLock()
         self._observers: list[Callable[[], None]] = []
+        self._save_observers: list[Callable[[], None]] = []
         self._autosave: Autosave | None = None
         self.save_error: Exception | None = None
         """Why the last save in the background failed; None when it did not."""
@@ -54,7 +56,7 @@ class EditorModel:
         else:
             self._take(document)
         if path is not None:
-            self._autosave = Autosave(path, on_error=self._save_failed)
+            self._autosave = Autosave(path, on_done=self._saved)
 
     @property
     def deformation(self) -> Deformation:
@@ -77,6 +79,10 @@ class EditorModel:
     def on_replaced(self, callback: Callable[[], None]) -> None:
         """Call ``callback`` when ``deformation`` or ``tracing`` is another object."""
         self._observers.append(callback)
+
+    def on_saved(self, callback: Callable[[], None]) -> None:
+        """Call ``callback`` after each save in the background; ``save_error`` says how it went."""
+        self._save_observers.append(callback)
 
     def apply_tracing(self) -> None:
         """Deform what is traced now: a step for undo, or a new start for a new picture."""
@@ -137,12 +143,22 @@ class EditorModel:
             self._autosave.submit(self.document)
 
     def close(self) -> None:
-        """Save what is pending and end all threads."""
+        """Save what is pending and end all threads.
+
+        Warns
+        -----
+        RuntimeWarning
+            The last state could not be saved.
+        """
         with self._lock:
             self._observers.clear()
+            self._save_observers.clear()
             autosave, self._autosave = self._autosave, None
         if autosave is not None:
             autosave.close()
+            if autosave.error is not None:
+                text = f"the session was not saved: {autosave.error}"
+                warnings.warn(text, RuntimeWarning, stacklevel=2)
         if self._deformation is not None:
             self._deformation.close()
 
@@ -165,8 +181,11 @@ class EditorModel:
         if what == "state" or (what == "frame" and model.state.current.solved):
             self.autosave()
 
-    def _save_failed(self, error: Exception) -> None:
+    def _saved(self, error: Exception | None) -> None:
+        """After a save in the background, in its thread."""
         self.save_error = error
+        for callback in tuple(self._save_observers):
+            callback()
 
     def _tell(self) -> None:
         for callback in tuple(self._observers):

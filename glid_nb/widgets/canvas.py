@@ -144,6 +144,7 @@ class DeformCanvas(ipywidgets.HBox):
                 pane.close()
         if self._owns_model:
             self.deformation.close()
+        self.layout.close()
         super().close()
 
     def _pane(self, size: tuple[int, int], interactive: bool) -> Pane:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ from glid_nb.session.status_line import StatusLine
 from glid_nb.solvers import Pose
 from glid_nb.widgets import cells
 from glid_nb.widgets.canvas import DeformCanvas
+from glid_nb.widgets.closing import close_with_parts
 from glid_nb.widgets.exporting import export
 from glid_nb.widgets.file_panel import FilePanel
 from glid_nb.widgets.monitor import SolverMonitor
@@ -33,6 +35,11 @@ from glid_nb.widgets.tracer import CageTracer
 _TRACE, _DEFORM = 0, 1
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
+
+_NOT_SAVED = (
+    "The session could not be saved: {error}. It is tried again with the next change; "
+    "Save in the Files tab writes it elsewhere."
+)
 
 
 class Editor(ipywidgets.VBox):
@@ -107,10 +114,13 @@ class Editor(ipywidgets.VBox):
         self._parts: list[Any] = []
         self.tabs = ipywidgets.Tab()
         """The two tabs."""
-        super().__init__([self.tabs], **kwargs)
+        self.unsaved = ipywidgets.HTML(layout={"display": "none"})
+        """Why the session file is not up to date; hidden while it is."""
+        super().__init__([self.unsaved, self.tabs], **kwargs)
         self.add_class("glid-editor")
         self._build()
         self.model.on_replaced(self._build)
+        self.model.on_saved(self._show_save_error)
         self.tabs.observe(self._on_tab, ["selected_index"])
         self._complete = True
         cells.register(self)
@@ -213,7 +223,7 @@ class Editor(ipywidgets.VBox):
             return
         self._take_down()
         self.model.close()
-        self.tabs.close()
+        close_with_parts(self.unsaved, self.tabs, self.layout)
         super().close()
 
     # The widgets
@@ -252,6 +262,7 @@ class Editor(ipywidgets.VBox):
         side.layout.flex, side.layout.overflow = "0 0 auto", "visible"
         left = ipywidgets.VBox([toolbar, canvas, monitor.line])
         left.layout.flex, left.layout.overflow = "0 0 auto", "visible"
+        left.layout.margin = "0 14px 0 0"
         body = ipywidgets.HBox([left, side])
         body.layout.align_items = "flex-start"
         body.layout.flex_flow, body.layout.overflow = "row wrap", "visible"
@@ -259,8 +270,16 @@ class Editor(ipywidgets.VBox):
 
     def _take_down(self) -> None:
         parts, self._parts = self._parts, []
-        for part in parts:
-            part.close()
+        close_with_parts(*parts, *self.tabs.children)
+
+    def _show_save_error(self) -> None:
+        error = self.model.save_error
+        if error is not None:
+            self.unsaved.value = (
+                "<p style='margin:4px 0;padding:6px 12px;border-radius:4px;color:#fff;"
+                f"background:#b34700'>{html.escape(_NOT_SAVED.format(error=error))}</p>"
+            )
+        self.unsaved.layout.display = "none" if error is None else "block"
 
     def _on_tab(self, change: Any) -> None:
         """What was traced is deformed when somebody goes to look at it."""

@@ -13,7 +13,7 @@ from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
 from glid_nb.widgets.exporting import FORMATS, export
 
-_WIDE = ipywidgets.Layout(width="auto", flex="1 1 auto")
+_WIDE = {"width": "auto", "flex": "1 1 auto"}
 
 
 class FilePanel(ipywidgets.VBox):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import time
 from collections import deque
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import ipywidgets
 import numpy as np
@@ -16,7 +16,9 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.live_solver import Frame
 from glid_nb.session.status_line import StatusLine, rounded_down
 from glid_nb.widgets.background import Background
-from glid_nb.widgets.live_plots import LivePlots
+
+if TYPE_CHECKING:
+    from glid_nb.widgets.live_plots import LivePlots
 
 INTERVAL = 0.1
 """Least number of seconds between two drawings of the plots."""
@@ -131,6 +133,9 @@ class SolverMonitor(ipywidgets.VBox):
         if (state.map, frame) == self._drawn:
             return
         if self._plots is None or self._plots.cage is not state.domain.cage:
+            # In the background thread: the first canvas need not wait for matplotlib's figures.
+            from glid_nb.widgets.live_plots import LivePlots  # noqa: PLC0415
+
             self._plots = LivePlots(state.domain.cage, *self._size)
         solution = state.current.solution
         if frame is not None and frame.solution is None and len(frame.sigma2_lower):

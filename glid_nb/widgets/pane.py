@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from glid_nb.energies import Energy
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.widgets.closing import close_with_parts
 from glid_nb.widgets.overlays import legend
 from glid_nb.widgets.scene import EvaluatedIn, Scene, renderer
 from glid_nb.widgets.stage import Stage, marks_of
@@ -103,8 +104,7 @@ class Pane(ipywidgets.GridBox):
     def close(self) -> None:
         """Free the renderer: a page has only eight."""
         self._scene.close()
-        for part in (self.stage, self._renderer.scene, self._renderer.camera, self._renderer):
-            part.close()
+        close_with_parts(self.stage, self._renderer, self.layout)
         super().close()
 
     def _new_scene(self, map: HarmonicMap, vectors: int | None = None) -> Scene:

@@ -234,9 +234,7 @@ class Scene:
         if self.panels is not None:
             self.panels.close()
         attribute = three.BufferAttribute(values, normalized=True)
-        self.panels = self._line(
-            panel_ribbon(panels), GREY, 1.0, _PANEL_WIDTH, {"margin": attribute}
-        )
+        self.panels = self._line(panel_ribbon(panels), GREY, 1.0, _PANEL_WIDTH, attribute)
         self._panels = panels
         return True
 
@@ -263,24 +261,27 @@ class Scene:
         color: str,
         opacity: float,
         half_width: float,
-        extra: dict[str, Any] | None = None,
+        margin: three.BufferAttribute | None = None,
     ) -> Layer:
-        margin = np.zeros(len(line.points), dtype=np.uint8)
+        """A line of one colour, or coloured by margin where there is one."""
+        by_margin = 0.0 if margin is None else 1.0
+        if margin is None:
+            values = np.zeros(len(line.points), dtype=np.uint8)
+            margin = three.BufferAttribute(values, normalized=True)
         rgb = [int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)]
         return self._layer(
             line.points,
             line.triangles,
             {
                 "ribbon": three.BufferAttribute(line.ribbon, normalized=False),
-                "margin": three.BufferAttribute(margin, normalized=True),
-                **(extra or {}),
+                "margin": margin,
             },
             ("ribbon.vert", "ribbon.frag"),
             {
                 "pixel": {"value": 0.02},
                 "half_width": {"value": half_width},
                 "line_color": {"value": [*rgb, opacity]},
-                "by_margin": {"value": 1.0 if extra else 0.0},
+                "by_margin": {"value": by_margin},
                 "colors": {"value": color_stops().ravel().tolist()},
             },
         )

@@ -20,7 +20,7 @@ ENERGY_LABELS = {
 """What the menu calls the energies."""
 
 _WITH_PARAMETER = ("exp", "amips")
-_FULL = ipywidgets.Layout(width="auto")
+_FULL = {"width": "auto"}
 
 
 class SolverPanel(EditControls):

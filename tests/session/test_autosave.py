@@ -78,16 +78,17 @@ def test_dropping_it_saves_too(tmp_path: Path) -> None:
 
 def test_a_failure_is_reported_and_the_next_save_tries_again(tmp_path: Path) -> None:
     folder = tmp_path / "gone"
-    seen: list[Exception] = []
-    autosave = Autosave(folder / "a.glid", interval=0, on_error=seen.append)
+    seen: list[Exception | None] = []
+    autosave = Autosave(folder / "a.glid", interval=0, on_done=seen.append)
     autosave.submit(document())
     assert autosave.flush(timeout=60)
     assert isinstance(autosave.error, FileNotFoundError)
-    assert [type(error) for error in seen] == [FileNotFoundError]
+    assert seen == [autosave.error]
     folder.mkdir()
     autosave.submit(document())
     assert autosave.flush(timeout=60)
     assert autosave.error is None
+    assert seen[1:] == [None]
     assert load_document(folder / "a.glid").active == 1
     autosave.close()
 

@@ -7,28 +7,18 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page
 
-from ..browser import (
-    CHROMIUM_FLAGS,
-    JupyterServer,
-    LabNotebook,
-    chromium,
-    watched_page,
-)
+from ..browser import JupyterServer, LabNotebook, NotebookPage, launched_chromium, watched_page
 
-OpenNotebook = Callable[..., LabNotebook]
+OpenNotebook = Callable[..., Any]
 
 
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
     """Chromium, one for all tests."""
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=chromium(), headless=True, args=list(CHROMIUM_FLAGS)
-        )
+    with launched_chromium() as browser:
         yield browser
-        browser.close()
 
 
 @pytest.fixture
@@ -48,16 +38,21 @@ def jupyter(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JupyterServer]
 
 @pytest.fixture
 def open_notebook(browser: Browser, jupyter: JupyterServer) -> Iterator[OpenNotebook]:
-    """``open_notebook(cells, **context)``: a notebook in JupyterLab with its cells run.
+    """``open_notebook(cells, shown_by=LabNotebook, **context)``: a notebook with its cells run.
 
-    ``context`` are settings of Playwright's browser context, such as ``has_touch=True``. One
+    ``shown_by`` makes it of a page, the server and the cells; by default it opens in JupyterLab.
+    ``context`` is as for `watched_page`, for example ``has_touch=True``. One
     notebook per test; an error in the browser's console fails the test.
     """
     with contextlib.ExitStack() as stack:
 
-        def open_one(cells: Sequence[str], **settings: Any) -> LabNotebook:
+        def open_one(
+            cells: Sequence[str],
+            shown_by: Callable[..., NotebookPage] = LabNotebook,
+            **settings: Any,
+        ) -> NotebookPage:
             page = stack.enter_context(watched_page(browser, **settings))
-            book = LabNotebook(page, jupyter, cells)
+            book = shown_by(page, jupyter, cells)
             stack.callback(book.shut_down)
             return book
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Sequence
 from typing import Any
 
-from ..browser import LabNotebook
+from ..browser import NotebookPage
 
 # A bar of 16 x 4 units in a picture of 200 x 100 pixels, checked so that one sees where it goes.
 SETUP = """
@@ -27,7 +28,8 @@ canvas, model = editor.canvas, editor.deformation
 editor
 """
 
-_MANAGER = """async () => {
+# The page's widget manager, which holds the models of the widgets by their identities.
+MANAGER = """async () => {
   const rendermime = window.jupyterapp.shell.currentWidget.content.rendermime;
   const mimeType = 'application/vnd.jupyter.widget-view+json';
   const manager = rendermime.getFactory(mimeType).createRenderer({mimeType})._manager;
@@ -35,25 +37,36 @@ _MANAGER = """async () => {
 }"""
 
 _COEFFICIENTS = f"""async (id) => {{
-  const manager = await ({_MANAGER})();
+  const manager = await ({MANAGER})();
   const material = await manager.get_model(id);
   return Array.from(material.obj.uniforms.coefficients.value);
 }}"""
 
 _SHOWS = f"""async ([id, wanted, pad, view]) => {{
   const shown = await ({_COEFFICIENTS})(id);
-  const manager = await ({_MANAGER})();
+  const manager = await ({MANAGER})();
   const seen = (await manager.get_model(pad)).get('view');
   if (!seen.every((v, i) => Math.abs(v - view[i]) < 1e-9)) return false;
   return shown.length === wanted.length && shown.every((v, i) => Math.abs(v - wanted[i]) < 1e-6);
+}}"""
+
+# What the page's three.js geometry holds, a list of numbers.
+_ATTRIBUTE = f"""async (id) => {{
+  const manager = await ({MANAGER})();
+  return Array.from((await manager.get_model(id)).obj.array);
+}}"""
+
+_HOLDS = f"""async ([id, wanted]) => {{
+  const held = await ({_ATTRIBUTE})(id);
+  return held.length === wanted.length && held.every((v, i) => Math.abs(v - wanted[i]) < 1e-5);
 }}"""
 
 _FRAMES = """async () => {
   for (let i = 0; i < 3; i++) await new Promise((go) => requestAnimationFrame(go));
 }"""
 
-_PIXEL = """([u, v]) => {
-  const canvas = document.querySelector('.jupyter-threejs canvas');
+_PIXEL = """(pane, [u, v]) => {
+  const canvas = pane.querySelector('.jupyter-threejs canvas');
   const copy = document.createElement('canvas');
   [copy.width, copy.height] = [canvas.width, canvas.height];
   const pen = copy.getContext('2d');
@@ -63,20 +76,22 @@ _PIXEL = """([u, v]) => {
 
 
 class Hand:
-    """A hand on the first pad of a page; points are in world units.
+    """A hand on a pad of a page, by default the first; points are in world units.
 
-    The canvas, in the kernel ``canvas``, must show ``model``.
+    ``canvas`` is what the pad's `DeformCanvas` is called in the kernel.
     """
 
-    def __init__(self, book: LabNotebook, pad: int = 0) -> None:
+    def __init__(self, book: NotebookPage, pad: int = 0, canvas: str = "canvas") -> None:
         self.book, self.page = book, book.page
+        self.canvas, self.model = canvas, f"{canvas}.deformation"
         self.pad = self.page.locator(".glid-pad").nth(pad)
+        self.pane = self.page.locator(".glid-pane").nth(pad)
         self.pad.wait_for()
         self.settle()
 
     def settle(self) -> None:
         """Wait for the solver."""
-        self.book.wait_for("model.state.current.solved and not model.busy", 90)
+        self.book.wait_for(f"{self.model}.state.current.solved and not {self.model}.busy", 90)
 
     def place(self, point: Sequence[float]) -> tuple[float, float]:
         """Where a point is in the page."""
@@ -88,7 +103,7 @@ class Hand:
         box = self.pad.bounding_box()
         assert box is not None
         (cx, cy, unit), width, height = self.book.value(
-            "[canvas.pane.stage.view, canvas.pane.stage.width, canvas.pane.stage.height]"
+            "[stage.view, stage.width, stage.height]", f"stage = {self.canvas}.pane.stage"
         )
         return [
             (box["x"] + (x - cx) / unit + width / 2, box["y"] + (cy - y) / unit + height / 2)
@@ -110,45 +125,68 @@ class Hand:
 
     @property
     def handles(self) -> list[list[float]]:
-        return self.book.value("model.pose.handles.tolist()")
+        return self.book.value(f"{self.model}.pose.handles.tolist()")
 
     @property
     def targets(self) -> list[list[float]]:
-        return self.book.value("model.pose.targets.tolist()")
+        return self.book.value(f"{self.model}.pose.targets.tolist()")
 
     def certified(self) -> bool:
-        return self.book.value("glid.certify(model.map).certified")
+        return self.book.value(f"glid.certify({self.model}.map).certified")
 
     def wait_for_target(self, index: int, wanted: Sequence[float]) -> None:
         """Wait until the page's events have put a target there, nothing is held and all is solved.
 
         The page sends one batch at a time, so its last moves come after the pointer was let go.
         """
-        near = f"abs(model.pose.targets[{index}] - {list(wanted)}).max() < 0.1"
-        self.book.wait_for(f"{near} and not model.dragged", 60)
+        near = f"abs({self.model}.pose.targets[{index}] - {list(wanted)}).max() < 0.1"
+        self.book.wait_for(f"{near} and not {self.model}.dragged", 60)
         self.settle()
 
     def coefficients(self) -> list[float]:
         """phi and psi in the shader of the page's picture, as three.js has them."""
-        identity = self.book.value("canvas.pane.scene.picture.material.model_id")
+        identity = self.book.value(f"{self.canvas}.pane.scene.picture.material.model_id")
         return self.page.evaluate(_COEFFICIENTS, identity)
+
+    def attribute(self, name: str) -> list[float]:
+        """A vertex attribute of the page's picture, as three.js has it."""
+        identity = self.book.value(
+            f"{self.canvas}.pane.scene.picture.attributes[{name!r}].model_id"
+        )
+        return self.page.evaluate(_ATTRIBUTE, identity)
+
+    def wait_for_attribute(self, name: str, wanted: Sequence[float]) -> None:
+        """Wait until a vertex attribute is this, to float32, and a frame was drawn with it."""
+        identity = self.book.value(
+            f"{self.canvas}.pane.scene.picture.attributes[{name!r}].model_id"
+        )
+        self.page.wait_for_function(_HOLDS, arg=[identity, list(wanted)], timeout=20_000)
+        self.page.evaluate(_FRAMES)
 
     def wait_until_drawn(self) -> None:
         """Wait until the shader has the kernel's map, to float32, and a frame was drawn with it."""
-        wanted = self.book.value(
-            "canvas.pane.scene.shader_map.coefficients(model.map)[0].ravel().tolist()"
+        identity, wanted, pad, view = self.book.value(
+            "[pane.scene.picture.material.model_id,"
+            f" pane.scene.shader_map.coefficients({self.model}.map)[0].ravel().tolist(),"
+            " pane.stage.model_id, list(pane.stage.view)]",
+            f"pane = {self.canvas}.pane",
         )
-        identity = self.book.value("canvas.pane.scene.picture.material.model_id")
-        pad, view = self.book.value("[canvas.pane.stage.model_id, list(canvas.pane.stage.view)]")
         self.page.wait_for_function(_SHOWS, arg=[identity, wanted, pad, view], timeout=20_000)
         self.page.evaluate(_FRAMES)
+
+    def wait_for_color(self, point: Sequence[float], wanted: Callable[[list[int]], bool]) -> None:
+        """Wait until the canvas' colour below a point of the world is what is wanted."""
+        end = time.monotonic() + 20
+        while not wanted(seen := self.color_at(point)):
+            assert time.monotonic() < end, f"at {point} the canvas shows {seen}"
+            self.page.evaluate(_FRAMES)
 
     def color_at(self, point: Sequence[float]) -> list[int]:
         """RGBA of the canvas below a point of the world."""
         box = self.pad.bounding_box()
         assert box is not None
         x, y = self.place(point)
-        return self.page.evaluate(
+        return self.pane.evaluate(
             _PIXEL, [(x - box["x"]) / box["width"], (y - box["y"]) / box["height"]]
         )
 

@@ -195,39 +195,3 @@ def test_touch_drags_and_pinches(open_notebook: OpenNotebook) -> None:
     book.page.mouse.wheel(0, 300)
     book.wait_for(f"canvas.pane.stage.view[2] > 1.2 * {unit}")
     np.testing.assert_allclose(hand.place([1.0, 0.5]), target, atol=0.5)
-
-
-def test_two_views_and_a_reload(open_notebook: OpenNotebook) -> None:
-    book = open_notebook([SETUP, EDITOR, "canvas"])
-    hand, other = Hand(book), Hand(book, pad=1)
-    hand.click(THREE[0])
-    book.wait_for("len(model.pose) == 1")
-    hand.settle()
-    other.pad.scroll_into_view_if_needed()
-    other.click(THREE[1])
-    book.wait_for("len(model.pose) == 2")
-    hand.settle()
-    other.drag(line(THREE[1], [6.0, 2.0], 10))
-    hand.wait_for_target(1, [6.0, 2.0])
-    state = hand.targets
-    hand.wait_until_drawn()
-    book.screenshot("editor-two-views")
-    book.reload()
-    again = Hand(book)
-    assert again.targets == state
-    again.wait_until_drawn()
-    again.drag(line(state[1], [6.0, 1.0], 5))
-    again.wait_for_target(1, [6.0, 1.0])
-
-
-def test_a_rerun_closes_the_old_editor(open_notebook: OpenNotebook) -> None:
-    book = open_notebook([SETUP, EDITOR])
-    hand = Hand(book)
-    hand.click(THREE[0])
-    book.wait_for("len(model.pose) == 1")
-    book.value("None", setup="old = model")
-    book.run_all()
-    Hand(book)
-    assert not book.value("old.alive")
-    assert book.value("model.alive and model is not old")
-    assert book.page.locator(".jupyter-threejs").count() == 1

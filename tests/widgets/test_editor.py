@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import gc
+import shutil
+import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -105,6 +107,35 @@ def test_a_session_file_is_kept_up_to_date(tmp_path: Path) -> None:
     again.close()
 
 
+@pytest.mark.slow
+def test_a_save_that_fails_is_shown(tmp_path: Path) -> None:
+    folder = tmp_path / "away"
+    folder.mkdir()
+    editor = Editor(bar(), path=folder / "bar.glid", n_vertices=300)
+    saved = threading.Event()
+    editor.model.on_saved(saved.set)
+    editor.deformation.paused = True  # nothing here needs a solve
+
+    def change() -> None:
+        saved.clear()
+        editor.add_handle((-7, len(editor.pose) / 10))
+        assert saved.wait(TIMEOUT)
+
+    change()
+    assert editor.unsaved.layout.display == "none"
+    shutil.move(folder, tmp_path / "moved")
+    change()
+    assert editor.unsaved.layout.display == "block"
+    assert "No such file" in editor.unsaved.value
+    folder.mkdir()
+    change()
+    assert editor.unsaved.layout.display == "none"
+    shutil.rmtree(folder)
+    editor.add_handle((7, 0))
+    with pytest.warns(RuntimeWarning, match="not saved"):
+        editor.close()
+
+
 def test_without_a_picture_it_asks_for_one() -> None:
     editor = Editor()
     assert editor.tabs.selected_index == 0
@@ -143,6 +174,28 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     assert canvas.source is None
     canvas.close()
     assert not model.alive
+
+
+@pytest.mark.slow
+def test_a_closed_editor_leaves_no_widget_behind(tmp_path: Path) -> None:
+    from ipywidgets.widgets import widget
+
+    before = set(widget._instances)
+    editor = Editor(bar(), n_vertices=300)
+    canvas = editor.canvas
+    assert canvas is not None
+    canvas.show_source = canvas.show_panels = True
+    editor.add_handle((-7, 0))
+    assert editor.solve(TIMEOUT)
+    canvas.show_source = False
+    editor.trace(drop_holes=[[100.0, 50.0]])
+    editor.save(tmp_path / "bar.glid")
+    built = len(widget._instances)
+    editor.load(tmp_path / "bar.glid")
+    assert len(widget._instances) <= built
+    editor.close()
+    left = [type(widget._instances[name]).__name__ for name in set(widget._instances) - before]
+    assert left == []
 
 
 def test_the_panel_and_the_model_show_each_other() -> None:

@@ -1,0 +1,69 @@
+// Runs in the page before anything else: notes pointers, drawn frames and bytes received.
+
+window.glid = { press: null, moves: [], frames: [], bytes: 0, canvasBytes: 0, firstFrame: null };
+
+{
+  const { glid } = window;
+  const ID_WITHIN = 4096; // bytes of a message in which its widget is named
+  let waiting = []; // called with the time at which the next drawn frame was handed on
+  let widgets = [];
+
+  const now = () => performance.now();
+  const noteDrawing = () => {
+    if (!waiting.length && glid.firstFrame !== null) return;
+    const told = waiting;
+    waiting = [];
+    // The frame is complete when the next one begins.
+    requestAnimationFrame(() => {
+      glid.firstFrame ??= now();
+      for (const tell of told) tell(now());
+    });
+  };
+  for (const kind of [WebGLRenderingContext, WebGL2RenderingContext]) {
+    const draw = kind.prototype.drawElements;
+    kind.prototype.drawElements = function (...rest) {
+      noteDrawing();
+      return draw.apply(this, rest);
+    };
+  }
+
+  addEventListener("pointerdown", (e) => {
+    glid.press = [e.clientX, e.clientY];
+  }, { capture: true });
+  addEventListener("pointermove", (e) => {
+    if (e.buttons) glid.moves.push([e.timeStamp, e.clientX, e.clientY]);
+  }, { capture: true });
+
+  const size = (data) => data.byteLength ?? data.length;
+  const text = (data) => typeof data === "string" ? data
+    : new TextDecoder("latin1").decode(new Uint8Array(data, 0, Math.min(ID_WITHIN, size(data))));
+  window.WebSocket = class extends WebSocket {
+    constructor(...rest) {
+      super(...rest);
+      this.addEventListener("message", ({ data }) => {
+        glid.bytes += size(data);
+        const start = text(data);
+        if (widgets.some((id) => start.includes(id))) glid.canvasBytes += size(data);
+      });
+    }
+  };
+
+  // Notes when each change of a model's trait was drawn, with a sample to recognise it by.
+  glid.watch = (model, trait, count, identities) => {
+    widgets = identities;
+    model.on(`change:${trait}`, () => {
+      const value = model.get(trait);
+      const { buffer, byteOffset, byteLength } = value.data ?? value;
+      const numbers = new Uint32Array(buffer.slice(byteOffset, byteOffset + byteLength));
+      const stride = Math.max(1, Math.floor(numbers.length / count));
+      const sample = Array.from({ length: count }, (_, i) => numbers[i * stride])
+        .filter((n) => n !== undefined);
+      waiting.push((time) => glid.frames.push([time, sample]));
+    });
+  };
+
+  glid.clear = () => {
+    const counts = { bytes: 0, canvasBytes: 0 };
+    Object.assign(glid, { press: null, moves: [], frames: [], firstFrame: null, ...counts });
+  };
+}

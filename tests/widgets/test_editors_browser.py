@@ -1,0 +1,97 @@
+"""Several editors on a page, several views of one, a page that is loaded again."""
+
+from __future__ import annotations
+
+import pytest
+
+from .conftest import OpenNotebook
+from .editor_page import EDITOR, SETUP, Hand, line
+
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
+
+NAMED = "{name} = glid.Editor(picture, n_vertices=500, width=480, height=300)\n{name}"
+
+# Remembers the page's canvases with WebGL, so that those with a living context can be counted.
+COUNT_CONTEXTS = """
+window.drawnOn = new Set();
+const getContext = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+  const context = getContext.call(this, kind, ...rest);
+  if (context && kind.includes('webgl')) window.drawnOn.add(context);
+  return context;
+};
+"""
+LIVING_CONTEXTS = "[...window.drawnOn].filter((context) => !context.isContextLost()).length"
+
+
+def test_two_editors_at_once_and_a_rerun(open_notebook: OpenNotebook) -> None:
+    cells = [SETUP, NAMED.format(name="one"), NAMED.format(name="two")]
+    book = open_notebook(cells, script=COUNT_CONTEXTS)
+    one, two = Hand(book, 0, "one.canvas"), Hand(book, 1, "two.canvas")
+    for hand in (one, two):
+        hand.click((-6.0, 0.0))
+        hand.click((6.0, 0.0))
+        book.wait_for(f"len({hand.model}.pose) == 2")
+        hand.settle()
+
+    # One is moved by code while a hand drags in the other; each keeps to itself.
+    book.value("None", setup="one.drag(1, to=(4.0, 3.0))")
+    two.drag(line((6.0, 0.0), (6.5, -2.0), 15))
+    two.wait_for_target(1, [6.5, -2.0])
+    one.settle()
+    for hand, target in ((one, [4.0, 3.0]), (two, [6.5, -2.0])):
+        hand.wait_until_drawn()
+        assert hand.certified()
+        (gap,) = book.value(f"abs({hand.model}.map([[6.0, 0.0]]) - {target}).max(axis=1).tolist()")
+        assert gap < 0.15  # where the hand had put the handle, to a few pixels
+    assert one.targets[1] == [4.0, 3.0]
+    book.screenshot("editor-two-at-once")
+
+    # A rerun of a cell closes its editor and leaves the other alone; nothing piles up.
+    widgets = "len(__import__('ipywidgets').widgets.widget._instances)"
+    threads = "len(__import__('threading').enumerate())"
+    before = book.value(f"[{widgets}, {threads}]")
+    contexts = book.page.evaluate(LIVING_CONTEXTS)
+    for _ in range(2):
+        book.value("None", setup="old = two")
+        book.run_cell(2)
+        two = Hand(book, 1, "two.canvas")
+        assert book.value("old is not two and not old.deformation.alive")
+        book.page.wait_for_function("document.querySelectorAll('.glid-pad').length === 2")
+    book.wait_for(f"{threads} <= {before[1]}")
+    assert book.value(widgets) <= before[0]
+    assert book.page.evaluate(LIVING_CONTEXTS) == contexts
+    assert two.handles == []
+    two.click((0.0, 0.0))
+    book.wait_for("len(two.pose) == 1")
+    assert one.targets[1] == [4.0, 3.0]
+    one.drag(line(one.targets[0], [-6.0, 1.5], 5))
+    one.wait_for_target(0, [-6.0, 1.5])
+    one.wait_until_drawn()
+
+
+def test_two_views_and_a_reload(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, EDITOR, "canvas"])
+    hand, other = Hand(book), Hand(book, pad=1)
+    hand.click((-6.0, 0.0))
+    book.wait_for("len(model.pose) == 1")
+    hand.settle()
+    other.click((6.0, 0.0))
+    book.wait_for("len(model.pose) == 2")
+    hand.settle()
+    other.drag(line((6.0, 0.0), [6.0, 2.0], 10))
+    hand.wait_for_target(1, [6.0, 2.0])
+    state = hand.targets
+    hand.wait_until_drawn()
+    # Both views show the same.
+    for point in ([-6.0, 0.9], [0.0, -1.0], [3.1, 1.0]):
+        (image,) = book.value(f"model.map([{point}]).tolist()")
+        first, second = hand.color_at(image), other.color_at(image)
+        assert max(abs(a - b) for a, b in zip(first, second, strict=True)) <= 8
+    book.screenshot("editor-two-views")
+    book.reload()
+    again = Hand(book)
+    assert again.targets == state
+    again.wait_until_drawn()
+    again.drag(line(state[1], [6.0, 1.0], 5))
+    again.wait_for_target(1, [6.0, 1.0])
