@@ -229,7 +229,7 @@ class DeformCanvas(ipywidgets.HBox):
             self.pane.show_panels(None, np.empty(0))
             return
         now = time.monotonic()
-        if frame is None or not len(frame.sigma2_lower):
+        if frame is None or frame.panels is None or not len(frame.sigma2_lower):
             panels = self.deformation.certificate.panels
             self.pane.show_panels(_as_panels(panels), panels.sigma2_lower)
         elif frame.solution is not None or now - self._panels_at > _PANELS_INTERVAL:

@@ -79,7 +79,7 @@ def _blended(problem: MeshProblem, w: Array) -> Array:
 
 
 def bbw(inputs: Inputs, iterations: int = 20) -> MethodResult:
-    _needs_handles(inputs)
+    inputs.need_handles()
 
     def images(problem: MeshProblem) -> Array:
         mesh, handles = problem.operators.mesh, problem.handles
@@ -89,7 +89,7 @@ def bbw(inputs: Inputs, iterations: int = 20) -> MethodResult:
 
 
 def harmonic(inputs: Inputs, power: int = 2) -> MethodResult:
-    _needs_handles(inputs)
+    inputs.need_handles()
     if power not in (1, 2, 3):
         raise MethodError(f"power must be 1, 2 or 3, got {power!r}")
 
@@ -98,11 +98,6 @@ def harmonic(inputs: Inputs, power: int = 2) -> MethodResult:
         return _blended(problem, weights.harmonic_weights(mesh, handles, power))
 
     return _once(inputs, images)
-
-
-def _needs_handles(inputs: Inputs) -> None:
-    if not len(inputs.pose):
-        raise MethodError(f"the method {inputs.method!r} needs at least one handle")
 
 
 METHODS = (
