@@ -124,6 +124,12 @@ class Method:
         parameters = list(inspect.signature(self.run).parameters.values())[1:]
         return {p.name: p.default for p in parameters}
 
+    @property
+    def kinds(self) -> Mapping[str, Any]:
+        """What each setting may be, as an annotation."""
+        hints = get_type_hints(self.run)
+        return {name: hints[name] for name in self.settings}
+
     def check(self, energy: Energy, settings: Mapping[str, Any]) -> None:
         """Raise :class:`MethodError` if it cannot run like this, saying what to do."""
         if not self.available:
@@ -143,7 +149,7 @@ class Method:
 
     def check_settings(self, settings: Mapping[str, Any]) -> None:
         """Raise :class:`MethodError` for settings that it does not have, or of another kind."""
-        kinds = get_type_hints(self.run)
+        kinds = self.kinds
         for name, value in settings.items():
             if name not in self.settings:
                 known = ", ".join(self.settings) or "none"

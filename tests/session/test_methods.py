@@ -203,7 +203,8 @@ def test_a_call_without_an_iteration_is_no_frame(
     ring: Deformation, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The solver may call back after refused steps, when nothing has moved yet."""
-    real, calls = live_solver.solve, []
+    real: Any = live_solver.solve
+    calls = []
 
     def refusing(*problem: Any) -> object:
         callback = problem[-1]

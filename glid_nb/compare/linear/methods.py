@@ -107,6 +107,7 @@ METHODS = (
         "linear",
         "At each point the rigid motion that fits the handles best; it may fold.",
         mls,
+        weighted=False,
     ),
     Method(
         "bbw",
@@ -114,6 +115,7 @@ METHODS = (
         "linear",
         "Translations blended by bounded biharmonic weights; it may fold (libigl).",
         bbw,
+        weighted=False,
         package="igl",
     ),
     Method(
@@ -122,6 +124,7 @@ METHODS = (
         "linear",
         "Translations blended by harmonic or biharmonic weights; it may fold (libigl).",
         harmonic,
+        weighted=False,
         package="igl",
     ),
     Method(
@@ -130,6 +133,7 @@ METHODS = (
         "linear",
         "Mean value coordinates with the handles as cage; it may fold.",
         mean_value,
+        weighted=False,
     ),
     Method(
         "cauchy",
