@@ -76,7 +76,7 @@ class Hand:
 
     def settle(self) -> None:
         """Wait for the solver."""
-        self.book.wait_for("model.state.current.solved and not model.busy", 90)
+        self.book.wait_for("model.solved and not model.busy", 90)
 
     def place(self, point: Sequence[float]) -> tuple[float, float]:
         """Where a point is in the page."""
