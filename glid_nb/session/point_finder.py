@@ -44,9 +44,9 @@ class PointFinder:
         """
         point = np.asarray(point, dtype=float)
         if isinstance(map, MeshMap):
-            mesh = map.triangulation
+            triangles, vertices = map.layered, map.triangulation.vertices
             return _in_triangles(
-                map.images[mesh.triangles], mesh.vertices[mesh.triangles], point, turned_over=True
+                map.images[triangles], vertices[triangles], point, turned_over=True
             )
         vertices, triangles = self._mesh
         guess = _in_triangles(map(vertices)[triangles], vertices[triangles], point)

@@ -47,7 +47,7 @@ class ComparisonLayer:
             name: three.BufferAttribute(values, normalized=False)
             for name, values in (
                 ("position", flat.astype(np.float32)),
-                ("index", mesh.triangles.astype(np.uint32).ravel()),
+                ("index", map.layered.astype(np.uint32).ravel()),
                 ("image", image),
                 ("derivatives", derivatives),
             )

@@ -76,6 +76,16 @@ class MeshMap:
         """(t,) bool: triangles that are turned over or flat."""
         return ~(self.areas > 0)
 
+    @property
+    def layered(self) -> Array:
+        """(t, 3) triangles from the left of the undeformed shape to its right.
+
+        Drawn in this order, sheets that lie over one another do not mingle.
+        """
+        mesh = self.triangulation
+        middle = mesh.vertices[mesh.triangles, 0].mean(axis=1)
+        return mesh.triangles[np.argsort(middle, kind="stable")]
+
     @functools.cached_property
     def _any_triangle(self) -> Array:
         mesh = self.triangulation
