@@ -60,6 +60,7 @@ from ._runtime import enable_compilation_cache as enable_compilation_cache
 # Other methods on the same problems
 from .compare import MeshMap as MeshMap
 from .compare import Method as Method
+from .compare import MethodChoice as MethodChoice
 from .compare import MethodError as MethodError
 from .compare import MethodProgress as MethodProgress
 from .compare import MethodResult as MethodResult

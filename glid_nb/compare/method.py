@@ -5,13 +5,15 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import inspect
+import math
+import numbers
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from glid_nb.compare.result import Callback, MethodResult
+from glid_nb.compare.result import Callback, DeformationMap, MethodResult
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain, Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
@@ -38,10 +40,31 @@ class Inputs:
     max_iterations: int
     align: bool
     """Begin with the rigid motion that brings the handles closest to their targets."""
-    start: HarmonicMap | None
+    start: DeformationMap | None
     given_mesh: Triangulation | None
     n_vertices: int
     callback: Callback | None
+
+    @property
+    def harmonic_start(self) -> HarmonicMap | None:
+        """The start of a method in the harmonic subspace.
+
+        Raises
+        ------
+        MethodError
+            When it is a map of a mesh.
+        """
+        if self.start is None or isinstance(self.start, HarmonicMap):
+            return self.start
+        raise MethodError(
+            f"the method {self.method!r} works in the harmonic subspace and cannot start from a "
+            "map of a mesh; give a HarmonicMap, or none"
+        )
+
+    def need_handles(self) -> None:
+        """Raise :class:`MethodError` if there are no handles."""
+        if not len(self.pose):
+            raise MethodError(f"the method {self.method!r} needs at least one handle")
 
     def mesh(self) -> tuple[Triangulation, Any]:
         """The triangulation, and the (h,) vertex indices of the handles.
@@ -85,6 +108,10 @@ class Method:
     """Names of the energies that it can minimise; ``None`` for any."""
     package: str | None = None
     """The optional package that it needs."""
+    weighted: bool = True
+    """Whether ``lambda`` counts; it does not where the handles reach their targets exactly."""
+    restrict: Callable[[Energy, Mapping[str, Any]], None] | None = None
+    """Raises :class:`MethodError` for energies and settings of the right kind that do not go."""
 
     @property
     def available(self) -> bool:
@@ -96,6 +123,12 @@ class Method:
         """The method's own settings and their defaults."""
         parameters = list(inspect.signature(self.run).parameters.values())[1:]
         return {p.name: p.default for p in parameters}
+
+    @property
+    def kinds(self) -> Mapping[str, Any]:
+        """What each setting may be, as an annotation."""
+        hints = get_type_hints(self.run)
+        return {name: hints[name] for name in self.settings}
 
     def check(self, energy: Energy, settings: Mapping[str, Any]) -> None:
         """Raise :class:`MethodError` if it cannot run like this, saying what to do."""
@@ -110,9 +143,41 @@ class Method:
                 f"the method {self.name!r} cannot minimise the energy {energy.name!r}; "
                 f"choose one of {', '.join(self.energies)}"
             )
-        for name in settings:
+        self.check_settings(settings)
+        if self.restrict is not None:
+            self.restrict(energy, {**self.settings, **settings})
+
+    def check_settings(self, settings: Mapping[str, Any]) -> None:
+        """Raise :class:`MethodError` for settings that it does not have, or of another kind."""
+        kinds = self.kinds
+        for name, value in settings.items():
             if name not in self.settings:
                 known = ", ".join(self.settings) or "none"
                 raise MethodError(
                     f"the method {self.name!r} has no setting {name!r}; it has: {known}"
                 )
+            expected = _unmet(kinds[name], value)
+            if expected:
+                raise MethodError(
+                    f"the setting {name!r} of the method {self.name!r} must be {expected}, "
+                    f"got {value!r:.60}"
+                )
+
+
+def _unmet(kind: Any, value: Any) -> str:
+    """What a value of an annotated kind must be, if this one is not; empty if it is."""
+    if get_origin(kind) is Literal:
+        allowed = get_args(kind)
+        return "" if value in allowed else f"one of {', '.join(allowed)}"
+    if get_args(kind):
+        unmet = [_unmet(one, value) for one in get_args(kind)]
+        return "" if "" in unmet else " or ".join(unmet)
+    if kind is type(None):
+        return "" if value is None else "None"
+    if kind is bool:
+        return "" if isinstance(value, bool | np.bool_) else "True or False"
+    whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
+    if kind is int:
+        return "" if whole else "a whole number"
+    real = whole or (isinstance(value, numbers.Real) and not isinstance(value, bool))
+    return "" if real and math.isfinite(value) else "a finite number"

@@ -11,10 +11,9 @@ from glid_nb.compare.bdhm.methods import METHODS as BDHM_METHODS
 from glid_nb.compare.linear.methods import METHODS as LINEAR_METHODS
 from glid_nb.compare.mesh.methods import METHODS as MESH_METHODS
 from glid_nb.compare.method import Inputs, Method, MethodError
-from glid_nb.compare.result import Callback, MethodResult
+from glid_nb.compare.result import Callback, DeformationMap, MethodResult
 from glid_nb.energies import ARAP, Energy, SymmetricDirichlet
 from glid_nb.geometry import Domain, Triangulation
-from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Pose
 
 _ALL: tuple[Method, ...] = (*subspace.METHODS, *BDHM_METHODS, *MESH_METHODS, *LINEAR_METHODS)
@@ -37,7 +36,7 @@ def run_method(
     p2p_weight: float = 1e5,
     max_iterations: int | None = None,
     align: bool = True,
-    start: HarmonicMap | None = None,
+    start: DeformationMap | None = None,
     triangulation: Triangulation | None = None,
     n_vertices: int = 10_000,
     callback: Callback | None = None,
@@ -59,8 +58,10 @@ def run_method(
         By default the method's own.
     align : bool
         Begin with the rigid motion that brings the handles closest to their targets.
-    start : HarmonicMap, optional
-        Where methods in the harmonic subspace start; by default the identity.
+    start : HarmonicMap or MeshMap, optional
+        Where the method starts; by default the identity. Methods in the harmonic subspace take
+        harmonic maps only, and BDHM only those within its bounds; SLIM leaves out a start with
+        triangles turned over. Linear methods have no start.
     triangulation : Triangulation, optional
         For mesh methods; the handles must be among its vertices. By default one of about
         ``n_vertices`` vertices is made.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -34,6 +35,11 @@ class Step:
     """Triangles that are turned over or flat; ``None`` for a harmonic map, which is certified."""
     sigma2_lower: float
     """Certified lower bound on ``sigma_2`` of the whole domain; NaN where there is none."""
+
+    @property
+    def decrement(self) -> float:
+        """NaN: what a method other than Newton's could call by this name does not compare."""
+        return math.nan
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ Detail = Callable[[str], None]
 
 TABLE_2 = ("deer", "archery", "giraffe", "rex", "racoon", "raptor")
 """The shapes of Table 2."""
+_FURTHER = ("colorbar",)
 _SAMPLES = ("gecko", "teapot", "frog", "gingerbread")
 
 NAMES = (
@@ -44,7 +45,7 @@ class Shapes:
     def of(cls, folder: Path | None) -> Shapes:
         """The shapes, with those of a folder of reference problems."""
         found = {} if folder is None else reference_cases(folder)
-        shapes = tuple(name for name in TABLE_2 if name in found)
+        shapes = tuple(name for name in (*TABLE_2, *_FURTHER) if name in found)
         shapes = shapes or tuple(f"{name}-extreme" for name in _SAMPLES)
         return cls(
             shapes,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -30,6 +31,8 @@ MESH = ("slim", "aqp")
 _FOLLOWED = ("newton", "newton-eigen", "slim", "aqp")
 _LEAST_GAP = 1e-9
 LIMITS = {"lbfgs": 300, "slim": 120, "aqp": 400, "newton-eigen": 120}
+MOST_TIMES = 60
+"""A method on a mesh is stopped when it has taken so many times as long as ours."""
 
 
 def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
@@ -49,9 +52,17 @@ def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
         if method not in known:
             continue
         detail(f"{case.name}: {LOOK[method][0]}")
-        limit = LIMITS.get(method)
+        seconds = math.inf
+        if method in MESH:
+            seconds = MOST_TIMES * runs["newton"]["time"][-1]
         result, images = run_recorded(
-            method, case, display, mesh, max_iterations=limit, iterates=method in _FOLLOWED
+            method,
+            case,
+            display,
+            mesh,
+            max_iterations=LIMITS.get(method),
+            iterates=method in _FOLLOWED,
+            seconds=seconds,
         )
         runs[method] = summary(result, images)
         chosen, pictures = thumbnails(images, runs[method]["visible"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -24,15 +25,19 @@ _THUMBNAILS = 4
 
 
 class Recorder:
-    """A callback that keeps every iterate's images of the display points."""
+    """A callback that keeps every iterate's images of the display points.
 
-    def __init__(self, points: Array) -> None:
-        self.points = points
+    It stops a method whose steps have taken ``seconds`` together.
+    """
+
+    def __init__(self, points: Array, seconds: float = math.inf) -> None:
+        self.points, self.seconds = points, seconds
         self.images: list[Array] = []
 
-    def __call__(self, progress: MethodProgress) -> None:
+    def __call__(self, progress: MethodProgress) -> bool:
         map_ = progress.map
         self.images.append(map_.images if isinstance(map_, MeshMap) else map_(self.points))
+        return sum(step.time for step in progress.history) > self.seconds
 
 
 def display_mesh(case: Case, count: int = _DISPLAY_VERTICES) -> Triangulation:
@@ -48,14 +53,16 @@ def run_recorded(
     energy: Energy | None = None,
     *,
     iterates: bool = True,
+    seconds: float = math.inf,
     **settings: Any,
 ) -> tuple[MethodResult, list[Array]]:
     """The result, and its iterates on a mesh; without ``iterates`` only the last one.
 
+    A method whose iterates are kept is stopped after so many ``seconds`` of its own.
     Newton's method is timed without a callback, for with one the host looks at every iteration,
     which costs time.
     """
-    recorder = Recorder(display.vertices)
+    recorder = Recorder(display.vertices, seconds)
     arguments = (method, case.problem.domain, case.problem.pose, energy)
     common: dict[str, Any] = {"align": False, "triangulation": mesh, **settings}
     if iterates:

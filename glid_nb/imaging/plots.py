@@ -230,6 +230,14 @@ class CertificatePlot:
                 zorder=6,
             )
 
+    def clear(self) -> None:
+        """Show that nothing is certified."""
+        for line in (self._bound, self._truth, self._least):
+            line.set_data([], [])
+        self._fill.set_xy([[0.0, 0.0]])
+        self._text.set_text("not certified")
+        self._text.set_color(VERMILION)
+
     def update(self, certificate: Certificate, map: HarmonicMap | None = None) -> bool:
         """Show a certificate; with the map also its sigma_2, sampled five times per panel.
 

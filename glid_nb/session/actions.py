@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb.compare import MethodChoice
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
@@ -80,7 +81,8 @@ def reset(state: EditState) -> EditState:
 
 
 def set_energy(state: EditState, energy: Energy) -> EditState:
-    """Minimise another energy."""
+    """Minimise another energy; refused when the method cannot."""
+    state.current.method.check(energy)
     return state.with_current(state.current.changed(energy=energy))
 
 
@@ -88,6 +90,13 @@ def set_options(state: EditState, **changes: Any) -> EditState:
     """Solve with other options; their names are those of :class:`~glid_nb.solvers.Options`."""
     options = replace(state.current.options, **changes)
     return state.with_current(state.current.changed(options=options))
+
+
+def set_method(state: EditState, name: str, **settings: Any) -> EditState:
+    """Solve by another of :func:`glid_nb.compare.methods`; refused when it cannot run."""
+    choice = MethodChoice(name, settings)
+    choice.check(state.current.energy)
+    return state.with_current(state.current.changed(method=choice))
 
 
 def set_pose(state: EditState, pose: Pose) -> EditState:

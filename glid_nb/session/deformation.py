@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb.certificate import Certificate, certify
+from glid_nb.compare import DeformationMap, MeshMap
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session import actions
-from glid_nb.session.edit_state import EditedPose, EditError, EditState
+from glid_nb.session.edit_state import EditedPose, EditError, EditState, Solution
 from glid_nb.session.history import History
 from glid_nb.session.live_solver import Frame, LiveSolver, Task
 from glid_nb.session.point_finder import PointFinder
@@ -111,6 +112,36 @@ class Deformation:
         return self.state.map
 
     @property
+    def comparison(self) -> MeshMap | None:
+        """What the method on a mesh has come to, uncertified, beside :attr:`map`; else None.
+
+        It is not part of the state, and lags behind it while the method works.
+        """
+        return None if self._frame is None else self._frame.mesh
+
+    @property
+    def shown(self) -> DeformationMap:
+        """What there is to see: the comparison, or the certified map."""
+        comparison = self.comparison
+        return self.map if comparison is None else comparison
+
+    @property
+    def solution(self) -> Solution | None:
+        """How the present pose was solved; None while it is not."""
+        with self._lock:
+            current, frame = self.state.current, self._frame
+            if current.method.method.family == "harmonic":
+                return current.solution
+            latest = frame is not None and frame.task.pose.asks_the_same(current)
+            return frame.solution if frame is not None and latest else None
+
+    @property
+    def solved(self) -> bool:
+        """Whether the present pose's method has come to its end."""
+        solution = self.solution
+        return solution is not None and solution.ended
+
+    @property
     def pose(self) -> Pose:
         """The handles and targets of this moment."""
         return self.state.pose
@@ -150,7 +181,9 @@ class Deformation:
         with self._lock:
             if self._error is not None:
                 return describe_error(self._error)
-            return describe(self.state, self._solver.busy, self._solver.paused, self._frame)
+            return describe(
+                self.state, self.solution, self._solver.busy, self._solver.paused, self._frame
+            )
 
     @property
     def busy(self) -> bool:
@@ -169,7 +202,7 @@ class Deformation:
 
     def find(self, point: ArrayLike) -> Array | None:
         """The point of the undeformed shape that is seen at ``point``; None beside the shape."""
-        return self._finder.find(self.map, point)
+        return self._finder.find(self.shown, point)
 
     def observe(self, observer: Observer) -> Callable[[], None]:
         """Call ``observer`` with the name of every change; returns what ends that."""
@@ -227,6 +260,10 @@ class Deformation:
         """Solve with other options."""
         self.apply(actions.set_options, **changes)
 
+    def set_method(self, name: str, **settings: Any) -> None:
+        """Solve by another of :func:`glid_nb.methods`."""
+        self.apply(actions.set_method, name, **settings)
+
     def set_pose(self, pose: Pose) -> None:
         """Other handles and targets."""
         self.apply(actions.set_pose, pose)
@@ -266,7 +303,7 @@ class Deformation:
 
         Raises
         ------
-        EditError, PoseError, OptionError, EnergyError, GeometryError
+        EditError, PoseError, OptionError, EnergyError, MethodError, GeometryError
             When the action is refused; nothing has changed then.
         """
         with self._lock:
@@ -384,7 +421,7 @@ class Deformation:
         An interrupt stops the solve; the editor lives on, with the map as far as it came.
         """
         with self._lock:
-            if not self.state.current.solved and not self._solver.busy:
+            if not self.solved and not self._solver.busy:
                 self._submit()
         try:
             return self._solver.wait(timeout)
@@ -407,7 +444,7 @@ class Deformation:
             if value == self._solver.paused:
                 return
             self._solver.paused = value
-            if not value and not self.state.current.solved:
+            if not value and not self.solved:
                 self._submit()
         self._tell("state", "status")
 
@@ -442,14 +479,14 @@ class Deformation:
         self._chain += 1
         if new.domain is not self._finder.domain:
             self._finder = PointFinder(new.domain)
-        if self._frame is not None and self._frame.map is not new.map:
+        if self._frame is not None and not _belongs(self._frame, new):
             self._frame = None
         self._selection = _still_there(self._selection, moved.pose, new.pose)
         self._submit()
 
     def _submit(self, single: bool = False) -> None:
         current = self.state.current
-        if single or not current.solved:
+        if single or not self.solved:
             self._solver.submit(Task(current, self._chain, single))
         else:
             self._solver.stop()
@@ -459,16 +496,12 @@ class Deformation:
         with self._lock:
             if frame.task.chain != self._chain:
                 return
-            current = self.state.current
-            asked = frame.task.pose
-            latest = (
-                asked.pose is current.pose
-                and asked.energy is current.energy
-                and asked.options is current.options
-            )
-            solved = frame.solution if latest else None
-            new = replace(current, map=frame.map, solution=solved)
-            self._history = self._history.refined(self.state.with_current(new))
+            if frame.mesh is None:
+                current = self.state.current
+                latest = frame.task.pose.asks_the_same(current)
+                solved = frame.solution if latest else None
+                new = replace(current, map=frame.map, solution=solved)
+                self._history = self._history.refined(self.state.with_current(new))
             self._frame, self._error = frame, None
         self._tell("frame", "status")
 
@@ -476,12 +509,20 @@ class Deformation:
         """An exception in the solver's thread: shown, and the map stays."""
         with self._lock:
             self._error = error
-        self._tell("status")
+            if self.comparison is not None:
+                self._frame = None  # of an earlier problem
+        self._tell("frame", "status")
 
     def _tell(self, *names: str) -> None:
         for observer in tuple(self._observers):
             for name in names:
                 observer(name)
+
+
+def _belongs(frame: Frame, state: EditState) -> bool:
+    """Whether a frame may still be shown for a state."""
+    same_method = frame.task.pose.method is state.current.method
+    return frame.map is state.map and (frame.mesh is None or same_method)
 
 
 def _still_there(chosen: tuple[int, ...], old: Pose, new: Pose) -> tuple[int, ...]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import weakref
-from dataclasses import asdict, dataclass
+from collections.abc import Collection
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.certificate import Certificate, certify
+from glid_nb.compare import MethodChoice
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap, MapError
@@ -29,7 +31,8 @@ MOST_POSES = 1000
 """Most poses that a document may hold."""
 
 FORMAT = "glid_nb-document"
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
+_READABLE = (1, 2)
 
 _LONGEST_NAME = 200
 _JSON, _IMAGE = "document.json", "image.png"
@@ -43,7 +46,8 @@ _KEYS = (
     "poses",
     "active",
 )
-_POSE_KEYS = ("name", "handles", "targets", "energy", "options", "phi", "psi")
+_POSE_KEYS = ("name", "handles", "targets", "energy", "options", "method", "phi", "psi")
+_KEYS_SINCE_2 = ("method",)
 # Unpacked. A picture of MAX_SIDE squared has 256 MB of pixels; PNG adds a little to noise.
 _MOST_BYTES = {
     _JSON: 64 << 20,
@@ -78,6 +82,8 @@ class NamedPose:
         How.
     map : HarmonicMap
         The result; certified.
+    method : MethodChoice
+        By what. A method on a mesh leaves its result out of the document.
 
     Raises
     ------
@@ -90,6 +96,7 @@ class NamedPose:
     energy: Energy
     options: Options
     map: HarmonicMap
+    method: MethodChoice = field(default_factory=MethodChoice)
 
     def __post_init__(self) -> None:
         _checked("the name of a pose", self.name, str)
@@ -103,6 +110,7 @@ class NamedPose:
             ("energy", Energy),
             ("options", Options),
             ("map", HarmonicMap),
+            ("method", MethodChoice),
         ):
             _checked(f"{key} of the pose {self.name!r}", getattr(self, key), kind)
         try:
@@ -237,10 +245,12 @@ def _from_members(members: dict[str, bytes]) -> Document:
     data = parts.parse_json(members[_JSON], _JSON)
     if data.get("format") != FORMAT:
         raise DocumentError(f'{_JSON}: the key "format" is not "{FORMAT}"')
-    if data.get("version") != FORMAT_VERSION:
+    version = data.get("version")
+    if version not in _READABLE or isinstance(version, bool | float):
         raise DocumentError(
-            f"version {data.get('version')!r:.20} of the format is not supported, only "
-            f"{FORMAT_VERSION}; a newer glid_nb may have written it: update this one"
+            f"version {version!r:.20} of the format is not supported, only "
+            f"{' and '.join(map(str, _READABLE))}; a newer glid_nb may have written it: update "
+            "this one"
         )
     parts.check_known(data, _KEYS, _JSON)
     require_keys(data, tuple(key for key in _KEYS if key != "scribbles"))
@@ -258,7 +268,9 @@ def _from_members(members: dict[str, bytes]) -> Document:
     given = parts.list_of(data["poses"], "poses")
     if len(given) > MOST_POSES:
         raise DocumentError(f"poses: there are {len(given)}; {MOST_POSES} are allowed")
-    poses = tuple(_pose_from_dict(i, pose, domain) for i, pose in enumerate(given))
+    # Before version 2 there was one method.
+    keys = [key for key in _POSE_KEYS if version > 1 or key not in _KEYS_SINCE_2]
+    poses = tuple(_pose_from_dict(i, pose, domain, keys) for i, pose in enumerate(given))
     return Document(image, domain.cage, domain, options, scribbles, poses, data["active"])
 
 
@@ -285,17 +297,18 @@ def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
         **pose.pose.to_dict(),
         "energy": energy,
         "options": asdict(pose.options),
+        "method": parts.method_to_dict(pose.method),
         "phi": complex_to_pairs(pose.map.phi),
         "psi": complex_to_pairs(pose.map.psi),
     }
 
 
-def _pose_from_dict(index: int, value: Any, domain: Domain) -> NamedPose:
+def _pose_from_dict(index: int, value: Any, domain: Domain, keys: Collection[str]) -> NamedPose:
     where = f"poses[{index}]"
     data = parts.object_of(value, where)
     try:
-        parts.check_known(data, _POSE_KEYS, "the pose")
-        require_keys(data, _POSE_KEYS)
+        parts.check_known(data, keys, "the pose")
+        require_keys(data, keys)
         where = f"{where} ({data['name']!r:.60})"
         for key in ("handles", "targets"):
             check_points(data[key], key)
@@ -304,12 +317,16 @@ def _pose_from_dict(index: int, value: Any, domain: Domain) -> NamedPose:
             complex_from_pairs(data["phi"], "phi"),
             complex_from_pairs(data["psi"], "psi"),
         )
+        method = MethodChoice()
+        if "method" in keys:
+            method = parts.method_from_dict(parts.object_of(data["method"], "method"))
         pose = NamedPose(
             data["name"],
             Pose.from_dict(data),
             parts.energy_from_dict(parts.object_of(data["energy"], "energy")),
             parts.options_from_dict(parts.object_of(data["options"], "options")),
             map,
+            method,
         )
     except (InputFileError, MapError, PoseError) as error:
         raise DocumentError(f"{where}: {error}") from error

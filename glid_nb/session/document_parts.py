@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from glid_nb.compare import MethodChoice, MethodError
 from glid_nb.energies import CustomEnergy, Energy, EnergyError, energy_by_name
 from glid_nb.geometry import Domain, GeometryError
 from glid_nb.imaging import Scribbles, TraceError, TraceOptions
@@ -171,6 +172,24 @@ def energy_from_dict(data: dict[str, Any]) -> Energy:
         return energy_by_name(name, data.get("s"))
     except (EnergyError, OverflowError) as error:
         raise InputFileError(f"energy: {error}") from error
+
+
+def method_to_dict(method: MethodChoice) -> dict[str, Any]:
+    """The name, and the settings that are not the method's own defaults."""
+    return {"name": method.name, "settings": dict(method.settings)}
+
+
+def method_from_dict(data: dict[str, Any]) -> MethodChoice:
+    """The choice that :func:`method_to_dict` described, whether it can run here or not."""
+    check_known(data, ("name", "settings"), "method")
+    require_keys(data, ("name", "settings"))
+    if not isinstance(data["name"], str):
+        raise InputFileError(f"method.name must be text, not {data['name']!r:.60}")
+    settings = object_of(data["settings"], "method.settings")
+    try:
+        return MethodChoice(data["name"], settings)
+    except (MethodError, OverflowError) as error:
+        raise InputFileError(f"method: {error}") from error
 
 
 def domain_from_dict(data: dict[str, Any]) -> Domain:

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import Any, TypeVar
 
+from glid_nb.compare import MethodChoice, MethodResult, Step
 from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.document import NamedPose
 from glid_nb.solvers import Iteration, Options, Pose, Result, Status
+
+Record = TypeVar("Record", bound=Iteration | Step)
 
 LIVE_OPTIONS = Options(restarts=0, iterations_per_call=1)
 """Settings for solving under a hand: the next frame soon, and no other way to a minimum."""
@@ -30,29 +33,47 @@ class Solution:
     """How a finished solve ended. Small, so that an undo history may hold many."""
 
     status: Status
+    message: str
     energy: float
     energy_iso: float
     energy_p2p: float
-    history: tuple[Iteration, ...]
+    history: tuple[Iteration, ...] | tuple[Step, ...]
+
+    @property
+    def ended(self) -> bool:
+        """Whether the solver came to its end, rather than being stopped."""
+        return self.status is not Status.STOPPED
 
     @classmethod
     def of(cls, result: Result, before: Sequence[Iteration] = ()) -> Solution:
         """The outcome of a solve that continued one with the iterations ``before``."""
         return cls(
             result.status,
+            result.status.message,
             result.energy,
             result.energy_iso,
             result.energy_p2p,
             continued_history(before, result.history),
         )
 
+    @classmethod
+    def of_method(cls, result: MethodResult, before: Sequence[Step] = ()) -> Solution:
+        """The outcome of another method; the start, which it records, is no iteration."""
+        return cls(
+            result.status,
+            result.message,
+            result.energy,
+            result.energy_iso,
+            result.energy_p2p,
+            continued_history(before, result.history[1:]),
+        )
 
-def continued_history(
-    before: Sequence[Iteration], more: Sequence[Iteration]
-) -> tuple[Iteration, ...]:
+
+def continued_history(before: Sequence[Record], more: Sequence[Record]) -> tuple[Record, ...]:
     """One history of two, numbered through."""
     last = before[-1].iteration if before else 0
-    return (*before, *(replace(i, iteration=last + i.iteration) for i in more))[-MOST_ITERATIONS:]
+    latest = more[-MOST_ITERATIONS:]
+    return (*before, *(replace(i, iteration=last + i.iteration) for i in latest))[-MOST_ITERATIONS:]
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +92,9 @@ class EditedPose:
         The best map so far; always certified.
     solution : Solution or None
         How the solve that found ``map`` ended; None while there is none for this very pose,
-        energy and options.
+        energy, options and method.
+    method : MethodChoice
+        What solves it. A method on a mesh leaves ``map`` as it is.
     """
 
     name: str
@@ -80,24 +103,34 @@ class EditedPose:
     options: Options
     map: HarmonicMap
     solution: Solution | None = None
+    method: MethodChoice = field(default_factory=MethodChoice)
 
     @property
     def solved(self) -> bool:
-        """Whether a solve has come to its end here."""
-        return self.solution is not None and self.solution.status is not Status.STOPPED
+        """Whether ``map`` is where a solve came to its end; never so for a method on a mesh."""
+        return self.solution is not None and self.solution.ended
+
+    def asks_the_same(self, other: EditedPose) -> bool:
+        """Whether the same problem is to be solved by the same method; values are not compared."""
+        return (
+            self.pose is other.pose
+            and self.energy is other.energy
+            and self.options is other.options
+            and self.method is other.method
+        )
 
     def changed(self, **changes: Any) -> EditedPose:
-        """With another pose, energy or options: the map stays, and is no longer the solution."""
+        """With another pose, energy, options or method: the map stays, and is no solution."""
         return replace(self, solution=None, **changes)
 
     def named(self) -> NamedPose:
         """As a document keeps it."""
-        return NamedPose(self.name, self.pose, self.energy, self.options, self.map)
+        return NamedPose(self.name, self.pose, self.energy, self.options, self.map, self.method)
 
     @classmethod
     def from_named(cls, pose: NamedPose) -> EditedPose:
         """A document's pose; whether its map is the solution is not written there."""
-        return cls(pose.name, pose.pose, pose.energy, pose.options, pose.map)
+        return cls(pose.name, pose.pose, pose.energy, pose.options, pose.map, method=pose.method)
 
 
 @dataclass(frozen=True, eq=False)

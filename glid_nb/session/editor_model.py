@@ -178,7 +178,7 @@ class EditorModel:
         model = self._deformation
         if self._autosave is None or model is None or model.dragged:
             return
-        if what == "state" or (what == "frame" and model.state.current.solved):
+        if what == "state" or (what == "frame" and model.solved):
             self.autosave()
 
     def _saved(self, error: Exception | None) -> None:

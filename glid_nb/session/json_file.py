@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +35,7 @@ def read_json_object(path: str | Path) -> dict[str, Any]:
     return data
 
 
-def require_keys(data: Mapping[str, Any], keys: tuple[str, ...]) -> None:
+def require_keys(data: Mapping[str, Any], keys: Iterable[str]) -> None:
     """Raise for the keys that are missing."""
     missing = [f'"{key}"' for key in keys if data.get(key) is None]
     if missing:

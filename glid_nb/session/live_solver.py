@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 import weakref
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb.compare import (
+    OURS,
+    DeformationMap,
+    MeshMap,
+    MethodProgress,
+    MethodResult,
+    Step,
+    run_method,
+)
 from glid_nb.geometry.panels import Panels
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.edit_state import EditedPose, Solution, continued_history
@@ -33,11 +43,11 @@ class Task:
     Parameters
     ----------
     pose : EditedPose
-        Handles, targets, energy, options, and the map to start from.
+        Handles, targets, energy, options, method, and the map to start from.
     chain : int
         Tasks of one chain continue one another's maps; another chain starts at its own.
     single : bool
-        Stop after one compiled call.
+        Stop after one compiled call, or one iteration of another method.
     """
 
     pose: EditedPose
@@ -47,25 +57,36 @@ class Task:
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """A certified map on the way to a solution, or the solution."""
+    """A map on the way to a solution, or the solution."""
 
     task: Task
     map: HarmonicMap
-    history: tuple[Iteration, ...]
+    """Certified. The task's own while a method works on a mesh."""
+    history: tuple[Iteration, ...] | tuple[Step, ...]
     """All iterations of this gesture so far."""
-    panels: Panels
-    sigma2_lower: Array
-    """(p,) certified bound per panel; empty when there was no iteration."""
     solution: Solution | None
     """None while the solve goes on."""
+    panels: Panels | None = None
+    """Of the boundary; None for other methods than ours."""
+    sigma2_lower: Array = field(default_factory=lambda: np.empty(0))
+    """(p,) certified bound per panel; empty when it is not known."""
+    mesh: MeshMap | None = None
+    """The map of a method on a mesh, which may fold."""
+
+    @property
+    def bound(self) -> float:
+        """What is proved of sigma_2 everywhere; NaN when the solver did not say."""
+        if len(self.sigma2_lower):
+            return float(self.sigma2_lower.min())
+        return self.history[-1].sigma2_lower if self.history else math.nan
 
 
 class LiveSolver:
     """A thread that solves the task that was submitted last.
 
-    A newer task interrupts the solve between two compiled calls; what that solve has reached is
-    where the newer one starts. So every task moves the shape, none waits in a queue, and the last
-    one is solved to its end.
+    A newer task interrupts the solve between two compiled calls, or two iterations of another
+    method than ours; what that solve has reached is where the newer one starts. So every task moves
+    the shape, none waits in a queue, and the last one is solved to its end.
 
     Parameters
     ----------
@@ -130,9 +151,9 @@ class _Worker:
         self._busy = self._paused = self._closed = self._stopping = False
         self._thread: threading.Thread | None = None
         # Only the thread touches these.
-        self._last: Result | None = None
+        self._last: Result | MethodResult | None = None
         self._last_chain: int | None = None
-        self._iterations: tuple[Iteration, ...] = ()
+        self._iterations: tuple[Any, ...] = ()
         self._published = -np.inf
 
     @property
@@ -204,51 +225,126 @@ class _Worker:
                     self._busy = self._stopping = False
                     self._changed.notify_all()
 
+    def _given_up(self) -> bool:
+        with self._changed:
+            return self._closed or self._stopping
+
     def _overtaken(self) -> bool:
         with self._changed:
             return self._closed or self._stopping or self._paused or self._pending is not None
 
     def _solve(self, task: Task) -> None:
-        edited = task.pose
+        """Run the task's method, and publish what it comes to."""
         continued = self._last_chain == task.chain and self._last is not None
+        last = self._last if continued else None
         before = self._iterations if continued else ()
+        if task.pose.method.name == OURS:
+            assert not isinstance(last, MethodResult)
+            result, frame = self._solve_by_ours(task, last, before)
+        else:
+            assert not isinstance(last, Result)
+            result, frame = self._solve_by_method(task, last, before)
+        self._last, self._last_chain, self._iterations = result, task.chain, frame.history
+        self._published = time.monotonic()
+        self._publish(frame)
+
+    def _solve_by_ours(
+        self, task: Task, last: Result | None, before: tuple[Iteration, ...]
+    ) -> tuple[Result, Frame]:
+        edited = task.pose
         bounds = np.empty(0)
+        calls = iterations = 0
 
         def callback(progress: Progress) -> bool:
-            nonlocal bounds
+            nonlocal bounds, calls, iterations
+            calls += 1
             bounds = progress.sigma2_lower
-            if task.single or self._overtaken():
+            moved, iterations = len(progress.history) > iterations, len(progress.history)
+            # The panels that a call without an iteration has split are kept for the next task.
+            if self._overtaken() or (task.single and (moved or calls > 1)):
                 return True  # the frame comes with the result
-            now = time.monotonic()
-            if now - self._published >= FRAME_INTERVAL:
-                self._published = now
-                panels = progress.discretisation.panels
+            if moved and self._is_time():
                 history = continued_history(before, progress.history)
-                self._publish(Frame(task, progress.map, history, panels, bounds, None))
+                panels = progress.discretisation.panels
+                self._publish(Frame(task, progress.map, history, None, panels, bounds))
             return False
 
-        start = _starting_point(edited, self._last if continued else None)
+        start = _starting_point(edited, last)
         # The shape is under a hand: it must go on from where it is, without turning as a whole.
         options = replace(edited.options, align=False, restarts=0)
         domain = edited.map.domain
         result = solve(domain, edited.pose, edited.energy, options, start, callback)
         solution = Solution.of(result, before)
-        self._last, self._last_chain, self._iterations = result, task.chain, solution.history
         panels = result.discretisation.panels
         bounds = bounds if len(bounds) == len(panels) else np.empty(0)
-        self._published = time.monotonic()
-        self._publish(Frame(task, result.map, solution.history, panels, bounds, solution))
+        history = continued_history(before, result.history)
+        return result, Frame(task, result.map, history, solution, panels, bounds)
+
+    def _solve_by_method(
+        self, task: Task, last: MethodResult | None, before: tuple[Step, ...]
+    ) -> tuple[MethodResult, Frame]:
+        edited = task.pose
+
+        def callback(progress: MethodProgress) -> bool:
+            if self._given_up():
+                return True
+            if len(progress.history) == 1:  # the start: every task takes a step from there
+                return False
+            if task.single or self._overtaken():
+                return True
+            if self._is_time():
+                history = continued_history(before, progress.history[1:])
+                self._publish(_frame(task, progress.map, history, None))
+            return False
+
+        start = edited.map if last is None else last.map
+        if isinstance(start, HarmonicMap) and edited.method.takes("conformal"):
+            start = _conformal_if_asked(edited, start)
+        result = run_method(
+            edited.method.name,
+            edited.map.domain,
+            edited.pose,
+            edited.energy,
+            align=False,
+            start=start,
+            triangulation=start.triangulation if isinstance(start, MeshMap) else None,
+            callback=callback,
+            **edited.method.arguments(edited.options),
+        )
+        history = continued_history(before, result.history[1:])
+        return result, _frame(task, result.map, history, Solution.of_method(result, before))
+
+    def _is_time(self) -> bool:
+        """Whether the next frame is due; the time counts from now on if it is."""
+        now = time.monotonic()
+        due = now - self._published >= FRAME_INTERVAL
+        if due:
+            self._published = now
+        return due
+
+
+def _frame(
+    task: Task, map: DeformationMap, history: tuple[Step, ...], solution: Solution | None
+) -> Frame:
+    """What a method other than ours has reached; its map of a mesh stands beside the task's."""
+    if isinstance(map, MeshMap):
+        return Frame(task, task.pose.map, history, solution, mesh=map)
+    return Frame(task, map, history, solution)
 
 
 def _starting_point(edited: EditedPose, last: Result | None) -> HarmonicMap | Result:
-    start = edited.map if last is None else last.map
-    if edited.options.conformal and np.abs(start.psi - start.psi[0]).max() > 0:
-        # The one conformal map that is always at hand.
-        return HarmonicMap.identity(start.domain)
+    start = _conformal_if_asked(edited, edited.map if last is None else last.map)
     if last is None or start is not last.map:
         return start
     fresh = discretise(start.domain, edited.options.sampling, edited.options.certificate)
     return start if last.n_panels > _MOST_REFINED * len(fresh.panels) else last
+
+
+def _conformal_if_asked(edited: EditedPose, start: HarmonicMap) -> HarmonicMap:
+    """The start, or the one conformal map that is always at hand where it must be conformal."""
+    if edited.options.conformal and np.abs(start.psi - start.psi[0]).max() > 0:
+        return HarmonicMap.identity(start.domain)
+    return start
 
 
 def _weakly(callback: Callable[[Any], None]) -> Callable[[Any], None]:

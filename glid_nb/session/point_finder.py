@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb.compare import DeformationMap, MeshMap
 from glid_nb.geometry import Domain, triangulate
 from glid_nb.harmonic import HarmonicMap
 
@@ -36,12 +37,17 @@ class PointFinder:
         mesh = triangulate(self.domain.cage, _MESH_VERTICES)
         return mesh.vertices, mesh.triangles
 
-    def find(self, map: HarmonicMap, point: Any) -> Array | None:
+    def find(self, map: DeformationMap, point: Any) -> Array | None:
         """The point z (2,) of the domain with f(z) = ``point``; None where there is no shape.
 
         Where the shape overlaps itself, the sheet that is drawn last, on top, counts.
         """
         point = np.asarray(point, dtype=float)
+        if isinstance(map, MeshMap):
+            triangles, vertices = map.layered, map.triangulation.vertices
+            return _in_triangles(
+                map.images[triangles], vertices[triangles], point, turned_over=True
+            )
         vertices, triangles = self._mesh
         guess = _in_triangles(map(vertices)[triangles], vertices[triangles], point)
         if guess is None:
@@ -53,8 +59,14 @@ class PointFinder:
         return None
 
 
-def _in_triangles(images: Array, corners: Array, point: Array) -> Array | None:
-    """Linear interpolation within the last of the triangles (t, 3, 2) that hold the point."""
+def _in_triangles(
+    images: Array, corners: Array, point: Array, turned_over: bool = False
+) -> Array | None:
+    """Linear interpolation within the last of the triangles (t, 3, 2) that hold the point.
+
+    Those that are turned over only count if that is asked for: coarse triangles may be where the
+    map itself is not.
+    """
     a, b, c = (images[:, k] - point for k in range(3))
 
     def cross(p: Array, q: Array) -> Array:
@@ -62,9 +74,10 @@ def _in_triangles(images: Array, corners: Array, point: Array) -> Array | None:
 
     weights = np.stack([cross(b, c), cross(c, a), cross(a, b)], axis=1)
     total = weights.sum(axis=1)
-    # Coarse triangles may be flat or flipped where the map itself is neither.
+    side = np.sign(total) if turned_over else np.ones(len(total))
     holding = np.flatnonzero(
-        (weights >= -_ROUNDING * np.abs(total)[:, None]).all(axis=1) & (total > 0)
+        (side[:, None] * weights >= -_ROUNDING * np.abs(total)[:, None]).all(axis=1)
+        & (side * total > 0)
     )
     if not holding.size:
         return None

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from glid_nb.compare import OURS
 from glid_nb.energies import CustomEnergy, Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.imaging import TraceError, TraceOptions, trace
@@ -17,6 +18,9 @@ from glid_nb.solvers import Options
 
 def python_code(document: Document, picture: str = "picture.png", *, exact: bool = False) -> str:
     """Lines that make the map of the document's active pose, as ``result.map`` or ``map``.
+
+    Where the pose's method works on a mesh, the lines make what it comes to, a
+    :class:`~glid_nb.MeshMap`, though the document holds a harmonic map.
 
     The cage is traced from the picture by the document's options if that gives the document's cage;
     a cage that was edited by hand, or that scribbles gave, stands in the text.
@@ -28,9 +32,9 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
     picture : str
         Path of the picture's file, as the lines shall name it.
     exact : bool
-        Write the coefficients, some kilobytes, instead of a solve. A solve ends at the same energy
-        to ten digits, unless the pose is a hard one with several minima, and the editor came to
-        another of them on its way than a solve from the identity does.
+        Write the coefficients of the document's map, some kilobytes, instead of a solve. A solve
+        ends at the same energy to ten digits, unless the pose is a hard one with several minima,
+        and the editor came to another of them on its way than a solve from the identity does.
 
     Raises
     ------
@@ -58,15 +62,23 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
 def _solve_lines(pose: NamedPose) -> list[str]:
     handles, targets = pose.pose.handles.tolist(), pose.pose.targets.tolist()
     arguments = ["domain", "pose", _energy(pose.energy)]
-    options = _changed(pose.options, Options())
-    if options:
+    function, options = "solve", _changed(pose.options, Options())
+    if pose.method.name != OURS:
+        function = "run_method"
+        settings = pose.method.arguments(pose.options)
+        arguments = [
+            repr(pose.method.name),
+            *arguments,
+            *(f"{name}={_plain(value)!r}" for name, value in settings.items()),
+        ]
+    elif options:
         arguments.append(f"glid.Options({options})")
     return [
         "pose = glid.Pose(",
         f"    handles={handles},",
         f"    targets={targets},",
         ")",
-        f"result = glid.solve({', '.join(arguments)})",
+        f"result = glid.{function}({', '.join(arguments)})",
         "map = result.map",
     ]
 

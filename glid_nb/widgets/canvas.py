@@ -132,7 +132,7 @@ class DeformCanvas(ipywidgets.HBox):
 
     def fit(self) -> None:
         """Make the whole shape and all targets visible."""
-        self.pane.fit(self.deformation.map, self.deformation.pose.targets)
+        self.pane.fit(self.deformation.shown, self.deformation.pose.targets)
 
     def close(self) -> None:
         """Remove the canvas from the page and free its renderers; a model of its own ends too."""
@@ -177,9 +177,12 @@ class DeformCanvas(ipywidgets.HBox):
     def _draw(self) -> None:
         with self._drawing:
             state = self.deformation.state
+            comparison = self.deformation.comparison
             pose, map_ = state.pose, state.map
-            images = map_(pose.handles) if len(pose) else np.empty((0, 2))
+            shown = map_ if comparison is None else comparison
+            images = shown(pose.handles) if len(pose) else np.empty((0, 2))
             self.pane.show(map_, pose.targets, images, self.deformation.selection)
+            self.pane.show_comparison(comparison)
             if self.overlay == "energy":
                 self.pane.show_overlay(self.overlay, state.current.energy)
             if self.source is not None:
@@ -230,7 +233,7 @@ class DeformCanvas(ipywidgets.HBox):
             self.pane.show_panels(None, np.empty(0))
             return
         now = time.monotonic()
-        if frame is None or not len(frame.sigma2_lower):
+        if frame is None or frame.panels is None or not len(frame.sigma2_lower):
             panels = self.deformation.certificate.panels
             self.pane.show_panels(_as_panels(panels), panels.sigma2_lower)
         elif frame.solution is not None or now - self._panels_at > _PANELS_INTERVAL:

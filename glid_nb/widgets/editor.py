@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from glid_nb._runtime import enable_compilation_cache
 from glid_nb.certificate import Certificate
+from glid_nb.compare import MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import ImageSource
 from glid_nb.imaging.render import View
@@ -143,8 +144,13 @@ class Editor(ipywidgets.VBox):
 
     @property
     def map(self) -> HarmonicMap:
-        """The certified map that is shown."""
+        """The certified map."""
         return self.deformation.map
+
+    @property
+    def comparison(self) -> MeshMap | None:
+        """What a method on a mesh has come to, uncertified; None for other methods."""
+        return self.deformation.comparison
 
     @property
     def certificate(self) -> Certificate:
@@ -189,6 +195,16 @@ class Editor(ipywidgets.VBox):
     def drag(self, handle: int, to: ArrayLike) -> None:
         """Drag a handle's target; the shape follows in the background."""
         self.deformation.drag(handle, to)
+
+    def set_method(self, name: str, **settings: Any) -> None:
+        """Solve by another of `glid_nb.methods`; those on a mesh are shown for comparison.
+
+        Raises
+        ------
+        MethodError
+            It is unknown, cannot minimise the energy, or its package is not installed.
+        """
+        self.deformation.set_method(name, **settings)
 
     def solve(self, timeout: float | None = None) -> bool:
         """Wait until the shape has come to rest; whether it did within ``timeout`` seconds."""

@@ -78,7 +78,7 @@ class Gestures:
         pose = self.deformation.pose
         if not len(pose):
             return None
-        for places in (pose.targets, self.deformation.map(pose.handles)):
+        for places in (pose.targets, self.deformation.shown(pose.handles)):
             gap = np.linalg.norm(places - point, axis=1)
             nearest = int(np.argmin(gap))
             if gap[nearest] <= reach:

@@ -16,8 +16,7 @@ from PIL import Image
 from glid_nb.certificate import Certificate
 from glid_nb.geometry import Cage
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.plots import CertificatePlot, EnergyPlot, StepPlot
-from glid_nb.solvers import Iteration
+from glid_nb.imaging.plots import CertificatePlot, EnergyPlot, IterationRecord, StepPlot
 
 Array = NDArray[Any]
 
@@ -65,16 +64,18 @@ class LivePlots:
 
     def draw(
         self,
-        history: Sequence[Iteration],
+        history: Sequence[IterationRecord],
         certificate: Certificate | None,
         map: HarmonicMap | None = None,
     ) -> bytes:
-        """The plots of these iterations and this certificate as PNG.
+        """The plots of these iterations and this certificate as PNG; without one nothing is proved.
 
         With the map its sampled sigma_2 is drawn over the certified bound.
         """
         changed = [self._energy.update(history), self._step.update(history)]
-        if certificate is not None:
+        if certificate is None:
+            self._certificate.clear()
+        else:
             changed.append(self._certificate.update(certificate, map))
         if self._background is None or any(changed):
             self._canvas.draw()

@@ -12,6 +12,7 @@ import numpy as np
 
 from glid_nb.certificate import Certificate
 from glid_nb.certificate.certify import PanelCertificate
+from glid_nb.geometry.panels import Panels
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.live_solver import Frame
 from glid_nb.session.status_line import StatusLine, rounded_down
@@ -109,7 +110,6 @@ class SolverMonitor(ipywidgets.VBox):
             self._background.ask()
 
     def _words(self, status: StatusLine) -> str:
-        state = self.deformation.state
         words = status.text
         if status.level == "good":
             proof = self.deformation.certificate
@@ -117,7 +117,7 @@ class SolverMonitor(ipywidgets.VBox):
                 f"{words.split(' · ')[0]} · certified σ₂ ≥ {rounded_down(proof.sigma2_lower)}, "
                 f"σ₁ ≤ {_rounded_up(proof.sigma1_upper)}, k ≤ {_rounded_up(proof.k_upper)}"
             )
-        if not state.current.solved and self.deformation.busy:
+        if not self.deformation.solved and self.deformation.busy:
             words += f" · {self._rate()} frames/s"
         return words
 
@@ -137,18 +137,22 @@ class SolverMonitor(ipywidgets.VBox):
             from glid_nb.widgets.live_plots import LivePlots  # noqa: PLC0415
 
             self._plots = LivePlots(state.domain.cage, *self._size)
-        solution = state.current.solution
-        if frame is not None and frame.solution is None and len(frame.sigma2_lower):
-            self.image.value = self._plots.draw(frame.history, _live_certificate(frame))
+        solution = model.solution
+        history = solution.history if solution is not None else ()
+        if frame is not None and frame.solution is None:
+            history = frame.history
+        if model.comparison is not None:
+            proof, map_ = None, None
+        elif frame is not None and frame.solution is None and frame.panels is not None:
+            proof, map_ = _live_certificate(frame, frame.panels), None
         else:
-            history = solution.history if solution is not None else ()
-            self.image.value = self._plots.draw(history, model.certificate, state.map)
+            proof, map_ = model.certificate, state.map
+        self.image.value = self._plots.draw(history, proof, map_)
         self._drawn = (state.map, frame)
 
 
-def _live_certificate(frame: Frame) -> Certificate:
-    """What the solver has proved of a frame, as the plots take it."""
-    panels = frame.panels
+def _live_certificate(frame: Frame, panels: Panels) -> Certificate:
+    """What the solver has proved of a frame and its panels, as the plots take it."""
     unknown = np.full(len(panels), np.nan)
     start, end = (np.stack([np.real(z), np.imag(z)], axis=1) for z in (panels.start, panels.end))
     proof = PanelCertificate(

@@ -8,6 +8,7 @@ import ipywidgets
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb.compare import DeformationMap, MeshMap
 from glid_nb.energies import Energy
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.widgets.closing import close_with_parts
@@ -75,6 +76,12 @@ class Pane(ipywidgets.GridBox):
             self.stage.coefficients = self._wire(map)
             self.stage.marks = marks_of(targets, images, selected)
 
+    def show_comparison(self, map: MeshMap | None) -> None:
+        """Draw a map of a mesh in place of the harmonic one, or this again."""
+        if self._scene.show_comparison(map):
+            self._update_children()
+            self._scene.close_replaced()
+
     def show_overlay(self, name: str, energy: Energy) -> None:
         """Another way to colour the shape."""
         self._overlay, self._energy = name, energy
@@ -91,9 +98,9 @@ class Pane(ipywidgets.GridBox):
         if self._scene.show_panels(panels, sigma2_lower):
             self._update_children()
 
-    def fit(self, map: HarmonicMap, points: Any) -> None:
+    def fit(self, map: DeformationMap, points: Any) -> None:
         """Make the whole shape visible, and these points."""
-        outline = map(np.concatenate(map.domain.cage.loops))
+        outline = map(np.concatenate(self._scene.domain.cage.loops))
         everything = np.concatenate([outline, np.reshape(points, (-1, 2))])
         low, high = everything.min(axis=0), everything.max(axis=0)
         x, y = (low + high) / 2
@@ -121,11 +128,11 @@ class Pane(ipywidgets.GridBox):
         old.close()
 
     def _update_children(self) -> None:
-        self._renderer.scene.children = [layer.mesh for layer in self._scene.layers]
+        self._renderer.scene.children = self._scene.meshes
         self.stage.materials = self._materials()
 
     def _materials(self) -> list[Any]:
-        return [layer.material for layer in self._scene.layers]
+        return self._scene.materials
 
     def _wire(self, map: HarmonicMap) -> bytes:
         scene = self._scene

@@ -1,6 +1,6 @@
 """What pythreejs draws: the picture on its mesh, and lines along the boundary.
 
-The only module, with `picture_texture`, that knows pythreejs.
+Only this module, `comparison_layer` and `picture_texture` know pythreejs.
 """
 
 from __future__ import annotations
@@ -11,12 +11,14 @@ import numpy as np
 import pythreejs as three
 from numpy.typing import NDArray
 
+from glid_nb.compare import MeshMap
 from glid_nb.energies import Energy
 from glid_nb.geometry import triangulate
 from glid_nb.geometry.panels import Panels
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.style import BLUE, GREY
+from glid_nb.widgets.comparison_layer import ComparisonLayer
 from glid_nb.widgets.overlays import (
     N_COLORS,
     OVERLAYS,
@@ -189,6 +191,8 @@ class Scene:
         )
         self.cage = self._line(cage_ribbon(domain), BLUE, 0.9, _CAGE_WIDTH)
         self.offset_cage = self._line(offset_ribbon(domain), GREY, 0.9, _OFFSET_WIDTH)
+        self.comparison: ComparisonLayer | None = None
+        self._replaced: list[ComparisonLayer] = []
         self.panels: Layer | None = None
         self._panels: Panels | None = None
         for line in (self.cage, self.offset_cage):
@@ -200,6 +204,46 @@ class Scene:
         lines = (self.cage, self.offset_cage, *([self.panels] if self.panels else []))
         return (self.picture, *lines)
 
+    @property
+    def meshes(self) -> list[Any]:
+        """What is drawn, the lowest first: the layers, or the comparison in their place."""
+        if self.comparison is not None:
+            return self.comparison.meshes
+        return [layer.mesh for layer in self.layers]
+
+    @property
+    def materials(self) -> list[Any]:
+        """The materials of what is drawn."""
+        if self.comparison is not None:
+            return self.comparison.materials
+        return [layer.material for layer in self.layers]
+
+    def show_comparison(self, map: MeshMap | None) -> bool:
+        """A map of a mesh in place of the layers, or these again; whether other meshes are drawn.
+
+        What is drawn no longer must be closed when the page has let go of it: see
+        `close_replaced`.
+        """
+        shown = self.comparison
+        if map is None:
+            self.comparison = None
+        elif shown is not None and shown.triangulation is map.triangulation:
+            shown.show(map)
+        else:
+            self.comparison = ComparisonLayer(
+                map, {**self._picture_uniforms(), "map": {"value": self._texture}}
+            )
+        if shown is self.comparison:
+            return False
+        if shown is not None:
+            self._replaced.append(shown)
+        return True
+
+    def close_replaced(self) -> None:
+        """Free comparisons that are no longer drawn."""
+        while self._replaced:
+            self._replaced.pop().close()
+
     def show_map(self, map: HarmonicMap) -> None:
         """Another map; where the shader evaluates it, the page does the rest."""
         self.map = map
@@ -210,7 +254,10 @@ class Scene:
         """Another way to colour the shape."""
         if (name, energy) != (self._overlay, self._energy):
             self._overlay, self._energy = name, energy
-            self.picture.set_uniforms({k: u["value"] for k, u in self._picture_uniforms().items()})
+            changes = {k: u["value"] for k, u in self._picture_uniforms().items()}
+            self.picture.set_uniforms(changes)
+            if self.comparison is not None:
+                self.comparison.set_uniforms(changes)
 
     def show_lines(self, cage: bool, offset_cage: bool) -> None:
         """Whether the cage and the offset cage are drawn."""
@@ -240,7 +287,8 @@ class Scene:
 
     def close(self) -> None:
         """Free what the page holds."""
-        for layer in self.layers:
+        self.close_replaced()
+        for layer in (*self.layers, *([self.comparison] if self.comparison else [])):
             layer.close()
         self._texture.close()
 

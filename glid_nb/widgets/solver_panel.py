@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import html
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import ipywidgets
 
+from glid_nb.compare import MethodChoice, methods
 from glid_nb.energies import ENERGY_NAMES, CustomEnergy, energy_by_name
 from glid_nb.session.deformation import Deformation
 from glid_nb.widgets.edit_controls import EditControls
+from glid_nb.widgets.method_settings import LABEL_WIDTH, MethodSettings
 
 ENERGY_LABELS = {
     "iso": "Symmetric Dirichlet",
@@ -19,12 +22,14 @@ ENERGY_LABELS = {
 }
 """What the menu calls the energies."""
 
+_WORKS_ON = {"harmonic": "", "mesh": " · mesh", "linear": " · linear"}
+_NOT_INSTALLED = " (not installed)"
 _WITH_PARAMETER = ("exp", "amips")
 _FULL = {"width": "auto"}
 
 
 class SolverPanel(EditControls):
-    """Energy, weight of the targets, variants of the method, and buttons for the solver.
+    """Method, energy, weight of the targets, variants of ours, and buttons for the solver.
 
     Parameters
     ----------
@@ -34,6 +39,11 @@ class SolverPanel(EditControls):
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
         options = deformation.state.current.options
+        self.method = _dropdown(_method_menu(), "What solves: ours, or another to compare with")
+        self.about = ipywidgets.HTML()
+        """What the method does."""
+        self.settings = MethodSettings(self._set_settings)
+        """The method's own settings."""
         menu = [(ENERGY_LABELS[name], name) for name in ENERGY_NAMES]
         self.energy = _dropdown(menu, "What is minimised")
         self.s = ipywidgets.BoundedFloatText(
@@ -80,6 +90,15 @@ class SolverPanel(EditControls):
         self.clear = _button(
             "Clear handles", "eraser", "Let go of all handles", deformation.clear_handles
         )
+        self._options = (
+            (self.weight, "p2p_weight"),
+            (self.conformal, "conformal"),
+            (self.sampling, "sampling"),
+            (self.certificate, "certificate"),
+            (self.hessian, "hessian"),
+            (self.iterations, "iterations_per_call"),
+        )
+        choice = [("Method", self.method)]
         rows = [
             ("Energy", self.energy),
             ("s", self.s),
@@ -89,39 +108,33 @@ class SolverPanel(EditControls):
             ("Hessian", self.hessian),
             ("Iterations / frame", self.iterations),
         ]
-        grid = ipywidgets.GridBox(
-            [item for label, control in rows for item in (ipywidgets.Label(label), control)],
-            layout=ipywidgets.Layout(
-                grid_template_columns="124px minmax(0, 1fr)", grid_gap="2px 8px"
-            ),
-        )
         buttons = ipywidgets.HBox(
             [self.pause, self.step, self.reset, self.clear],
             layout=ipywidgets.Layout(flex_flow="row wrap"),
         )
         for button in buttons.children:
             button.layout.width = "auto"
-        super().__init__(deformation, [grid, self.conformal, buttons], **kwargs)
+        parts = [_grid(choice), self.about, self.settings, _grid(rows), self.conformal, buttons]
+        super().__init__(deformation, parts, **kwargs)
         self.add_class("glid-solver-panel")
+        self.method.add_class("glid-method")
+        self.energy.add_class("glid-energy")
         self._show()
+        self.method.observe(self._set_method, ["value"])
         for control in (self.energy, self.s):
             control.observe(self._set_energy, ["value"])
-        for control, name in (
-            (self.weight, "p2p_weight"),
-            (self.conformal, "conformal"),
-            (self.sampling, "sampling"),
-            (self.certificate, "certificate"),
-            (self.hessian, "hessian"),
-            (self.iterations, "iterations_per_call"),
-        ):
+        for control, name in self._options:
             control.observe(self._setter(name), ["value"])
         self.pause.observe(self._set_paused, ["value"])
         self._watch()
 
     def _show(self) -> None:
         current = self.deformation.state.current
-        options, energy = current.options, current.energy
+        options, energy, choice = current.options, current.energy, current.method
         with self._while_showing():
+            self.method.value = choice.name
+            self.about.value = _about(choice)
+            self.settings.show(choice)
             custom = isinstance(energy, CustomEnergy)
             names = [*self.energy.options]
             if custom and names[-1][1] != "custom":
@@ -136,8 +149,19 @@ class SolverPanel(EditControls):
             self.certificate.value = options.certificate
             self.hessian.value = options.hessian
             self.iterations.value = options.iterations_per_call
+            for control, option in self._options:
+                control.disabled = not choice.takes(option)
             self.pause.value = self.deformation.paused
             self.step.disabled = not self.deformation.paused
+
+    def _set_method(self, change: Any) -> None:
+        if not self._showing:
+            self._act(lambda: self.deformation.set_method(change["new"]))
+
+    def _set_settings(self, settings: Mapping[str, Any]) -> None:
+        name = self.deformation.state.current.method.name
+        if not self._showing:
+            self._act(lambda: self.deformation.set_method(name, **settings))
 
     def _set_energy(self, _: Any) -> None:
         name, s = str(self.energy.value), self.s.value
@@ -154,6 +178,35 @@ class SolverPanel(EditControls):
     def _set_paused(self, change: Any) -> None:
         if not self._showing:
             self.deformation.paused = change["new"]
+
+
+def _method_menu() -> list[tuple[str, str]]:
+    """All methods, ours first; on what each works, and which package it lacks."""
+    return [
+        (
+            method.title + _WORKS_ON[method.family] + ("" if method.available else _NOT_INSTALLED),
+            name,
+        )
+        for name, method in methods().items()
+    ]
+
+
+def _about(choice: MethodChoice) -> str:
+    text = choice.method.summary
+    if choice.method.family != "harmonic":
+        text += (
+            " Shown for comparison, without a proof; saved and exported is the last certified map."
+        )
+    return f"<div style='line-height:1.3;opacity:0.75'>{html.escape(text)}</div>"
+
+
+def _grid(rows: Sequence[tuple[str, ipywidgets.Widget]]) -> ipywidgets.GridBox:
+    return ipywidgets.GridBox(
+        [item for label, control in rows for item in (ipywidgets.Label(label), control)],
+        layout=ipywidgets.Layout(
+            grid_template_columns=f"{LABEL_WIDTH} minmax(0, 1fr)", grid_gap="2px 8px"
+        ),
+    )
 
 
 def _dropdown(options: Any, tooltip: str) -> ipywidgets.Dropdown:

@@ -95,3 +95,16 @@ def test_every_iterate_keeps_the_bounds() -> None:
 def test_bounds_out_of_range_are_refused(name: str, value: object) -> None:
     with pytest.raises(MethodError, match=f"the bound {name} must lie between"):
         DistortionBounds(**{name: value})
+
+
+def test_it_goes_on_from_a_map_within_its_bounds() -> None:
+    tight = run("ring", TIGHT)
+    assert isinstance(tight.map, HarmonicMap)
+    bounds = dict(zip(("k", "sigma1", "sigma2"), LOOSE, strict=True))
+    settings = {"align": False, "max_iterations": 0, **bounds}
+    again = run_method("bdhm", *problem("ring"), start=tight.map, **settings)
+    assert again.energy == pytest.approx(tight.energy, rel=1e-9)
+    # A map beyond the bounds gives way to the identity.
+    beyond = {**settings, "sigma1": 1.2}
+    anew = run_method("bdhm", *problem("ring"), start=tight.map, **beyond)
+    assert anew.energy_iso == pytest.approx(0.0, abs=1e-12)

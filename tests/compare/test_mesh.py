@@ -206,6 +206,9 @@ def test_a_mesh_map_is_linear_on_triangles() -> None:
     np.testing.assert_allclose(map(inside), expected, atol=1e-12)
     np.testing.assert_allclose(map(mesh.vertices), map.images, atol=1e-9)
     assert not map.flipped.any()
+    middle = mesh.vertices[map.layered].mean(axis=1)[:, 0]
+    assert (np.diff(middle) > -1e-12).all()
+    assert len(np.unique(map.layered, axis=0)) == len(mesh.triangles)
     assert MeshMap(mesh, mesh.vertices * [-1, 1]).flipped.all()
 
 
@@ -217,3 +220,19 @@ def test_a_foreign_triangulation_is_refused() -> None:
     result = run_method("aqp", shape, pose, triangulation=mesh, max_iterations=3)
     assert isinstance(result.map, MeshMap)
     assert result.map.triangulation is mesh
+
+
+def test_a_method_goes_on_from_a_map_of_its_mesh() -> None:
+    pytest.importorskip("igl")
+    few = run("slim", "bent", max_iterations=3)
+    assert isinstance(few.map, MeshMap)
+    mesh = few.map.triangulation
+    more = run("slim", "bent", start=few.map, triangulation=mesh, align=False)
+    assert more.history[0].energy == pytest.approx(few.energy, rel=1e-9)
+    assert more.energy < few.energy
+    # SLIM cannot begin with a triangle turned over; it begins at rest then.
+    folded = MeshMap(mesh, mesh.vertices * [-1, 1])
+    anew = run("slim", "bent", start=folded, triangulation=mesh, max_iterations=0)
+    assert anew.history[0].energy_iso == pytest.approx(2.0)
+    with pytest.raises(MethodError, match="cannot start from a map of a mesh"):
+        run("lbfgs", "bent", start=few.map)

@@ -13,6 +13,7 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, 
 
 from glid_nb.certificate import certify
 from glid_nb.energies import AMIPS, ARAP, SymmetricDirichlet
+from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
 
@@ -72,6 +73,10 @@ class Hand(RuleBasedStateMachine):
     def set_energy(self, energy: Any) -> None:
         self.act("set_energy", energy)
 
+    @rule(name=st.sampled_from(["newton", "mls", "mean-value"]))
+    def set_method(self, name: str) -> None:
+        self.act("set_method", name)
+
     @rule(name=st.sampled_from(["reset", "clear_handles", "save_pose"]))
     def simple(self, name: str) -> None:
         self.act(name)
@@ -120,6 +125,7 @@ class Hand(RuleBasedStateMachine):
         state = model.state
         assert certify(state.map).certified
         assert state.map.domain is state.domain
+        assert isinstance(state.map, HarmonicMap)
         assert state.domain.cage.contains(state.pose.handles).all()
         assert model.status.level != "error", model.status.text
         assert all(0 <= i < len(state.pose) for i in model.selection)

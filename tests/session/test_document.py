@@ -17,6 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
+from glid_nb.compare import MethodChoice
 from glid_nb.energies import AMIPS, CustomEnergy, SymmetricDirichlet
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
@@ -54,6 +55,7 @@ def document(seed: int = 1, scribbles: Scribbles | None = None) -> Document:
             random_map("ring", 0.01, seed),
             energy=AMIPS(0.1 + 0.2),
             options=Options(p2p_weight=np.float64(1 / 3), conformal=True),
+            method=MethodChoice("aqp", {"kappa": 1 / 3}),
         ),
     )
     options = TraceOptions(
@@ -90,6 +92,7 @@ def assert_same(a: Document, b: Document) -> None:
         assert pose.name == other.name
         assert pose.energy == other.energy
         assert pose.options == other.options
+        assert pose.method == other.method
         assert other.map.domain is b.domain
         for one, same in (
             (pose.map.phi, other.map.phi),
@@ -245,7 +248,26 @@ def zipped(members: dict[str, bytes]) -> bytes:
     return buffer.getvalue()
 
 
+def test_a_document_of_version_1_opens_with_our_method(
+    tmp_path: Path, valid: dict[str, bytes]
+) -> None:
+    data = json.loads(valid["document.json"])
+    old = [{k: v for k, v in pose.items() if k != "method"} for pose in data["poses"]]
+    written = {**data, "version": 1, "poses": old}
+    path = tmp_path / "old.glid"
+    path.write_bytes(zipped({**valid, "document.json": json.dumps(written).encode()}))
+    assert [pose.method for pose in load_document(path).poses] == [MethodChoice()] * 2
+    # What version 1 did not have does not belong into one.
+    written["poses"] = data["poses"]
+    refuse(
+        tmp_path / "new",
+        zipped({**valid, "document.json": json.dumps(written).encode()}),
+        "unknown key 'method'",
+    )
+
+
 def refuse(folder: Path, data: bytes, culprit: str) -> None:
+    folder.mkdir(exist_ok=True)
     path = folder / "broken.glid"
     path.write_bytes(data)
     with pytest.raises(DocumentError, match=rf"(?s)broken\.glid: .*{culprit}"):
@@ -273,7 +295,7 @@ NAN, INFINITY = float("nan"), float("inf")
 BAD: list[tuple[str, Callable[[Data], Any], str]] = [
     ("a list", lambda d: [d], "object"),
     ("another format", changed(format="glid_nb-map"), "format"),
-    ("a newer version", changed(version=2), "version 2 .*newer"),
+    ("a newer version", changed(version=3), "version 3 .*newer"),
     ("a version as text", changed(version="1"), "version '1'"),
     *[
         (f"no {key}", without(key), key)
@@ -293,6 +315,20 @@ BAD: list[tuple[str, Callable[[Data], Any], str]] = [
     ("too many poses", lambda d: {**d, "poses": d["poses"] * 501}, "1002"),
     ("a pose without phi", lambda d: {**d, "poses": [without("phi")(d["poses"][0])]}, "phi"),
     ("an unknown key in a pose", in_pose(colour="red"), "unknown key 'colour'"),
+    ("an unknown method", in_pose(method={"name": "magic", "settings": {}}), "method 'magic'"),
+    ("a method as text", in_pose(method="aqp"), "method must be an object"),
+    (
+        "an unknown setting",
+        in_pose(method={"name": "aqp", "settings": {"speed": 1}}),
+        "no setting 'speed'",
+    ),
+    (
+        "a setting of another kind",
+        in_pose(method={"name": "aqp", "settings": {"kappa": "much"}}),
+        "'kappa' .* must be a finite number",
+    ),
+    ("a huge setting", in_pose(method={"name": "aqp", "settings": {"kappa": 10**400}}), "method"),
+    ("no method", lambda d: {**d, "poses": [without("method")(d["poses"][0])]}, "method"),
     ("a name as a number", in_pose(name=3), r"poses\[1\]"),
     ("an empty name", in_pose(name=""), r"poses\[1\].*name"),
     ("phi too short", in_pose(phi=[[0, 0]]), r"poses\[1\].*phi"),

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from glid_nb.compare import MeshMap, MethodChoice
 from glid_nb.energies import AMIPS, CustomEnergy, SymmetricDirichlet
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
@@ -68,6 +69,21 @@ def test_the_lines_make_the_same_map(solved: Document, picture: str) -> None:
     assert pose is not None
     assert scope["map"].distance(pose.map) < 1e-6
     assert scope["result"].certificate.certified
+
+
+@pytest.mark.slow
+def test_another_method_is_written_with_its_settings(solved: Document, picture: str) -> None:
+    pose = solved.active_pose
+    assert pose is not None
+    by_lbfgs = replace(pose, method=MethodChoice("lbfgs", {"memory": 7}))
+    code = python_code(replace(solved, poses=(by_lbfgs,)), picture)
+    assert "glid.run_method('lbfgs', domain, pose, glid.SymmetricDirichlet()" in code
+    assert "memory=7" in code
+    assert "p2p_weight=100000.0" in code
+    on_mesh = replace(pose, method=MethodChoice("mls"))
+    scope = run(python_code(replace(solved, poses=(on_mesh,)), picture))
+    assert isinstance(scope["map"], MeshMap)
+    np.testing.assert_allclose(scope["map"](HANDLES), TARGETS, atol=1e-6)
 
 
 @pytest.mark.slow

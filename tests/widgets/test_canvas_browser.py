@@ -79,12 +79,30 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     hand.wait_for_target(1, [5.0, 2.5])
     page = book.page
     page.locator(".lm-TabBar-tabLabel", has_text="Solver").click()
-    energy = page.locator(".glid-solver-panel select").first
+    energy = page.locator(".glid-energy select")
     energy.select_option(label="AMIPS")
     book.wait_for("model.state.current.energy.name == 'amips'")
     hand.settle()
     assert hand.certified()
     energy.select_option(label="Symmetric Dirichlet")
+    hand.settle()
+
+    # Another method, whose map of a mesh is drawn in place of the certified one.
+    before = hand.targets
+    method = page.locator(".glid-method select")
+    method.select_option(label="Moving least squares · linear")
+    book.wait_for("model.comparison is not None and model.solved")
+    hand.drag(line(before[1], [-6.5, 0.5], 5))
+    hand.wait_for_target(1, [-6.5, 0.5])
+    book.wait_for("model.solved and not model.busy and model.comparison.flipped.any()")
+    page.locator(".glid-editor").get_by_text("turned over").first.wait_for()
+    hand.wait_until_drawn()
+    book.screenshot("editor-comparison")
+    assert hand.certified()
+    page.keyboard.press("Control+z")
+    hand.wait_for_target(1, before[1])
+    method.select_option(label="Newton, ours")
+    book.wait_for("model.comparison is None")
     hand.settle()
 
     overlay = page.locator(".glid-tools select")

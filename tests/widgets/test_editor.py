@@ -217,6 +217,23 @@ def test_the_panel_and_the_model_show_each_other() -> None:
         assert model.state.current.options.p2p_weight == 1e3
         panel.hessian.value = "projected"
         assert model.state.current.options.hessian == "projected"
+        # The method, its own settings, and which of the options count for it.
+        panel.method.value = "gauss-newton"
+        assert "cannot minimise the energy" in panel.refusal.value
+        assert panel.method.value == "newton"
+        panel.method.value = "lbfgs"
+        assert panel.refusal.value == ""
+        assert panel.hessian.disabled
+        assert not panel.sampling.disabled
+        panel.settings.controls["memory"].value = 9
+        assert dict(model.state.current.method.settings) == {"memory": 9}
+        model.undo()
+        assert panel.settings.controls["memory"].value == 5
+        panel.method.value = "mls"
+        assert "certified map" in panel.about.value
+        assert panel.weight.disabled
+        panel.energy.value = "arap"
+        panel.method.value = "newton"
         poses.save.click()
         assert poses.list.options == (("Pose 1", 0), ("Pose 2", 1))
         poses.name.value = "second"
@@ -247,6 +264,34 @@ def test_the_monitor_draws_plots_and_words() -> None:
         assert monitor.refresh(TIMEOUT)
         assert bytes(monitor.image.value) != before
         monitor.close()
+
+
+def test_a_comparison_is_drawn_in_place_of_the_map(editor: Editor) -> None:
+    canvas = editor.canvas
+    assert canvas is not None
+    editor.add_handle((-7, 0))
+    editor.drag(editor.add_handle((7, 0)), to=(-9, 0))
+    editor.deformation.paused = True  # only the comparison is solved here
+    editor.set_method("mls")
+    editor.deformation.paused = False
+    assert editor.solve(TIMEOUT)
+    scene, certified = canvas.pane.scene, editor.map
+    assert editor.comparison is not None
+    assert editor.comparison.flipped.any()
+    assert scene.comparison is not None
+    assert canvas.pane.stage.materials == scene.comparison.materials
+    np.testing.assert_allclose(canvas.pane.stage.marks["images"][1], [-9, 0], atol=1e-3)
+    assert "turned over" in editor.monitor.text
+    assert editor.monitor.refresh(TIMEOUT)
+    canvas.overlay = "sigma1"
+    assert editor.map is certified
+    editor.add_handle((0, 1.5))  # another triangulation
+    assert editor.solve(TIMEOUT)
+    assert canvas.pane.scene.comparison is not scene.picture
+    editor.deformation.paused = True
+    editor.set_method("newton")
+    assert scene.comparison is None
+    assert canvas.pane.stage.materials == [layer.material for layer in scene.layers]
 
 
 def test_background_work_is_rare_but_always_done() -> None:

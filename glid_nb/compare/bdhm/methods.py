@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from glid_nb.compare.bdhm.bounds import DistortionBounds
 from glid_nb.compare.bdhm.solve import bdhm
 from glid_nb.compare.method import Inputs, Method
 from glid_nb.compare.recording import record
 from glid_nb.compare.result import MethodResult
+from glid_nb.energies import Energy
 
 
 def bounded(
@@ -17,8 +21,20 @@ def bounded(
     tolerance: float = 1e-5,
 ) -> MethodResult:
     bounds = DistortionBounds(k, sigma1, sigma2)
-    run = bdhm(inputs.domain, inputs.pose, inputs.p2p_weight, bounds, inputs.align, tolerance)
+    run = bdhm(
+        inputs.domain,
+        inputs.pose,
+        inputs.p2p_weight,
+        bounds,
+        inputs.align,
+        tolerance,
+        inputs.harmonic_start,
+    )
     return record(inputs.method, run, inputs.pose, inputs.max_iterations, inputs.callback)
+
+
+def _check_bounds(_: Energy, settings: Mapping[str, Any]) -> None:
+    DistortionBounds(settings["k"], settings["sigma1"], settings["sigma2"])
 
 
 METHODS = (
@@ -31,5 +47,6 @@ METHODS = (
         max_iterations=60,
         energies=("arap",),
         package="clarabel",
+        restrict=_check_bounds,
     ),
 )

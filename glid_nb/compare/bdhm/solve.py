@@ -22,7 +22,7 @@ from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.solvers import Pose, Status
 from glid_nb.solvers.align import aligned
 from glid_nb.solvers.discretisation import basis_rows
-from glid_nb.solvers.unknowns import unknowns_of
+from glid_nb.solvers.unknowns import canonical, unknowns_of
 
 Array = NDArray[Any]
 
@@ -66,6 +66,11 @@ class BoundedProblem:
         phi, psi = self.basis.pad(map.phi), self.basis.pad(map.psi)
         full = np.concatenate([part(v) for v in (phi, psi) for part in (np.real, np.imag)])
         return full[self._free]
+
+    def started(self, map: HarmonicMap, align: bool) -> tuple[Array, Certificate]:
+        """The unknowns of a map, rigidly moved toward the targets if asked for, and its proof."""
+        u = self.unknowns(canonical(aligned(map, self.pose) if align else map))
+        return u, certify(self.map_of(u), tightness=_TIGHTNESS)
 
     def map_of(self, u: Array) -> HarmonicMap:
         """The map with these unknowns."""
@@ -123,14 +128,19 @@ def bdhm(
     bounds: DistortionBounds,
     align: bool,
     tolerance: float,
+    start: HarmonicMap | None = None,
 ) -> Run:
-    """Alternate between frames and cone programs until the energy no longer falls."""
+    """Alternate between frames and cone programs until the energy no longer falls.
+
+    A start that is not proved to keep the bounds gives way to the identity.
+    """
     problem = _problem(domain, pose, p2p_weight)
-    start = HarmonicMap.identity(domain)
-    u = problem.unknowns(aligned(start, pose) if align else start)
+    identity = HarmonicMap.identity(domain)
+    u, certificate = problem.started(identity if start is None else start, align)
+    if not bounds.hold(certificate):
+        u, certificate = problem.started(identity, align)
     strict = bounds.tightened(_MARGIN)
     active = ActiveSet(*(np.empty(0, dtype=int) for _ in range(3)))
-    certificate = certify(problem.map_of(u), tightness=_TIGHTNESS)
     yield _snapshot(problem, u, certificate, 0.0)
     energies = [sum(problem.energies(u))]
     step = 0.0

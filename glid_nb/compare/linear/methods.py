@@ -79,7 +79,7 @@ def _blended(problem: MeshProblem, w: Array) -> Array:
 
 
 def bbw(inputs: Inputs, iterations: int = 20) -> MethodResult:
-    _needs_handles(inputs)
+    inputs.need_handles()
 
     def images(problem: MeshProblem) -> Array:
         mesh, handles = problem.operators.mesh, problem.handles
@@ -89,7 +89,7 @@ def bbw(inputs: Inputs, iterations: int = 20) -> MethodResult:
 
 
 def harmonic(inputs: Inputs, power: int = 2) -> MethodResult:
-    _needs_handles(inputs)
+    inputs.need_handles()
     if power not in (1, 2, 3):
         raise MethodError(f"power must be 1, 2 or 3, got {power!r}")
 
@@ -100,11 +100,6 @@ def harmonic(inputs: Inputs, power: int = 2) -> MethodResult:
     return _once(inputs, images)
 
 
-def _needs_handles(inputs: Inputs) -> None:
-    if not len(inputs.pose):
-        raise MethodError(f"the method {inputs.method!r} needs at least one handle")
-
-
 METHODS = (
     Method(
         "mls",
@@ -112,6 +107,7 @@ METHODS = (
         "linear",
         "At each point the rigid motion that fits the handles best; it may fold.",
         mls,
+        weighted=False,
     ),
     Method(
         "bbw",
@@ -119,6 +115,7 @@ METHODS = (
         "linear",
         "Translations blended by bounded biharmonic weights; it may fold (libigl).",
         bbw,
+        weighted=False,
         package="igl",
     ),
     Method(
@@ -127,6 +124,7 @@ METHODS = (
         "linear",
         "Translations blended by harmonic or biharmonic weights; it may fold (libigl).",
         harmonic,
+        weighted=False,
         package="igl",
     ),
     Method(
@@ -135,6 +133,7 @@ METHODS = (
         "linear",
         "Mean value coordinates with the handles as cage; it may fold.",
         mean_value,
+        weighted=False,
     ),
     Method(
         "cauchy",

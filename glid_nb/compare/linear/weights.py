@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import weakref
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,26 +13,45 @@ from glid_nb.geometry import Triangulation
 
 Array = NDArray[Any]
 
+# Weights depend on the handles alone: while targets move they are not computed again.
+_known: weakref.WeakKeyDictionary[Triangulation, tuple[Any, Array]] = weakref.WeakKeyDictionary()
+
 
 def bounded_biharmonic_weights(mesh: Triangulation, handles: Array, iterations: int = 20) -> Array:
     """(v, h) weights in [0, 1] that add up to 1 (Jacobson et al. 2011)."""
-    import igl  # noqa: PLC0415
 
-    vertices, faces = _mesh(mesh)
-    w = igl.bbw(
-        vertices, faces, handles.astype(np.int64), np.eye(len(handles)), max_iter=iterations
-    )
-    w = np.asarray(w)
-    return w / w.sum(axis=1, keepdims=True)
+    def compute() -> Array:
+        import igl  # noqa: PLC0415
+
+        vertices, faces = _mesh(mesh)
+        w = igl.bbw(
+            vertices, faces, handles.astype(np.int64), np.eye(len(handles)), max_iter=iterations
+        )
+        w = np.asarray(w)
+        return w / w.sum(axis=1, keepdims=True)
+
+    return _remembered(mesh, ("bounded", handles.tobytes(), iterations), compute)
 
 
 def harmonic_weights(mesh: Triangulation, handles: Array, power: int = 2) -> Array:
     """(v, h) weights with vanishing Laplacian (``power = 1``) or bi-Laplacian (2)."""
-    import igl  # noqa: PLC0415
 
-    vertices, faces = _mesh(mesh)
-    boundary = np.eye(len(handles))
-    return np.asarray(igl.harmonic(vertices, faces, handles.astype(np.int64), boundary, power))
+    def compute() -> Array:
+        import igl  # noqa: PLC0415
+
+        vertices, faces = _mesh(mesh)
+        boundary = np.eye(len(handles))
+        return np.asarray(igl.harmonic(vertices, faces, handles.astype(np.int64), boundary, power))
+
+    return _remembered(mesh, ("harmonic", handles.tobytes(), power), compute)
+
+
+def _remembered(mesh: Triangulation, key: Any, compute: Callable[[], Array]) -> Array:
+    """The weights of a mesh that were computed last, if they are those of the key."""
+    known = _known.get(mesh)
+    if known is None or known[0] != key:
+        known = _known[mesh] = (key, compute())
+    return known[1]
 
 
 def _mesh(mesh: Triangulation) -> tuple[Array, Array]:

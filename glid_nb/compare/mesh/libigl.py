@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from glid_nb.compare.mesh.operators import flips
 from glid_nb.compare.mesh.setup import MeshProblem
 from glid_nb.compare.method import MethodError
 from glid_nb.compare.recording import Ending, Run
@@ -16,8 +17,14 @@ from glid_nb.solvers import Status
 _WINDOW = 5
 
 
-def _energy_type(energy: Energy) -> tuple[str, float]:
-    """libigl's name of an energy, and libigl's energy in ours."""
+def slim_energy(energy: Energy) -> tuple[str, float]:
+    """libigl's name of an energy, and libigl's energy in ours.
+
+    Raises
+    ------
+    MethodError
+        For the exponential energy with another parameter than libigl's.
+    """
     if energy.name == "exp":
         assert isinstance(energy, ExponentialSymmetricDirichlet)
         # libigl exponentiates sigma_1^2 + ... = 2 E_iso and offers no factor.
@@ -41,21 +48,24 @@ def slim(problem: MeshProblem, tolerance: float = 1e-9) -> Run:
     """
     import igl  # noqa: PLC0415
 
-    name, factor = _energy_type(problem.energy)
+    name, factor = slim_energy(problem.energy)
     mesh = problem.operators.mesh
     flat = np.column_stack([mesh.vertices, np.zeros(len(mesh.vertices))])
     targets = _real(problem.targets)
+    w = problem.start
+    if flips(*problem.operators.wirtinger(w)):
+        w = problem.operators.rest
     data = igl.slim_precompute(
         np.asfortranarray(flat),
         np.asfortranarray(mesh.triangles),
-        np.asfortranarray(_real(problem.start)),
+        np.asfortranarray(_real(w)),
         getattr(igl.MappingEnergyType, name),
         problem.handles.astype(np.int32),
         np.asfortranarray(targets),
         problem.p2p_weight * problem.operators.area * factor,
     )
     energies = []
-    w, seconds = problem.start, 0.0
+    seconds = 0.0
     while True:
         state = problem.snapshot(w, seconds)
         yield state

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import weakref
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,6 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb.geometry import Triangulation
 
 Array = NDArray[Any]
+
+
+# Many maps share a mesh: an iterative method's, or those of a drag.
+_finders: weakref.WeakKeyDictionary[Triangulation, Any] = weakref.WeakKeyDictionary()
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +49,7 @@ class MeshMap:
         xy = np.atleast_2d(np.asarray(points, dtype=float))
         if xy.ndim != 2 or xy.shape[1] != 2:
             raise ValueError(f"points have shape {xy.shape}; expected (k, 2)")
-        triangle = self._finder(xy[:, 0], xy[:, 1])
+        triangle = _finder(self.triangulation)(xy[:, 0], xy[:, 1])
         mesh = self.triangulation
         beside = triangle < 0
         if beside.any():
@@ -71,12 +76,15 @@ class MeshMap:
         """(t,) bool: triangles that are turned over or flat."""
         return ~(self.areas > 0)
 
-    @functools.cached_property
-    def _finder(self) -> Any:
-        from matplotlib.tri import Triangulation as Planar  # noqa: PLC0415 - slow to import
+    @property
+    def layered(self) -> Array:
+        """(t, 3) triangles from the left of the undeformed shape to its right.
 
-        x, y = self.triangulation.vertices.T
-        return Planar(x, y, self.triangulation.triangles).get_trifinder()
+        Drawn in this order, sheets that lie over one another do not mingle.
+        """
+        mesh = self.triangulation
+        middle = mesh.vertices[mesh.triangles, 0].mean(axis=1)
+        return mesh.triangles[np.argsort(middle, kind="stable")]
 
     @functools.cached_property
     def _any_triangle(self) -> Array:
@@ -84,3 +92,14 @@ class MeshMap:
         owner = np.zeros(len(mesh.vertices), dtype=int)
         owner[mesh.triangles.ravel()] = np.repeat(np.arange(len(mesh.triangles)), 3)
         return owner
+
+
+def _finder(mesh: Triangulation) -> Any:
+    """What says in which triangle a point lies, -1 for none; made once for a mesh."""
+    known = _finders.get(mesh)
+    if known is None:
+        from matplotlib.tri import Triangulation as Planar  # noqa: PLC0415 - slow to import
+
+        x, y = mesh.vertices.T
+        known = _finders[mesh] = Planar(x, y, mesh.triangles).get_trifinder()
+    return known

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 from glid_nb.compare.mesh import aqp as aqp_
 from glid_nb.compare.mesh import libigl
@@ -10,6 +12,7 @@ from glid_nb.compare.mesh.setup import MeshProblem
 from glid_nb.compare.method import Inputs, Method
 from glid_nb.compare.recording import Run, record
 from glid_nb.compare.result import MethodResult
+from glid_nb.energies import Energy
 
 
 def _record(inputs: Inputs, run: Run) -> MethodResult:
@@ -21,6 +24,7 @@ def slim(inputs: Inputs, tolerance: float = 1e-9) -> MethodResult:
 
 
 def arap(inputs: Inputs, tolerance: float = 1e-9) -> MethodResult:
+    inputs.need_handles()
     return _record(inputs, libigl.arap(MeshProblem.of(inputs), tolerance))
 
 
@@ -33,6 +37,10 @@ def aqp(
     return _record(inputs, aqp_.aqp(problem, kappa, tolerance, arap_iterations))
 
 
+def _check_slim(energy: Energy, _: Mapping[str, Any]) -> None:
+    libigl.slim_energy(energy)
+
+
 METHODS = (
     Method(
         "slim",
@@ -43,6 +51,7 @@ METHODS = (
         max_iterations=300,
         energies=("iso", "exp", "mips"),
         package="igl",
+        restrict=_check_slim,
     ),
     Method(
         "aqp",
@@ -52,6 +61,7 @@ METHODS = (
         aqp,
         max_iterations=1000,
         energies=("iso", "exp", "amips", "mips", "custom"),
+        weighted=False,
     ),
     Method(
         "arap-mesh",
@@ -61,5 +71,6 @@ METHODS = (
         arap,
         energies=("arap",),
         package="igl",
+        weighted=False,
     ),
 )

@@ -13,7 +13,9 @@ from glid_nb.compare.mesh.map import MeshMap
 from glid_nb.compare.mesh.operators import MeshOperators, flips
 from glid_nb.compare.method import Inputs
 from glid_nb.compare.recording import Snapshot
+from glid_nb.compare.result import DeformationMap
 from glid_nb.energies import Energy
+from glid_nb.harmonic import as_complex
 
 Array = NDArray[Any]
 
@@ -30,7 +32,7 @@ class MeshProblem:
     energy: Energy
     p2p_weight: float
     start: Array
-    """(v,) complex: the rest positions, rigidly moved if that was asked for."""
+    """(v,) complex: the images to start from, rigidly moved if that was asked for."""
 
     @classmethod
     def of(cls, inputs: Inputs) -> MeshProblem:
@@ -38,7 +40,7 @@ class MeshProblem:
         mesh, handles = inputs.mesh()
         operators = MeshOperators(mesh)
         targets = inputs.pose.targets @ np.array([1, 1j])
-        start = operators.rest
+        start = _images(inputs.start, operators)
         if inputs.align and len(handles):
             start = _aligned(start, handles, targets)
         return cls(operators, handles, targets, inputs.energy, inputs.p2p_weight, start)
@@ -61,10 +63,19 @@ class MeshProblem:
         )
 
 
-def _aligned(rest: Array, handles: Array, targets: Array) -> Array:
+def _images(map: DeformationMap | None, operators: MeshOperators) -> Array:
+    """The images of the vertices, (v,) complex; by default they stay where they are."""
+    if map is None:
+        return operators.rest
+    if isinstance(map, MeshMap) and map.triangulation is operators.mesh:
+        return as_complex(map.images)
+    return as_complex(map(operators.mesh.vertices))
+
+
+def _aligned(w: Array, handles: Array, targets: Array) -> Array:
     """The rigid motion that brings the handles closest to their targets."""
-    images = rest[handles]
+    images = w[handles]
     middle, aim = images.mean(), targets.mean()
     correlation = np.vdot(images - middle, targets - aim)
     turn = correlation / abs(correlation) if abs(correlation) > 0 else 1.0
-    return aim + turn * (rest - middle)
+    return aim + turn * (w - middle)

@@ -39,7 +39,7 @@ def _descend(
         tolerance=tolerance,
     )
     problem = SubspaceProblem(
-        inputs.domain, inputs.pose, inputs.energy, options, inputs.start, **more
+        inputs.domain, inputs.pose, inputs.energy, options, inputs.harmonic_start, **more
     )
     run = descend(problem, direction)
     return record(inputs.method, run, inputs.pose, inputs.max_iterations, inputs.callback)
@@ -185,9 +185,10 @@ METHODS = (
     ),
     Method(
         "newton-staged",
-        "Newton, the paper's, stage by stage",
+        "Newton, stage by stage",
         "harmonic",
-        "The paper's solver with its stages run one by one, for experiments with its parts.",
+        "Newton's method with the projected Hessian and its stages run one by one, by default with "
+        "the paper's sampling and certificate.",
         newton_staged,
     ),
     Method(

@@ -26,7 +26,8 @@ def run_newton(inputs: Inputs, **options: Any) -> MethodResult:
     )
     arguments = (inputs.domain, inputs.pose, inputs.energy)
     none = replace(chosen, max_iterations=0, restarts=0)
-    still = solve(*arguments, none, inputs.start)
+    start_map = inputs.harmonic_start
+    still = solve(*arguments, none, start_map)
     start = _start_step(still)
 
     def report(progress: Progress) -> bool | None:
@@ -35,11 +36,11 @@ def run_newton(inputs: Inputs, **options: Any) -> MethodResult:
         return inputs.callback(MethodProgress(inputs.method, history, lambda: progress.map))
 
     if inputs.callback is None:
-        result = solve(*arguments, chosen, inputs.start)
+        result = solve(*arguments, chosen, start_map)
     elif inputs.callback(MethodProgress(inputs.method, (start,), lambda: still.map)):
         return _result(inputs, still, Status.STOPPED, (start,))
     else:
-        result = solve(*arguments, chosen, inputs.start, report)
+        result = solve(*arguments, chosen, start_map, report)
     steps = [_step(entry, entry.time) for entry in result.history]
     return _result(inputs, result, result.status, (start, *steps))
 
