@@ -265,7 +265,10 @@ def iterations(
             record,
         )
         return State(
-            *place,
+            place.coefficients,
+            place.samples,
+            place.energy_iso,
+            place.energy_p2p,
             state.start_energy,
             state.iteration + stepped,
             outcome,
@@ -298,7 +301,7 @@ def iterations(
 
 
 class _Place(NamedTuple):
-    """A map, in the order of :class:`State`."""
+    """A map and its energies."""
 
     coefficients: Float[Array, " 4c"]
     samples: Samples

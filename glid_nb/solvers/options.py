@@ -123,6 +123,6 @@ def _check_number(name: str, value: Any, least: float, strict: bool) -> None:
 
 def _check_integer(name: str, value: Any, least: int, most: float = math.inf) -> None:
     whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
-    if not (whole and least <= value <= most):
+    if not whole or not least <= int(value) <= most:
         wanted = f"of at least {least}" if most == math.inf else f"from {least} to {most}"
         raise OptionError(f"{name} must be a whole number {wanted}, got {value!r}")

@@ -366,7 +366,7 @@ def handle_images(constraints: Constraints, basis: Basis, map: HarmonicMap) -> A
     c = basis.n_columns
     rows = constraints.handles[:, :c] - 1j * constraints.handles[:, c:]
     images = rows @ basis.pad(map.phi) + np.conj(rows @ basis.pad(map.psi))
-    return np.stack([images.real, images.imag], axis=1)
+    return np.stack([np.real(images), np.imag(images)], axis=1)
 
 
 def constraints_of(domain: Domain, pose: Pose, weight: float) -> Constraints:

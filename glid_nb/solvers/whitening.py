@@ -41,7 +41,8 @@ def whitening(
     c = basis.n_columns
     scaled = np.sqrt(weights)[:, None] * (rows[:, :c] - 1j * rows[:, c:])
     single_valued = np.flatnonzero(basis.psi_free)
-    logarithms = np.setdiff1d(np.flatnonzero(basis.phi_free), [*single_valued, 0])
+    # The exterior's first is no unknown of psi either.
+    logarithms = np.flatnonzero(basis.phi_free & ~basis.psi_free)[1:]
     columns = scaled[:, single_valued]
     gram = columns.conj().T @ columns
     gram[np.diag_indices_from(gram)] += _RIDGE * np.trace(gram).real / len(gram)
@@ -55,7 +56,7 @@ def whitening(
         along = inverse.conj().T @ (inverse @ (columns.conj().T @ scaled[:, j]))
         rest = np.linalg.norm(scaled[:, j] - columns @ along)
         t[single_valued, j], t[j, j] = -along / rest, 1 / rest
-    return np.stack([t.real, t.imag])
+    return np.stack([np.real(t), np.imag(t)])
 
 
 def whitened(nodes: Float[AnyArray, "2c s"], t: Float[AnyArray, "2 c c"]) -> Float[Array, "2c s"]:
