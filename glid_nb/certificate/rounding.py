@@ -5,8 +5,8 @@ enlarged by ``slack_factor(n) * scale * max_j |phi_j|``, a first-order running e
 (Higham, Accuracy and Stability of Numerical Algorithms, Section 3) for the ``n``-term sums
 ``f_z = sum_j D_j phi_j`` whose terms have moduli adding up to at most ``scale * max |phi_j|``:
 ``n`` roundings for the sum, and 64 that cover the computation of ``D_j`` itself, of the control
-points and of the Bernstein coefficients. The factor 32 allows for values that a solver has
-carried along through up to 31 steps ``f_z + t df_z`` instead of computing them anew.
+points and of the Bernstein coefficients. The factor 8 allows for values that a solver has carried
+along through up to seven steps ``f_z + t df_z`` instead of computing them anew.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ from jaxtyping import Array, Complex, Float
 from glid_nb.certificate.bounds import UNIT_ROUNDOFF
 from glid_nb.harmonic.cauchy import Singularities, rounding_scale
 
-CARRIED = 32
+CARRIED = 8
 """How many values' rounding errors may have added up; a solver's calls stay below it."""
 
 
 def slack_factor(n_columns: int) -> float:
-    """``32 (n + 64) u``, ``u`` the unit roundoff of double precision."""
+    """``8 (n + 64) u``, ``u`` the unit roundoff of double precision."""
     return CARRIED * (n_columns + 64) * UNIT_ROUNDOFF
 
 

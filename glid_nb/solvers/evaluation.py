@@ -33,6 +33,7 @@ class Samples(NamedTuple):
 
     nodes: Float[Array, "4 p+q"]
     slopes: Float[Array, "4 p"]
+    hessian: Float[Array, "4 h"]
 
 
 def bounds(
@@ -75,7 +76,7 @@ def products(matrices: Matrices, y: Float[Array, " 4c"]) -> Samples:
         re, im = y[first : first + c], y[first + c : first + 2 * c]
         rows += [jnp.concatenate([re, im]), jnp.concatenate([im, -re])]
     y4 = jnp.stack(rows)
-    return Samples(y4 @ matrices.nodes, y4 @ matrices.slopes)
+    return Samples(y4 @ matrices.nodes, y4 @ matrices.slopes, y4 @ matrices.hessian_nodes)
 
 
 def energy_gradient(

@@ -75,7 +75,7 @@ def hessian(setting: Setting, point: Point, *, curvature: Curvature) -> Float[Ar
     Dirichlet energy ``|f_z|^2 + |f_zbar|^2``.
     """
     matrices = setting.matrices
-    nodes = point.samples.nodes[:, matrices.hessian_index]
+    nodes = point.samples.hessian
     x, y = evaluation.squares(nodes)
     if curvature == "gauss-newton":
         zero, four = jnp.zeros_like(x), jnp.full_like(x, 4.0)
@@ -88,8 +88,7 @@ def hessian(setting: Setting, point: Point, *, curvature: Curvature) -> Float[Ar
         if curvature == "projected":
             local = positive_part(local)
     f, g = evaluation.directions(nodes)
-    basis = matrices.nodes[:, matrices.hessian_index]
-    h = assemble(basis, matrices.hessian_weights, f, g, local)
+    h = assemble(matrices.hessian_nodes, matrices.hessian_weights, f, g, local)
     lower = jnp.tril(restrict_hessian(h, setting.unknowns))
     return lower + jnp.tril(lower, -1).T
 
