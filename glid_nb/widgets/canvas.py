@@ -106,6 +106,7 @@ class DeformCanvas(ipywidgets.HBox):
         # Frames come from the solver's thread, selections and the like from the page's. The model
         # may be locked when this is taken, and is not locked while it is held.
         self._drawing = threading.RLock()
+        self._closed = False  # guarded by the lock: a frame may arrive while the canvas closes
         self._receiving = threading.Lock()
         self._panels_at = 0.0
         super().__init__([self.pane], **kwargs)
@@ -139,9 +140,11 @@ class DeformCanvas(ipywidgets.HBox):
         if not self._complete:
             return
         self._stop()
-        for pane in (self.pane, self.source):
-            if pane is not None:
-                pane.close()
+        with self._drawing:
+            self._closed = True
+            for pane in (self.pane, self.source):
+                if pane is not None:
+                    pane.close()
         if self._owns_model:
             self.deformation.close()
         self.layout.close()
@@ -176,6 +179,8 @@ class DeformCanvas(ipywidgets.HBox):
 
     def _draw(self) -> None:
         with self._drawing:
+            if self._closed:
+                return
             state = self.deformation.state
             comparison = self.deformation.comparison
             pose, map_ = state.pose, state.map
@@ -220,42 +225,54 @@ class DeformCanvas(ipywidgets.HBox):
     # From code and menus
 
     def _show_overlay(self, _: Any = None) -> None:
-        self.pane.show_overlay(self.overlay, self.deformation.state.current.energy)
+        with self._drawing:
+            self.pane.show_overlay(self.overlay, self.deformation.state.current.energy)
 
     def _show_lines(self, _: Any = None) -> None:
-        for pane in (self.pane, self.source):
-            if pane is not None:
-                pane.show_lines(self.show_cage, self.show_offset_cage)
+        with self._drawing:
+            for pane in (self.pane, self.source):
+                if pane is not None:
+                    pane.show_lines(self.show_cage, self.show_offset_cage)
 
     def _show_panels(self, _: Any = None) -> None:
-        frame = self.deformation.frame
-        if not self.show_panels:
-            self.pane.show_panels(None, np.empty(0))
-            return
-        now = time.monotonic()
-        if frame is None or frame.panels is None or not len(frame.sigma2_lower):
-            panels = self.deformation.certificate.panels
-            self.pane.show_panels(_as_panels(panels), panels.sigma2_lower)
-        elif frame.solution is not None or now - self._panels_at > _PANELS_INTERVAL:
-            self._panels_at = now
-            self.pane.show_panels(frame.panels, frame.sigma2_lower)
+        with self._drawing:
+            if self._closed:
+                return
+            frame = self.deformation.frame
+            if not self.show_panels:
+                self.pane.show_panels(None, np.empty(0))
+                return
+            now = time.monotonic()
+            if frame is None or frame.panels is None or not len(frame.sigma2_lower):
+                panels = self.deformation.certificate.panels
+                self.pane.show_panels(_as_panels(panels), panels.sigma2_lower)
+            elif frame.solution is not None or now - self._panels_at > _PANELS_INTERVAL:
+                self._panels_at = now
+                self.pane.show_panels(frame.panels, frame.sigma2_lower)
 
     def _show_source(self, _: Any = None) -> None:
-        if self.show_source and self.source is None:
-            # The two share the room that the result had.
-            stage, width = self.pane.stage, round(_SOURCE_SHARE * self.pane.stage.width)
-            stage.width -= width
-            self.source = self._pane((width, stage.height), interactive=False)
-            self.source.show_lines(self.show_cage, self.show_offset_cage)
-            self.children = [self.source, self.pane]
-            self._draw()
-            self.fit()
-        elif not self.show_source and self.source is not None:
-            closing, self.source = self.source, None
-            self.children = [self.pane]
-            self.pane.stage.width += closing.stage.width
-            closing.close()
-            self.fit()
+        with self._drawing:
+            if self.show_source and self.source is None:
+                self._open_source()
+            elif not self.show_source and self.source is not None:
+                self._close_source(self.source)
+
+    def _open_source(self) -> None:
+        # The two share the room that the result had.
+        stage, width = self.pane.stage, round(_SOURCE_SHARE * self.pane.stage.width)
+        stage.width -= width
+        self.source = self._pane((width, stage.height), interactive=False)
+        self.source.show_lines(self.show_cage, self.show_offset_cage)
+        self.children = [self.source, self.pane]
+        self._draw()
+        self.fit()
+
+    def _close_source(self, closing: Pane) -> None:
+        self.source = None
+        self.children = [self.pane]
+        self.pane.stage.width += closing.stage.width
+        closing.close()
+        self.fit()
 
 
 def _as_panels(proof: PanelCertificate) -> Panels:

@@ -198,6 +198,26 @@ def test_a_closed_editor_leaves_no_widget_behind(tmp_path: Path) -> None:
     assert left == []
 
 
+def test_a_frame_that_comes_late_finds_the_canvas_closed() -> None:
+    from ipywidgets.widgets import widget
+
+    from glid_nb.session.deformation import Deformation
+
+    image = np.full((60, 60, 4), 255, np.uint8)
+    with Deformation(domain("ring")) as model:
+        assert model.solve(TIMEOUT)
+        canvases: list[DeformCanvas] = []
+        # Observers are told in turn: this one closes the canvas just before the canvas is told.
+        model.observe(lambda _: canvases.pop().close() if canvases else None)
+        before = set(widget._instances)
+        canvas = DeformCanvas(image, model, n_vertices=200)
+        canvas.show_panels = True
+        canvases.append(canvas)
+        model.drop_hole(0)  # the canvas would draw another scene
+        assert model.solve(TIMEOUT)
+    assert set(widget._instances) == before
+
+
 def test_the_panel_and_the_model_show_each_other() -> None:
     from glid_nb.session.deformation import Deformation
     from glid_nb.widgets import PoseList, SolverPanel
