@@ -45,17 +45,26 @@ def _processor() -> str:
 @functools.cache
 @double_precision
 def rates() -> dict[str, float]:
-    """Best seen: flops per second of a large matrix product, bytes per second of reading."""
+    """Best seen: flops per second of a large matrix product, bytes per second of reading.
+
+    ``float64`` and ``float32`` are flops by precision, ``bytes`` is the reading.
+    """
     rng = np.random.default_rng(0)
-    a = jnp.asarray(rng.normal(size=(512, 2048)))
+    a = rng.normal(size=(512, 2048))
     product = jax.jit(lambda x: x @ x.T)
-    multiply = timed(lambda: product(a).block_until_ready(), 20)
+
+    def flops(dtype: Any) -> float:
+        x = jnp.asarray(a, dtype)
+        multiply = timed(lambda: product(x).block_until_ready(), 20)
+        return 2 * 512 * 512 * 2048 / multiply["least"]
+
     # Larger than any cache.
     data = jnp.asarray(rng.normal(size=(1 << 25,)))
     total = jax.jit(jnp.sum)
     read = timed(lambda: total(data).block_until_ready(), 10)
     return {
-        "flops": 2 * 512 * 512 * 2048 / multiply["least"],
+        "float64": flops(jnp.float64),
+        "float32": flops(jnp.float32),
         "bytes": data.nbytes / read["least"],
     }
 
@@ -66,21 +75,16 @@ def floor(matrices: Matrices, n_unknowns: int) -> dict[str, float]:
 
     ``products``: the basis matrices are read once for the direction and, at the energy's nodes,
     once more for the gradient, and the certificate reads its remainders. ``hessian``: twelve real
-    products of (c, h) by (h, c). ``factor``: Cholesky factor and two triangular solves, timed at
-    this size.
+    products of (c, h) by (h, c), in the precision of the stored basis. ``factor``: Cholesky factor
+    and two triangular solves, timed at this size.
     """
     rate = rates()
-    columns, h = matrices.hessian_nodes.shape[0] // 2, matrices.hessian_nodes.shape[1]
+    columns, h = matrices.whitened.shape[0] // 2, matrices.whitened.shape[1]
     flops = 12 * 2 * h * columns**2
-    read = 8 * (
-        2 * matrices.nodes.size
-        + matrices.slopes.size
-        + matrices.remainder.size
-        + 2 * matrices.hessian_nodes.size
-    )
+    read = 8 * (2 * matrices.nodes.size + matrices.slopes.size + matrices.remainder.size)
     return {
-        "products": read / rate["bytes"],
-        "hessian": flops / rate["flops"],
+        "products": (read + matrices.whitened.nbytes) / rate["bytes"],
+        "hessian": flops / rate[str(matrices.whitened.dtype)],
         "factor": _factor(n_unknowns),
     }
 

@@ -28,7 +28,8 @@ def page(results: dict[str, Any], figures: str) -> str:
         "",
         f"Machine: {machine['processor']}, {machine['cores']} cores, {machine['system']}; "
         f"{', '.join(machine['devices'])}; Python {machine['python']}, {versions}. Its best matrix "
-        f"product runs at {rates['flops'] / 1e9:.0f} Gflop/s in double precision, and it reads "
+        f"product runs at {rates['float64'] / 1e9:.0f} Gflop/s in double and "
+        f"{rates['float32'] / 1e9:.0f} in single precision, and it reads "
         f"{rates['bytes'] / 1e9:.0f} GB/s.",
         "",
         "`paper`: uniform samples (|G| = 10^4, |H| = 10^3), Lipschitz certificate, projected "

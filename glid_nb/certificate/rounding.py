@@ -5,8 +5,10 @@ enlarged by ``slack_factor(n) * scale * max_j |phi_j|``, a first-order running e
 (Higham, Accuracy and Stability of Numerical Algorithms, Section 3) for the ``n``-term sums
 ``f_z = sum_j D_j phi_j`` whose terms have moduli adding up to at most ``scale * max |phi_j|``:
 ``n`` roundings for the sum, and 64 that cover the computation of ``D_j`` itself, of the control
-points and of the Bernstein coefficients. The factor 8 allows for values that a solver has carried
-along through up to seven steps ``f_z + t df_z`` instead of computing them anew.
+points and of the Bernstein coefficients.
+
+A solver carries values along, ``f_z + t df_z``, instead of computing them anew. Each step adds the
+error of a sum whose coefficients ``t dphi`` have up to twice the largest modulus that was met.
 """
 
 from __future__ import annotations
@@ -17,13 +19,22 @@ from jaxtyping import Array, Complex, Float
 from glid_nb.certificate.bounds import UNIT_ROUNDOFF
 from glid_nb.harmonic.cauchy import Singularities, rounding_scale
 
-CARRIED = 8
-"""How many values' rounding errors may have added up; a solver's calls stay below it."""
+CARRIED_STEPS = 31
+"""Most steps through which values are carried before they are computed anew."""
 
 
 def slack_factor(n_columns: int) -> float:
-    """``8 (n + 64) u``, ``u`` the unit roundoff of double precision."""
-    return CARRIED * (n_columns + 64) * UNIT_ROUNDOFF
+    """``(n + 64) u``, ``u`` the unit roundoff of double precision, for values computed anew."""
+    return (n_columns + 64) * UNIT_ROUNDOFF
+
+
+def carried_slack_factor(n_columns: int) -> float:
+    """The factor for carried values, of the largest modulus met on the way.
+
+    One error for the first sum, two for each step, and two more: what is proved from carried values
+    is then also proved by who computes them anew.
+    """
+    return (1 + 2 * CARRIED_STEPS + 2) * slack_factor(n_columns)
 
 
 def panel_scale(

@@ -15,6 +15,8 @@ Array = NDArray[Any]
 
 # Bisecting a panel this often brings it below rounding for any domain of sane proportions.
 _MAX_BISECTIONS = 48
+# Halves of one piece differ by no more than rounding.
+_EVEN = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +97,7 @@ def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
     """
     if not ratio > 0:
         raise ValueError(f"ratio is {ratio}; it must be positive")
-    singular = np.concatenate([*domain.offset_loops_complex, domain.hole_points @ [1, 1j]])
+    singular = _singularities(domain)
     panels = edge_panels(domain)
     for _ in range(_MAX_BISECTIONS):
         nearest = distance_to_segments(singular, panels.start, panels.end).min(axis=1)
@@ -104,6 +106,27 @@ def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
             break
         panels = panels.split(too_long)
     return _linked(panels.start, panels.end, panels.loop, np.zeros(len(panels), dtype=int))
+
+
+def paired(panels: Panels, domain: Domain, ratio: float) -> Array:
+    """(p,) bool, true for the first of two halves of an edge that one panel could stand for.
+
+    Two consecutive panels of equal length on one straight piece make a pair if together they are
+    no longer than ``ratio`` times their distance to the nearest singularity of ``f_z``. No panel is
+    in two pairs.
+    """
+    after = np.roll(np.arange(len(panels)), -1)
+    chord, following = panels.end - panels.start, panels.end[after] - panels.start[after]
+    even = np.abs(chord - following) <= _EVEN * np.abs(chord)
+    candidates = np.flatnonzero(even & (panels.next == after))
+    start, end = panels.start[candidates], panels.end[after[candidates]]
+    nearest = distance_to_segments(_singularities(domain), start, end).min(axis=1, initial=np.inf)
+    fits = np.zeros(len(panels), dtype=bool)
+    fits[candidates] = np.abs(end - start) <= ratio * nearest
+    # Of a run of panels that fit, every other one begins a pair.
+    index = np.arange(len(panels))
+    last_unfit = np.maximum.accumulate(np.where(fits, -1, index))
+    return fits & ((index - last_unfit) % 2 == 1)
 
 
 def edge_panels(domain: Domain) -> Panels:
@@ -129,6 +152,10 @@ def distance_to_segments(points: Array, start: Array, end: Array) -> Array:
     position = np.real(relative * along.conj()[:, None]) / length_squared[:, None]
     np.clip(position, 0, 1, out=position)
     return np.abs(relative - position * along[:, None])
+
+
+def _singularities(domain: Domain) -> Array:
+    return np.concatenate([*domain.offset_loops_complex, domain.hole_points @ [1, 1j]])
 
 
 def _linked(start: Array, end: Array, loop: Array, depth: Array) -> Panels:

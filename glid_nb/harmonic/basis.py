@@ -45,6 +45,11 @@ class Basis(NamedTuple):
         return len(self.phi_free)
 
     @property
+    def n_exterior(self) -> int:
+        """Number of columns of the exterior loop; they are the first ones."""
+        return int(self.singularities.previous[0]) + 1
+
+    @property
     def n_hole_columns(self) -> int:
         """Number of padded logarithm columns; they are the last ones."""
         return len(self.singularities.hole_points)

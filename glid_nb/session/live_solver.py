@@ -271,7 +271,8 @@ class _Worker:
 
         start = _starting_point(edited, last)
         # The shape is under a hand: it must go on from where it is, without turning as a whole.
-        options = replace(edited.options, align=False, restarts=0)
+        # A single handle takes it along.
+        options = replace(edited.options, align=len(edited.pose) == 1, restarts=0)
         domain = edited.map.domain
         result = solve(domain, edited.pose, edited.energy, options, start, callback)
         solution = Solution.of(result, before)

@@ -137,7 +137,7 @@ class _Batch:
             domain, options.sampling, options.certificate
         )
         basis = self.discretisation.basis
-        self.constraints = constraints_of(basis, poses[0], options.p2p_weight)
+        self.constraints = constraints_of(domain, poses[0], options.p2p_weight)
         self.unknowns = unknowns_of(basis, options.conformal)
         identity = HarmonicMap.identity(domain)
         images = identity(poses[0].handles) if options.align else None
@@ -175,6 +175,8 @@ class _Batch:
             np.asarray(min(options.iterations_per_call, left)),
             np.asarray(self.discretisation.can_refine),
             np.asarray(ridge_of(self.poses[0])),
+            np.asarray(False),
+            np.asarray(options.corrections),
         )
         program = _program(
             self.devices,
@@ -282,13 +284,15 @@ def _program(devices: tuple[Any, ...], hessian: Any, certificate: Any, capacity:
                 constraints._replace(targets=goals),
                 energy,
                 y,
+                jnp.zeros((len(y), len(y))),
                 settings,
                 hessian=hessian,
                 certificate=certificate,
                 capacity=capacity,
             )
 
-        return jax.vmap(one)(targets, coefficients)
+        # A factor serves one pose at one time; it need not come back.
+        return jax.vmap(one)(targets, coefficients)._replace(factor=jnp.zeros(len(targets)))
 
     sharded = jax.shard_map(
         together,

@@ -18,9 +18,10 @@ from jaxtyping import Array, Bool, Float, Int
 from glid_nb._runtime import double_precision
 from glid_nb.certificate import derivative_bound_weights, hermite, lipschitz, rounding
 from glid_nb.geometry import Domain, graded_panels, panels_between, uniform_boundary_samples
-from glid_nb.geometry.panels import Panels
+from glid_nb.geometry.panels import Panels, paired
 from glid_nb.harmonic import basis_of, cauchy
 from glid_nb.harmonic.basis import Basis
+from glid_nb.solvers.whitening import whitened, whitening
 
 Sampling = Literal["graded", "uniform"]
 CertificateKind = Literal["hermite", "lipschitz"]
@@ -29,6 +30,10 @@ UNIFORM_SAMPLES = 10_000
 """``|G|`` of the paper (Section 10)."""
 HESSIAN_STRIDE = 10
 """``|H| = |G| / 10`` (Section 9.1)."""
+
+# The Hessian's quadrature may be coarser than the energy's: two panels share a node where together
+# they are no longer than this many times their distance to the nearest singularity.
+_PAIR_RATIO = 1.4
 
 _CHUNK_ELEMENTS = 1 << 18
 
@@ -45,15 +50,19 @@ class Matrices(NamedTuple):
     """``D`` at the panels' starts, then at their midpoints."""
     slopes: Float[Array, "2c p"]
     """``D'`` at the panels' starts."""
-    hessian_nodes: Float[Array, "2c h"]
-    """``D`` at the nodes of the Hessian's quadrature."""
+    hessian_index: Int[Array, " h"]
+    """Which nodes are those of the Hessian's quadrature."""
+    whitened: Float[Array, "2c h"]
+    """``D T`` there; single precision serves on graded panels (see `solvers.whitening`)."""
+    whitening: Float[Array, "2 c c"]
+    """``T`` as (Re, Im)."""
     weights: Float[Array, " p+q"]
     """Quadrature weights of the energy at the nodes; their sum is 1."""
     hessian_weights: Float[Array, " h"]
     remainder: Float[Array, "c p"]
     """Remainder of the certificate per modulus of a slope jump."""
     rounding: Float[Array, " p"]
-    """Rounding slack per largest modulus of a coefficient."""
+    """Rounding slack per largest modulus of a coefficient, for values carried along."""
     chord: Float[Array, "2 p"]
     """``end - start`` as (Re, Im)."""
     next: Int[Array, " p"]
@@ -81,17 +90,25 @@ class Discretisation:
     certificate: CertificateKind
     panels: Panels
     matrices: Matrices
+    whitening: Array
+    """``T`` of :mod:`glid_nb.solvers.whitening`, from the panels that a solve begins with."""
     rows: _Rows | None
     """None when the panels are fixed."""
 
     @functools.cached_property
+    @double_precision
     def full_matrices(self) -> Matrices:
         """:attr:`matrices` with the Hessian's quadrature on every node of the energy's.
 
-        Twice the work per iteration, but the Hessian is then exactly that of the discrete energy.
+        The Hessian is then exactly that of the discrete energy, in double precision, at twice the
+        number of nodes.
         """
         m = self.matrices
-        return m._replace(hessian_nodes=m.nodes, hessian_weights=m.weights)
+        return m._replace(
+            hessian_index=jnp.arange(len(m.weights)),
+            hessian_weights=m.weights,
+            whitened=whitened(m.nodes, m.whitening),
+        )
 
     @property
     def can_refine(self) -> bool:
@@ -125,7 +142,9 @@ class Discretisation:
         if len(panels) > size:
             # Who splits once splits again: growing by a half now saves compiling again and again.
             size = bucket(3 * len(panels) // 2)
-        return _graded(self.domain, self.basis, self.certificate, panels, rows, size)
+        return _graded(
+            self.domain, self.basis, self.certificate, panels, self.whitening, rows, size
+        )
 
 
 @functools.lru_cache(maxsize=8)
@@ -136,7 +155,7 @@ def discretise(
     """The discretisation that a solve on ``domain`` starts from; the last few are kept.
 
     ``graded``: panels no longer than their distance to the nearest singularity, with Simpson's
-    rule on each, and the midpoint rule for the Hessian.
+    rule on each, and the midpoint rule for the Hessian, on pairs of panels where they are small.
     ``uniform``: the paper's samples with the plain mean (31), the Hessian on every tenth (33).
     """
     basis = basis_of(domain)
@@ -153,8 +172,10 @@ def discretise(
         *_certificate_rows(panels.start, panels.end, basis, certificate),
     )
     p = bucket(len(panels))
-    build = _graded if sampling == "graded" else _uniform
-    return build(domain, basis, certificate, panels, rows, p)
+    if sampling == "graded":
+        t = jnp.asarray(whitening(rows.middles, panels.length / panels.length.sum(), basis))
+        return _graded(domain, basis, certificate, panels, t, rows, p)
+    return _uniform(domain, basis, certificate, panels, rows, p)
 
 
 def _graded(
@@ -162,6 +183,7 @@ def _graded(
     basis: Basis,
     certificate: CertificateKind,
     panels: Panels,
+    t: Array,
     rows: _Rows,
     p: int,
 ) -> Discretisation:
@@ -173,14 +195,25 @@ def _graded(
     weights[: len(panels)] = ends
     weights[p : p + len(panels)] = length * (4 / 6)
     nodes = np.concatenate([padded(rows.ends, p), padded(rows.middles, p)])
+    # The Hessian's nodes: the middle of each pair of panels, an end of both, or of a single panel.
+    first = np.flatnonzero(paired(panels, domain, _PAIR_RATIO))
+    share = padded(length, p, 0.0)
+    share[first] += share[first + 1]
+    index = np.arange(p, 2 * p)
+    index[first] = first + 1
+    kept = np.setdiff1d(np.arange(len(panels)), first + 1)
+    h = bucket(len(kept))
+    index, share = padded(index[kept], h), padded(share[kept], h, 0.0)
     matrices = Matrices(
         nodes=_transposed(nodes),
         weights=jnp.asarray(weights),
-        hessian_nodes=_transposed(padded(rows.middles, p)),
-        hessian_weights=jnp.asarray(padded(length, p, 0.0)),
+        hessian_index=jnp.asarray(index),
+        hessian_weights=jnp.asarray(share),
+        whitened=whitened(_transposed(nodes[index]), t).astype(jnp.float32),
+        whitening=t,
         **_panel_arrays(panels, rows, p),
     )
-    return Discretisation(domain, basis, "graded", certificate, panels, matrices, rows)
+    return Discretisation(domain, basis, "graded", certificate, panels, matrices, t, rows)
 
 
 def _uniform(
@@ -192,16 +225,22 @@ def _uniform(
     p: int,
 ) -> Discretisation:
     count = len(panels)
-    chosen = rows.ends[::HESSIAN_STRIDE]
+    chosen = np.arange(0, count, HESSIAN_STRIDE)
     h = -(-len(chosen) // 16) * 16
+    weights = np.full(len(chosen), 1 / len(chosen))
+    t = jnp.asarray(whitening(rows.ends[chosen], weights, basis))
+    index = jnp.asarray(padded(chosen, h))
+    nodes = _transposed(padded(rows.ends, p))
     matrices = Matrices(
-        nodes=_transposed(padded(rows.ends, p)),
+        nodes=nodes,
         weights=jnp.asarray(padded(np.full(count, 1 / count), p, 0.0)),
-        hessian_nodes=_transposed(padded(chosen, h)),
-        hessian_weights=jnp.asarray(padded(np.full(len(chosen), 1 / len(chosen)), h, 0.0)),
+        hessian_index=index,
+        hessian_weights=jnp.asarray(padded(weights, h, 0.0)),
+        whitened=whitened(nodes[:, index], t),
+        whitening=t,
         **_panel_arrays(panels, rows, p),
     )
-    return Discretisation(domain, basis, "uniform", certificate, panels, matrices, None)
+    return Discretisation(domain, basis, "uniform", certificate, panels, matrices, t, None)
 
 
 def _transposed(rows: np.ndarray) -> Array:
@@ -257,7 +296,7 @@ def _compiled_certificate_rows(certificate: CertificateKind) -> Any:
         factor = method.remainder_factor(jnp.abs(end - start))
         scale = rounding.panel_scale(start, end, singularities)
         n_columns = weights.shape[1]
-        return factor[:, None] * weights, rounding.slack_factor(n_columns) * scale
+        return factor[:, None] * weights, rounding.carried_slack_factor(n_columns) * scale
 
     return jax.jit(rows)
 

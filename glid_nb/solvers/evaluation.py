@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import jax.numpy as jnp
 from jax import lax
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 
 from glid_nb._arrays import AnyArray
 from glid_nb.certificate import EndValues, PanelBounds, hermite, lipschitz
@@ -33,7 +33,6 @@ class Samples(NamedTuple):
 
     nodes: Float[Array, "4 p+q"]
     slopes: Float[Array, "4 p"]
-    hessian: Float[Array, "4 h"]
 
 
 def bounds(
@@ -41,13 +40,15 @@ def bounds(
     singularities: Singularities,
     coefficients: Float[Array, " 4c"],
     samples: Samples,
+    largest: Float[Array, ""],
     certificate: CertificateKind,
 ) -> PanelBounds:
-    """The certificate's bounds on every panel."""
-    phi, psi = _complex_pair(coefficients)
-    jumps = jnp.abs(slope_jumps(jnp.stack([phi, psi]), singularities))
-    largest = jnp.maximum(jnp.abs(phi).max(), jnp.abs(psi).max())
-    remainder = jumps @ matrices.remainder + matrices.rounding * largest
+    """The certificate's bounds on every panel.
+
+    ``largest`` is the largest modulus of a coefficient since the samples were computed anew.
+    """
+    truncation = _truncation(matrices, singularities, coefficients)
+    remainder = truncation + matrices.rounding * largest
     chord = lax.complex(*matrices.chord)
     panels = chord.shape[0]
     f, g = _complex_rows(samples.nodes[:, :panels])
@@ -58,6 +59,22 @@ def bounds(
     )
     method = hermite if certificate == "hermite" else lipschitz
     return method.panel_bounds(values, remainder[0], remainder[1])
+
+
+def tightened_by_splitting(
+    matrices: Matrices,
+    singularities: Singularities,
+    coefficients: Float[Array, " 4c"],
+    largest: Float[Array, ""],
+) -> Bool[Array, " p"]:
+    """Panels whose bounds are loose by more than rounding, which no splitting lessens."""
+    truncation = _truncation(matrices, singularities, coefficients)
+    return jnp.max(truncation, axis=0) > matrices.rounding * largest
+
+
+def largest_modulus(coefficients: Float[Array, " 4c"]) -> Float[Array, ""]:
+    """The largest modulus of a coefficient."""
+    return jnp.maximum(*(jnp.abs(part).max() for part in _complex_pair(coefficients)))
 
 
 def turning(matrices: Matrices, nodes: Float[Array, "4 s"]) -> Float[Array, " p"]:
@@ -76,7 +93,7 @@ def products(matrices: Matrices, y: Float[Array, " 4c"]) -> Samples:
         re, im = y[first : first + c], y[first + c : first + 2 * c]
         rows += [jnp.concatenate([re, im]), jnp.concatenate([im, -re])]
     y4 = jnp.stack(rows)
-    return Samples(y4 @ matrices.nodes, y4 @ matrices.slopes, y4 @ matrices.hessian_nodes)
+    return Samples(y4 @ matrices.nodes, y4 @ matrices.slopes)
 
 
 def energy_gradient(
@@ -112,6 +129,14 @@ def directions(nodes: Float[Array, "4 s"]) -> tuple[tuple[Array, Array], tuple[A
         safe = jnp.where(vanishes, 1, modulus)
         pairs.append((jnp.where(vanishes, 1, nodes[k] / safe), nodes[k + 1] / safe))
     return pairs[0], pairs[1]
+
+
+def _truncation(
+    matrices: Matrices, singularities: Singularities, coefficients: Float[Array, " 4c"]
+) -> Float[Array, "2 p"]:
+    """How far the derivatives of ``phi`` and ``psi`` may be from what their ends say."""
+    jumps = slope_jumps(jnp.stack(_complex_pair(coefficients)), singularities)
+    return jnp.abs(jumps) @ matrices.remainder
 
 
 def _complex_pair(y: Float[Array, " 4c"]) -> tuple[Array, Array]:

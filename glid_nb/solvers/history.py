@@ -35,9 +35,12 @@ def entries(
             float(decrement),
             float(sigma2),
             bool(modified),
+            int(corrections),
             panels,
             split if i == 1 else 0,
             seconds / taken,
         )
-        for i, (iso, p2p, step, decrement, sigma2, modified) in enumerate(rows, start=1)
+        for i, (iso, p2p, step, decrement, sigma2, modified, corrections) in enumerate(
+            rows, start=1
+        )
     ]

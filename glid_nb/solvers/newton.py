@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -14,7 +14,7 @@ from glid_nb._runtime import COMPILER_OPTIONS
 from glid_nb.certificate import PanelBounds
 from glid_nb.energies import Energy
 from glid_nb.harmonic.cauchy import Singularities
-from glid_nb.solvers import evaluation, line_search
+from glid_nb.solvers import evaluation, line_search, whitening
 from glid_nb.solvers.discretisation import CertificateKind, Matrices
 from glid_nb.solvers.evaluation import Constraints, Samples
 from glid_nb.solvers.hessian import (
@@ -28,6 +28,16 @@ from glid_nb.solvers.options import HessianKind
 from glid_nb.solvers.outcome import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.unknowns import Unknowns, expand, restrict_gradient, restrict_hessian
 
+# A correction that gains more than this share of what the step before it gained is slow: the
+# Hessian has changed, and a new one gains more for its cost.
+_CONTRACTION = 0.3
+# Far from the minimum, after a step that gains more than this share of the energy, corrections
+# creep along the valley that the next Hessian would cross.
+_CLOSE = 0.1
+# Energies are means over the boundary. ARAP's vanish at rigid motions, where nothing is relative to
+# them; below this one nobody sees a distortion.
+_PERFECT = 1e-6
+
 
 class Record(NamedTuple):
     """History of one iteration, the state after its step."""
@@ -38,6 +48,7 @@ class Record(NamedTuple):
     decrement: Float[AnyArray, ""]
     sigma2_lower: Float[AnyArray, ""]
     modified: Bool[AnyArray, ""]
+    corrections: Int[AnyArray, ""]
 
 
 class State(NamedTuple):
@@ -54,9 +65,13 @@ class State(NamedTuple):
     decrement: Float[Array, ""]
     records: Record
     refused: Bool[Array, " p"]
-    """Panels that refused the last preferred step."""
+    """Panels that refused the last preferred step and may allow it once they are split."""
     sigma2_lower: Float[Array, " p"]
     """Certified bound per panel at ``coefficients``, once a step was taken."""
+    factor: Float[Array, "4c 4c"]
+    """Cholesky factor of the last Hessian, in whitened coordinates."""
+    largest: Float[Array, ""]
+    """Largest modulus of a coefficient in this call, through which ``samples`` were carried."""
 
 
 class Settings(NamedTuple):
@@ -68,6 +83,10 @@ class Settings(NamedTuple):
     """Whether to return as soon as a panel refuses a step, so that it can be split."""
     ridge: Float[AnyArray, ""]
     """Added to the Hessian's diagonal, relative to its mean (Section 9.1's epsilon)."""
+    reuse: Bool[AnyArray, ""]
+    """Whether the first iteration takes the factor that it is given instead of a new one."""
+    corrections: Int[AnyArray, ""]
+    """Most corrections of one iteration."""
 
 
 def iterations(
@@ -77,33 +96,47 @@ def iterations(
     constraints: Constraints,
     energy: Energy,
     coefficients: Float[Array, " 4c"],
+    factor: Float[Array, "4c 4c"],
     settings: Settings,
     *,
     hessian: HessianKind,
     certificate: CertificateKind,
     capacity: int,
 ) -> State:
-    """Up to ``settings.iterations`` (at most ``capacity``) Newton iterations, to be compiled."""
+    """Up to ``settings.iterations`` (at most ``capacity``) Newton iterations, to be compiled.
+
+    Close to the minimum an iteration goes on with corrections: steps by the same factor from
+    gradients of their own (Shamanskii's method), a fraction of the cost of another Hessian.
+    """
+    t = matrices.whitening
     p2p_matrix = evaluation.constraint_matrix(constraints)
     row_weights = jnp.concatenate([constraints.weights, constraints.weights])
-    p2p_hessian = p2p_matrix.T @ (row_weights[:, None] * p2p_matrix)
+    p2p_rows = whitening.pulled_back(p2p_matrix, t)
+    p2p_hessian = p2p_rows.T @ (row_weights[:, None] * p2p_rows)
+
+    def residual_at(y: Float[Array, " 4c"]) -> Float[Array, " 2h"]:
+        return p2p_matrix @ y - constraints.targets.T.ravel()
 
     def energies(samples: Samples, y: Float[Array, " 4c"]) -> tuple[Array, Array]:
-        residual = p2p_matrix @ y - constraints.targets.T.ravel()
         return (
             line_search.isometric_energy(samples.nodes, matrices.weights, energy),
-            0.5 * jnp.sum(row_weights * residual**2),
+            0.5 * jnp.sum(row_weights * residual_at(y) ** 2),
         )
 
-    def factor(samples: Samples) -> tuple[Float[Array, "4c 4c"], Bool[Array, ""]]:
+    def new_factor(samples: Samples) -> tuple[Float[Array, "4c 4c"], Bool[Array, ""]]:
         """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected."""
-        x, yy = evaluation.squares(samples.hessian)
-        f, g = evaluation.directions(samples.hessian)
+        nodes = samples.nodes[:, matrices.hessian_index]
+        x, yy = evaluation.squares(nodes)
         local = local_hessian(energy.differentials(x, yy), x, yy)
         projected = positive_part(local)
+        dtype = matrices.whitened.dtype
+        weights, f, g = jax.tree.map(
+            lambda a: a.astype(dtype), (matrices.hessian_weights, *evaluation.directions(nodes))
+        )
 
         def assembled(k: LocalHessian) -> Float[Array, "4c 4c"]:
-            return assemble(matrices.hessian_nodes, matrices.hessian_weights, f, g, k)
+            k = LocalHessian(*(part.astype(dtype) for part in k))
+            return assemble(matrices.whitened, weights, f, g, k).astype(p2p_hessian.dtype)
 
         def cholesky(h: Float[Array, "4c 4c"]) -> Float[Array, "4c 4c"]:
             h = restrict_hessian(h + p2p_hessian, unknowns)
@@ -113,8 +146,8 @@ def iterations(
         def project(h: Float[Array, "4c 4c"]) -> Float[Array, "4c 4c"]:
             if not energy.indefinite_across_f_only:
                 return assembled(projected)
-            across = projected.across_f - local.across_f
-            block = assemble_across_f(matrices.hessian_nodes, matrices.hessian_weights, f, across)
+            across = (projected.across_f - local.across_f).astype(dtype)
+            block = assemble_across_f(matrices.whitened, weights, f, across)
             return h.at[: block.shape[0], : block.shape[0]].add(block)
 
         if hessian == "projected":
@@ -127,59 +160,111 @@ def iterations(
         lower = lax.cond(definite, lambda _: lower, lambda h: cholesky(project(h)), exact)
         return lower, ~definite
 
-    def keep_going(state: State) -> Bool[Array, ""]:
-        return (state.outcome == RUNNING) & (state.iteration < settings.iterations)
-
-    def iterate(state: State) -> State:
-        y, nodes = state.coefficients, state.samples.nodes
-        x, yy = evaluation.squares(nodes)
-        d = energy.differentials(x, yy)
-        residual = p2p_matrix @ y - constraints.targets.T.ravel()
+    def line(samples: Samples, y: Float[Array, " 4c"], total: Array, lower: Array) -> _Line:
+        """The line search along the direction that a factor and the gradient give."""
+        nodes, residual = samples.nodes, residual_at(y)
+        d = energy.differentials(*evaluation.squares(nodes))
         gradient = evaluation.energy_gradient(matrices, nodes, d)
         gradient = gradient + p2p_matrix.T @ (row_weights * residual)
-        gradient = restrict_gradient(gradient, unknowns)
-
-        lower, modified = factor(state.samples)
-        definite = jnp.isfinite(lower[-1, -1])
-        direction = -jax.scipy.linalg.cho_solve((lower, True), gradient)
-        direction = expand(jnp.where(definite, direction, 0), unknowns)
-        squared_decrement = -jnp.dot(gradient, direction)
-
+        gradient = restrict_gradient(whitening.pulled_back(gradient, t), unknowns)
+        step = -jax.scipy.linalg.cho_solve((lower, True), gradient)
+        step = jnp.where(jnp.isfinite(lower[-1, -1]), step, 0)
+        squared_decrement = -jnp.dot(gradient, step)
+        direction = whitening.coefficients(expand(step, unknowns), t)
         change = evaluation.products(matrices, direction)
-        p2p_change = p2p_matrix @ direction
-        total = state.energy_iso + state.energy_p2p
         search = line_search.search(
             nodes,
             change.nodes,
             matrices.weights,
             energy,
             residual,
-            p2p_change,
+            p2p_matrix @ direction,
             row_weights,
             total,
             squared_decrement,
         )
+        return _Line(direction, change, squared_decrement, search)
 
-        def certified(t: Float[Array, ""]) -> PanelBounds:
-            moved = Samples(*(a + t * b for a, b in zip(state.samples, change, strict=True)))
-            return evaluation.bounds(matrices, singularities, y + t * direction, moved, certificate)
+    def bounds(samples: Samples, y: Float[Array, " 4c"], largest: Array) -> PanelBounds:
+        return evaluation.bounds(matrices, singularities, y, samples, largest, certificate)
 
-        turning = evaluation.turning(matrices, nodes)
-        outcome, t, panel, refused = line_search.backtrack(
-            search, certified, turning, matrices.real, settings.may_refine
+    def corrected(place: _Place, gain: Array, lower: Array) -> tuple:
+        """Go on by corrections while they pay; the place, how many, and whether at the minimum."""
+
+        def correct(carry: tuple) -> tuple:
+            place, gain, count, _, _ = carry
+            total = place.energy_iso + place.energy_p2p
+            found = line(place.samples, place.coefficients, total, lower)
+            minimal = found.squared_decrement / 2 <= settings.tolerance * _scale(total)
+            step = found.search.steps[found.search.best]
+            takes = found.search.acceptable[found.search.best] & ~minimal
+            samples, y = _moved(place.samples, place.coefficients, found, step)
+            largest = jnp.maximum(place.largest, evaluation.largest_modulus(y))
+            there = _Place(y, samples, *energies(samples, y), largest)
+            gained = total - (there.energy_iso + there.energy_p2p)
+            decrement = jnp.sqrt(jnp.maximum(found.squared_decrement, 0))
+            more = takes & (gained < _CONTRACTION * gain) & (count + 1 < settings.corrections)
+            return _where(takes, there, place), gained, count + takes, more, (minimal, decrement)
+
+        more = (gain < _CLOSE * (place.energy_iso + place.energy_p2p)) & (settings.corrections > 0)
+        nothing = (jnp.array(False), jnp.array(jnp.inf))
+        carry = (place, gain, jnp.array(0), more, nothing)
+        place, _, count, _, (minimal, decrement) = lax.while_loop(lambda c: c[3], correct, carry)
+        return place, count, minimal, decrement
+
+    def keep_going(state: State) -> Bool[Array, ""]:
+        return (state.outcome == RUNNING) & (state.iteration < settings.iterations)
+
+    def iterate(state: State) -> State:
+        lower, modified = lax.cond(
+            settings.reuse & (state.iteration == 0),
+            lambda state: (state.factor, jnp.array(False)),
+            lambda state: new_factor(state.samples),
+            state,
         )
-        converged = squared_decrement / 2 <= settings.tolerance * jnp.abs(total)
-        outcome = jnp.where(converged, CONVERGED, outcome)
-        outcome = jnp.where(definite, outcome, INDEFINITE)
-        t = jnp.where(outcome == RUNNING, t, 0.0)
+        total = state.energy_iso + state.energy_p2p
+        found = line(state.samples, state.coefficients, total, lower)
 
-        y = y + t * direction
-        samples = Samples(*(a + t * b for a, b in zip(state.samples, change, strict=True)))
-        iso, p2p = energies(samples, y)
-        decrement = jnp.sqrt(jnp.maximum(squared_decrement, 0))
-        least = jnp.min(jnp.where(matrices.real, panel.sigma2_lower, jnp.inf))
-        record = Record(iso, p2p, t, decrement, least, modified)
+        def certified(step: Float[Array, ""]) -> PanelBounds:
+            samples, y = _moved(state.samples, state.coefficients, found, step)
+            largest = jnp.maximum(state.largest, evaluation.largest_modulus(y))
+            return bounds(samples, y, largest)
+
+        turning = evaluation.turning(matrices, state.samples.nodes)
+        outcome, step, panel, refused = line_search.backtrack(
+            found.search, certified, turning, matrices.real, settings.may_refine
+        )
+        minimal = found.squared_decrement / 2 <= settings.tolerance * _scale(total)
+        outcome = jnp.where(minimal, CONVERGED, outcome)
+        outcome = jnp.where(jnp.isfinite(lower[-1, -1]), outcome, INDEFINITE)
         stepped = outcome == RUNNING
+        step = jnp.where(stepped, step, 0.0)
+        samples, y = _moved(state.samples, state.coefficients, found, step)
+        largest = jnp.maximum(state.largest, evaluation.largest_modulus(y))
+        place = _Place(y, samples, *energies(samples, y), largest)
+        decrement = jnp.sqrt(jnp.maximum(found.squared_decrement, 0))
+
+        def go_on(place: _Place) -> tuple:
+            gain = total - (place.energy_iso + place.energy_p2p)
+            further, count, minimal, last = corrected(place, gain, lower)
+            proof = bounds(further.samples, further.coefficients, further.largest)
+            zeros = jnp.abs(jnp.sum(jnp.where(matrices.real, proof.turning, 0))) > 1
+            proved = jnp.all(proof.injective | ~matrices.real) & ~zeros & (count > 0)
+            return (
+                _where(proved, further, place),
+                _where(proved, proof, panel),
+                jnp.where(proved, count, 0),
+                minimal & proved,
+                last,
+            )
+
+        def stay(place: _Place) -> tuple:
+            return place, panel, jnp.array(0), jnp.array(False), decrement
+
+        place, panel, count, minimal, last = lax.cond(stepped, go_on, stay, place)
+        outcome = jnp.where(minimal, CONVERGED, outcome)
+        least = jnp.min(jnp.where(matrices.real, panel.sigma2_lower, jnp.inf))
+        record = Record(place.energy_iso, place.energy_p2p, step, decrement, least, modified, count)
         records = jax.tree.map(
             lambda all_, one: all_.at[state.iteration].set(
                 jnp.where(stepped, one, all_[state.iteration])
@@ -188,23 +273,25 @@ def iterations(
             record,
         )
         return State(
-            y,
-            samples,
-            iso,
-            p2p,
+            place.coefficients,
+            place.samples,
+            place.energy_iso,
+            place.energy_p2p,
             state.start_energy,
             state.iteration + stepped,
             outcome,
-            decrement,
+            jnp.where(minimal, last, decrement),
             records,
             refused,
             jnp.where(stepped, panel.sigma2_lower, state.sigma2_lower),
+            lower,
+            place.largest,
         )
 
     samples = evaluation.products(matrices, coefficients)
     iso, p2p = energies(samples, coefficients)
     blank = jnp.full(capacity, jnp.nan)
-    empty = Record(blank, blank, blank, blank, blank, jnp.zeros(capacity, bool))
+    flags, counts = jnp.zeros(capacity, bool), jnp.zeros(capacity, int)
     start = State(
         coefficients,
         samples,
@@ -214,11 +301,51 @@ def iterations(
         jnp.array(0),
         jnp.array(RUNNING),
         jnp.array(jnp.inf),
-        empty,
+        Record(blank, blank, blank, blank, blank, flags, counts),
         jnp.zeros_like(matrices.real),
         jnp.full(matrices.real.shape, jnp.nan),
+        factor,
+        evaluation.largest_modulus(coefficients),
     )
-    return lax.while_loop(keep_going, iterate, start)
+    end = lax.while_loop(keep_going, iterate, start)
+    helps = evaluation.tightened_by_splitting(
+        matrices, singularities, end.coefficients, end.largest
+    )
+    return end._replace(refused=end.refused & helps)
+
+
+class _Place(NamedTuple):
+    """A map and its energies; ``largest`` as in :class:`State`."""
+
+    coefficients: Float[Array, " 4c"]
+    samples: Samples
+    energy_iso: Float[Array, ""]
+    energy_p2p: Float[Array, ""]
+    largest: Float[Array, ""]
+
+
+class _Line(NamedTuple):
+    """A direction, what it changes, and what a search along it found."""
+
+    direction: Float[Array, " 4c"]
+    change: Samples
+    squared_decrement: Float[Array, ""]
+    search: line_search.Search
+
+
+def _moved(
+    samples: Samples, y: Float[Array, " 4c"], line: _Line, step: Float[Array, ""]
+) -> tuple[Samples, Float[Array, " 4c"]]:
+    moved = (a + step * b for a, b in zip(samples, line.change, strict=True))
+    return Samples(*moved), y + step * line.direction
+
+
+def _scale(total: Float[Array, ""]) -> Float[Array, ""]:
+    return jnp.maximum(jnp.abs(total), _PERFECT)
+
+
+def _where(condition: Bool[Array, ""], one: Any, other: Any) -> Any:
+    return jax.tree.map(lambda a, b: jnp.where(condition, a, b), one, other)
 
 
 run = jax.jit(

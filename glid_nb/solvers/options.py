@@ -9,8 +9,12 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
-from glid_nb.certificate.rounding import CARRIED
+from glid_nb.certificate.rounding import CARRIED_STEPS
 from glid_nb.solvers.discretisation import CertificateKind, Sampling
+
+MOST_CORRECTIONS = 3
+# The certificate's allowance for rounding covers so many steps of one compiled call.
+_MOST_PER_CALL = CARRIED_STEPS // (1 + MOST_CORRECTIONS)
 
 HessianKind = Literal["adaptive", "projected", "exact"]
 
@@ -49,6 +53,10 @@ class Options:
     tolerance : float
         The solve has converged when the Newton decrement's promise of a decrease,
         ``decrement^2 / 2``, falls below ``tolerance`` times the energy.
+    corrections : int
+        Most steps that an iteration close to the minimum adds by the Hessian it has, 0 to 3. They
+        save iterations, and a solve that goes on from another takes that one's last Hessian first;
+        0 for Newton's method proper.
     iterations_per_call : int
         Newton iterations that one compiled call runs before the host sees the state, 1 to 7.
 
@@ -67,6 +75,7 @@ class Options:
     restarts: int = 3
     max_iterations: int = 200
     tolerance: float = 1e-10
+    corrections: int = MOST_CORRECTIONS
     iterations_per_call: int = 4
 
     def __post_init__(self) -> None:
@@ -85,12 +94,8 @@ class Options:
         _check_number("tolerance", self.tolerance, 0.0, strict=False)
         _check_integer("restarts", self.restarts, 0)
         _check_integer("max_iterations", self.max_iterations, 0)
-        _check_integer("iterations_per_call", self.iterations_per_call, 1)
-        if self.iterations_per_call >= CARRIED:
-            raise OptionError(
-                f"iterations_per_call must be less than {CARRIED}, got {self.iterations_per_call}: "
-                "the certificate's allowance for rounding covers no more"
-            )
+        _check_integer("corrections", self.corrections, 0, MOST_CORRECTIONS)
+        _check_integer("iterations_per_call", self.iterations_per_call, 1, _MOST_PER_CALL)
 
     @classmethod
     def paper(cls, **changes: Any) -> Options:
@@ -104,6 +109,7 @@ class Options:
             "hessian": "projected",
             "align": False,
             "restarts": 0,
+            "corrections": 0,
         }
         return cls(**{**settings, **changes})
 
@@ -115,6 +121,8 @@ def _check_number(name: str, value: Any, least: float, strict: bool) -> None:
         raise OptionError(f"{name} must be a finite number {relation} {least:g}, got {value!r}")
 
 
-def _check_integer(name: str, value: Any, least: int) -> None:
-    if isinstance(value, bool) or not isinstance(value, numbers.Integral) or value < least:
-        raise OptionError(f"{name} must be a whole number of at least {least}, got {value!r}")
+def _check_integer(name: str, value: Any, least: int, most: float = math.inf) -> None:
+    whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
+    if not whole or not least <= int(value) <= most:
+        wanted = f"of at least {least}" if most == math.inf else f"from {least} to {most}"
+        raise OptionError(f"{name} must be a whole number {wanted}, got {value!r}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 from glid_nb.certificate import Certificate, certify
 from glid_nb.energies import Energy
@@ -35,6 +36,8 @@ class Iteration:
     """Certified lower bound on ``sigma_2`` after the step."""
     hessian_modified: bool
     """Whether the projected Hessian was used."""
+    corrections: int
+    """Further steps by the same Hessian, from gradients of their own."""
     panels: int
     """Panels of the boundary."""
     panels_split: int
@@ -73,6 +76,8 @@ class Result:
     """Seconds of the solve without compilation."""
     start_energy: float = math.nan
     """Total energy of the map that the first iteration started from."""
+    factor: Any = field(default=None, repr=False)
+    """Cholesky factor of the last Hessian, for a solve that goes on from here; None without."""
     attempts: tuple[Attempt, ...] = ()
     """All ways to a minimum that were tried, when the first was not the only one."""
 

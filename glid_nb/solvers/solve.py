@@ -16,7 +16,7 @@ from glid_nb._runtime import compilation_clock, double_precision, single_blas_th
 from glid_nb.certificate import certify
 from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Domain
-from glid_nb.harmonic import HarmonicMap, cauchy
+from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.harmonic.basis import Basis
 from glid_nb.solvers import newton, outcome
 from glid_nb.solvers.align import aligned
@@ -102,7 +102,8 @@ def solve(
         first moved rigidly towards the targets. The result of an earlier solve on the same domain
         also passes on its panels.
     callback : callable, optional
-        Called with a :class:`Progress` between compiled calls; returning ``True`` stops the solve.
+        Called with a :class:`Progress` between compiled calls, also after those that took no step
+        because panels must be split first; returning ``True`` stops the solve.
 
     Raises
     ------
@@ -153,6 +154,7 @@ def descend(
         compiling,
         max(elapsed - compiling, 0.0),
         start_energy=loop.start_energy,
+        factor=loop.factor if status is Status.CONVERGED else None,
     )
 
 
@@ -167,24 +169,40 @@ class _Loop:
         options: Options,
         start: HarmonicMap | Result | None,
     ) -> None:
-        self.options, self.energy = options, energy
+        self.options, self.energy, self.pose = options, energy, pose
         map_, self.discretisation = _starting_point(domain, options, start)
         basis = self.discretisation.basis
         self.unknowns = unknowns_of(basis, options.conformal)
-        self.constraints = constraints_of(basis, pose, options.p2p_weight)
+        self.constraints = constraints_of(domain, pose, options.p2p_weight)
         self.ridge = ridge_of(pose)
         if options.align:
-            map_ = aligned(map_, pose)
+            map_ = aligned(map_, pose, handle_images(self.constraints, basis, map_)[: len(pose)])
         self.coefficients: Any = jnp.asarray(real_coefficients(basis, map_))
         self.history: list[Iteration] = []
         self.energy_iso = self.energy_p2p = np.nan
         self.just_split = 0
         self.full_since: int | None = None
         self.start_energy = np.nan
+        size = len(self.coefficients)
+        self.factor: Any = jnp.zeros((size, size))
+        self.reuse = False
+        if isinstance(start, Result) and options.corrections and self._fits(start):
+            self.factor, self.reuse = start.factor, True
+
+    def _fits(self, start: Result) -> bool:
+        """Whether the last Hessian of an earlier solve is one of this problem's."""
+        mine, theirs = self.options, start.options
+        return (
+            start.factor is not None
+            and start.discretisation is self.discretisation
+            and start.energy_measure == self.energy
+            and np.array_equal(start.pose.handles, self.pose.handles)
+            and (theirs.p2p_weight, theirs.conformal) == (mine.p2p_weight, mine.conformal)
+        )
 
     def run(self, callback: Callback | None) -> Status:
         rounds = total_rounds = 0
-        clock = compilation_clock()
+        options, clock = self.options, compilation_clock()
         while True:
             began, compiling = time.perf_counter(), clock.seconds
             state = self._call(may_refine=rounds < _PATIENCE)
@@ -194,6 +212,8 @@ class _Loop:
             if np.isnan(self.start_energy):
                 self.start_energy = float(state.start_energy)
             self._record(state, taken, max(seconds, 0.0))
+            # After a split the map is still where its Hessian was taken.
+            self.reuse = end == outcome.REFUSED and bool(options.corrections)
             if taken:
                 rounds = total_rounds = 0
                 if self._is_slow():
@@ -205,6 +225,8 @@ class _Loop:
             if end == outcome.INDEFINITE:
                 if self.options.hessian == "exact":
                     return Status.INDEFINITE
+                if self._take_full_hessian():  # in double precision
+                    continue
                 # Singular to rounding (two handles in one place, say): a larger epsilon helps.
                 self.ridge = max(100 * self.ridge, _RIDGE)
                 if self.ridge > _LARGEST_RIDGE:
@@ -216,11 +238,17 @@ class _Loop:
             if len(self.history) >= self.options.max_iterations:
                 return Status.MAX_ITERATIONS
             if end in (outcome.REFUSED, outcome.BLOCKED):
+                if not taken and callback is not None and callback(self._progress(state)):
+                    return Status.STOPPED
                 rounds, total_rounds = rounds + 1, total_rounds + 1
                 if end == outcome.BLOCKED:
                     rounds = 0
-                if total_rounds > _MOST_ROUNDS or not self._split(np.asarray(state.refused)):
+                if total_rounds > _MOST_ROUNDS:
                     return Status.BLOCKED
+                if not self._split(np.asarray(state.refused)):
+                    if end == outcome.BLOCKED:
+                        return Status.BLOCKED
+                    rounds = _PATIENCE  # a shorter step, then
 
     def _call(self, may_refine: bool) -> newton.State:
         options = self.options
@@ -231,6 +259,8 @@ class _Loop:
             np.asarray(min(options.iterations_per_call, left)),
             np.asarray(may_refine and self.discretisation.can_refine),
             np.asarray(self.ridge),
+            np.asarray(self.reuse),
+            np.asarray(options.corrections),
         )
         disc = self.discretisation
         return newton.run(
@@ -240,6 +270,7 @@ class _Loop:
             self.constraints,
             self.energy,
             self.coefficients,
+            self.factor,
             settings,
             hessian=options.hessian,
             certificate=options.certificate,
@@ -247,7 +278,7 @@ class _Loop:
         )
 
     def _record(self, state: newton.State, taken: int, seconds: float) -> None:
-        self.coefficients = state.coefficients
+        self.coefficients, self.factor = state.coefficients, state.factor
         self.energy_iso, self.energy_p2p = float(state.energy_iso), float(state.energy_p2p)
         panels = len(self.discretisation.panels)
         self.history += entries(
@@ -334,19 +365,33 @@ def ridge_of(pose: Pose) -> float:
     return _RIDGE if len(pose) < 2 else 0.0
 
 
-def constraints_of(basis: Basis, pose: Pose, weight: float) -> Constraints:
+def handle_images(constraints: Constraints, basis: Basis, map: HarmonicMap) -> Array:
+    """(h, 2) images of the padded handles."""
+    c = basis.n_columns
+    rows = constraints.handles[:, :c] - 1j * constraints.handles[:, c:]
+    images = rows @ basis.pad(map.phi) + np.conj(rows @ basis.pad(map.psi))
+    return np.stack([np.real(images), np.imag(images)], axis=1)
+
+
+def constraints_of(domain: Domain, pose: Pose, weight: float) -> Constraints:
     """The constraints of a pose, padded to a bucket of handles."""
     count = len(pose)
     size = _HANDLE_BUCKET * max(1, -(-count // _HANDLE_BUCKET))
     if not count:
-        columns = 2 * basis.n_columns
+        columns = 2 * basis_of(domain).n_columns
         return Constraints(np.zeros((size, columns)), np.zeros((size, 2)), np.zeros(size))
-    rows = basis_rows(cauchy.cauchy_coordinates, pose.handles @ np.array([1, 1j]), basis)
+    points = pose.handles @ np.array([1, 1j])
     return Constraints(
-        padded(rows, size),
+        padded(_rows_at(domain, points.tobytes()), size),
         padded(np.array(pose.targets), size),
         padded(np.full(count, float(weight)), size, 0.0),
     )
+
+
+@functools.lru_cache(maxsize=32)
+def _rows_at(domain: Domain, points: bytes) -> Array:
+    """``C`` at complex points, kept for the next targets of the same handles."""
+    return basis_rows(cauchy.cauchy_coordinates, np.frombuffer(points, complex), basis_of(domain))
 
 
 def capacity_for(iterations: int) -> int:

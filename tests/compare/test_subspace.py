@@ -82,11 +82,12 @@ def test_fewer_hessian_samples_reach_the_same_minimum() -> None:
     "method", ["newton", "newton-eigen", "newton-shift", "lbfgs", "gradient-descent"]
 )
 def test_energy_decreases(method: str) -> None:
-    energies = [step.energy for step in run(method, "ell").history]
+    settings = {"corrections": 0} if method == "newton" else {}
+    history = run(method, "ell", **settings).history
+    energies = [step.energy for step in history]
     assert len(energies) > 3
     assert all(b <= a * (1 + 1e-9) for a, b in itertools.pairwise(energies))
     assert energies[-1] < 0.01 * energies[0]
-    history = run(method, "ell").history
     assert [step.iteration for step in history] == list(range(len(energies)))
     assert np.isfinite([step.time for step in history]).all()
 

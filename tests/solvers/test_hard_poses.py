@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import itertools
 
 import numpy as np
 import pytest
@@ -86,10 +87,18 @@ def test_a_coarse_certificate_does_not_end_a_solve() -> None:
     """Panels that refuse a step are split, and the solve goes on to its minimum."""
     handles = np.array(INSIDE["ell"])
     targets = np.random.default_rng(0).normal(size=handles.shape) * 4
-    result = solve(domain("ell"), Pose(handles, targets), options=Options(restarts=0))
+    iterations: list[int] = []
+    result = solve(
+        domain("ell"),
+        Pose(handles, targets),
+        options=Options(restarts=0, iterations_per_call=1),
+        callback=lambda progress: iterations.append(len(progress.history)),
+    )
     assert result.status.ok
     assert result.panels_split > 0
     check_certified(result)
+    # The callback is also asked after a call that took no step, so that splitting can be stopped.
+    assert any(before == after for before, after in itertools.pairwise(iterations))
 
 
 def test_restarts_keep_the_best_attempt() -> None:

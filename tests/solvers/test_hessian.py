@@ -327,8 +327,8 @@ def test_gradient_and_hessian_are_those_of_the_discretised_energy(energy: Energy
         differentials = energy.differentials(x, yy)
         gradient = evaluation.energy_gradient(matrices, samples.nodes, differentials)
         k = local_hessian(differentials, x, yy)
-        f, g = evaluation.directions(samples.hessian)
-        hessian = assemble(matrices.hessian_nodes, matrices.hessian_weights, f, g, k)
+        f, g = evaluation.directions(samples.nodes)
+        hessian = assemble(matrices.nodes, matrices.weights, f, g, k)
         return restrict_gradient(gradient, unknowns), restrict_hessian(hessian, unknowns)
 
     with jax.enable_x64(True):
@@ -352,17 +352,28 @@ def test_gradient_and_hessian_are_those_of_the_discretised_energy(energy: Energy
     np.testing.assert_array_equal(hessian[np.ix_(free, fixed)], 0)
 
 
-def test_the_hessian_is_integrated_at_the_midpoints() -> None:
-    d, matrices, _, dense, _ = discretised()
-    panels = discretise(d).panels
-    count = len(panels)
-    columns = basis_of(d).columns
-    re, minus_im = np.split(np.asarray(matrices.hessian_nodes), 2)
-    got = (re - 1j * minus_im)[columns, :count].T
-    np.testing.assert_allclose(got, dense[count:], rtol=1e-9, atol=1e-9)
+def test_the_hessian_is_integrated_in_the_middle_of_panels_and_of_pairs() -> None:
+    d, matrices, _, _, _ = discretised()
+    panels, size = discretise(d).panels, len(matrices.real)
     weights = np.asarray(matrices.hessian_weights)
-    np.testing.assert_allclose(weights[:count], panels.length / panels.length.sum(), rtol=1e-12)
-    np.testing.assert_array_equal(weights[count:], 0)
+    nodes = np.asarray(matrices.hessian_index)[weights > 0]
+    weights = weights[weights > 0]
+    assert weights.sum() == pytest.approx(1)
+    covered = np.zeros(len(panels), dtype=int)
+    share = panels.length / panels.length.sum()
+    for node, weight in zip(nodes, weights, strict=True):
+        if node >= size:
+            mine = [node - size]
+        else:  # The end that two halves of one straight piece share.
+            mine = [node - 1, node]
+            chord = panels.end[mine] - panels.start[mine]
+            assert chord[0] == pytest.approx(chord[1])
+            assert panels.next[mine[0]] == mine[1]
+        covered[mine] += 1
+        assert weight == pytest.approx(share[mine].sum())
+    np.testing.assert_array_equal(covered, 1)
+    assert (nodes < size).any()
+    assert (nodes >= size).any()
 
 
 @pytest.mark.parametrize(

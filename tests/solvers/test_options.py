@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glid_nb.certificate.rounding import CARRIED
 from glid_nb.solvers import Options
 from glid_nb.solvers.options import OptionError
 
@@ -46,7 +45,8 @@ def test_the_papers_settings() -> None:
         ("p2p_weight", (1e-300, 1, np.float32(2.5), 1e300)),
         ("tolerance", (0, 1e-3)),
         ("max_iterations", (0, 1, np.int64(50))),
-        ("iterations_per_call", (1, CARRIED - 1)),
+        ("iterations_per_call", (1, 7)),
+        ("corrections", (0, 3)),
         ("conformal", (True, False)),
     ],
 )
@@ -75,8 +75,10 @@ def test_the_whole_range_is_accepted(name: str, values: tuple[Any, ...]) -> None
         ("max_iterations", 2.0, "max_iterations must be a whole number"),
         ("max_iterations", True, "max_iterations must be a whole number"),
         ("max_iterations", "9", "max_iterations must be a whole number"),
-        ("iterations_per_call", 0, "iterations_per_call must be a whole number of at least 1"),
-        ("iterations_per_call", CARRIED, f"iterations_per_call must be less than {CARRIED}"),
+        ("iterations_per_call", 0, "iterations_per_call must be a whole number from 1 to 7"),
+        ("iterations_per_call", 8, "iterations_per_call must be a whole number from 1 to 7"),
+        ("corrections", -1, "corrections must be a whole number from 0 to 3"),
+        ("corrections", 4, "corrections must be a whole number from 0 to 3"),
         ("conformal", "no", "conformal"),
     ],
 )

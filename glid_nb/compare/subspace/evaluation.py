@@ -75,7 +75,7 @@ def hessian(setting: Setting, point: Point, *, curvature: Curvature) -> Float[Ar
     Dirichlet energy ``|f_z|^2 + |f_zbar|^2``.
     """
     matrices = setting.matrices
-    nodes = point.samples.hessian
+    nodes = point.samples.nodes[:, matrices.hessian_index]
     x, y = evaluation.squares(nodes)
     if curvature == "gauss-newton":
         zero, four = jnp.zeros_like(x), jnp.full_like(x, 4.0)
@@ -88,7 +88,8 @@ def hessian(setting: Setting, point: Point, *, curvature: Curvature) -> Float[Ar
         if curvature == "projected":
             local = positive_part(local)
     f, g = evaluation.directions(nodes)
-    h = assemble(matrices.hessian_nodes, matrices.hessian_weights, f, g, local)
+    basis = matrices.nodes[:, matrices.hessian_index]
+    h = assemble(basis, matrices.hessian_weights, f, g, local)
     lower = jnp.tril(restrict_hessian(h, setting.unknowns))
     return lower + jnp.tril(lower, -1).T
 
@@ -126,9 +127,12 @@ def advance(
 
     def certified(t: Float[Array, ""]) -> PanelBounds:
         y, samples = moved(t)
+        both = (evaluation.largest_modulus(at) for at in (point.coefficients, y))
+        largest = jnp.maximum(*both)
         if setting.loose is None:
-            return evaluation.bounds(matrices, setting.singularities, y, samples, certificate)
-        return _loose_bounds(setting.loose, matrices, y, samples)
+            singularities = setting.singularities
+            return evaluation.bounds(matrices, singularities, y, samples, largest, certificate)
+        return _loose_bounds(setting.loose, matrices, y, samples, largest)
 
     turning = evaluation.turning(matrices, point.samples.nodes)
     outcome, t, panels, refused = line_search.backtrack(
@@ -168,11 +172,12 @@ def _loose_bounds(
     matrices: Matrices,
     y: Float[Array, " 4c"],
     samples: Samples,
+    largest: Float[Array, ""],
 ) -> PanelBounds:
     re_phi, im_phi, re_psi, im_psi = y.reshape(4, -1)
     coefficients = jnp.stack([re_phi + 1j * im_phi, re_psi + 1j * im_psi])
     length = jnp.hypot(*matrices.chord)
-    rounding = matrices.rounding * jnp.abs(coefficients).max()
+    rounding = matrices.rounding * largest
     variation = length[:, None] * bdhm.constants(coefficients, weights) + rounding[:, None]
     p = matrices.real.shape[0]
     f, g = (samples.nodes[k, :p] + 1j * samples.nodes[k + 1, :p] for k in (0, 2))

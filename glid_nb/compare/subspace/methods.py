@@ -19,6 +19,7 @@ from glid_nb.compare.subspace.newton_variants import (
 from glid_nb.compare.subspace.problem import SubspaceProblem
 from glid_nb.solvers import Options
 from glid_nb.solvers.discretisation import CertificateKind, Sampling
+from glid_nb.solvers.options import MOST_CORRECTIONS
 
 
 def _descend(
@@ -51,6 +52,7 @@ def newton(
     certificate: CertificateKind = "hermite",
     conformal: bool = False,
     tolerance: float = 1e-10,
+    corrections: int = MOST_CORRECTIONS,
 ) -> MethodResult:
     """Ours: exact Hessian where definite, else projected."""
     return run_newton(
@@ -59,6 +61,7 @@ def newton(
         certificate=certificate,
         conformal=conformal,
         tolerance=tolerance,
+        corrections=corrections,
     )
 
 
@@ -71,6 +74,7 @@ def newton_paper(inputs: Inputs, conformal: bool = False, tolerance: float = 1e-
         hessian="projected",
         conformal=conformal,
         tolerance=tolerance,
+        corrections=0,
     )
 
 
@@ -86,6 +90,7 @@ def newton_unmodified(
         certificate=certificate,
         hessian="exact",
         tolerance=tolerance,
+        corrections=0,
     )
 
 

@@ -94,7 +94,7 @@ class SubspaceProblem:
             self._check_hessian_samples(hessian_samples)
         basis = self.discretisation.basis
         self.unknowns = unknowns_of(basis, options.conformal)
-        self.constraints = constraints_of(basis, pose, options.p2p_weight)
+        self.constraints = constraints_of(domain, pose, options.p2p_weight)
         self.setting = self._setting()
         map_ = HarmonicMap.identity(domain) if start is None else start
         if options.align:
@@ -165,7 +165,7 @@ class SubspaceProblem:
             index = np.linspace(0, len(disc.panels), self.hessian_samples, endpoint=False)
             index = index.astype(int)
             matrices = matrices._replace(
-                hessian_nodes=matrices.nodes[:, index],
+                hessian_index=jnp.asarray(index),
                 hessian_weights=jnp.full(len(index), 1 / len(index)),
             )
         if self.loose:

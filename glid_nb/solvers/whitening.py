@@ -1,0 +1,81 @@
+"""Coordinates of the subspace in which the Hessian of an isometric energy is well conditioned.
+
+Cauchy coordinates are hat functions seen from afar: their derivatives on the boundary are nearly
+dependent, and the Hessian's condition number is the square of theirs, beyond what single precision
+resolves. New coordinates ``x`` with ``phi = T x``, in which the derivatives ``D T`` are orthonormal
+along the boundary, leave it with the condition of ``K`` alone. Newton's direction is the same in
+any coordinates.
+
+``T`` keeps the unknowns where they are, so that the masks and the tie of
+:mod:`glid_nb.solvers.unknowns` serve in both: the exterior's first coordinate becomes the
+translation, of which no derivative knows, and a logarithm's coordinate is its coefficient, scaled.
+"""
+
+from __future__ import annotations
+
+import jax.numpy as jnp
+import numpy as np
+import scipy.linalg
+from jaxtyping import Array, Float
+
+from glid_nb._arrays import AnyArray
+from glid_nb.harmonic.basis import Basis
+
+# Raises the Gram matrix's diagonal, relative to its mean, should columns be dependent.
+_RIDGE = 1e-13
+
+
+def whitening(
+    rows: Float[np.ndarray, "s 2c"], weights: Float[np.ndarray, " s"], basis: Basis
+) -> Float[np.ndarray, "2 c c"]:
+    """``T`` as (Re, Im).
+
+    Parameters
+    ----------
+    rows : (s, 2c)
+        ``[Re D, -Im D]`` at samples of the boundary.
+    weights : (s,)
+        Quadrature weights.
+    basis : Basis
+    """
+    c = basis.n_columns
+    scaled = np.sqrt(weights)[:, None] * (rows[:, :c] - 1j * rows[:, c:])
+    single_valued = np.flatnonzero(basis.psi_free)
+    # The exterior's first is no unknown of psi either.
+    logarithms = np.flatnonzero(basis.phi_free & ~basis.psi_free)[1:]
+    columns = scaled[:, single_valued]
+    gram = columns.conj().T @ columns
+    gram[np.diag_indices_from(gram)] += _RIDGE * np.trace(gram).real / len(gram)
+    lower = scipy.linalg.cholesky(gram, lower=True)
+    inverse = scipy.linalg.solve_triangular(lower, np.eye(len(gram)), lower=True)
+
+    t = np.zeros((c, c), dtype=complex)
+    t[: basis.n_exterior, 0] = 1
+    t[np.ix_(single_valued, single_valued)] = inverse.conj().T
+    for j in logarithms:
+        along = inverse.conj().T @ (inverse @ (columns.conj().T @ scaled[:, j]))
+        rest = np.linalg.norm(scaled[:, j] - columns @ along)
+        t[single_valued, j], t[j, j] = -along / rest, 1 / rest
+    return np.stack([np.real(t), np.imag(t)])
+
+
+def whitened(nodes: Float[AnyArray, "2c s"], t: Float[AnyArray, "2 c c"]) -> Float[Array, "2c s"]:
+    """``D T`` from ``D``, both as ``[Re, -Im]``, transposed."""
+    c = t.shape[1]
+    re, im = nodes[:c], -nodes[c:]
+    return jnp.concatenate([t[0].T @ re - t[1].T @ im, -(t[0].T @ im + t[1].T @ re)])
+
+
+def coefficients(x: Float[Array, " 4c"], t: Float[Array, "2 c c"]) -> Float[Array, " 4c"]:
+    """``[Re phi, Im phi, Re psi, Im psi]`` of coordinates laid out alike."""
+    x = x.reshape(2, 2, -1)
+    re, im = x[:, 0], x[:, 1]
+    return jnp.stack([re @ t[0].T - im @ t[1].T, re @ t[1].T + im @ t[0].T], axis=1).ravel()
+
+
+def pulled_back(rows: Float[Array, "*r 4c"], t: Float[Array, "2 c c"]) -> Float[Array, "*r 4c"]:
+    """Derivatives with respect to coordinates from those with respect to coefficients."""
+    parts = rows.reshape(*rows.shape[:-1], 2, 2, -1)
+    re, im = parts[..., 0, :], parts[..., 1, :]
+    pulled = jnp.stack([re @ t[0] + im @ t[1], im @ t[0] - re @ t[1]], axis=-2)
+    return pulled.reshape(rows.shape)

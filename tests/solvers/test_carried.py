@@ -1,0 +1,43 @@
+"""What a solver proves from values that it carried along is proved by who computes them anew."""
+
+from __future__ import annotations
+
+import pytest
+
+from glid_nb.certificate import certify
+from glid_nb.energies import ARAP
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.solvers import Options, Pose, Progress, Status, solve
+
+from ..domains import domain
+
+
+@pytest.mark.slow
+def test_every_map_of_a_collapse_far_away_is_proved_anew() -> None:
+    """ARAP has no barrier: one handle pulled far away crumples the shape to sigma_2 = 1e-9, while
+    coefficients of several hundred leave rounding errors of that size."""
+    maps: dict[int, HarmonicMap] = {}
+
+    def keep(progress: Progress) -> None:
+        maps[len(progress.history)] = progress.map
+
+    options = Options(align=False, restarts=0)
+    ring = domain("ring")
+    pose = Pose([(0.96, -2.2)], [(662, 0)])
+    result = solve(ring, pose, ARAP(), options, HarmonicMap.identity(ring), keep)
+    certificates = [certify(map) for map in [*maps.values(), result.map]]
+    assert all(c.certified for c in certificates)
+    assert min(c.sigma2_lower for c in certificates) < 1e-6
+    # Finer panels do not help against rounding: it ends instead of splitting them all.
+    assert result.status is Status.BLOCKED
+    assert result.n_panels < 200
+
+
+def test_a_perfect_pose_has_converged() -> None:
+    """The energy is then 0, and nothing is relative to it."""
+    ring = domain("ring")
+    start = HarmonicMap.identity(ring)
+    pose = Pose([(2.2, 0.5)], [(-3, 30)])
+    result = solve(ring, pose, ARAP(), Options(align=False, restarts=0), start)
+    assert result.status.ok, result.status
+    assert result.energy < 1e-9

@@ -1,0 +1,45 @@
+"""What going on from a result and splitting panels compile: nothing."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from glid_nb import Options, Pose, Result, solve
+from glid_nb._runtime import compilation_clock
+
+from ..domains import domain
+
+HANDLES = np.array([[-2.5, -2.0], [-2.5, 2.5], [2.5, -1.5], [0.0, -1.5]])
+OPTIONS = Options(restarts=0)
+
+
+def bent(amount: float, handles: np.ndarray = HANDLES) -> Pose:
+    return Pose(handles, handles + amount * np.sin(3 * handles[:, ::-1]))
+
+
+def compiled_by(action: Callable[[], Result]) -> int:
+    before = compilation_clock().programs
+    assert action().status.ok
+    return compilation_clock().programs - before
+
+
+@pytest.fixture(scope="module")
+def first() -> Result:
+    """Everything that a first solve and one that goes on from it compile."""
+    result = solve(domain("ell"), bent(0.1), None, OPTIONS)
+    return solve(domain("ell"), bent(0.12), None, OPTIONS, result)
+
+
+def test_moved_targets_compile_nothing(first: Result) -> None:
+    assert compiled_by(lambda: solve(domain("ell"), bent(0.2), None, OPTIONS)) == 0
+    assert compiled_by(lambda: solve(domain("ell"), bent(0.14), None, OPTIONS, first)) == 0
+
+
+def test_panels_split_within_a_bucket_compile_nothing(first: Result) -> None:
+    disc = first.discretisation
+    chosen = np.zeros(len(disc.panels), dtype=bool)
+    chosen[:2] = True
+    finer = disc.refined(chosen)
+    assert finer.matrices.nodes.shape == disc.matrices.nodes.shape
+    assert finer.matrices.whitened.shape == disc.matrices.whitened.shape

@@ -1,0 +1,89 @@
+"""Coordinates in which the basis is orthonormal along the boundary."""
+
+import jax
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from glid_nb.harmonic import basis_of
+from glid_nb.solvers.discretisation import discretise
+from glid_nb.solvers.evaluation import products
+from glid_nb.solvers.unknowns import expand, unknowns_of
+from glid_nb.solvers.whitening import coefficients, pulled_back, whitened
+
+from ..domains import domain
+
+SHAPES = ("ell", "ring")
+
+
+def _complex(rows: np.ndarray) -> np.ndarray:
+    re, minus_im = np.split(np.asarray(rows, dtype=float), 2)
+    return (re - 1j * minus_im).T
+
+
+@pytest.mark.parametrize("sampling", ["graded", "uniform"])
+@pytest.mark.parametrize("name", SHAPES)
+def test_derivatives_of_the_new_basis_are_orthonormal(name: str, sampling: str) -> None:
+    disc = discretise(domain(name), sampling)  # type: ignore[arg-type]
+    basis, t = basis_of(domain(name)), np.asarray(disc.matrices.whitening)
+    if sampling == "graded":
+        nodes = _complex(disc.matrices.nodes)[len(disc.matrices.real) :][: len(disc.panels)]
+        weights = disc.panels.length / disc.panels.length.sum()
+    else:
+        weights = np.asarray(disc.matrices.hessian_weights)
+        nodes = _complex(disc.matrices.nodes)[np.asarray(disc.matrices.hessian_index)]
+    d = nodes @ (t[0] + 1j * t[1])
+    unknown = np.flatnonzero(basis.phi_free)[1:]
+    single_valued, logarithms = unknown[basis.psi_free[unknown]], unknown[~basis.psi_free[unknown]]
+    gram = d.conj().T @ (weights[:, None] * d)
+    expected = np.eye(len(single_valued))
+    np.testing.assert_allclose(gram[np.ix_(single_valued, single_valued)], expected, atol=1e-6)
+    # Logarithms are of unit length and orthogonal to the others, not to one another.
+    np.testing.assert_allclose(gram[logarithms, logarithms], 1, atol=1e-6)
+    np.testing.assert_allclose(gram[np.ix_(single_valued, logarithms)], 0, atol=1e-6)
+    # No derivative knows of a translation.
+    np.testing.assert_allclose(d[:, 0], 0, atol=1e-9)
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_the_stored_basis_is_the_whitened_one_to_its_precision(name: str) -> None:
+    m = discretise(domain(name)).matrices
+    with jax.enable_x64(True):
+        exact = np.asarray(whitened(m.nodes[:, m.hessian_index], m.whitening))
+    assert m.whitened.dtype == np.float32
+    np.testing.assert_allclose(np.asarray(m.whitened), exact, atol=1e-6 * np.abs(exact).max())
+    assert discretise(domain(name)).full_matrices.whitened.dtype == np.float64
+
+
+@pytest.mark.parametrize("name", SHAPES)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_a_gradient_pulls_back_as_coefficients_push_forward(name: str, seed: int) -> None:
+    t = discretise(domain(name)).matrices.whitening
+    rng = np.random.default_rng(seed)
+    x, gradient = rng.normal(size=(2, 4 * t.shape[1]))
+    with jax.enable_x64(True):
+        pushed, pulled = np.asarray(coefficients(x, t)), np.asarray(pulled_back(gradient, t))
+    scale = np.abs(gradient) @ np.abs(pushed)
+    assert gradient @ pushed == pytest.approx(pulled @ x, abs=1e-12 * scale)
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_unknowns_stay_where_they_are(name: str) -> None:
+    """Fixed coefficients stay zero, and logarithms stay tied, whatever the coordinates."""
+    basis = basis_of(domain(name))
+    unknowns = unknowns_of(basis, conformal=False)
+    t = discretise(domain(name)).matrices.whitening
+    rng = np.random.default_rng(1)
+    with jax.enable_x64(True):
+        x = expand(jax.numpy.asarray(rng.normal(size=4 * basis.n_columns)), unknowns)
+        y = np.asarray(coefficients(x, t)).reshape(4, -1)
+    phi, psi = y[0] + 1j * y[1], y[2] + 1j * y[3]
+    logarithms = basis.phi_free & ~basis.psi_free
+    logarithms[0] = False
+    np.testing.assert_array_equal(phi[~basis.phi_free], 0)
+    np.testing.assert_array_equal(psi[~basis.psi_free & ~logarithms], 0)
+    np.testing.assert_allclose(psi[logarithms], phi[logarithms].conj(), rtol=1e-13)
+    with jax.enable_x64(True):
+        moved = np.asarray(products(discretise(domain(name)).matrices, y.ravel()).nodes)
+    assert np.abs(moved).max() > 0
