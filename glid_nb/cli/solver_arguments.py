@@ -65,7 +65,17 @@ def add_solver_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def energy_of(chosen: argparse.Namespace) -> Energy:
-    """The energy that the flags name."""
+    """The energy that the flags name.
+
+    Raises
+    ------
+    EnergyError
+        It is unknown, its parameter is not positive, or it has none and one is given.
+    """
+    if chosen.s is not None and chosen.energy in ("iso", "arap"):
+        raise glid_nb.EnergyError(
+            f"--s is the parameter of exp and amips; {chosen.energy} has none"
+        )
     return glid_nb.energy_by_name(chosen.energy, chosen.s)
 
 

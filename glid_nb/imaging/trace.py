@@ -15,7 +15,7 @@ from glid_nb.geometry import Cage
 from glid_nb.imaging.components import Component, Components, find_components
 from glid_nb.imaging.dilate import Dilation, dilate
 from glid_nb.imaging.errors import TraceError
-from glid_nb.imaging.foreground import Foreground, find_foreground
+from glid_nb.imaging.foreground import Foreground, find_foreground, smoothed
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.holes import Hole, choose_holes, filled_mask
 from glid_nb.imaging.options import TraceOptions
@@ -193,25 +193,24 @@ class Tracer:
         )
 
     def foreground(self, options: TraceOptions) -> Foreground:
-        """How much each pixel is foreground, the first stage."""
-        return self._stage(
-            "foreground",
-            lambda method, invert, background, at, scribbles, smoothing: find_foreground(
+        """How much each pixel is foreground, the first two stages."""
+        rated = self._stage(
+            "rated",
+            lambda method, invert, background, at, scribbles: find_foreground(
                 self.image,
                 method,
                 invert=invert,
                 background=background,
                 background_at=at,
                 scribbles=scribbles,
-                smoothing=smoothing,
             ),
             options.method,
             options.invert,
             options.background,
             options.background_at,
             options.scribbles,
-            options.smoothing,
         )
+        return self._stage("foreground", smoothed, rated, options.smoothing)
 
     def _cage(
         self,

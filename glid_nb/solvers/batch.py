@@ -1,7 +1,7 @@
 """Many poses of one shape at once, spread over all local devices.
 
-The poses run in lockstep through :func:`glid_nb.solvers.newton.iterations`, vectorised and split
-over the devices. After every call those that have ended leave the batch, and those that need the
+The poses are split over the devices and run through :func:`glid_nb.solvers.newton.iterations`, on
+CPUs one after the other, elsewhere vectorised, in lockstep. After every call those that have ended leave the batch, and those that need the
 host, because a panel must be split for one, are set aside, so that no pose waits for another for
 longer than one call; they are finished one by one.
 """
@@ -16,6 +16,7 @@ from typing import Any
 
 import jax
 import jax.numpy as jnp
+from jax import lax
 import numpy as np
 from jax.sharding import Mesh, PartitionSpec
 from numpy.typing import ArrayLike, NDArray
@@ -169,10 +170,14 @@ class _Batch:
         """One call for the chosen poses; returns those that go on."""
         options = self.options
         index = np.array(chosen + chosen[:1] * (size - len(chosen)))
-        left = min(options.max_iterations - len(self.histories[i]) for i in chosen)
+        # What only fills the batch up stays where it is.
+        limits = np.zeros(size, dtype=int)
+        for row, i in enumerate(chosen):
+            left = options.max_iterations - len(self.histories[i])
+            limits[row] = min(options.iterations_per_call, left)
         settings = newton.Settings(
             np.asarray(options.tolerance),
-            np.asarray(min(options.iterations_per_call, left)),
+            np.asarray(0),
             np.asarray(self.discretisation.can_refine),
             np.asarray(ridge_of(self.poses[0])),
             np.asarray(False),
@@ -195,6 +200,7 @@ class _Batch:
             settings,
             jnp.asarray(self.targets[index]),
             jnp.asarray(self.coefficients[index]),
+            jnp.asarray(limits),
         )
         state = jax.tree.map(np.asarray, state)
         compiling = clock.seconds - compiling
@@ -264,6 +270,9 @@ class _Batch:
 def _program(devices: tuple[Any, ...], hessian: Any, certificate: Any, capacity: int) -> Any:
     """The compiled program for poses on these devices; each device loops on its own."""
     mesh = Mesh(np.array(devices), ("poses",))
+    # A CPU gains nothing from lockstep, in which every pose takes every branch; and the thread pool
+    # of XLA 0.10 was seen to lose tasks of such programs and to wait for them for ever.
+    in_turn = all(device.platform == "cpu" for device in devices)
     each, shared = PartitionSpec("poses"), PartitionSpec()
 
     def together(
@@ -275,9 +284,10 @@ def _program(devices: tuple[Any, ...], hessian: Any, certificate: Any, capacity:
         settings: newton.Settings,
         targets: Any,
         coefficients: Any,
+        limits: Any,
     ) -> newton.State:
-        def one(goals: Any, y: Any) -> newton.State:
-            return newton.iterations(
+        def one(goals: Any, y: Any, limit: Any) -> newton.State:
+            state = newton.iterations(
                 matrices,
                 singularities,
                 unknowns,
@@ -285,19 +295,22 @@ def _program(devices: tuple[Any, ...], hessian: Any, certificate: Any, capacity:
                 energy,
                 y,
                 jnp.zeros((len(y), len(y))),
-                settings,
+                settings._replace(iterations=limit),
                 hessian=hessian,
                 certificate=certificate,
                 capacity=capacity,
             )
+            # A factor serves one pose at one time; it need not come back.
+            return state._replace(factor=jnp.zeros(()))
 
-        # A factor serves one pose at one time; it need not come back.
-        return jax.vmap(one)(targets, coefficients)._replace(factor=jnp.zeros(len(targets)))
+        if in_turn:
+            return lax.map(lambda pose: one(*pose), (targets, coefficients, limits))
+        return jax.vmap(one)(targets, coefficients, limits)
 
     sharded = jax.shard_map(
         together,
         mesh=mesh,
-        in_specs=(*[shared] * 6, each, each),
+        in_specs=(*[shared] * 6, each, each, each),
         out_specs=each,
         check_vma=False,
     )

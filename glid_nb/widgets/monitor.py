@@ -69,6 +69,7 @@ class SolverMonitor(ipywidgets.VBox):
         self._with_plots = plots
         super().__init__([self.line, self.image] if plots else [self.line], **kwargs)
         self.add_class("glid-monitor")
+        self.image.add_class("glid-plots")
         self.image.layout.width, self.image.layout.height = f"{width}px", f"{height}px"
         self._stop = deformation.observe(self._on_model)
         self._background.ask()

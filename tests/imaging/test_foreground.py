@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from skimage import data
 
 from glid_nb.imaging import Scribbles, TraceError, TraceOptions, as_rgba
-from glid_nb.imaging.foreground import Foreground, find_foreground
+from glid_nb.imaging.foreground import Foreground, find_foreground, smoothed
 from glid_nb.imaging.foreground.border import border_color
 from glid_nb.imaging.foreground.levels import histogram, otsu
 from glid_nb.imaging.options import Method
@@ -30,7 +30,8 @@ def blended(shape, background, coverage: NDArray[np.float64] | None = None):
 
 
 def find(image, method: Method = "auto", **options) -> Foreground:
-    return find_foreground(as_rgba(image), method, **options)
+    smoothing = options.pop("smoothing", None)
+    return smoothed(find_foreground(as_rgba(image), method, **options), smoothing)
 
 
 def agreement(mask: NDArray[np.bool_], coverage: NDArray[np.float64] | None = None) -> float:

@@ -598,9 +598,9 @@ class TestTracer:
 
             monkeypatch.setattr(module, name, watched)
 
-        for name in ("find_foreground", "find_components", "find_outline", "choose_holes"):
+        for name in ("find_foreground", "smoothed", "find_components", "find_outline"):
             watch(name)
-        for name in ("dilate", "simplify"):
+        for name in ("choose_holes", "dilate", "simplify"):
             watch(name)
         return names
 
@@ -614,8 +614,12 @@ class TestTracer:
             ({"component": 1}, "find_outline choose_holes dilate simplify"),
             ({"threshold": 0.3}, "find_components find_outline choose_holes dilate simplify"),
             (
+                {"smoothing": 1.0},
+                "smoothed find_components find_outline choose_holes dilate simplify",
+            ),
+            (
                 {"method": "threshold"},
-                "find_foreground find_components find_outline choose_holes dilate simplify",
+                "find_foreground smoothed find_components find_outline choose_holes dilate simplify",
             ),
         ],
     )

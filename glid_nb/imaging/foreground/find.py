@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
@@ -29,9 +31,10 @@ def find_foreground(
     background: tuple[float, float, float] | None = None,
     background_at: Point | None = None,
     scribbles: Scribbles | None = None,
-    smoothing: float | None = None,
 ) -> Foreground:
     """Rate every pixel of an (h, w, 4) RGBA image; the parameters are those of `TraceOptions`.
+
+    The field is not smoothed yet: see `smoothed`.
 
     Raises
     ------
@@ -74,9 +77,26 @@ def find_foreground(
             threshold = otsu(histogram(1 - score))
         else:
             threshold = color_threshold(score, spread)
-    return Foreground(
-        _smoothed(score, method, smoothing), method, threshold, inverted, tuple(notes)
-    )
+    score = score.view()
+    score.setflags(write=False)
+    return Foreground(score, method, threshold, inverted, tuple(notes))
+
+
+def smoothed(foreground: Foreground, sigma: float | None) -> Foreground:
+    """The field after a Gaussian filter of standard deviation ``sigma`` in pixels, 0 for none.
+
+    By default a thousandth of the longer side, and none for fields that are smooth as they are.
+    """
+    score = foreground.score
+    if sigma is None:
+        smooth = foreground.method in ("alpha", "scribbles")
+        sigma = 0.0 if smooth else _SMOOTHING * max(score.shape)
+        sigma = sigma if sigma >= _LEAST_SMOOTHING else 0.0
+    if sigma == 0:
+        return foreground
+    score = np.asarray(gaussian_filter(score, sigma, mode="nearest", truncate=3.0), np.float32)
+    score.setflags(write=False)
+    return replace(foreground, score=score)
 
 
 def _check_not_uniform(image: NDArray[np.unsignedinteger]) -> None:
@@ -137,20 +157,6 @@ def _background(
         red, green, blue = image[row, column, :3] / np.iinfo(image.dtype).max
         background = float(red), float(green), float(blue)
     return background, 0.03, []
-
-
-def _smoothed(
-    score: NDArray[np.float32], method: Method, smoothing: float | None
-) -> NDArray[np.float32]:
-    sigma = smoothing
-    if sigma is None:
-        sigma = 0.0 if method in ("alpha", "scribbles") else _SMOOTHING * max(score.shape)
-        sigma = sigma if sigma >= _LEAST_SMOOTHING else 0.0
-    if sigma > 0:
-        score = np.asarray(gaussian_filter(score, sigma, mode="nearest", truncate=3.0), np.float32)
-    score = score.view()
-    score.setflags(write=False)
-    return score
 
 
 def _percent(color: tuple[float, float, float]) -> str:
