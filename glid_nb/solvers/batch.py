@@ -1,9 +1,9 @@
 """Many poses of one shape at once, spread over all local devices.
 
 The poses are split over the devices and run through :func:`glid_nb.solvers.newton.iterations`, on
-CPUs one after the other, elsewhere vectorised, in lockstep. After every call those that have ended leave the batch, and those that need the
-host, because a panel must be split for one, are set aside, so that no pose waits for another for
-longer than one call; they are finished one by one.
+CPUs one after the other, elsewhere vectorised, in lockstep. After every call those that have ended
+leave the batch, and those that need the host, because a panel must be split for one, are set aside,
+so that no pose waits for another for longer than one call; they are finished one by one.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from typing import Any
 
 import jax
 import jax.numpy as jnp
-from jax import lax
 import numpy as np
+from jax import lax
 from jax.sharding import Mesh, PartitionSpec
 from numpy.typing import ArrayLike, NDArray
 

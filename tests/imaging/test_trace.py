@@ -619,7 +619,8 @@ class TestTracer:
             ),
             (
                 {"method": "threshold"},
-                "find_foreground smoothed find_components find_outline choose_holes dilate simplify",
+                "find_foreground smoothed find_components find_outline choose_holes dilate "
+                "simplify",
             ),
         ],
     )
