@@ -1,0 +1,55 @@
+"""A picture exported by hand in a real browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from skimage.io import imread
+
+from glid_nb.imaging import PixelFrame
+
+from .conftest import OpenNotebook
+from .editor_page import EDITOR, SETUP, Hand, line
+
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
+
+
+def test_the_exported_picture_is_the_rendering_and_what_the_canvas_shows(
+    open_notebook: OpenNotebook, tmp_path: Path
+) -> None:
+    """The file equals a headless rendering in every pixel. In the middles of the checks of the
+    bar the canvas has its colours, to 6 of 255: the mesh and the textures' filters differ."""
+    book = open_notebook([SETUP, EDITOR])
+    hand = Hand(book)
+    for point in ((-6.0, 0.0), (6.0, 0.0)):
+        hand.click(point)
+    book.wait_for("len(model.pose) == 2")
+    hand.drag(line((6.0, 0.0), (5.0, 2.0), 10))
+    hand.wait_for_target(1, (5.0, 2.0))
+    page = book.page
+    page.locator(".lm-TabBar-tabLabel", has_text="Files").click()
+    files = page.locator(".glid-files")
+    name = files.locator("input[type=text]")
+    name.fill(str(tmp_path / "bent.glid"))
+    name.press("Enter")
+    files.locator("select").select_option(label="Picture (PNG)")
+    files.get_by_role("button", name="Export").click()
+    files.get_by_text("Wrote").wait_for()
+    exported = imread(tmp_path / "bent.png")
+    rendered = np.array(book.value("glid.render(picture, model.map).tolist()"))
+    np.testing.assert_array_equal(exported, rendered)
+
+    hand.wait_until_drawn()
+    middles = [(x, y) for x in range(-7, 8, 2) for y in (-1, 1)]
+    images = book.value(f"model.map({middles}).tolist()")
+    frame = PixelFrame(width=200, height=100)
+    inside = 0
+    for place in images:
+        column, row = np.floor(frame.to_pixel(place)).astype(int)
+        if 0 <= row < 100 and 0 <= column < 200:
+            seen = hand.color_at(place)
+            np.testing.assert_allclose(seen, exported[row, column], atol=6, err_msg=str(place))
+            inside += 1
+    assert inside >= 12
