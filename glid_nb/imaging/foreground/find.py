@@ -89,9 +89,8 @@ def smoothed(foreground: Foreground, sigma: float | None) -> Foreground:
     """
     score = foreground.score
     if sigma is None:
-        smooth = foreground.method in ("alpha", "scribbles")
-        sigma = 0.0 if smooth else _SMOOTHING * max(score.shape)
-        sigma = sigma if sigma >= _LEAST_SMOOTHING else 0.0
+        own = 0.0 if foreground.method in ("alpha", "scribbles") else _SMOOTHING * max(score.shape)
+        sigma = own if own >= _LEAST_SMOOTHING else 0.0
     if sigma == 0:
         return foreground
     score = np.asarray(gaussian_filter(score, sigma, mode="nearest", truncate=3.0), np.float32)
