@@ -43,6 +43,15 @@ def test_one_minimum(method: str, name: str) -> None:
     assert result.certificate.certified
 
 
+@pytest.mark.parametrize("method", ["gradient-descent", "lbfgs"])
+def test_first_order_methods_reach_the_minimum_where_targets_are_soft(method: str) -> None:
+    """A heavy weight makes the energy too stiff for the negative gradient."""
+    settings = {"p2p_weight": 1.0, "max_iterations": 2000}
+    result, ours = run(method, "ell", **settings), run("newton", "ell", **settings)
+    assert result.status is Status.CONVERGED, result.message
+    assert result.energy == pytest.approx(ours.energy, rel=1e-6)
+
+
 @pytest.mark.parametrize("method", ["newton-eigen", "newton-shift"])
 def test_modified_hessians_pass_where_the_exact_one_is_indefinite(method: str) -> None:
     ours = run("newton", "bent", align=False)
