@@ -93,7 +93,9 @@ def _iterations(run: dict[str, Any] | None) -> str:
     if run["status"] == "blocked":
         return f"blocked after {run['iterations']}"
     more = "+" if _unfinished(run) else ""
-    visible = f" ({run['visible']}{more})" if len(run["distance"]) > 1 else ""
+    # A run that is timed, unwatched, may take an iteration less than the one that was watched.
+    seen = min(run["visible"], run["iterations"])
+    visible = f" ({seen}{more})" if len(run["distance"]) > 1 else ""
     return f"{run['iterations']}{more}{visible}"
 
 

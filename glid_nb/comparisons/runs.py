@@ -88,8 +88,7 @@ def summary(result: MethodResult, images: list[Array]) -> dict[str, Any]:
     last = images[-1]
     distance = [float(np.linalg.norm(w - last, axis=1).max()) for w in images]
     apart = np.flatnonzero(np.array(distance) > VISIBLE)
-    # A run that is not watched may take an iteration less.
-    visible = min(int(apart[-1]) + 1 if apart.size else 0, result.iterations)
+    visible = int(apart[-1]) + 1 if apart.size else 0
     if len(images) == 1:
         visible = result.iterations
     times = np.cumsum([step.time for step in result.history])

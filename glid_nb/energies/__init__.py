@@ -3,7 +3,7 @@
 from glid_nb.energies.amips import AMIPS
 from glid_nb.energies.arap import ARAP
 from glid_nb.energies.custom import CustomEnergy
-from glid_nb.energies.energy import Differentials, Energy, EnergyError
+from glid_nb.energies.energy import Differentials, Energy, EnergyError, register_energy
 from glid_nb.energies.exponential import ExponentialSymmetricDirichlet
 from glid_nb.energies.mips import MIPS
 from glid_nb.energies.named import ENERGY_NAMES, as_energy, energy_by_name
@@ -22,4 +22,5 @@ __all__ = [
     "SymmetricDirichlet",
     "as_energy",
     "energy_by_name",
+    "register_energy",
 ]

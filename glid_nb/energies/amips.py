@@ -5,14 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-import jax
 import jax.numpy as jnp
 
-from glid_nb.energies.energy import Differentials, Energy, Scalars
+from glid_nb.energies.energy import Differentials, Energy, Scalars, register_energy
 from glid_nb.energies.parameters import checked_sharpness
 
 
-@jax.tree_util.register_dataclass
+@register_energy
 @dataclass(frozen=True)
 class AMIPS(Energy):
     """``exp(s (sigma_1/sigma_2 + sigma_2/sigma_1) + sigma_1 sigma_2 + 1/(sigma_1 sigma_2))``.

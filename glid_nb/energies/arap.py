@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-import jax
 import jax.numpy as jnp
 
-from glid_nb.energies.energy import Differentials, Energy, Scalars
+from glid_nb.energies.energy import Differentials, Energy, Scalars, register_energy
 
 
-@jax.tree_util.register_dataclass
+@register_energy
 @dataclass(frozen=True)
 class ARAP(Energy):
     """``E_ARAP = (sigma_1 - 1)^2 + (sigma_2 - 1)^2`` (Section 6).

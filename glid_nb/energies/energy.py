@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import ClassVar, NamedTuple
+from dataclasses import fields
+from typing import Any, ClassVar, NamedTuple, TypeVar
 
+import jax
 from jaxtyping import Array, Float
 
 Scalars = Float[Array, " *samples"]
@@ -30,8 +32,8 @@ class Energy(ABC):
     Defined for orientation-preserving maps, ``x > y >= 0``; the solver treats every other sample
     as infinitely bad and never asks there.
 
-    Subclasses are frozen dataclasses registered with JAX, their parameters being leaves: another
-    value of a parameter runs the same compiled program.
+    Subclasses are frozen dataclasses decorated with :func:`register_energy`, their parameters being
+    leaves: another value of a parameter runs the same compiled program.
     """
 
     name: ClassVar[str]
@@ -48,3 +50,25 @@ class Energy(ABC):
     @abstractmethod
     def differentials(self, x: Scalars, y: Scalars) -> Differentials:
         """First and second derivatives of :meth:`density` at each sample."""
+
+
+E = TypeVar("E", bound=Energy)
+
+
+def register_energy(cls: type[E]) -> type[E]:
+    """Class decorator: compiled programs take this energy, a frozen dataclass of numbers.
+
+    Not JAX's ``register_dataclass``: jaxlib 0.10 takes trees of different dataclasses with the same
+    fields for equal, and now and then runs for one energy what was compiled for another. Here the
+    class is part of the tree's structure.
+    """
+    names = [field.name for field in fields(cls)]  # type: ignore[arg-type]
+
+    def flatten(energy: E) -> tuple[tuple[Any, ...], type[E]]:
+        return tuple(getattr(energy, name) for name in names), cls
+
+    def unflatten(known: type[E], leaves: Any) -> E:
+        return known(*leaves)
+
+    jax.tree_util.register_pytree_node(cls, flatten, unflatten)
+    return cls

@@ -5,15 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-import jax
 import jax.numpy as jnp
 
-from glid_nb.energies.energy import Differentials, Energy, Scalars
+from glid_nb.energies.energy import Differentials, Energy, Scalars, register_energy
 from glid_nb.energies.parameters import checked_sharpness
 from glid_nb.energies.symmetric_dirichlet import SymmetricDirichlet
 
 
-@jax.tree_util.register_dataclass
+@register_energy
 @dataclass(frozen=True)
 class ExponentialSymmetricDirichlet(Energy):
     """``E_exp = exp(s E_iso)`` (Table 1, second row).

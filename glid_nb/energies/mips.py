@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-import jax
-
-from glid_nb.energies.energy import Differentials, Energy, Scalars
+from glid_nb.energies.energy import Differentials, Energy, Scalars, register_energy
 
 
-@jax.tree_util.register_dataclass
+@register_energy
 @dataclass(frozen=True)
 class MIPS(Energy):
     """``(sigma_1 / sigma_2 + sigma_2 / sigma_1) / 2`` [Hormann and Greiner 2000].

@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-import jax
-
-from glid_nb.energies.energy import Differentials, Energy, Scalars
+from glid_nb.energies.energy import Differentials, Energy, Scalars, register_energy
 
 
-@jax.tree_util.register_dataclass
+@register_energy
 @dataclass(frozen=True)
 class SymmetricDirichlet(Energy):
     """``E_iso = (sigma_1^2 + sigma_1^-2 + sigma_2^2 + sigma_2^-2) / 2`` (Equation (10a)).

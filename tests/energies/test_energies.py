@@ -105,6 +105,17 @@ def test_densities_are_those_of_the_singular_values(
     np.testing.assert_array_less(np.abs(got - expected), tolerance * (expected + 1e-3))
 
 
+def test_no_two_energies_are_one_to_a_compiled_program() -> None:
+    """jit finds its programs by the trees' structures: another class is another structure,
+    another parameter is not."""
+    one_each = {type(energy): energy for energy, _ in CLOSED}
+    one_each[CustomEnergy] = CustomEnergy(lambda x, y: x + y)
+    structures = [jax.tree.structure(energy) for energy in one_each.values()]
+    for i, one in enumerate(structures):
+        assert [one == other for other in structures] == [i == j for j in range(len(structures))]
+    assert jax.tree.structure(AMIPS(1.0)) == jax.tree.structure(AMIPS(0.25))
+
+
 @pytest.mark.parametrize("energy", [e for e, _ in CLOSED], ids=IDS)
 @given(drawn=samples)
 @settings(max_examples=15)
