@@ -178,6 +178,7 @@ def _unmet(kind: Any, value: Any) -> str:
         return "" if isinstance(value, bool | np.bool_) else "True or False"
     whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
     if kind is int:
-        return "" if whole else "a whole number"
+        return "" if whole and int(value) >= 0 else "a whole number of at least 0"
     real = whole or (isinstance(value, numbers.Real) and not isinstance(value, bool))
-    return "" if real and math.isfinite(value) else "a finite number"
+    fits = real and math.isfinite(value) and float(value) >= 0
+    return "" if fits else "a finite number of at least 0"

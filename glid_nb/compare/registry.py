@@ -12,7 +12,7 @@ from glid_nb.compare.linear.methods import METHODS as LINEAR_METHODS
 from glid_nb.compare.mesh.methods import METHODS as MESH_METHODS
 from glid_nb.compare.method import Inputs, Method, MethodError
 from glid_nb.compare.result import Callback, DeformationMap, MethodResult
-from glid_nb.energies import ARAP, Energy, SymmetricDirichlet
+from glid_nb.energies import ARAP, Energy, SymmetricDirichlet, as_energy
 from glid_nb.geometry import Domain, Triangulation
 from glid_nb.solvers import Pose
 
@@ -31,7 +31,7 @@ def run_method(
     name: str,
     domain: Domain,
     pose: Pose,
-    energy: Energy | None = None,
+    energy: Energy | str | None = None,
     *,
     p2p_weight: float = 1e5,
     max_iterations: int | None = None,
@@ -50,8 +50,9 @@ def run_method(
     domain : Domain
     pose : Pose
         Handles, which must lie in the domain, and their targets.
-    energy : Energy, optional
-        By default the symmetric Dirichlet energy, or ARAP for the methods that know no other.
+    energy : Energy or str, optional
+        Or the name of one with its default parameter. By default the symmetric Dirichlet energy,
+        or ARAP for the methods that know no other.
     p2p_weight : float
         ``lambda``; methods with hard constraints do not use it.
     max_iterations : int, optional
@@ -73,9 +74,12 @@ def run_method(
 
     Raises
     ------
+    EnergyError
+        When the energy's name is unknown, or it is no energy at all.
     MethodError
-        For an unknown method or setting, an energy that the method cannot minimise, or an
-        optional package that is not installed (the message says which extra to install).
+        For an unknown method or setting, a number out of its range, an energy that the method
+        cannot minimise, or an optional package that is not installed (the message says which extra
+        to install).
     PoseError
         When a handle lies outside the domain.
 
@@ -88,18 +92,21 @@ def run_method(
     0
     """
     known = methods()
-    if name not in known:
+    if not isinstance(name, str) or name not in known:
         raise MethodError(f"unknown method {name!r}; choose one of {', '.join(known)}")
     method = known[name]
     if energy is None:
         only_arap = method.energies is not None and "iso" not in method.energies
         energy = ARAP() if only_arap and "arap" in (method.energies or ()) else SymmetricDirichlet()
+    energy = as_energy(energy)
     method.check(energy, settings)
     if not (isinstance(p2p_weight, numbers.Real) and 0 < float(p2p_weight) < math.inf):
         raise MethodError(f"p2p_weight must be a positive finite number, got {p2p_weight!r}")
     limit = method.max_iterations if max_iterations is None else max_iterations
     if isinstance(limit, bool) or not isinstance(limit, numbers.Integral) or limit < 0:
         raise MethodError(f"max_iterations must be a whole number of at least 0, got {limit!r}")
+    if isinstance(n_vertices, bool) or not isinstance(n_vertices, numbers.Integral):
+        raise MethodError(f"n_vertices must be a whole number, got {n_vertices!r}")
     pose.check_inside(domain)
     inputs = Inputs(
         name,
