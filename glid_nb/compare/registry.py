@@ -103,10 +103,9 @@ def run_method(
     if not (isinstance(p2p_weight, numbers.Real) and 0 < float(p2p_weight) < math.inf):
         raise MethodError(f"p2p_weight must be a positive finite number, got {p2p_weight!r}")
     limit = method.max_iterations if max_iterations is None else max_iterations
-    if isinstance(limit, bool) or not isinstance(limit, numbers.Integral) or limit < 0:
-        raise MethodError(f"max_iterations must be a whole number of at least 0, got {limit!r}")
-    if isinstance(n_vertices, bool) or not isinstance(n_vertices, numbers.Integral):
-        raise MethodError(f"n_vertices must be a whole number, got {n_vertices!r}")
+    for what, count in (("max_iterations", limit), ("n_vertices", n_vertices)):
+        if isinstance(count, bool) or not isinstance(count, numbers.Integral) or int(count) < 0:
+            raise MethodError(f"{what} must be a whole number of at least 0, got {count!r}")
     pose.check_inside(domain)
     inputs = Inputs(
         name,

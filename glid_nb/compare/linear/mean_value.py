@@ -38,8 +38,3 @@ def mean_value_coordinates(z: Array, polygon: Array) -> Array:
 def handle_polygon(handles: Array) -> Array:
     """(h,) indices that order the handles by their angle about their mean: a simple polygon."""
     return np.argsort(np.angle(handles - handles.mean()), kind="stable")
-
-
-def polygon_area(polygon: Array) -> float:
-    """The area of a polygon with complex (h,) vertices."""
-    return float(abs(np.imag(np.conj(polygon) @ np.roll(polygon, -1))) / 2)

@@ -6,23 +6,23 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.compare.linear import weights
 from glid_nb.compare.linear.cauchy import cauchy_point_to_point
-from glid_nb.compare.linear.mean_value import handle_polygon, mean_value_coordinates, polygon_area
+from glid_nb.compare.linear.mean_value import handle_polygon, mean_value_coordinates
 from glid_nb.compare.linear.moving_least_squares import Kind, moving_least_squares
 from glid_nb.compare.mesh.setup import MeshProblem
 from glid_nb.compare.method import Inputs, Method, MethodError
 from glid_nb.compare.recording import Ending, Run, record
 from glid_nb.compare.result import MethodResult
+from glid_nb.geometry import signed_area
 from glid_nb.harmonic import as_complex
 from glid_nb.solvers import Status
 
 Array = NDArray[Any]
 
-_FLAT = 1e-12  # an area relative to the square of the shape's extent: none
+_FLAT = 1e-12  # an area relative to the square of the shape's longer side: none
 
 
 def _once(inputs: Inputs, images: Callable[[MeshProblem], Array]) -> MethodResult:
@@ -57,16 +57,17 @@ def mean_value(inputs: Inputs) -> MethodResult:
             f"mean value coordinates take the handles as their cage and need at least 3 of them; "
             f"there are {len(inputs.pose)}"
         )
+    points = inputs.pose.handles
+    order = handle_polygon(as_complex(points))
+    if abs(signed_area(points[order])) <= _FLAT * inputs.domain.cage.longer_side**2:
+        raise MethodError(
+            "mean value coordinates take the handles as their cage, and these lie on one line; "
+            "add a handle beside it"
+        )
 
     def images(problem: MeshProblem) -> Array:
         rest = problem.operators.rest
         handles = rest[problem.handles]
-        order = handle_polygon(handles)
-        if polygon_area(handles[order]) <= _FLAT * np.ptp(problem.operators.mesh.vertices) ** 2:
-            raise MethodError(
-                "mean value coordinates take the handles as their cage, and these lie on one line; "
-                "add a handle beside it"
-            )
         return mean_value_coordinates(rest, handles[order]) @ problem.targets[order]
 
     return _once(inputs, images)
