@@ -95,7 +95,8 @@ def enable_compilation_cache() -> Path:
         return Path(configured)
     folder = cache_directory() / "compiled"
     jax.config.update("jax_compilation_cache_dir", str(folder))
-    jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.2)
+    # Also small programs: reading all of them back takes a quarter of the time to compile them.
+    jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
     return folder
 
 

@@ -43,6 +43,8 @@ class Deformation:
     energy : Energy, optional
     options : Options, optional
         By default :data:`~glid_nb.session.edit_state.LIVE_OPTIONS`.
+    begin : bool, optional
+        Solve, and compile the solver, from the start; else from :meth:`begin` or the first change.
 
     Examples
     --------
@@ -63,17 +65,19 @@ class Deformation:
         pose: Pose | None = None,
         energy: Energy | None = None,
         options: Options | None = None,
+        *,
+        begin: bool = True,
     ) -> None:
-        self._start(EditState.initial(domain, pose, energy, options))
+        self._start(EditState.initial(domain, pose, energy, options), begin)
 
     @classmethod
-    def from_state(cls, state: EditState) -> Deformation:
+    def from_state(cls, state: EditState, *, begin: bool = True) -> Deformation:
         """Go on from a state, with an empty undo history."""
         new = cls.__new__(cls)
-        new._start(state)
+        new._start(state, begin)
         return new
 
-    def _start(self, state: EditState) -> None:
+    def _start(self, state: EditState, begin: bool) -> None:
         self._lock = threading.RLock()
         self._history = History(state)
         self._observers: list[Observer] = []
@@ -86,8 +90,8 @@ class Deformation:
         self._certificates = weakref.WeakKeyDictionary()
         self._finder = PointFinder(state.domain)
         self._solver = LiveSolver(self._accept, self._fail)
-        # Solves what is not solved yet, and compiles before a hand has to wait for it.
-        self._submit()
+        if begin:
+            self.begin()
 
     # What is
 
@@ -414,6 +418,15 @@ class Deformation:
         self._tell("selection")
 
     # Solving
+
+    def begin(self) -> None:
+        """Solve what is not solved yet, and compile before a hand has to wait for it.
+
+        Returns at once. Nothing happens when the solver has been asked for something before.
+        """
+        with self._lock:
+            if not self._solver.alive:
+                self._submit()
 
     def solve(self, timeout: float | None = None) -> bool:
         """Wait until the present pose is solved; whether that came within ``timeout`` seconds.

@@ -62,6 +62,9 @@ class EditorModel:
     def deformation(self) -> Deformation:
         """The shape being deformed.
 
+        Its solver begins with the first change, or when a view says that it has been drawn
+        (`Deformation.begin`): compiling beside the page would only make that appear later.
+
         Raises
         ------
         EditError
@@ -95,7 +98,7 @@ class EditorModel:
             if same_picture and self._deformation is not None:
                 self._deformation.set_domain(domain)
                 return
-            self._replace(Deformation(domain))
+            self._replace(Deformation(domain, begin=False))
         self._tell()
 
     @property
@@ -166,7 +169,7 @@ class EditorModel:
         self.tracing = TracingModel.from_document(document)
         state = EditState.from_poses(document.domain, document.poses, document.active)
         self._applied = (self.tracing.domain, id(self.tracing.image))
-        self._replace(Deformation.from_state(state))
+        self._replace(Deformation.from_state(state, begin=False))
 
     def _replace(self, deformation: Deformation) -> None:
         old, self._deformation = getattr(self, "_deformation", None), deformation

@@ -35,10 +35,10 @@ def describe(
         if frame is None:
             return StatusLine("working", "Preparing the solver…")
         return StatusLine("working", "Working" + _iterations(frame) + _bound(frame))
-    if solution is None:
-        return StatusLine("idle", "Stopped" + _bound(frame))
     if not len(current.pose):
         return StatusLine("idle", "Click the shape to add a handle, then drag it")
+    if solution is None:
+        return StatusLine("idle", "Stopped" + _bound(frame) if frame else "Not solved yet")
     if frame is not None and frame.mesh is not None:
         return _describe_comparison(solution, frame)
     status = solution.status

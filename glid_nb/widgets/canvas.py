@@ -123,7 +123,8 @@ class DeformCanvas(ipywidgets.HBox):
         self.observe(self._show_panels, ["show_panels"])
         self.observe(self._show_source, ["show_source"])
         self._draw()
-        self.fit()
+        if len(self.deformation.pose):
+            self.fit()
         self._complete = True
         # Overlays that were given as arguments.
         self._show_overlay()
@@ -204,6 +205,9 @@ class DeformCanvas(ipywidgets.HBox):
     # From the page
 
     def _receive(self, _: Any, message: dict[str, Any], __: Any) -> None:
+        if "drawn" in message:
+            self.deformation.begin()
+            return
         events = message["events"]
         stage = self.pane.stage
         try:

@@ -15,7 +15,7 @@ from glid_nb.certificate import certify
 from glid_nb.energies import AMIPS
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
-from glid_nb.solvers import Status
+from glid_nb.solvers import Pose, Status
 
 from ..domains import domain
 
@@ -38,6 +38,29 @@ def test_a_drag_is_solved_to_its_end(ring: Deformation) -> None:
     assert ring.state.current.solved
     assert ring.status.level == "good"
     assert "Converged" in ring.status.text
+
+
+def test_the_solver_can_be_told_when_to_begin() -> None:
+    with Deformation(domain("ring"), begin=False) as deformation:
+        assert not deformation.alive
+        assert "Click the shape" in deformation.status.text
+        deformation.begin()
+        assert deformation.alive
+        assert deformation.solve(TIMEOUT)
+        solution = deformation.solution
+        deformation.begin()  # nothing is left to begin
+        assert not deformation.busy
+        assert deformation.solution is solution
+
+
+def test_a_change_begins_too() -> None:
+    pose = Pose([(2, 0), (-2, 0)], [(2.5, 0), (-2, 0)])
+    with Deformation(domain("ring"), pose, begin=False) as deformation:
+        assert deformation.status.text == "Not solved yet"
+        deformation.drag(1, to=(-2.5, 0))
+        assert deformation.alive
+        assert deformation.solve(TIMEOUT)
+        np.testing.assert_allclose(deformation.map([[2, 0]]), [[2.5, 0]], atol=1e-3)
 
 
 def test_a_drag_is_one_step_and_undo_is_exact(ring: Deformation) -> None:

@@ -52,7 +52,7 @@ def test_two_editors_at_once_and_a_rerun(open_notebook: OpenNotebook) -> None:
     threads = "len(__import__('threading').enumerate())"
     before = book.value(f"[{widgets}, {threads}]")
     contexts = book.page.evaluate(LIVING_CONTEXTS)
-    for _ in range(2):
+    for _ in range(3):
         book.value("None", setup="old = two")
         book.run_cell(2)
         two = Hand(book, 1, "two.canvas")
@@ -60,7 +60,9 @@ def test_two_editors_at_once_and_a_rerun(open_notebook: OpenNotebook) -> None:
         book.page.wait_for_function("document.querySelectorAll('.glid-pad').length === 2")
     book.wait_for(f"{threads} <= {before[1]}")
     assert book.value(widgets) <= before[0]
-    assert book.page.evaluate(LIVING_CONTEXTS) == contexts
+    # pythreejs lends renderers from a pool: a new editor that asks before the old one has given
+    # its renderer back makes the pool one larger, once; what is lent again and again is not more.
+    assert book.page.evaluate(LIVING_CONTEXTS) <= contexts + 1
     assert two.handles == []
     two.click((0.0, 0.0))
     book.wait_for("len(two.pose) == 1")
@@ -73,6 +75,7 @@ def test_two_editors_at_once_and_a_rerun(open_notebook: OpenNotebook) -> None:
 def test_two_views_and_a_reload(open_notebook: OpenNotebook) -> None:
     book = open_notebook([SETUP, EDITOR, "canvas"])
     hand, other = Hand(book), Hand(book, pad=1)
+    book.wait_for("model.solved")  # the solver begins by itself, once the canvas is drawn
     hand.click((-6.0, 0.0))
     book.wait_for("len(model.pose) == 1")
     hand.settle()

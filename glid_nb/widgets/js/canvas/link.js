@@ -25,6 +25,11 @@ export class Link {
     this.flush();
   }
 
+  // The first picture is there: what the kernel put off until then can begin.
+  drawn() {
+    this.model.send({ view: this.view, drawn: true });
+  }
+
   flush() {
     if (this.waiting || !this.queue.length) return;
     this.waiting = true;

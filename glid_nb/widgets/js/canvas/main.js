@@ -128,13 +128,16 @@ function render({ model, el }) {
   fit();
   showLegend();
   tell();
-  shapes.load();
+  let gone = false;
+  // Two frames later the renderer, which is told to draw in this one, has drawn.
+  shapes.load().then(() => requestAnimationFrame(() => requestAnimationFrame(() => gone || link.drawn())));
   if (model.get("uniform_vectors") === 0) {
     model.set("uniform_vectors", uniformVectors() || -1);
     model.save_changes();
   }
 
   return () => {
+    gone = true;
     cancelAnimationFrame(drawn);
     for (const [names, listener] of listeners) model.off(names, listener);
     if (input) input.close();
