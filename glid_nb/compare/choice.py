@@ -40,8 +40,12 @@ class MethodChoice:
 
     def __post_init__(self) -> None:
         known = methods()
-        if self.name not in known:
+        if not isinstance(self.name, str) or self.name not in known:
             raise MethodError(f"unknown method {self.name!r}; choose one of {', '.join(known)}")
+        if not isinstance(self.settings, Mapping):
+            raise MethodError(
+                f"settings must be a mapping of names to values, got {self.settings!r:.60}"
+            )
         for name in self.settings:
             if name not in self.own_settings:
                 own = ", ".join(self.own_settings) or "none"

@@ -7,6 +7,7 @@ import numbers
 from typing import Any
 
 from glid_nb.compare import subspace
+from glid_nb.compare.arguments import check_arguments
 from glid_nb.compare.bdhm.methods import METHODS as BDHM_METHODS
 from glid_nb.compare.linear.methods import METHODS as LINEAR_METHODS
 from glid_nb.compare.mesh.methods import METHODS as MESH_METHODS
@@ -77,11 +78,14 @@ def run_method(
     EnergyError
         When the energy's name is unknown, or it is no energy at all.
     MethodError
-        For an unknown method or setting, a number out of its range, an energy that the method
-        cannot minimise, or an optional package that is not installed (the message says which extra
-        to install).
+        For an unknown method or setting, an argument of the wrong type, a number out of its range,
+        an energy that the method cannot minimise, or an optional package that is not installed or
+        cannot be imported (the message says which extra to install).
     PoseError
         When a handle lies outside the domain.
+    StartError
+        When the harmonic map to start from belongs to another domain or, for a method that goes on
+        from it in the harmonic subspace, is not proved locally injective.
 
     Examples
     --------
@@ -95,12 +99,14 @@ def run_method(
     if not isinstance(name, str) or name not in known:
         raise MethodError(f"unknown method {name!r}; choose one of {', '.join(known)}")
     method = known[name]
+    check_arguments(domain, pose, align, start, triangulation, callback)
     if energy is None:
         only_arap = method.energies is not None and "iso" not in method.energies
         energy = ARAP() if only_arap and "arap" in (method.energies or ()) else SymmetricDirichlet()
     energy = as_energy(energy)
     method.check(energy, settings)
-    if not (isinstance(p2p_weight, numbers.Real) and 0 < float(p2p_weight) < math.inf):
+    real = isinstance(p2p_weight, numbers.Real) and not isinstance(p2p_weight, bool)
+    if not (real and 0 < float(p2p_weight) < math.inf):
         raise MethodError(f"p2p_weight must be a positive finite number, got {p2p_weight!r}")
     limit = method.max_iterations if max_iterations is None else max_iterations
     for what, count in (("max_iterations", limit), ("n_vertices", n_vertices)):
@@ -114,7 +120,7 @@ def run_method(
         energy,
         float(p2p_weight),
         int(limit),
-        align,
+        bool(align),
         start,
         triangulation,
         n_vertices,

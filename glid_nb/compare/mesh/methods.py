@@ -9,7 +9,7 @@ from typing import Any
 from glid_nb.compare.mesh import aqp as aqp_
 from glid_nb.compare.mesh import libigl
 from glid_nb.compare.mesh.setup import MeshProblem
-from glid_nb.compare.method import Inputs, Method
+from glid_nb.compare.method import Inputs, Method, MethodError
 from glid_nb.compare.recording import Run, record
 from glid_nb.compare.result import MethodResult
 from glid_nb.energies import Energy
@@ -37,6 +37,14 @@ def aqp(
     return _record(inputs, aqp_.aqp(problem, kappa, tolerance, arap_iterations))
 
 
+def _check_aqp(_: Energy, settings: Mapping[str, Any]) -> None:
+    kappa = settings["kappa"]
+    if kappa < 1:
+        raise MethodError(
+            f"kappa must be at least 1, at which AQP does not extrapolate; got {kappa!r}"
+        )
+
+
 def _check_slim(energy: Energy, _: Mapping[str, Any]) -> None:
     libigl.slim_energy(energy)
 
@@ -62,6 +70,7 @@ METHODS = (
         max_iterations=1000,
         energies=("iso", "exp", "amips", "mips", "custom"),
         weighted=False,
+        restrict=_check_aqp,
     ),
     Method(
         "arap-mesh",

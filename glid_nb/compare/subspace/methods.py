@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
-from glid_nb.compare.method import Inputs, Method
+from glid_nb.compare.method import Inputs, Method, MethodError
 from glid_nb.compare.recording import record
 from glid_nb.compare.result import MethodResult
 from glid_nb.compare.subspace.descent import Direction, descend
@@ -17,6 +18,7 @@ from glid_nb.compare.subspace.newton_variants import (
     ShiftDirection,
 )
 from glid_nb.compare.subspace.problem import SubspaceProblem
+from glid_nb.energies import Energy
 from glid_nb.solvers import Options
 from glid_nb.solvers.discretisation import CertificateKind, Sampling
 from glid_nb.solvers.options import MOST_CORRECTIONS
@@ -172,6 +174,14 @@ def gradient_descent(
     return _descend(inputs, GradientDescent(), sampling, certificate)
 
 
+def _check_shift(_: Energy, settings: Mapping[str, Any]) -> None:
+    beta = settings["beta"]
+    if beta <= 0:
+        raise MethodError(
+            f"beta, the least multiple of the identity, must be positive; got {beta!r}"
+        )
+
+
 METHODS = (
     Method(
         "newton",
@@ -216,6 +226,7 @@ METHODS = (
         "harmonic",
         "Newton's method with a multiple of the identity added until the Hessian is definite.",
         newton_shift,
+        restrict=_check_shift,
     ),
     Method(
         "gauss-newton",

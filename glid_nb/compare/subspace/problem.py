@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._runtime import compilation_clock, double_precision
-from glid_nb.certificate import bdhm
+from glid_nb.certificate import bdhm, certify
 from glid_nb.compare.subspace import evaluation
 from glid_nb.compare.subspace.evaluation import Curvature, Move, Point, Setting
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import OptionError, Options, Pose
+from glid_nb.solvers import OptionError, Options, Pose, StartError
 from glid_nb.solvers.align import aligned
 from glid_nb.solvers.discretisation import discretise, padded
 from glid_nb.solvers.solve import constraints_of, map_from, real_coefficients
@@ -69,6 +69,13 @@ class SubspaceProblem:
         Use BDHM's Lipschitz constants (Figure 7) on fixed segments.
     hessian_samples : int, optional
         Number of Hessian samples of the uniform sampling, ``|H|`` (Figure 8).
+
+    Raises
+    ------
+    OptionError
+        When ``hessian_samples`` is out of range.
+    StartError
+        When the map to start from is not proved locally injective.
     """
 
     @double_precision
@@ -96,7 +103,7 @@ class SubspaceProblem:
         self.unknowns = unknowns_of(basis, options.conformal)
         self.constraints = constraints_of(domain, pose, options.p2p_weight)
         self.setting = self._setting()
-        map_ = HarmonicMap.identity(domain) if start is None else start
+        map_ = HarmonicMap.identity(domain) if start is None else _proved(start)
         if options.align:
             map_ = aligned(map_, pose)
         self.start = real_coefficients(basis, map_)
@@ -180,3 +187,10 @@ class SubspaceProblem:
             self.energy,
             loose,
         )
+
+
+def _proved(start: HarmonicMap) -> HarmonicMap:
+    certificate = certify(start)
+    if not certificate.certified:
+        raise StartError(f"the map to start from is not certified: {certificate.reason}")
+    return start
