@@ -22,6 +22,8 @@ from glid_nb.solvers import Pose
 Family = Literal["harmonic", "mesh", "linear"]
 
 _EXTRA = "compare"
+_DISTRIBUTIONS = {"igl": "libigl"}
+"""Names under which packages are installed, where they are imported under another."""
 
 
 class MethodError(ValueError):
@@ -132,12 +134,7 @@ class Method:
 
     def check(self, energy: Energy, settings: Mapping[str, Any]) -> None:
         """Raise :class:`MethodError` if it cannot run like this, saying what to do."""
-        if not self.available:
-            distribution = {"igl": "libigl"}.get(self.package or "", self.package)
-            raise MethodError(
-                f"the method {self.name!r} needs the package {distribution}, which is not "
-                f"installed; install it with: pip install 'glid-nb[{_EXTRA}]'"
-            )
+        self._import_package()
         if self.energies is not None and energy.name not in self.energies:
             raise MethodError(
                 f"the method {self.name!r} cannot minimise the energy {energy.name!r}; "
@@ -146,6 +143,25 @@ class Method:
         self.check_settings(settings)
         if self.restrict is not None:
             self.restrict(energy, {**self.settings, **settings})
+
+    def _import_package(self) -> None:
+        """Import the optional package, or say why not and what to do."""
+        if self.package is None:
+            return
+        distribution = _DISTRIBUTIONS.get(self.package, self.package)
+        needs = f"the method {self.name!r} needs the package {distribution}"
+        if not self.available:
+            raise MethodError(
+                f"{needs}, which is not installed; install it with: pip install 'glid-nb[{_EXTRA}]'"
+            )
+        try:
+            importlib.import_module(self.package)
+        except ImportError as error:
+            raise MethodError(
+                f"{needs}, which is installed but cannot be imported ({error}); install it again "
+                f"with: pip install --force-reinstall {distribution}, or all of its extra with: "
+                f"pip install --force-reinstall 'glid-nb[{_EXTRA}]'"
+            ) from error
 
     def check_settings(self, settings: Mapping[str, Any]) -> None:
         """Raise :class:`MethodError` for settings that it does not have, or of another kind."""
@@ -168,7 +184,8 @@ def _unmet(kind: Any, value: Any) -> str:
     """What a value of an annotated kind must be, if this one is not; empty if it is."""
     if get_origin(kind) is Literal:
         allowed = get_args(kind)
-        return "" if value in allowed else f"one of {', '.join(allowed)}"
+        known = isinstance(value, str) and value in allowed
+        return "" if known else f"one of {', '.join(allowed)}"
     if get_args(kind):
         unmet = [_unmet(one, value) for one in get_args(kind)]
         return "" if "" in unmet else " or ".join(unmet)

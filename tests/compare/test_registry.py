@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import importlib.util
+import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -43,6 +45,7 @@ def test_every_method_says_what_it_is() -> None:
         ({"name": "aqp", "kappa": -1.0}, "'kappa' of .* a finite number of at least 0"),
         ({"name": "aqp", "kappa": 0.5}, "kappa must be at least 1"),
         ({"name": "newton-shift", "beta": 0}, "beta, .* must be positive"),
+        ({"name": "lbfgs", "sampling": np.array(["graded"])}, "'sampling' .* one of graded, uni"),
     ],
 )
 def test_refusals_name_the_culprit(changes: dict, message: str) -> None:
@@ -128,6 +131,25 @@ def test_a_missing_package_names_the_extra(monkeypatch: pytest.MonkeyPatch) -> N
             run_method(name, shape, pose)
         assert name not in methods(available=True)
     assert "newton" in methods(available=True)
+
+
+def test_a_broken_package_names_the_extra_and_the_cause(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    cause = "libgomp.so.1: cannot open shared object file"
+    for package in ("igl", "clarabel"):
+        (tmp_path / f"{package}.py").write_text(f"raise ImportError({cause!r})")
+        monkeypatch.delitem(sys.modules, package, raising=False)
+    monkeypatch.syspath_prepend(tmp_path)
+    shape, pose = problem("ell")
+    for name, method in methods().items():
+        if method.package is None:
+            continue
+        with pytest.raises(MethodError, match=r"pip install .*'glid-nb\[compare\]'") as caught:
+            run_method(name, shape, pose)
+        assert f"{name!r} needs the package" in str(caught.value)
+        assert cause in str(caught.value)
+        assert isinstance(caught.value.__cause__, ImportError)
 
 
 def test_an_energy_may_be_a_name() -> None:
