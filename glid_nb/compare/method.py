@@ -135,14 +135,14 @@ class Method:
     def check(self, energy: Energy, settings: Mapping[str, Any]) -> None:
         """Raise :class:`MethodError` if it cannot run like this, saying what to do."""
         self._import_package()
+        self.check_settings(settings)
+        if self.restrict is not None:
+            self.restrict(energy, {**self.settings, **settings})
         if self.energies is not None and energy.name not in self.energies:
             raise MethodError(
                 f"the method {self.name!r} cannot minimise the energy {energy.name!r}; "
                 f"choose one of {', '.join(self.energies)}"
             )
-        self.check_settings(settings)
-        if self.restrict is not None:
-            self.restrict(energy, {**self.settings, **settings})
 
     def _import_package(self) -> None:
         """Import the optional package, or say why not and what to do."""

@@ -34,7 +34,10 @@ def test_every_method_says_what_it_is() -> None:
     [
         ({"name": "magic"}, "unknown method 'magic'; choose one of newton"),
         ({"name": "gauss-newton", "energy": SymmetricDirichlet()}, "cannot minimise .* 'iso'"),
-        ({"name": "slim", "energy": ARAP()}, "cannot minimise the energy 'arap'"),
+        ({"name": "aqp", "energy": ARAP()}, "cannot minimise the energy 'arap'"),
+        ({"name": "slim", "energy": ARAP()}, "ARAP, but that is no barrier: .* arap-mesh"),
+        ({"name": "slim", "energy": "amips"}, "no AMIPS: the closest .* is exp.*without AMIPS' te"),
+        ({"name": "slim", "energy": "exp"}, "minimises exp.sigma_1.2 .* s = 2, .*; got s = 1.0"),
         ({"name": "lbfgs", "momentum": 2}, "no setting 'momentum'; it has: sampling, certificate"),
         ({"p2p_weight": 0.0}, "p2p_weight must be a positive finite number"),
         ({"p2p_weight": np.nan}, "p2p_weight must be a positive finite number"),

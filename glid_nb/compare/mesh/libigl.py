@@ -11,7 +11,7 @@ from glid_nb.compare.mesh.operators import flips
 from glid_nb.compare.mesh.setup import MeshProblem
 from glid_nb.compare.method import MethodError
 from glid_nb.compare.recording import Ending, Run
-from glid_nb.energies import ARAP, Energy, ExponentialSymmetricDirichlet
+from glid_nb.energies import AMIPS, ARAP, Energy, ExponentialSymmetricDirichlet
 from glid_nb.solvers import Status
 
 _WINDOW = 5
@@ -23,19 +23,31 @@ def slim_energy(energy: Energy) -> tuple[str, float]:
     Raises
     ------
     MethodError
-        For the exponential energy with another parameter than libigl's.
+        For AMIPS, ARAP, and the exponential energy with another parameter than libigl's.
     """
-    if energy.name == "exp":
-        assert isinstance(energy, ExponentialSymmetricDirichlet)
-        # libigl exponentiates sigma_1^2 + ... = 2 E_iso and offers no factor.
-        if energy.s != 2:
-            raise MethodError(
-                f"libigl's SLIM knows the exponential energy with s = 2 only, got s = {energy.s}; "
-                "use ExponentialSymmetricDirichlet(2) or another method"
-            )
-        return "EXP_SYMMETRIC_DIRICHLET", 1.0
+    if isinstance(energy, AMIPS):
+        # On triangles libigl weights EXP_CONFORMAL by the symmetric Dirichlet energy's gradient, so
+        # it does not end at a minimum of that either, and it is not offered under another name.
+        raise MethodError(
+            "libigl's SLIM has no AMIPS: the closest of its energies, EXP_CONFORMAL, is "
+            "exp((sigma_1/sigma_2 + sigma_2/sigma_1)/2), without AMIPS' terms of area and with no "
+            "s; use MIPS(), or AMIPS with the method aqp"
+        )
+    if isinstance(energy, ARAP):
+        raise MethodError(
+            "libigl's SLIM has ARAP, but that is no barrier: maps creep up to the first flat "
+            "triangle, stay there and at last turn it over; use the method arap-mesh, or "
+            "SymmetricDirichlet()"
+        )
+    if isinstance(energy, ExponentialSymmetricDirichlet) and energy.s != 2:
+        raise MethodError(
+            "libigl's SLIM minimises exp(sigma_1^2 + sigma_1^-2 + sigma_2^2 + sigma_2^-2), which "
+            "is exp(s E_iso) with s = 2, and its Python bindings cannot set the factor; got "
+            f"s = {energy.s}; use ExponentialSymmetricDirichlet(2), or the method aqp"
+        )
     return {
         "iso": ("SYMMETRIC_DIRICHLET", 2.0),
+        "exp": ("EXP_SYMMETRIC_DIRICHLET", 1.0),
         "mips": ("CONFORMAL", 1.0),
     }[energy.name]
 
