@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import scipy.optimize
 from numpy.typing import NDArray
 
 from glid_nb.compare import MeshMap, MethodError, MethodResult, run_method
@@ -21,7 +22,7 @@ from glid_nb.energies import (
     ExponentialSymmetricDirichlet,
     SymmetricDirichlet,
 )
-from glid_nb.geometry import Domain, triangulate
+from glid_nb.geometry import Domain, Triangulation, triangulate
 from glid_nb.solvers import Pose, Status
 
 from ..domains import domain
@@ -44,10 +45,7 @@ def run(method: str, name: str, energy: Energy | None = None, **settings: object
 def independent_energy(map: MeshMap, energy: str) -> float:
     """The area mean of the density from the singular values of each triangle's Jacobian."""
     mesh = map.triangulation
-    source, image = (
-        np.stack([v[mesh.triangles[:, k]] - v[mesh.triangles[:, 0]] for k in (1, 2)], axis=-1)
-        for v in (mesh.vertices, map.images)
-    )
+    source, image = (edge_matrices(mesh, v) for v in (mesh.vertices, map.images))
     area = np.linalg.det(source) / 2
     jacobian = image @ np.linalg.inv(source)
     assert (np.linalg.det(jacobian) > 0).all()
@@ -170,6 +168,52 @@ def test_arap_goes_down_with_hard_constraints() -> None:
     if result.flips == 0:
         assert isinstance(result.map, MeshMap)
         assert result.energy == pytest.approx(independent_energy(result.map, "arap"), rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["ell", "ring", "bent"])
+def test_arap_ends_where_a_general_optimiser_ends(name: str) -> None:
+    """SciPy's L-BFGS-B from the same start, on the energy by singular values; "bent" folds."""
+    start = run("arap-mesh", name, n_vertices=250, max_iterations=0).map
+    end = run("arap-mesh", name, n_vertices=250, tolerance=1e-13, max_iterations=3000)
+    assert isinstance(start, MeshMap)
+    assert isinstance(end.map, MeshMap)
+    assert end.status is Status.CONVERGED
+    mesh, pose = end.map.triangulation, end.pose
+    assert np.array_equal(start.triangulation.vertices, mesh.vertices)
+    handles = [int(np.linalg.norm(mesh.vertices - p, axis=1).argmin()) for p in pose.handles]
+    free = np.setdiff1d(np.arange(len(mesh.vertices)), handles)
+    source = edge_matrices(mesh, mesh.vertices)
+    share, back = np.linalg.det(source), np.linalg.inv(source)
+    share /= share.sum()
+
+    def value(unknowns: Array) -> tuple[float, Array]:
+        images = mesh.vertices.copy()
+        images[handles], images[free] = pose.targets, unknowns.reshape(-1, 2)
+        jacobian = edge_matrices(mesh, images) @ back
+        u, _, vt = np.linalg.svd(jacobian)
+        u[:, :, 1] *= np.sign(np.linalg.det(u @ vt))[:, None]
+        strain = jacobian - u @ vt
+        slope = 2 * share[:, None, None] * strain @ np.swapaxes(back, 1, 2)
+        gradient = np.zeros_like(images)
+        for corner, part in enumerate((-slope.sum(axis=2), slope[:, :, 0], slope[:, :, 1])):
+            np.add.at(gradient, mesh.triangles[:, corner], part)
+        return float((share * (strain**2).sum(axis=(1, 2))).sum()), gradient[free].ravel()
+
+    reached, gradient = value(end.map.images[free].ravel())
+    assert end.energy == pytest.approx(reached, rel=1e-9)
+    assert np.abs(gradient).max() < 1e-7
+    beginning = start.images[free].ravel()
+    assert np.abs(value(beginning)[1]).max() > 1e-2
+    options = {"maxiter": 5000, "maxfun": 8000, "ftol": 1e-15, "gtol": 1e-10}
+    found = scipy.optimize.minimize(value, beginning, jac=True, method="L-BFGS-B", options=options)
+    assert reached == pytest.approx(found.fun, rel=1e-8)
+    np.testing.assert_allclose(end.map.images[free].ravel(), found.x, atol=1e-4)
+
+
+def edge_matrices(mesh: Triangulation, points: Array) -> Array:
+    """(t, 2, 2): two edges of each triangle as columns."""
+    first = points[mesh.triangles[:, 0]]
+    return np.stack([points[mesh.triangles[:, k]] - first for k in (1, 2)], axis=-1)
 
 
 def test_gradient_is_the_derivative_of_the_energy() -> None:

@@ -18,7 +18,12 @@ _known: weakref.WeakKeyDictionary[Triangulation, tuple[Any, Array]] = weakref.We
 
 
 def bounded_biharmonic_weights(mesh: Triangulation, handles: Array, iterations: int = 20) -> Array:
-    """(v, h) weights in [0, 1] that add up to 1 (Jacobson et al. 2011)."""
+    """(v, h) weights in [0, 1] that add up to 1 (Jacobson et al. 2011).
+
+    Each column has the least ``w K M^-1 K w`` within its bounds (``K`` the cotangent Laplacian,
+    ``M`` the Voronoi areas); then rows are divided by their sums. Where ``iterations`` end libigl's
+    active-set method early, as they do on 10^4 vertices, bounds hold up to about 1e-4.
+    """
 
     def compute() -> Array:
         import igl  # noqa: PLC0415
