@@ -140,30 +140,6 @@ def test_the_problem_is_set_up_in_double_precision() -> None:
     np.testing.assert_allclose(images, pose.handles[:, 0], atol=1e-13)
 
 
-def test_a_callback_stops_at_any_iteration() -> None:
-    domain, pose = problem("ell")
-    for method in ("newton", "newton-eigen", "lbfgs"):
-        seen = []
-
-        def stop(progress: object, seen: list = seen) -> bool:
-            seen.append(progress.map(pose.handles))
-            return len(seen) == 3
-
-        result = run_method(method, domain, pose, callback=stop)
-        assert result.status is Status.STOPPED
-        assert result.iterations == 2
-        np.testing.assert_allclose(result.map(pose.handles), seen[-1], atol=1e-12)
-        assert result.message.endswith(".")
-
-
-def test_no_iterations_return_the_start() -> None:
-    domain, pose = problem("ell")
-    for method in ("newton", "newton-eigen"):
-        result = run_method(method, domain, pose, max_iterations=0, align=False)
-        assert result.status is Status.MAX_ITERATIONS
-        np.testing.assert_allclose(result.map(pose.handles), pose.handles, atol=1e-9)
-
-
 def test_rigid_targets_need_no_step() -> None:
     domain, pose = problem("ell")
     moved = Pose(pose.handles, -pose.handles + [1.0, 2.0])
