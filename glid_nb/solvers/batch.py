@@ -32,6 +32,7 @@ from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import newton, outcome
 from glid_nb.solvers.align import aligned
+from glid_nb.solvers.arguments import check_type
 from glid_nb.solvers.discretisation import Discretisation, discretise
 from glid_nb.solvers.evaluation import Constraints
 from glid_nb.solvers.history import entries
@@ -93,9 +94,13 @@ def solve_batch(
 
     Raises
     ------
+    TypeError
+        When the domain or the options are of the wrong type.
     PoseError
         When a handle lies outside the domain, or the targets have another shape.
     """
+    check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
+    check_type("options", options, Options | None, "write Options(p2p_weight=...)")
     energy, options = as_energy(energy), Options() if options is None else options
     poses = _poses(handles, targets)
     if not poses:

@@ -37,6 +37,9 @@ _PAIR_RATIO = 1.4
 
 _CHUNK_ELEMENTS = 1 << 18
 
+_LARGE = 256  # columns; an iteration with more takes as long as a tenth of compiling it
+_GROWTH, _GROWTH_OF_LARGE = 1.5, 1.125
+
 
 class Matrices(NamedTuple):
     """What one Newton iteration reads; a JAX pytree, padded to buckets.
@@ -71,7 +74,7 @@ class Matrices(NamedTuple):
 
 
 class _Rows(NamedTuple):
-    """Unpadded rows per panel, kept so that a refinement only computes what is new."""
+    """What is computed for each panel, one row a panel, without padding."""
 
     ends: np.ndarray
     slopes: np.ndarray
@@ -92,13 +95,11 @@ class Discretisation:
     matrices: Matrices
     whitening: Array
     """``T`` of :mod:`glid_nb.solvers.whitening`, from the panels that a solve begins with."""
-    rows: _Rows | None
-    """None when the panels are fixed."""
 
-    @functools.cached_property
+    @property
     @double_precision
     def full_matrices(self) -> Matrices:
-        """:attr:`matrices` with the Hessian's quadrature on every node of the energy's.
+        """:attr:`matrices`, anew, with the Hessian's quadrature on every node of the energy's.
 
         The Hessian is then exactly that of the discrete energy, in double precision, at twice the
         number of nodes.
@@ -113,15 +114,15 @@ class Discretisation:
     @property
     def can_refine(self) -> bool:
         """Whether panels may be split (the paper's uniform sampling is fixed)."""
-        return self.rows is not None
+        return self.sampling == "graded"
 
     @double_precision
     def refined(self, chosen: np.ndarray) -> Discretisation:
         """The discretisation with the panels of ``chosen`` (p,) bool cut in half."""
-        if self.rows is None:
+        if not self.can_refine:
             raise ValueError("the uniform sampling of the paper is fixed; it cannot be refined")
         chosen = chosen & self.panels.divisible
-        panels, old = self.panels.split(chosen), self.rows
+        panels, old = self.panels.split(chosen), _rows_of(self.matrices, len(self.panels))
         count = np.where(chosen, 2, 1)
         parent = np.repeat(np.arange(len(self.panels)), count)
         children = np.flatnonzero(chosen[parent])
@@ -140,8 +141,10 @@ class Discretisation:
         )
         size = len(self.matrices.real)
         if len(panels) > size:
-            # Who splits once splits again: growing by a half now saves compiling again and again.
-            size = bucket(3 * len(panels) // 2)
+            # Who splits once splits again: growing by more now saves compiling again and again,
+            # unless the padding would cost more than that.
+            growth = _GROWTH if self.basis.n_columns <= _LARGE else _GROWTH_OF_LARGE
+            size = bucket(int(growth * len(panels)))
         return _graded(
             self.domain, self.basis, self.certificate, panels, self.whitening, rows, size
         )
@@ -213,7 +216,7 @@ def _graded(
         whitening=t,
         **_panel_arrays(panels, rows, p),
     )
-    return Discretisation(domain, basis, "graded", certificate, panels, matrices, t, rows)
+    return Discretisation(domain, basis, "graded", certificate, panels, matrices, t)
 
 
 def _uniform(
@@ -240,7 +243,20 @@ def _uniform(
         whitening=t,
         **_panel_arrays(panels, rows, p),
     )
-    return Discretisation(domain, basis, "uniform", certificate, panels, matrices, t, None)
+    return Discretisation(domain, basis, "uniform", certificate, panels, matrices, t)
+
+
+def _rows_of(matrices: Matrices, count: int) -> _Rows:
+    """The rows that the matrices of a graded sampling were made of."""
+    nodes = np.asarray(matrices.nodes)
+    p = nodes.shape[1] // 2
+    return _Rows(
+        nodes[:, :count].T,
+        np.asarray(matrices.slopes)[:, :count].T,
+        nodes[:, p : p + count].T,
+        np.asarray(matrices.remainder)[:, :count].T,
+        np.asarray(matrices.rounding)[:count],
+    )
 
 
 def _transposed(rows: np.ndarray) -> Array:

@@ -11,12 +11,18 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import jax
 import jax.numpy as jnp
+from jax import lax
 from jaxtyping import Array, Float
 
 from glid_nb.energies import Differentials
 
 Samples = Float[Array, " h"]
+
+# Elements of a basis matrix that are assembled at once: with more, copies of the matrix would need
+# more memory than the Hessian.
+_PIECE = 1 << 19
 
 
 class LocalHessian(NamedTuple):
@@ -91,6 +97,33 @@ def assemble(
     k : LocalHessian
         Entries of ``K`` at the nodes.
     """
+    count = nodes.shape[1]
+    pieces = -(-nodes.size // (2 * _PIECE))
+    if pieces == 1:
+        return _assemble(nodes, weights, f, g, k)
+    length = -(-count // pieces)
+
+    def add(i: Array, total: Float[Array, "4c 4c"]) -> Float[Array, "4c 4c"]:
+        # The last piece reaches back to be as long as the others.
+        start = jnp.minimum(i * length, count - length)
+        part = jax.tree.map(
+            lambda a: lax.dynamic_slice_in_dim(a, start, length, -1), (nodes, weights, f, g, k)
+        )
+        fresh = start + jnp.arange(length) >= i * length
+        return total + _assemble(part[0], jnp.where(fresh, part[1], 0), *part[2:])
+
+    size = 2 * nodes.shape[0]
+    return lax.fori_loop(0, pieces, add, jnp.zeros((size, size), nodes.dtype))
+
+
+def _assemble(
+    nodes: Float[Array, "2c h"],
+    weights: Samples,
+    f: tuple[Samples, Samples],
+    g: tuple[Samples, Samples],
+    k: LocalHessian,
+) -> Float[Array, "4c 4c"]:
+    """:func:`assemble` at once."""
     columns = nodes.shape[0] // 2
     re, im = nodes[:columns], -nodes[columns:]
     plus = [weights * (k.along_ff + k.across_f) / 2, weights * (k.along_gg + k.across_g) / 2]

@@ -123,8 +123,13 @@ def iterations(
             0.5 * jnp.sum(row_weights * residual_at(y) ** 2),
         )
 
-    def new_factor(samples: Samples) -> tuple[Float[Array, "4c 4c"], Bool[Array, ""]]:
-        """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected."""
+    def factorise(
+        samples: Samples, given: Float[Array, "4c 4c"], wanted: Bool[Array, ""]
+    ) -> tuple[Float[Array, "4c 4c"], Bool[Array, ""]]:
+        """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected.
+
+        ``given`` where no other is wanted. A loop, for its turns write into the same memory.
+        """
         nodes = samples.nodes[:, matrices.hessian_index]
         x, yy = evaluation.squares(nodes)
         local = local_hessian(energy.differentials(x, yy), x, yy)
@@ -136,29 +141,38 @@ def iterations(
 
         def assembled(k: LocalHessian) -> Float[Array, "4c 4c"]:
             k = LocalHessian(*(part.astype(dtype) for part in k))
-            return assemble(matrices.whitened, weights, f, g, k).astype(p2p_hessian.dtype)
+            return assemble(matrices.whitened, weights, f, g, k)
 
         def cholesky(h: Float[Array, "4c 4c"]) -> Float[Array, "4c 4c"]:
             h = restrict_hessian(h + p2p_hessian, unknowns)
             shift = settings.ridge * jnp.mean(jnp.diag(h))
-            return lax.linalg.cholesky(h + shift * jnp.eye(h.shape[0]), symmetrize_input=False)
+            h = h + shift * jnp.eye(h.shape[0])
+            return lax.linalg.cholesky(h, symmetrize_input=False)
 
         def project(h: Float[Array, "4c 4c"]) -> Float[Array, "4c 4c"]:
             if not energy.indefinite_across_f_only:
                 return assembled(projected)
+            # The Hessian that was not definite lacks this block alone.
             across = (projected.across_f - local.across_f).astype(dtype)
             block = assemble_across_f(matrices.whitened, weights, f, across)
             return h.at[: block.shape[0], : block.shape[0]].add(block)
 
-        if hessian == "projected":
-            return cholesky(assembled(projected)), jnp.array(True)
-        exact = assembled(local)
-        lower = cholesky(exact)
-        definite = jnp.isfinite(lower[-1, -1])
-        if hessian == "exact":
-            return lower, jnp.array(False)
-        lower = lax.cond(definite, lambda _: lower, lambda h: cholesky(project(h)), exact)
-        return lower, ~definite
+        first = projected if hessian == "projected" else local
+        most = 2 if hessian == "adaptive" else 1
+
+        def attempt(carry: tuple) -> tuple:
+            _, h, count = carry
+            h = lax.cond(count == 0, lambda _: assembled(first), project, h)
+            return cholesky(h), h, count + 1
+
+        def goes_on(carry: tuple) -> Bool[Array, ""]:
+            lower, _, count = carry
+            again = (count < most) & ~jnp.isfinite(lower[-1, -1])
+            return wanted & ((count == 0) | again)
+
+        blank = jnp.zeros(given.shape, dtype)
+        lower, _, count = lax.while_loop(goes_on, attempt, (given, blank, jnp.array(0)))
+        return lower, wanted & ((count == 2) | (hessian == "projected"))
 
     def line(samples: Samples, y: Float[Array, " 4c"], total: Array, lower: Array) -> _Line:
         """The line search along the direction that a factor and the gradient give."""
@@ -216,12 +230,8 @@ def iterations(
         return (state.outcome == RUNNING) & (state.iteration < settings.iterations)
 
     def iterate(state: State) -> State:
-        lower, modified = lax.cond(
-            settings.reuse & (state.iteration == 0),
-            lambda state: (state.factor, jnp.array(False)),
-            lambda state: new_factor(state.samples),
-            state,
-        )
+        wanted = jnp.logical_not(settings.reuse) | (state.iteration > 0)
+        lower, modified = factorise(state.samples, state.factor, wanted)
         total = state.energy_iso + state.energy_p2p
         found = line(state.samples, state.coefficients, total, lower)
 
@@ -351,6 +361,7 @@ def _where(condition: Bool[Array, ""], one: Any, other: Any) -> Any:
 run = jax.jit(
     iterations,
     static_argnames=("hessian", "certificate", "capacity"),
+    donate_argnames=("factor",),
     compiler_options=COMPILER_OPTIONS,
 )
-""":func:`iterations` compiled, for one pose."""
+""":func:`iterations` compiled, for one pose; the factor that it is given is gone afterwards."""

@@ -20,6 +20,7 @@ from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.harmonic.basis import Basis
 from glid_nb.solvers import newton, outcome
 from glid_nb.solvers.align import aligned
+from glid_nb.solvers.arguments import check_type
 from glid_nb.solvers.discretisation import Discretisation, basis_rows, discretise, padded
 from glid_nb.solvers.evaluation import Constraints
 from glid_nb.solvers.history import entries
@@ -107,6 +108,8 @@ def solve(
 
     Raises
     ------
+    TypeError
+        When an argument is of the wrong type; the message names it.
     PoseError
         When a handle lies outside the domain.
     EnergyError
@@ -115,6 +118,11 @@ def solve(
         When the starting map belongs to another domain, is not conformal though the options ask
         for it, or is not proved locally injective.
     """
+    check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
+    check_type("pose", pose, Pose, "make one with Pose(handles, targets)")
+    check_type("options", options, Options | None, "write Options(p2p_weight=...)")
+    check_type("start", start, HarmonicMap | Result | None, "an earlier result or its map")
+    check_type("callback", callback, Callable | None, "a function of a Progress")
     energy = as_energy(energy)
     options = Options() if options is None else options
     pose.check_inside(domain)
@@ -171,6 +179,7 @@ class _Loop:
     ) -> None:
         self.options, self.energy, self.pose = options, energy, pose
         map_, self.discretisation = _starting_point(domain, options, start)
+        self.matrices = self.discretisation.matrices
         basis = self.discretisation.basis
         self.unknowns = unknowns_of(basis, options.conformal)
         self.constraints = constraints_of(domain, pose, options.p2p_weight)
@@ -187,7 +196,8 @@ class _Loop:
         self.factor: Any = jnp.zeros((size, size))
         self.reuse = False
         if isinstance(start, Result) and options.corrections and self._fits(start):
-            self.factor, self.reuse = start.factor, True
+            # The result keeps its own.
+            self.factor, self.reuse = jnp.array(start.factor, copy=True), True
 
     def _fits(self, start: Result) -> bool:
         """Whether the last Hessian of an earlier solve is one of this problem's."""
@@ -264,7 +274,7 @@ class _Loop:
         )
         disc = self.discretisation
         return newton.run(
-            disc.matrices if self.full_since is None else disc.full_matrices,
+            self.matrices,
             disc.basis.singularities,
             self.unknowns,
             self.constraints,
@@ -298,6 +308,7 @@ class _Loop:
         if self.options.hessian == "projected":
             return False
         self.full_since = len(self.history)
+        self.matrices = self.discretisation.full_matrices
         return True
 
     def _is_slow(self) -> bool:
@@ -327,6 +338,9 @@ class _Loop:
         if not self.discretisation.can_refine or not count or len(panels) + count > _MOST_PANELS:
             return False
         self.discretisation = self.discretisation.refined(wanted)
+        self.matrices = self.discretisation.matrices
+        if self.full_since is not None:
+            self.matrices = self.discretisation.full_matrices
         self.just_split += count
         return True
 

@@ -59,7 +59,10 @@ def restrict_hessian(h: Float[Array, "4c 4c"], unknowns: Unknowns) -> Float[Arra
         h = h.at[:, phi].add(rows.T)
         h = h.at[phi[:, None], phi].add(sign * rows[:, psi])
     free = unknowns.free
-    return h * free[:, None] * free + jnp.diag(1 - free)
+    masked = h * free[:, None] * free
+    # Not jnp.diag: a compiled loop would keep that matrix.
+    index = jnp.arange(len(free))
+    return jnp.where(index[:, None] == index, masked + (1 - free), masked)
 
 
 def expand(step: Float[Array, " 4c"], unknowns: Unknowns) -> Float[Array, " 4c"]:

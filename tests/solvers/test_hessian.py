@@ -24,7 +24,7 @@ from glid_nb.energies import (
 )
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import basis_of
-from glid_nb.solvers import evaluation
+from glid_nb.solvers import evaluation, hessian
 from glid_nb.solvers.discretisation import Matrices, discretise
 from glid_nb.solvers.hessian import (
     LocalHessian,
@@ -303,6 +303,21 @@ def automatic(kind: str) -> Any:
     assert t.shape == (4 * n, 4 * n - 10 - 2)
     derivative = {"gradient": jax.grad, "hessian": jax.hessian}[kind]
     return jax.jit(lambda *args: derivative(energy_of)(jnp.zeros(t.shape[1]), *args))
+
+
+def test_a_large_basis_is_assembled_in_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
+    matrices = discretise(domain("ring")).matrices
+    y = np.random.default_rng(5).normal(size=2 * len(matrices.nodes))
+    with jax.enable_x64(True):
+        samples = evaluation.products(matrices, y)
+        x, yy = evaluation.squares(samples.nodes)
+        k = local_hessian(SymmetricDirichlet().differentials(x, yy), x, yy)
+        given = matrices.nodes, matrices.weights, *evaluation.directions(samples.nodes), k
+        at_once = np.asarray(assemble(*given))
+        for share in (2.0, 2.7, 7.3):  # pieces that divide the nodes and pieces that do not
+            monkeypatch.setattr(hessian, "_PIECE", int(matrices.nodes.size / 2 / share))
+            difference = abs(np.asarray(assemble(*given)) - at_once)
+            assert difference.max() < 1e-12 * abs(at_once).max()
 
 
 CUSTOM = CustomEnergy(lambda x, y: (x - 1) ** 2 - 3 * y + x * y**2)

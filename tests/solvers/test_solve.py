@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import itertools
 from collections.abc import Callable
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -330,6 +331,22 @@ def test_narrow_bridge_and_many_holes() -> None:
 
 def test_default_energy_is_symmetric_dirichlet() -> None:
     assert ell().energy_measure == SymmetricDirichlet()
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"domain": [[0, 0], [1, 0], [0, 1]]}, "domain must be Domain, not list"),
+        ({"pose": [(0, 0)]}, "pose must be Pose, not list; make one with Pose"),
+        ({"options": {"align": False}}, "options must be Options or None, not dict"),
+        ({"start": np.zeros(3)}, "start must be HarmonicMap, Result or None, not ndarray"),
+        ({"callback": 3}, "callback must be Callable or None, not int"),
+    ],
+)
+def test_an_argument_of_the_wrong_type_is_named(given: dict[str, Any], message: str) -> None:
+    arguments = {"domain": domain("ring"), "pose": Pose([(2, 0)], [(2, 0)]), **given}
+    with pytest.raises(TypeError, match=message):
+        solve(**arguments)
 
 
 def test_an_energy_may_be_named() -> None:
