@@ -175,6 +175,10 @@ class DeformCanvas(ipywidgets.HBox):
             self._draw()
         if what == "frame":
             self._show_panels()
+            if self.deformation.solved:
+                with self._drawing:
+                    if not self._closed:
+                        self._place_legend()
         if what in ("frame", "status"):
             self._release()
 
@@ -231,6 +235,12 @@ class DeformCanvas(ipywidgets.HBox):
     def _show_overlay(self, _: Any = None) -> None:
         with self._drawing:
             self.pane.show_overlay(self.overlay, self.deformation.state.current.energy)
+            self._place_legend()
+
+    def _place_legend(self) -> None:
+        """Not during a drag, where it would jump."""
+        if self.pane.stage.legend and not self.deformation.dragged:
+            self.pane.place_legend(self.deformation.shown, self.deformation.pose.targets)
 
     def _show_lines(self, _: Any = None) -> None:
         with self._drawing:

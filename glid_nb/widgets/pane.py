@@ -14,10 +14,11 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.widgets.closing import close_with_parts
 from glid_nb.widgets.overlays import legend
 from glid_nb.widgets.scene import EvaluatedIn, Scene, renderer
-from glid_nb.widgets.stage import Stage, marks_of
+from glid_nb.widgets.stage import Stage, emptiest_corner, marks_of
 
 Array = NDArray[Any]
 
+_SHARES = (0.0, 0.25, 0.5, 0.75)  # of an edge
 _ROOM = 1.12  # what is fitted leaves a border
 
 
@@ -87,6 +88,18 @@ class Pane(ipywidgets.GridBox):
         self._overlay, self._energy = name, energy
         self._scene.show_overlay(name, energy)
         self.stage.legend = legend(name, energy)
+
+    def place_legend(self, map: DeformationMap, points: Any) -> None:
+        """Move the colour bar to where it hides least of the shape and of these points."""
+        loops = self._scene.domain.cage.loops
+        # Edges may be longer than the bar.
+        between = [loop + t * (np.roll(loop, -1, axis=0) - loop) for loop in loops for t in _SHARES]
+        outline = map(np.concatenate(between))
+        x, y, unit = self.stage.view
+        width, height = self.stage.width, self.stage.height
+        seen = np.concatenate([outline, np.reshape(points, (-1, 2))])
+        pixels = (seen - [x, y]) / unit + [width / 2, height / 2]
+        self.stage.legend_corner = emptiest_corner(pixels, width, height)
 
     def show_lines(self, cage: bool, offset_cage: bool) -> None:
         """Whether the two cages are drawn."""

@@ -6,11 +6,18 @@ from typing import Any
 
 import anywidget
 import ipywidgets
+import numpy as np
 import traitlets
 
 from glid_nb.widgets.bundle import bundle, stylesheet
 
 _REFERENCE: dict[str, Any] = ipywidgets.widget_serialization
+
+
+CORNERS = ("bottom right", "bottom left", "top right", "top left")
+"""Where a colour bar may be, the usual place first."""
+
+_LEGEND_SIZE = np.array([222, 75])  # CSS pixels, with its distance to the border
 
 
 class Stage(anywidget.AnyWidget):
@@ -45,6 +52,9 @@ class Stage(anywidget.AnyWidget):
     legend = traitlets.Dict({}).tag(sync=True)
     """The colour bar: ``title``, ``colors`` and ``ticks``; empty for none."""
 
+    legend_corner = traitlets.Enum(CORNERS, CORNERS[0]).tag(sync=True)
+    """Where the colour bar is."""
+
     notice = traitlets.Unicode("").tag(sync=True)
     """Why the last thing that was tried is not possible; empty for nothing."""
 
@@ -66,6 +76,27 @@ class Stage(anywidget.AnyWidget):
     def acknowledge(self, view: str, number: int) -> None:
         """Tell the page's view that its events up to ``number`` were dealt with."""
         self.send({"view": view, "ack": number})
+
+
+def emptiest_corner(points: Any, width: int, height: int) -> str:
+    """The corner of :data:`CORNERS` where a colour bar hides the fewest points.
+
+    Parameters
+    ----------
+    points : (k, 2) array_like
+        In CSS pixels from the lower left.
+    width, height : int
+        Of the pad.
+    """
+    x, y = np.asarray(points, dtype=float).T
+    beside = {"left": x < _LEGEND_SIZE[0], "right": x > width - _LEGEND_SIZE[0]}
+    level = {"bottom": y < _LEGEND_SIZE[1], "top": y > height - _LEGEND_SIZE[1]}
+
+    def hidden(corner: str) -> int:
+        vertical, horizontal = corner.split()
+        return int((level[vertical] & beside[horizontal]).sum())
+
+    return min(CORNERS, key=hidden)  # the first of equals
 
 
 def marks_of(targets: Any, images: Any, selected: Any) -> dict[str, Any]:

@@ -19,6 +19,7 @@ from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
 from glid_nb.widgets.background import Background
 from glid_nb.widgets.exporting import ExportError
 from glid_nb.widgets.overlays import OVERLAYS
+from glid_nb.widgets.stage import emptiest_corner
 
 from ..domains import domain
 
@@ -48,6 +49,16 @@ def editor() -> Iterator[Editor]:
 
 
 @pytest.mark.slow
+def test_the_colour_bar_goes_where_it_hides_least() -> None:
+    size = 600, 400
+    corners = {"bottom right": (550, 20), "bottom left": (30, 30), "top right": (500, 390)}
+    assert emptiest_corner(np.empty((0, 2)), *size) == "bottom right"
+    assert emptiest_corner([corners["bottom right"], (300, 200)], *size) == "bottom left"
+    assert emptiest_corner(list(corners.values()), *size) == "top left"
+    twice = [*corners.values(), (10, 395), *corners.values()]
+    assert emptiest_corner(twice, *size) == "top left"
+
+
 def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
     assert editor.document.cage.n_holes == 1
     left, right = editor.add_handle((-7, 0)), editor.add_handle((7, 0))
@@ -162,6 +173,10 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     for name in OVERLAYS:
         canvas.overlay = name
     assert stage.legend["title"] == "Energy density"
+    assert stage.legend_corner == "bottom right"  # a ring leaves all corners free
+    stage.view = [-4.0, 4.0, stage.view[2]]  # it is in the bottom right one now
+    canvas.overlay = "sigma1"
+    assert stage.legend_corner == "bottom left"
     canvas.overlay = "texture"
     assert stage.legend == {}
     canvas.show_panels = True

@@ -116,12 +116,15 @@ function render({ model, el }) {
     notice.hidden = !text;
   };
   const frame = () => shapes.refresh();
-  const showLegend = () => legend(bar, model.get("legend"));
+  const showLegend = () => {
+    legend(bar, model.get("legend"));
+    bar.dataset.corner = model.get("legend_corner");
+  };
   const listeners = [
     ["change:width change:height", fit],
     ["change:coefficients", frame],
     ["change:marks change:cursor", soon],
-    ["change:legend", showLegend],
+    ["change:legend change:legend_corner", showLegend],
     ["change:notice", tell],
   ];
   for (const [names, listener] of listeners) model.on(names, listener);
