@@ -35,8 +35,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--only",
         action="append",
         metavar="EXPERIMENT",
-        help="one experiment, may be repeated (default: all): progress, bounded, conformal, "
-        "exponential, lipschitz, hessian-samples or stages",
+        help="one experiment, may be repeated (default: all): progress, iteration-times, bounded, "
+        "conformal, exponential, lipschitz, hessian-samples, stages or folding",
     )
     parser.add_argument("--fresh", action="store_true", help="measure again what is there already")
 

@@ -5,6 +5,10 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
+
+import numpy as np
+import shapely
 
 from glid_nb import samples
 from glid_nb.geometry import Domain
@@ -20,6 +24,27 @@ class Case:
 
     name: str
     problem: Problem
+
+    @property
+    def unknowns(self) -> int:
+        """Number of real unknowns, ``4 n - 10 N - 2`` with ``n`` coefficients (Section 5)."""
+        domain = self.problem.domain
+        return 4 * domain.n_coefficients - 10 * domain.n_holes - 2
+
+    @property
+    def perimeter(self) -> float:
+        """Length of the boundary, world units."""
+        return self._boundary.length
+
+    @property
+    def offset(self) -> float:
+        """Median distance of the basis' singularities from the boundary, world units."""
+        vertices = np.concatenate(self.problem.domain.offset_cage.loops)
+        return float(np.median(shapely.distance(self._boundary, shapely.points(vertices))))
+
+    @property
+    def _boundary(self) -> Any:
+        return shapely.union_all([shapely.LinearRing(p) for p in self.problem.domain.cage.loops])
 
 
 def sample_case(name: str, kind: PoseKind) -> Case:

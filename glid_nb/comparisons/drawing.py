@@ -31,13 +31,15 @@ Array = NDArray[Any]
 LOOK = {
     "newton": ("Newton, ours", BLUE, "-"),
     "newton-paper": ("Newton, paper's settings", SKY, "-"),
-    "newton-staged": ("Newton, paper's settings", SKY, "-"),
+    "newton-staged": ("Newton, stage by stage", SKY, "-"),
     "newton-unmodified": ("Newton, unmodified", GREY, "--"),
     "newton-eigen": ("Newton-Eigen", GREEN, "-"),
     "newton-shift": ("Newton, shifted", FAINT, "-"),
     "lbfgs": ("L-BFGS", INK, ":"),
     "slim": ("SLIM", ORANGE, "-"),
     "aqp": ("AQP", VERMILION, "-"),
+    "gradient-descent": ("gradient descent", FAINT, ":"),
+    "arap-mesh": ("ARAP, local/global", FAINT, "--"),
     "bdhm": ("BDHM", VERMILION, "-"),
 }
 """Name, colour and line of each method, the same in every figure."""
@@ -91,9 +93,12 @@ def draw_map(
 
     ``pose`` (h, 4) holds targets and reached positions: cyan discs and black dots.
     """
+    # From the left of the undeformed shape to its right: sheets over one another do not mingle.
+    order = np.argsort(rest[triangles, 0].mean(axis=1), kind="stable")
+    triangles = triangles[order]
     density = densities(rest, triangles, images)
     folded = ~np.isfinite(density)
-    shown = density if values is None else values
+    shown = density if values is None else values[order]
     colors = PolyCollection(
         list(images[triangles[~folded]]),
         array=np.clip(shown[~folded], None, most),
@@ -134,6 +139,6 @@ def label_axes(axes: Axes, x: str, y: str, title: str = "") -> None:
     axes.set_title(title, fontsize=SMALL + 1, loc="left")
 
 
-def gap(energies: Any) -> Array:
-    """Energies that are null in the file as infinite."""
+def values_of(energies: Any) -> Array:
+    """Energies as an array; those that are null in the file are infinite."""
     return np.array([np.inf if e is None else e for e in energies], dtype=float)

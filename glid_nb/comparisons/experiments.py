@@ -6,25 +6,36 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from glid_nb.comparisons import maps, parts, progress
+from glid_nb.comparisons import (
+    bounded,
+    conformal,
+    exponential,
+    folding,
+    hessian_samples,
+    iteration_times,
+    lipschitz,
+    paper,
+    progress,
+    stages,
+)
 from glid_nb.comparisons.cases import Case, reference_cases, sample_case
 from glid_nb.comparisons.store import Measurement, Store
 
 Detail = Callable[[str], None]
 
-TABLE_2 = ("deer", "archery", "giraffe", "rex", "racoon", "raptor")
-"""The shapes of Table 2."""
 _FURTHER = ("colorbar",)
 _SAMPLES = ("gecko", "teapot", "frog", "gingerbread")
 
 NAMES = (
     "progress",
+    "iteration-times",
     "bounded",
     "conformal",
     "exponential",
     "lipschitz",
     "hessian-samples",
     "stages",
+    "folding",
 )
 """The experiments by name."""
 
@@ -45,7 +56,7 @@ class Shapes:
     def of(cls, folder: Path | None) -> Shapes:
         """The shapes, with those of a folder of reference problems."""
         found = {} if folder is None else reference_cases(folder)
-        shapes = tuple(name for name in (*TABLE_2, *_FURTHER) if name in found)
+        shapes = tuple(name for name in (*paper.TABLE_2, *_FURTHER) if name in found)
         shapes = shapes or tuple(f"{name}-extreme" for name in _SAMPLES)
         return cls(
             shapes,
@@ -53,7 +64,7 @@ class Shapes:
             "deer" if "deer" in found else shapes[0],
             "archery" if "archery" in found else "frog-extreme",
             "colorbar" if "colorbar" in found else "bar-extreme",
-            "gecko-gentle",
+            "gecko-extreme",
             found,
         )
 
@@ -71,12 +82,14 @@ def measure_all(
     """Every chosen experiment, as a list of measurements, one per shape."""
     table: dict[str, tuple[tuple[str, ...], Callable[[Case, Detail], Measurement]]] = {
         "progress": (shapes.progress, progress.measure),
-        "bounded": ((shapes.bounded,), maps.measure_bounded),
-        "conformal": ((shapes.conformal,), maps.measure_conformal),
-        "exponential": ((shapes.exponential,), maps.measure_exponential),
-        "lipschitz": (shapes.lipschitz, parts.measure_lipschitz),
-        "hessian-samples": ((shapes.hessian_samples,), parts.measure_hessian_samples),
-        "stages": (shapes.progress, parts.measure_stages),
+        "iteration-times": (shapes.progress, iteration_times.measure),
+        "bounded": ((shapes.bounded,), bounded.measure),
+        "conformal": ((shapes.conformal,), conformal.measure),
+        "exponential": ((shapes.exponential,), exponential.measure),
+        "lipschitz": (shapes.lipschitz, lipschitz.measure),
+        "hessian-samples": ((shapes.hessian_samples,), hessian_samples.measure),
+        "stages": (shapes.progress, stages.measure),
+        "folding": (shapes.progress, folding.measure),
     }
     results: dict[str, list[Measurement]] = {}
     for name in NAMES:
@@ -95,13 +108,17 @@ def draw_all(results: dict[str, list[Measurement]], folder: Path) -> None:
     for data in results.get("progress", []):
         progress.draw(data, folder / f"progress-{data['name']}.png")
     for name, draw in (
-        ("bounded", maps.draw_bounded),
-        ("conformal", maps.draw_conformal),
-        ("exponential", maps.draw_exponential),
-        ("hessian-samples", parts.draw_hessian_samples),
+        ("bounded", bounded.draw),
+        ("conformal", conformal.draw),
+        ("exponential", exponential.draw),
+        ("hessian-samples", hessian_samples.draw),
     ):
         if name in results:
             draw(results[name][0], folder / f"{name}.png")
-    for name, draw_many in (("lipschitz", parts.draw_lipschitz), ("stages", parts.draw_stages)):
+    for name, draw_many in (
+        ("lipschitz", lipschitz.draw),
+        ("stages", stages.draw),
+        ("folding", folding.draw),
+    ):
         if name in results:
             draw_many(results[name], folder / f"{name}.png")

@@ -1,38 +1,54 @@
-"""All methods from the identity to convergence (Figures 1, 10 and 11, Table 2, speed ratios)."""
+"""All methods from the identity to convergence (Figures 1, 10 and 11, the speed ratios)."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matplotlib.ticker import NullFormatter
+from numpy.typing import NDArray
 
-from glid_nb.compare import methods
+from glid_nb.compare import MeshMap, methods
 from glid_nb.comparisons import drawing
 from glid_nb.comparisons.cases import Case
+from glid_nb.comparisons.curvature import contraction, negative_eigenvalues
 from glid_nb.comparisons.drawing import LOOK
+from glid_nb.comparisons.minimum import NoMinimumError, mesh_minimum
 from glid_nb.comparisons.runs import (
+    CRITERIA,
     MESH_VERTICES,
+    P2P_WEIGHT,
+    Watcher,
+    apart,
     display_mesh,
-    run_recorded,
-    summary,
+    last_of,
+    outcome,
+    reached,
+    run,
     thumbnails,
 )
 from glid_nb.comparisons.store import Measurement
-from glid_nb.geometry import triangulate
+from glid_nb.comparisons.units import seconds
+from glid_nb.energies import SymmetricDirichlet
+from glid_nb.geometry import Triangulation, triangulate
+from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.style import LINE, SMALL
+
+Array = NDArray[Any]
 
 HARMONIC = ("newton", "newton-paper", "newton-unmodified", "newton-eigen", "lbfgs")
 MESH = ("slim", "aqp")
-# First-order methods end here if they have not converged; the paper's took up to 1,818, 170, 400.
-_FOLLOWED = ("newton", "newton-eigen", "slim", "aqp")
+_FOLLOWED = ("newton", "newton-eigen")
+LIMITS = {"lbfgs": 2000, "newton-eigen": 120}
+"""Iterations after which these end if they have not converged; the paper's L-BFGS took 1,818."""
+MESH_SECONDS = 40.0
+"""Seconds of its own steps after which a method on a mesh ends."""
+_REPEATS = {"lbfgs": 1}
+_UNWATCHED = 2
+_THUMBNAILS = 4
 _LEAST_GAP = 1e-9
-LIMITS = {"lbfgs": 300, "slim": 120, "aqp": 400, "newton-eigen": 120}
-MOST_TIMES = 60
-"""A method on a mesh is stopped when it has taken so many times as long as ours."""
 
 
 def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
@@ -48,46 +64,122 @@ def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
         "targets": case.problem.pose.targets,
     }
     known = methods(available=True)
-    for method in (*HARMONIC, *MESH):
-        if method not in known:
-            continue
+    minimum: HarmonicMap | None = None
+    for method in HARMONIC:
         detail(f"{case.name}: {LOOK[method][0]}")
-        seconds = math.inf
-        if method in MESH:
-            seconds = MOST_TIMES * runs["newton"]["time"][-1]
-        result, images = run_recorded(
-            method,
-            case,
-            display,
-            mesh,
-            max_iterations=LIMITS.get(method),
-            iterates=method in _FOLLOWED,
-            seconds=seconds,
-        )
-        runs[method] = summary(result, images)
-        chosen, pictures = thumbnails(images, runs[method]["visible"])
-        if method not in _FOLLOWED:
-            chosen = [result.iterations]
-        runs[method]["thumbnails"] = chosen
-        arrays[f"images_{method}"] = pictures
-        arrays[f"reached_{method}"] = np.asarray(result.map(case.problem.pose.handles))
-    unknowns = 4 * case.problem.domain.n_coefficients - 10 * case.problem.domain.n_holes - 2
+        runs[method], pictures, map_ = _harmonic(method, case, display)
+        arrays |= {f"{name}_{method}": array for name, array in pictures.items()}
+        if method == "newton":
+            minimum = map_
+    assert minimum is not None
+    for method in MESH:
+        if method in known:
+            runs[method], pictures = _on_mesh(method, case, mesh, detail)
+            arrays |= {f"{name}_{method}": array for name, array in pictures.items()}
+    detail(f"{case.name}: eigenvalues of Hessians")
     return {
         "name": case.name,
-        "unknowns": unknowns,
-        "holes": case.problem.domain.n_holes,
+        "handles": len(case.problem.pose),
         "runs": runs,
+        "negative": negative_eigenvalues(case),
+        "contraction": contraction(case, minimum),
         "arrays": arrays,
     }
 
 
+def _harmonic(
+    method: str, case: Case, display: Triangulation
+) -> tuple[dict[str, Any], dict[str, Array], HarmonicMap]:
+    """A method in the harmonic subspace; its own last map is its minimum, if it converged."""
+    limit: dict[str, Any] = {"max_iterations": LIMITS.get(method)}
+    watcher = Watcher(display.vertices)
+    watched = run(method, case, callback=watcher, **limit) if method in _FOLLOWED else None
+    result = last_of(_REPEATS.get(method, _UNWATCHED), method, case, **limit)
+    map_ = result.map
+    assert isinstance(map_, HarmonicMap)
+    measured = outcome(result)
+    end = map_(display.vertices)
+    if watched is not None and watched.status.ok:
+        energy = [step.energy for step in watched.history]
+        found = reached(watcher.distance(end), watcher.moved, energy, energy[-1], True)
+        # A run that nothing looks at may end an iteration earlier.
+        found = {name: _at_most(i, result.iterations) for name, i in found.items()}
+        measured["reached"] = _with_times(found, measured["time"])
+    images = watcher.images or {result.iterations: end.astype(np.float32)}
+    measured["thumbnails"], pictures = thumbnails(images, _THUMBNAILS)
+    at_handles = np.asarray(map_(case.problem.pose.handles))
+    return measured, {"images": pictures, "reached": at_handles}, map_
+
+
+def _on_mesh(
+    method: str, case: Case, mesh: Triangulation, detail: Callable[[str], None]
+) -> tuple[dict[str, Any], dict[str, Array]]:
+    """A method on a mesh, followed for a while, and the minimum that it descends to."""
+    detail(f"{case.name}: {LOOK[method][0]}, followed for {MESH_SECONDS:.0f} s")
+    settings: dict[str, Any] = {"triangulation": mesh, "max_iterations": 1_000_000}
+    watcher = Watcher(mesh.vertices, MESH_SECONDS)
+    result = run(method, case, callback=watcher, **settings)
+    map_ = result.map
+    assert isinstance(map_, MeshMap)
+    measured = outcome(result)
+    measured["thumbnails"], pictures = thumbnails(watcher.images, _THUMBNAILS - 1)
+    detail(f"{case.name}: the minimum below {LOOK[method][0]}")
+    constraints = "hard" if method == "aqp" else "soft"
+    pose = case.problem.pose
+    try:
+        minimum = mesh_minimum(map_, pose, SymmetricDirichlet(), constraints, P2P_WEIGHT)
+    except NoMinimumError as error:
+        return {**measured, "minimum": None, "reason": str(error)}, {
+            "images": pictures,
+            "reached": map_(pose.handles),
+        }
+    found = reached(
+        watcher.distance(minimum.images),
+        watcher.moved,
+        measured["energy"],
+        minimum.energy,
+        result.status.ok,
+    )
+    detail(f"{case.name}: {LOOK[method][0]}, timed")
+    needed = max((i for i in found.values() if i is not None), default=0)
+    timed = run(method, case, **{**settings, "max_iterations": needed})
+    unwatched = [step.time for step in timed.history]
+    watched = measured["step_time"]
+    step_time = [*unwatched, *watched[len(unwatched) :]]
+    time = np.cumsum(step_time).tolist()
+    measured |= {
+        "step_time": step_time,
+        "time": time,
+        "reached": _with_times(found, time),
+        "minimum": minimum.energy,
+        "left": apart(map_.images, minimum.images),
+        # The start is left out: in the first run it waits for programs that are compiled.
+        "watching": sum(watched[1 : len(unwatched)]) / sum(unwatched[1:]) if needed else None,
+    }
+    pictures = np.concatenate([pictures, minimum.images[None].astype(np.float32)])
+    end = MeshMap(mesh, minimum.images)
+    return measured, {"images": pictures, "reached": end(pose.handles)}
+
+
+def _at_most(iteration: int | None, most: int) -> int | None:
+    return None if iteration is None else min(iteration, most)
+
+
+def _with_times(found: dict[str, int | None], time: list[float]) -> dict[str, Any]:
+    """Iteration and seconds of each criterion, or ``None``."""
+    return {
+        name: None if (i := found[name]) is None else {"iteration": i, "time": time[i]}
+        for name in CRITERIA
+    }
+
+
 def draw(data: Measurement, path: Path) -> None:
-    """Rows of thumbnails, and energies against iterations and time."""
+    """Rows of intermediate maps, and energies against iterations and time."""
     runs, arrays = data["runs"], data["arrays"]
-    rows = [m for m in ("newton", "newton-eigen", "newton-unmodified", "slim", "aqp") if m in runs]
-    figure = drawing.figure(12.0, 1.3 * len(rows))
-    left, right = drawing.side_by_side(figure, (1.25, 1.0))
-    grid = left.subplots(len(rows), 3, squeeze=False)
+    rows = [m for m in ("newton", "newton-eigen", "newton-unmodified", *MESH) if m in runs]
+    figure = drawing.figure(13.0, 1.35 * len(rows))
+    left, right = drawing.side_by_side(figure, (1.45, 1.0))
+    grid = left.subplots(len(rows), _THUMBNAILS, squeeze=False)
     final = drawing.densities(
         arrays["display"], arrays["display_triangles"], arrays["images_newton"][-1]
     )
@@ -98,54 +190,85 @@ def draw(data: Measurement, path: Path) -> None:
         kind = "mesh" if method in MESH else "display"
         rest, triangles = arrays[kind], arrays[f"{kind}_triangles"]
         pictures = arrays[f"images_{method}"]
+        titles = [f"iteration {i}" for i in run["thumbnails"]]
+        if run.get("minimum") is not None:
+            titles.append("its minimum")
         for axes in row:
             axes.set_axis_off()
-        for axes, iteration, images in zip(row, run["thumbnails"], pictures, strict=False):
+        # The last one under the last one, so that the ends of all methods stand in a column.
+        places = [*row[: len(titles) - 1], row[-1]]
+        for axes, title, images in zip(places, titles, pictures, strict=True):
             pose = np.hstack([arrays["targets"], arrays[f"reached_{method}"]])
-            ends = iteration == run["thumbnails"][-1]
-            shown = pose if ends else pose[:, [0, 1, 0, 1]]
+            shown = pose if title == titles[-1] else pose[:, [0, 1, 0, 1]]
             colors = drawing.draw_map(axes, rest, triangles, images, shown, most)
-            axes.set_title(f"iteration {iteration}", fontsize=SMALL - 1, pad=2)
-        note = f"{run['visible']} it., {_seconds(run['visible_time'])}"
-        if run["status"] in ("indefinite", "blocked"):
-            note = f"halts after {run['iterations']} it."
+            axes.set_title(title, fontsize=SMALL - 1, pad=2)
         row[0].text(
-            -0.02, 0.5, f"{LOOK[method][0]}\n{note}", transform=row[0].transAxes,
+            -0.04, 0.5, f"{LOOK[method][0]}\n{_note(run)}", transform=row[0].transAxes,
             fontsize=SMALL, rotation=90, ha="right", va="center", color=LOOK[method][1],
         )  # fmt: skip
     if colors is not None:
         drawing.color_bar(left, colors, grid, "symmetric Dirichlet density")
-    plots = right.subplots(2, 2)
-    least = runs["newton"]["energy"][-1]
+    _draw_energies(right, runs)
+    drawing.save(figure, path)
+
+
+def _note(run: dict[str, Any]) -> str:
+    if run["status"] in ("indefinite", "blocked"):
+        return f"halts after {run['iterations']} it."
+    if "minimum" not in run:
+        more = "" if run["status"] in ("converged", "stationary") else "+"
+        return f"{run['iterations']}{more} it., {seconds(run['time'][-1])}"
+    near = run["reached"]["energy"] if run["minimum"] is not None else None
+    if near is None:
+        return f"not within 1 % in {seconds(run['time'][-1])}"
+    return f"within 1 %: {near['iteration']} it., {seconds(near['time'])}"
+
+
+def _draw_energies(figure: Any, runs: dict[str, Any]) -> None:
+    plots = figure.subplots(2, 2, sharey="row")
+    shown = {}
     for axes_row, names, space in zip(
         plots, (HARMONIC, MESH), ("harmonic subspace", "triangle mesh"), strict=True
     ):
         for axes, against in zip(axes_row, ("iteration", "time"), strict=True):
             for method in names:
                 if method in runs:
-                    _curve(axes, runs[method], method, against, least)
+                    least = _least(runs, method)
+                    line = _curve(axes, runs[method], method, against, least)
+                    shown.setdefault(LOOK[method][0], line)
             axes.set_yscale("log")
             axes.set_xscale("log")
             axes.xaxis.set_minor_formatter(NullFormatter())
             unit = "seconds" if against == "time" else "iteration"
-            drawing.label_axes(axes, unit, "relative energy gap", space)
-            axes.legend(fontsize=SMALL - 1.5, frameon=False)
-    drawing.save(figure, path)
+            drawing.label_axes(axes, unit, "energy above its minimum, relative", space)
+    for axes in plots[:, 1]:
+        axes.set_ylabel("")
+    figure.legend(
+        shown.values(), shown.keys(), loc="outside lower center", ncols=4, fontsize=SMALL,
+        frameon=False,
+    )  # fmt: skip
 
 
-def _curve(axes: Any, run: dict[str, Any], method: str, against: str, least: float) -> None:
-    """Energy over that of the method's own last iterate, or over ours where it got nowhere."""
+def _least(runs: dict[str, Any], method: str) -> float:
+    """The minimum a method goes to: on its mesh, its own last where it converged, or ours.
+
+    Samples differ between settings of Newton's method, and with them minima by some digits.
+    """
+    run = runs[method]
+    if run.get("minimum") is not None:
+        return run["minimum"]
+    if method in MESH or run["status"] in ("converged", "stationary"):
+        return run["energy"][-1]
+    return runs["newton"]["energy"][-1]
+
+
+def _curve(axes: Any, run: dict[str, Any], method: str, against: str, least: float) -> Any:
+    """The relative energy gap; a cross where the method halted."""
     label, color, style = LOOK[method]
-    energy = drawing.gap(run["energy"])
-    last = float(energy[-1]) if run["status"] not in ("indefinite", "blocked") else least
-    gap = energy / min(last, 2 * least) - 1
-    x = np.arange(len(energy)) + 1 if against == "iteration" else np.array(run["time"])
+    gap = drawing.values_of(run["energy"]) / least - 1
+    x = np.arange(len(gap)) + 1 if against == "iteration" else np.array(run["time"])
     keep = np.isfinite(gap) & (gap > _LEAST_GAP) & (x > 0)
-    if keep.any():
-        axes.plot(x[keep], gap[keep], style, color=color, lw=LINE, label=label)
-        if run["status"] == "indefinite":
-            axes.plot(x[keep][-1], gap[keep][-1], "x", color=color, ms=5)
-
-
-def _seconds(value: float) -> str:
-    return f"{value * 1e3:.0f} ms" if value < 1 else f"{value:.1f} s"
+    (line,) = axes.plot(x[keep], gap[keep], style, color=color, lw=LINE, label=label)
+    if keep.any() and run["status"] in ("indefinite", "blocked"):
+        axes.plot(x[keep][-1], gap[keep][-1], "x", color=color, ms=5)
+    return line

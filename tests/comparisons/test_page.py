@@ -1,0 +1,188 @@
+"""What the page says of given numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from glid_nb.comparisons import paper
+from glid_nb.comparisons.page import bounded, lipschitz, progress, speed
+from glid_nb.comparisons.page.words import ended, joined, name_of, spread, table, verdict
+from glid_nb.comparisons.units import percent, seconds
+
+
+def test_words() -> None:
+    assert joined([]) == "none"
+    assert joined(["a"]) == "a"
+    assert joined(["a", "b", "c"]) == "a, b and c"
+    assert spread([2.04, 1.0]) == "1.0 to 2.0"
+    assert spread([3, 3], 0) == "3"
+    assert name_of("gecko-extreme") == "the bundled gecko, extreme pose"
+    assert name_of("t-rex") == "t-rex"
+    assert ended({"status": "max_iterations", "iterations": 60}) == "not converged after 60"
+    assert table(["a"], [["1"]]) == ["| a |", "| --- |", "| 1 |"]
+    assert verdict(True) == "**Reproduced.**"
+    assert verdict(False, True) == "**Partly reproduced.**"
+    assert verdict(False) == "**Not reproduced.**"
+
+
+@pytest.mark.parametrize(
+    ("share", "text"),
+    [
+        (0, "0.00%"),
+        (1e-6, "<0.01%"),
+        (0.0058, "0.58%"),
+        (0.05, "5.0%"),
+        (0.0996, "10%"),
+        (1, "100%"),
+    ],
+)
+def test_percent(share: float, text: str) -> None:
+    assert percent(share) == text
+
+
+def test_seconds() -> None:
+    assert seconds(0.0297) == "30 ms"
+    assert seconds(3.71) == "3.7 s"
+
+
+def test_table_2_is_what_the_paper_says_of_it() -> None:
+    # Section 10: the CPU version is "approximately 5 times slower on average".
+    slower = [row.newton_cpu / row.newton_gpu for row in paper.TABLE_2.values()]
+    assert round(sum(slower) / len(slower)) == 5
+
+
+def test_bounds_are_held_and_bind() -> None:
+    asked = (0.8, 5.0, 0.3)
+    assert bounded.holds([0.8, 4.3, 0.31], asked)
+    assert not bounded.holds([0.81, 4.3, 0.31], asked)
+    assert not bounded.holds([0.5, 4.3, 0.29], asked)
+    assert bounded.shares([0.4, 3.0, 0.3], asked) == pytest.approx([0.5, 0.5, 1.0])
+
+
+def run(time: float, reached: dict | None, **more: object) -> dict:
+    found = None if reached is None else {**dict.fromkeys(("map", "energy", "rest")), **reached}
+    base = {"time": [0.0, time], "energy": [9.0, 1.02], "minimum": 1.0, "left": 0.5}
+    return {**base, "iterations": 1, "reached": found, **more}
+
+
+def shape(name: str, slim: dict, aqp: dict) -> dict:
+    there = {"iteration": 1, "time": 0.1}
+    ours = run(0.1, dict.fromkeys(("map", "energy", "rest"), there))
+    eigen = {k: v for k, v in run(5.0, None).items() if k not in ("reached", "minimum")}
+    runs = {"newton": ours, "newton-eigen": eigen, "slim": slim, "aqp": aqp}
+    return {"name": name, "runs": {k: {**v, "watching": None} for k, v in runs.items()}}
+
+
+def test_ratios_that_are_bounds_are_called_so() -> None:
+    there = {"iteration": 1, "time": 4.0}
+    cases = [
+        shape("a", run(40.0, {"energy": there}), run(40.0, {"energy": {**there, "time": 2.0}})),
+        shape("b", run(40.0, {}), run(9.0, {"energy": there})),
+    ]
+    text = "\n".join(speed.section(cases))
+    assert "| a | 100 ms | does not converge | 4.0 s, 40x | 2.0 s, 20x |" in text
+    assert "| b | 100 ms | does not converge | 40.0 s+, 2.0% above, at least 400x |" in text
+    assert "0.5 units away, at least 400x" in text
+    # 20, 40, 40 and at least 400: the median does not depend on how much more.
+    assert "of both together **40x**, 3 of 4 runs at 25x or more" in text
+    assert "4 of 4 runs of SLIM and AQP were not visibly at their minimum" in text
+
+
+def test_a_median_of_bounds_is_a_bound() -> None:
+    assert speed._median_of([(30.0, False), (50.0, True), (70.0, True)]) == (50.0, True)
+    assert speed._median_of([(30.0, False), (50.0, False), (70.0, True)]) == (50.0, False)
+
+
+def test_a_missing_minimum_is_said() -> None:
+    lost = {**run(40.0, None), "minimum": None, "reason": "singular"}
+    del lost["reached"]
+    there = {"iteration": 1, "time": 4.0}
+    text = "\n".join(speed.section([shape("a", lost, run(9.0, {"map": there}))]))
+    assert "no minimum to compare with" in text
+
+
+def constants(name: str, refused: int, ratio: float) -> dict:
+    status = "blocked" if refused else "converged"
+    each = {"iterations": 4, "energy": [5.0, 2.0]}
+    return {
+        "name": name,
+        "runs": {"ours": {**each, "status": "converged"}, "bdhm": {**each, "status": status}},
+        "fine_means": [1.0, 6.0],
+        "segments": 10_000,
+        "perimeter": 100.0,
+        "offset": 0.1,
+        "refused": {"ours": 0, "bdhm": refused},
+        "arrays": {"ours": np.array([1.0, 1.0]), "bdhm": np.array([ratio, 8.0])},
+    }
+
+
+def test_reasons_follow_the_numbers() -> None:
+    text = "\n".join(lipschitz.section([constants("raptor", 6, 4.0)], "figures"))
+    assert "on raptor they leave 6 of the segments unproved" in text
+    assert "segments are long" not in text
+    assert "**Reproduced.**" in text
+    text = "\n".join(lipschitz.section([constants("giraffe", 0, 0.5)], "figures"))
+    assert "on giraffe they prove it on every segment" in text
+    assert "on giraffe they are 0.19 units long, 1.9 times" in text
+    assert "**Partly reproduced.**" in text
+
+
+def newton(iterations: int, energy: float = 2.0, status: str = "converged") -> dict:
+    return {
+        "status": status,
+        "iterations": iterations,
+        "energy": [9.0, energy],
+        "time": [0.0, 0.1 * iterations],
+        "step": [None, 1e-3],
+    }
+
+
+def solved(unmodified: dict, eigen: int, lbfgs: dict) -> dict:
+    runs = {
+        "newton": newton(6),
+        "newton-paper": newton(20),
+        "newton-unmodified": unmodified,
+        "newton-eigen": newton(eigen),
+        "lbfgs": lbfgs,
+    }
+    return {
+        "name": "rex",
+        "handles": 8,
+        "runs": runs,
+        "negative": [0, 0],
+        "contraction": {"least": 0.2, "most": 2.1, "least_projected": 0.5},
+    }
+
+
+def test_halting_close_to_the_minimum_is_not_at_a_high_energy() -> None:
+    slow = newton(1_700)
+    low = solved(newton(2, 3.0, "indefinite"), 30, slow)
+    assert "1.5 to 1.5 times" in progress._halts([low])
+    assert "**Not reproduced.**" in progress._halts([low])
+    high = solved(newton(2, 3e5, "indefinite"), 30, slow)
+    assert "**Reproduced.**" in progress._halts([high])
+    assert "**Partly reproduced.**" in progress._halts([low, high])
+    through = progress._halts([high, solved(newton(9), 30, slow)])
+    assert "of the 2 Hessians on its way none has a negative eigenvalue" in through
+
+
+def test_newton_eigen_and_lbfgs_are_judged() -> None:
+    halted = newton(2, 3e5, "indefinite")
+    assert "**Reproduced.**" in progress._eigen([solved(halted, 30, newton(1_700))])
+    fewer = progress._eigen([solved(halted, 10, newton(1_700))])
+    assert "20 against 10: the Hessian has no negative eigenvalue on the way" in fewer
+    assert "from 0.20 to 2.10" in fewer
+    assert "**Reproduced.**" in progress._lbfgs([solved(halted, 30, newton(1_700))])
+    stuck = progress._lbfgs([solved(halted, 30, newton(2_000, 1e6, "max_iterations"))])
+    assert "converges on 0 of 1 shapes" in stuck
+    assert "**Partly reproduced.**" in stuck
+    assert "1e-03" in stuck
+
+
+@pytest.mark.parametrize(("flips", "said"), [(0, "**Reproduced.**"), (3, "**Not reproduced.**")])
+def test_flips_of_any_iteration_count(flips: int, said: str) -> None:
+    data = {"runs": {"slim": {"most_flips": flips, "iterations": 50}}}
+    (text,) = progress._flips([data])
+    assert said in text
+    assert "in 50 iterations of 1 runs" in text
