@@ -18,6 +18,7 @@ from glid_nb.comparisons.drawing import LOOK
 from glid_nb.comparisons.minimum import NoMinimumError, mesh_minimum
 from glid_nb.comparisons.runs import (
     CRITERIA,
+    LIGHT_WEIGHT,
     MESH_VERTICES,
     P2P_WEIGHT,
     Watcher,
@@ -76,11 +77,18 @@ def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
         if method in known:
             runs[method], pictures = _on_mesh(method, case, mesh, detail)
             arrays |= {f"{name}_{method}": array for name, array in pictures.items()}
+    detail(f"{case.name}: {LOOK['lbfgs'][0]}, light targets")
+    light: dict[str, Any] = {"p2p_weight": LIGHT_WEIGHT}
+    lbfgs = run("lbfgs", case, initial="dirichlet", max_iterations=LIMITS["lbfgs"], **light)
     detail(f"{case.name}: eigenvalues of Hessians")
     return {
         "name": case.name,
         "handles": len(case.problem.pose),
         "runs": runs,
+        "light": {
+            "newton": outcome(last_of(_UNWATCHED, "newton", case, **light)),
+            "lbfgs": outcome(lbfgs),
+        },
         "negative": negative_eigenvalues(case),
         "contraction": contraction(case, minimum),
         "arrays": arrays,

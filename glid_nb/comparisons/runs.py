@@ -31,6 +31,8 @@ iteration moves it visibly any more."""
 
 P2P_WEIGHT = 1e5
 """``lambda`` throughout."""
+LIGHT_WEIGHT = 20.0
+"""``lambda`` of the published code, whose 1e5 is for a sum over 10^4 samples, without a half."""
 MESH_VERTICES = 10_000
 _DISPLAY_VERTICES = 1_500
 _ALL_KEPT, _APART = 128, 1.01

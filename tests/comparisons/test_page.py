@@ -150,6 +150,7 @@ def solved(unmodified: dict, eigen: int, lbfgs: dict) -> dict:
         "name": "rex",
         "handles": 8,
         "runs": runs,
+        "light": {"newton": newton(6), "lbfgs": lbfgs},
         "negative": [0, 0],
         "contraction": {"least": 0.2, "most": 2.1, "least_projected": 0.5},
     }
@@ -178,6 +179,9 @@ def test_newton_eigen_and_lbfgs_are_judged() -> None:
     assert "converges on 0 of 1 shapes" in stuck
     assert "**Partly reproduced.**" in stuck
     assert "1e-03" in stuck
+    quick = progress._lbfgs([solved(halted, 30, newton(98))])
+    assert "98 on rex" in quick
+    assert "**Partly reproduced.**" in quick
 
 
 @pytest.mark.parametrize(("flips", "said"), [(0, "**Reproduced.**"), (3, "**Not reproduced.**")])
