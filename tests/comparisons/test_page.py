@@ -57,6 +57,7 @@ def test_bounds_are_held_and_bind() -> None:
     assert bounded.holds([0.8, 4.3, 0.31], asked)
     assert not bounded.holds([0.81, 4.3, 0.31], asked)
     assert not bounded.holds([0.5, 4.3, 0.29], asked)
+    assert bounded.exceeded([0.81, 4.3, 0.29], asked) == ["k", "sigma_2"]
     assert bounded.shares([0.4, 3.0, 0.3], asked) == pytest.approx([0.5, 0.5, 1.0])
 
 
