@@ -15,7 +15,7 @@ from glid_nb.comparisons import drawing
 from glid_nb.comparisons.cases import Case
 from glid_nb.comparisons.curvature import contraction, negative_eigenvalues
 from glid_nb.comparisons.drawing import LOOK
-from glid_nb.comparisons.minimum import NoMinimumError, mesh_minimum
+from glid_nb.comparisons.minimum import Minimum, NoMinimumError, mesh_minimum
 from glid_nb.comparisons.runs import (
     CRITERIA,
     LIGHT_WEIGHT,
@@ -36,6 +36,7 @@ from glid_nb.energies import SymmetricDirichlet
 from glid_nb.geometry import Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.style import LINE, SMALL
+from glid_nb.solvers import Pose
 
 Array = NDArray[Any]
 
@@ -73,9 +74,10 @@ def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
         if method == "newton":
             minimum = map_
     assert minimum is not None
-    for method in MESH:
+    other: MeshMap | None = None
+    for method in reversed(MESH):
         if method in known:
-            runs[method], pictures = _on_mesh(method, case, mesh, detail)
+            runs[method], pictures, other = _on_mesh(method, case, mesh, other, detail)
             arrays |= {f"{name}_{method}": array for name, array in pictures.items()}
     detail(f"{case.name}: {LOOK['lbfgs'][0]}, light targets")
     light: dict[str, Any] = {"p2p_weight": LIGHT_WEIGHT}
@@ -120,9 +122,16 @@ def _harmonic(
 
 
 def _on_mesh(
-    method: str, case: Case, mesh: Triangulation, detail: Callable[[str], None]
-) -> tuple[dict[str, Any], dict[str, Array]]:
-    """A method on a mesh, followed for a while, and the minimum that it descends to."""
+    method: str,
+    case: Case,
+    mesh: Triangulation,
+    other: MeshMap | None,
+    detail: Callable[[str], None],
+) -> tuple[dict[str, Any], dict[str, Array], MeshMap | None]:
+    """A method on a mesh, followed for a while, and the minimum that it descends to.
+
+    That is returned last, ``None`` where there is none; ``other`` is that of another method.
+    """
     detail(f"{case.name}: {LOOK[method][0]}, followed for {MESH_SECONDS:.0f} s")
     settings: dict[str, Any] = {"triangulation": mesh, "max_iterations": 1_000_000}
     watcher = Watcher(mesh.vertices, MESH_SECONDS)
@@ -132,15 +141,14 @@ def _on_mesh(
     measured = outcome(result)
     measured["thumbnails"], pictures = thumbnails(watcher.images, _THUMBNAILS - 1)
     detail(f"{case.name}: the minimum below {LOOK[method][0]}")
-    constraints = "hard" if method == "aqp" else "soft"
     pose = case.problem.pose
     try:
-        minimum = mesh_minimum(map_, pose, SymmetricDirichlet(), constraints, P2P_WEIGHT)
+        minimum, its_own = minimum_below(method, map_, other, pose)
     except NoMinimumError as error:
-        return {**measured, "minimum": None, "reason": str(error)}, {
-            "images": pictures,
-            "reached": map_(pose.handles),
-        }
+        at_handles = {"images": pictures, "reached": map_(pose.handles)}
+        return {**measured, "minimum": None, "reason": str(error)}, at_handles, None
+    if not its_own:
+        measured["borrowed"] = True
     found = reached(
         watcher.distance(minimum.images),
         watcher.moved,
@@ -166,7 +174,29 @@ def _on_mesh(
     }
     pictures = np.concatenate([pictures, minimum.images[None].astype(np.float32)])
     end = MeshMap(mesh, minimum.images)
-    return measured, {"images": pictures, "reached": end(pose.handles)}
+    return measured, {"images": pictures, "reached": end(pose.handles)}, end
+
+
+def minimum_below(
+    method: str, map_: MeshMap, other: MeshMap | None, pose: Pose
+) -> tuple[Minimum, bool]:
+    """The minimum of a method's energy below its map, or below another one, and which it is.
+
+    Newton's method does not get down from a map whose triangles are next to flat. The minimum
+    below another map is one of the same energy all the same.
+
+    Raises
+    ------
+    NoMinimumError
+        When there is none below either.
+    """
+    constraints = "hard" if method == "aqp" else "soft"
+    try:
+        return mesh_minimum(map_, pose, SymmetricDirichlet(), constraints, P2P_WEIGHT), True
+    except NoMinimumError:
+        if other is None:
+            raise
+        return mesh_minimum(other, pose, SymmetricDirichlet(), constraints, P2P_WEIGHT), False
 
 
 def _at_most(iteration: int | None, most: int) -> int | None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from glid_nb.compare import run_method
+from glid_nb.compare import MeshMap, run_method
 from glid_nb.comparisons import (
     ComparisonError,
     compare_all,
@@ -22,6 +22,7 @@ from glid_nb.comparisons import (
 from glid_nb.comparisons.cases import Case, reference_cases, sample_case
 from glid_nb.comparisons.drawing import densities
 from glid_nb.comparisons.lipschitz import lipschitz_constants, refused_segments
+from glid_nb.comparisons.minimum import NoMinimumError
 from glid_nb.comparisons.page import page
 from glid_nb.comparisons.runs import VISIBLE
 from glid_nb.geometry import triangulate, uniform_boundary_samples
@@ -95,6 +96,21 @@ def small_sizes(monkeypatch: pytest.MonkeyPatch) -> None:
 def shades(path: Path) -> np.ndarray:
     with Image.open(path) as picture:
         return np.asarray(picture.convert("L"))
+
+
+def test_a_minimum_is_borrowed_where_there_is_none_below() -> None:
+    shape, pose = problem("ell")
+    result = run_method("aqp", shape, pose, n_vertices=150, max_iterations=30)
+    map_ = result.map
+    assert isinstance(map_, MeshMap)
+    flat = MeshMap(map_.triangulation, 0 * map_.images)
+    own, its_own = progress.minimum_below("slim", map_, None, pose)
+    assert its_own
+    borrowed, its_own = progress.minimum_below("slim", flat, map_, pose)
+    assert not its_own
+    assert borrowed.energy == own.energy
+    with pytest.raises(NoMinimumError, match="inverted triangles"):
+        progress.minimum_below("slim", flat, None, pose)
 
 
 @pytest.mark.slow

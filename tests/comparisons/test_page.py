@@ -58,6 +58,7 @@ def test_bounds_are_held_and_bind() -> None:
     assert not bounded.holds([0.81, 4.3, 0.31], asked)
     assert not bounded.holds([0.5, 4.3, 0.29], asked)
     assert bounded.exceeded([0.81, 4.3, 0.29], asked) == ["k", "sigma_2"]
+    assert bounded.bound_by([0.79, 2.0, 0.31], asked) == ["k", "sigma_2"]
     assert bounded.shares([0.4, 3.0, 0.3], asked) == pytest.approx([0.5, 0.5, 1.0])
 
 
@@ -87,7 +88,32 @@ def test_ratios_that_are_bounds_are_called_so() -> None:
     assert "0.5 units away, at least 400x" in text
     # 20, 40, 40 and at least 400: the median does not depend on how much more.
     assert "of both together **40x**, 3 of 4 runs at 25x or more" in text
+    # Both medians have to be high enough: SLIM's is at least 220x, AQP's 30x.
+    assert "with its GPU). **Reproduced.**" in text
     assert "4 of 4 runs of SLIM and AQP were not visibly at their minimum" in text
+
+
+def test_one_method_that_is_not_beaten_makes_it_partly() -> None:
+    fast, slow = ({"iteration": 1, "time": time} for time in (0.5, 8.0))
+    text = "\n".join(
+        speed._criterion([shape("a", run(9, {"map": slow}), run(9, {"map": fast}))], "map", "Map")
+    )
+    assert "80x for SLIM" in text
+    assert "5x for AQP" in text
+    assert "**Partly reproduced.**" in text
+
+
+def test_small_steps_are_no_rest() -> None:
+    early, late = ({"iteration": i, "time": 1.0} for i in (40, 300))
+    cases = [
+        shape("a", run(9, {"rest": late, "energy": early}), run(9, {"rest": early, "energy": late}))
+    ]
+    assert "weakest of the three criteria" in speed._weak(cases, "rest")
+    assert "AQP on a met it before" in speed._weak(cases, "rest")
+    assert speed._weak(cases, "map") == ""
+    assert (
+        speed._weak([shape("a", run(9, {"rest": late, "energy": early}), run(9, {}))], "rest") == ""
+    )
 
 
 def test_a_median_of_bounds_is_a_bound() -> None:
@@ -101,6 +127,15 @@ def test_a_missing_minimum_is_said() -> None:
     there = {"iteration": 1, "time": 4.0}
     text = "\n".join(speed.section([shape("a", lost, run(9.0, {"map": there}))]))
     assert "no minimum to compare with" in text
+
+
+def test_borrowed_minima_are_named() -> None:
+    lost = {"reason": "singular", "minimum": None}
+    cases = [{"name": "a", "runs": {"slim": {"borrowed": True}, "aqp": lost}}]
+    text = progress._borrowed(cases)
+    assert "(SLIM on a ended with triangles so close to flat" in text
+    assert "(none was found for AQP on a)" in text
+    assert progress._borrowed([{"name": "a", "runs": {"slim": {}, "aqp": {}}}]) == ""
 
 
 def constants(name: str, refused: int, ratio: float) -> dict:

@@ -70,10 +70,10 @@ def _shapes(cases: list[Measurement]) -> str:
             notes.append(f"{d['name']} is not in the paper's table")
         elif abs(d["unknowns"] / row.unknowns - 1) > 0.1:
             notes.append(
-                f"our cage of {d['name']} is another, with {d['unknowns']} unknowns where the "
-                f"paper has {row.unknowns}, so its rows do not compare"
+                f"{d['name']} has another cage here than in the paper, with {d['unknowns']} "
+                f"unknowns where that has {row.unknowns}, so that its two rows do not compare"
             )
-    return f"Of the shapes, {joined(notes)}." if notes else ""
+    return f"Of the shapes, {'; '.join(notes)}." if notes else ""
 
 
 def _claims(cases: list[Measurement]) -> list[str]:

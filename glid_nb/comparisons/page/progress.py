@@ -31,7 +31,8 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
         f"the energy within {100 * NEAR:.0f}% of its minimum / no vertex moved by more than "
         f"{VISIBLE:g} world units in an iteration any more (a picture's longer side has 20) / no "
         "vertex further than that from the minimum. That minimum is of the method's own energy "
-        "and constraints on the same mesh, found by Newton's method from the method's last map. A "
+        "and constraints on the same mesh, found by Newton's method from the method's last map"
+        f"{_borrowed(cases)}. A "
         "`+` marks what was not reached within the limit ("
         f"{joined([f'{LOOK[m][0]} {n:,} iterations' for m, n in LIMITS.items()])}, SLIM and AQP "
         f"{MESH_SECONDS:.0f} s), so that the number is a lower bound. Where a method ended at more "
@@ -61,6 +62,22 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
     return lines
 
 
+def _borrowed(cases: list[Measurement]) -> str:
+    """Runs from whose end Newton's method on the mesh finds no minimum."""
+    runs = [(f"{LOOK[m][0]} on {d['name']}", d["runs"].get(m, {})) for m in MESH for d in cases]
+    borrowed = [name for name, run in runs if run.get("borrowed")]
+    lost = [name for name, run in runs if "reason" in run]
+    text = ""
+    if borrowed:
+        text += (
+            f" ({joined(borrowed)} ended with triangles so close to flat that it does not get down "
+            "from there; the minimum of the same energy below the other method's map stands in)"
+        )
+    if lost:
+        text += f" (none was found for {joined(lost)})"
+    return text
+
+
 def _of_paper(said: paper.Iterations, methods: list[str]) -> list[str]:
     values = {
         "newton-paper": said.newton,
@@ -80,7 +97,7 @@ def _iterations(data: Measurement, method: str) -> str:
         return "not installed"
     if method in MESH:
         if run["minimum"] is None:
-            return f"{run['iterations']:,}+, {run['reason']}"
+            return f"{run['iterations']:,}+"
         found = [run["reached"][name] for name in _ORDER]
         return " / ".join(
             f"{run['iterations']:,}+" if f is None else f"{f['iteration']:,}" for f in found
@@ -129,9 +146,9 @@ def _definiteness(cases: list[Measurement]) -> list[str]:
         ),
         "",
         "H is the exact Hessian, M that of the paper's settings, projected and of 1,000 samples. "
-        "Close to the minimum a full step leaves I - M^-1 H of the error: an eigenvalue of 1 "
-        "removes it, one near 0 keeps it, and one above 2 makes it grow, so that the line search "
-        "shortens steps. With all 10,000 samples in M only the projection is left.",
+        "Close to the minimum a full step leaves I - M^-1 H of the error: in its direction an "
+        "eigenvalue of 1 removes it, one near 0 keeps it, and one above 2 makes it grow, so that "
+        "the line search shortens steps. With all 10,000 samples in M only the projection is left.",
     ]
 
 
@@ -231,6 +248,6 @@ def _flips(cases: list[Measurement]) -> list[str]:
     total = sum(r["iterations"] for r in runs)
     return [
         f"- *SLIM and AQP produce no inverted triangles*: in {total:,} iterations of "
-        f"{len(runs)} runs, every one looked at, {len(flipped) or 'no'} "
-        f"run{'s' if len(flipped) != 1 else ''} had an iteration with some. {verdict(not flipped)}"
+        f"{len(runs)} runs, every one looked at, {len(flipped) or 'none'} of the runs has one with "
+        f"some. {verdict(not flipped)}"
     ]
