@@ -40,7 +40,8 @@ def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
 
 def draw(data: Measurement, path: Path) -> None:
     """The maps with the bounds that are asked for and proved, and the energies."""
-    figure = drawing.figure(12.5, 3.6)
+    # High enough for the maps to be as wide as they can, whose titles are then not cut off.
+    figure = drawing.figure(13.0, 4.4)
     axes = figure.subplots(1, 4, width_ratios=(1, 1, 1, 1))
     colors = None
     for ax, (name, (title, _)) in zip(axes, _TITLES.items(), strict=False):
@@ -48,7 +49,7 @@ def draw(data: Measurement, path: Path) -> None:
         asked = _bounds(BOUNDS[name], "asked") if name in BOUNDS else "nothing asked"
         proved = _bounds(data["runs"][name]["bounds"], "proved")
         ax.set_title(f"{title}\n{asked}\n{proved}", fontsize=SMALL)
-    drawing.color_bar(figure, colors, axes[2], "symmetric Dirichlet density")
+    drawing.color_bar(figure, colors, axes[:3], "symmetric Dirichlet density")
     for name, (title, color) in _TITLES.items():
         run = data["runs"][name]
         energy = drawing.values_of(run["energy"])

@@ -27,17 +27,16 @@ def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
 
 def draw(data: Measurement, path: Path) -> None:
     """Both maps, coloured by the isometric and by the conformal distortion."""
-    figure = drawing.figure(11.0, 3.4)
+    figure = drawing.figure(11.0, 3.7)
     axes = figure.subplots(1, 4)
     pairs = (axes[:2], axes[2:])
-    for column, (name, title) in enumerate(_TITLES.items()):
+    iso = dilatation = None
+    for left, right, (name, title) in zip(*pairs, _TITLES.items(), strict=True):
         run = data["runs"][name]
-        left, right = pairs[0][column], pairs[1][column]
         iso = draw_one(left, data, name, _MOST)
         left.set_title(f"{title}\nmean $E_{{iso}}$ {run['mean']:.3f}", fontsize=SMALL)
         dilatation = draw_one(right, data, name, _MOST_K, data["arrays"][f"k_{name}"])
         right.set_title(f"{title}\n$k \\leq {run['bounds'][0]:.2g}$ (proved)", fontsize=SMALL)
-        if column:
-            drawing.color_bar(figure, iso, left, "symmetric Dirichlet density")
-            drawing.color_bar(figure, dilatation, right, "little dilatation $k$")
+    drawing.color_bar(figure, iso, pairs[0], "symmetric Dirichlet density")
+    drawing.color_bar(figure, dilatation, pairs[1], "little dilatation $k$")
     drawing.save(figure, path)

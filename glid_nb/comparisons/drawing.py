@@ -118,8 +118,7 @@ def draw_map(
         low, high = np.minimum(low, pose[:, :2].min(axis=0)), np.maximum(high, pose[:, :2].max(0))
     pad = 0.03 * float((high - low).max())
     axes.set(xlim=(low[0] - pad, high[0] + pad), ylim=(low[1] - pad, high[1] + pad))
-    # The box stays as it is, so that titles stand in a line and none is cut off.
-    axes.set_aspect("equal", adjustable="datalim")
+    axes.set_aspect("equal")
     axes.set_axis_off()
     return colors
 

@@ -33,5 +33,5 @@ def draw(data: Measurement, path: Path) -> None:
         ax.set_title(
             f"minimises {title}: mean {run['mean']:.3f}, maximum {run['most']:.2f}", fontsize=SMALL
         )
-    drawing.color_bar(figure, colors, axes[1], "symmetric Dirichlet density")
+    drawing.color_bar(figure, colors, axes, "symmetric Dirichlet density")
     drawing.save(figure, path)

@@ -50,6 +50,7 @@ MESH_SECONDS = 40.0
 _REPEATS = {"lbfgs": 1}
 _UNWATCHED = 2
 _THUMBNAILS = 4
+_LABEL = 0.75  # width of a row's label, in pictures
 _LEAST_GAP = 1e-9
 
 
@@ -217,13 +218,14 @@ def draw(data: Measurement, path: Path) -> None:
     rows = [m for m in ("newton", "newton-eigen", "newton-unmodified", *MESH) if m in runs]
     figure = drawing.figure(13.0, 1.35 * len(rows))
     left, right = drawing.side_by_side(figure, (1.45, 1.0))
-    grid = left.subplots(len(rows), _THUMBNAILS, squeeze=False)
+    ratios = (_LABEL, *(1.0,) * _THUMBNAILS)
+    grid = left.subplots(len(rows), 1 + _THUMBNAILS, squeeze=False, width_ratios=ratios)
     final = drawing.densities(
         arrays["display"], arrays["display_triangles"], arrays["images_newton"][-1]
     )
     most = float(np.clip(np.quantile(final, 0.97), 3.0, 12.0))
     colors = None
-    for row, method in zip(grid, rows, strict=True):
+    for (label, *row), method in zip(grid, rows, strict=True):
         run = runs[method]
         kind = "mesh" if method in MESH else "display"
         rest, triangles = arrays[kind], arrays[f"{kind}_triangles"]
@@ -231,7 +233,7 @@ def draw(data: Measurement, path: Path) -> None:
         titles = [f"iteration {i}" for i in run["thumbnails"]]
         if run.get("minimum") is not None:
             titles.append("its minimum")
-        for axes in row:
+        for axes in (label, *row):
             axes.set_axis_off()
         # The last one under the last one, so that the ends of all methods stand in a column.
         places = [*row[: len(titles) - 1], row[-1]]
@@ -240,9 +242,9 @@ def draw(data: Measurement, path: Path) -> None:
             shown = pose if title == titles[-1] else pose[:, [0, 1, 0, 1]]
             colors = drawing.draw_map(axes, rest, triangles, images, shown, most)
             axes.set_title(title, fontsize=SMALL - 1, pad=2)
-        row[0].text(
-            -0.04, 0.5, f"{LOOK[method][0]}\n{_note(run)}", transform=row[0].transAxes,
-            fontsize=SMALL, rotation=90, ha="right", va="center", color=LOOK[method][1],
+        label.text(
+            0.0, 0.5, f"{LOOK[method][0]}\n{_note(run)}", transform=label.transAxes,
+            fontsize=SMALL, va="center", color=LOOK[method][1],
         )  # fmt: skip
     if colors is not None:
         drawing.color_bar(left, colors, grid, "symmetric Dirichlet density")
@@ -258,8 +260,8 @@ def _note(run: dict[str, Any]) -> str:
         return f"{run['iterations']}{more} it., {seconds(run['time'][-1])}"
     near = run["reached"]["energy"] if run["minimum"] is not None else None
     if near is None:
-        return f"not within 1 % in {seconds(run['time'][-1])}"
-    return f"within 1 %: {near['iteration']} it., {seconds(near['time'])}"
+        return f"not within 1 %\nin {seconds(run['time'][-1])}"
+    return f"within 1 %:\n{near['iteration']} it., {seconds(near['time'])}"
 
 
 def _draw_energies(figure: Any, runs: dict[str, Any]) -> None:
