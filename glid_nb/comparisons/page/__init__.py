@@ -43,10 +43,12 @@ def page(results: Results, figures: str) -> str:
     lines = [
         "# Comparisons",
         "",
-        "Written by `glid-nb compare`; do not edit. Every number was measured in one run on "
-        f"{os.cpu_count()} CPU cores ({platform.machine()}), without compilation times. The "
-        "paper's times are from a 6-core Xeon with a Titan X, so only ratios within a column or "
-        "a run compare. Where this page names no number of the paper, the paper gives none.",
+        "Written by `glid-nb compare`; do not edit. With `--reference DIR` its shapes are those of "
+        "the problem files in DIR, by default bundled samples. The numbers of one shape in one "
+        "section were measured in one run, without compilation times; all runs were on one machine "
+        f"with {os.cpu_count()} CPU cores ({platform.machine()}). The paper's times are from a "
+        "6-core Xeon with a Titan X, so only ratios within a row compare. Where this page names no "
+        "number of the paper, the paper gives none.",
         "",
         "All methods start from the identity with lambda = 1e5 unless stated otherwise. Harmonic "
         f"maps are certified at every iteration; methods on a mesh have one of "

@@ -56,7 +56,10 @@ def _conformal(cases: list[Measurement]) -> str:
     zeros = {d["name"]: d["methods"]["cauchy"]["zeros"] for d in cases}
     branched = [f"{name} ({count})" for name, count in zeros.items() if count]
     return (
-        "The map by Cauchy coordinates is conformal, so its determinant is never negative, and "
+        "The map by Cauchy coordinates has the cage of the shape, not the handles, as its own: it "
+        "is the conformal map of our subspace whose handles come closest to their targets, as "
+        "Cauchy coordinates are used since they were published, while a polygon of handles need "
+        "not contain the shape. Being conformal, its determinant is never negative, and "
         "the few triangles that it turns over sit where its derivative vanishes. There it "
         "winds around itself like the square of z, which is no less a failure: its derivative has "
         f"zeros inside {joined(branched)}."
