@@ -35,7 +35,9 @@ def test_one_experiment_writes_its_figure_and_page(run, tmp_path: Path) -> None:
     assert outcome.code == 0, outcome.err
     page = tmp_path / "figures.md"
     assert outcome.out.strip() == str(page)
-    assert "lowers the maximal E_iso" in page.read_text(encoding="utf-8")
+    text = page.read_text(encoding="utf-8")
+    assert "the exponential lowers the maximal distortion" in text
+    assert "**Reproduced.**" in text
     assert (out / "exponential.png").stat().st_size > 10_000
     kept = out / "data" / "exponential-bar-extreme.json"
     assert json.loads(kept.read_text())["runs"]["exp"]["status"] == "converged"
