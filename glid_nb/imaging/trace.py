@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from typing import Any, TypeVar
 
 import numpy as np
@@ -15,7 +16,7 @@ from glid_nb.geometry import Cage
 from glid_nb.imaging.components import Component, Components, find_components
 from glid_nb.imaging.dilate import Dilation, dilate
 from glid_nb.imaging.errors import TraceError
-from glid_nb.imaging.foreground import Foreground, find_foreground, smoothed
+from glid_nb.imaging.foreground import Foreground, Walker, find_foreground, smoothed
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.holes import Hole, choose_holes, filled_mask
 from glid_nb.imaging.options import TraceOptions
@@ -203,6 +204,7 @@ class Tracer:
                 background=background,
                 background_at=at,
                 scribbles=scribbles,
+                walker=None if scribbles is None else self._walker,
             ),
             options.method,
             options.invert,
@@ -211,6 +213,10 @@ class Tracer:
             options.scribbles,
         )
         return self._stage("foreground", smoothed, rated, options.smoothing)
+
+    @cached_property
+    def _walker(self) -> Walker:
+        return Walker.of(self.image)
 
     def _cage(
         self,

@@ -16,6 +16,7 @@ from glid_nb.imaging.foreground.color import color_score, color_threshold
 from glid_nb.imaging.foreground.levels import histogram, otsu
 from glid_nb.imaging.foreground.score import Foreground
 from glid_nb.imaging.foreground.scribbles import scribble_score
+from glid_nb.imaging.foreground.walker import Walker
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.options import Method, Point, Scribbles
 
@@ -31,10 +32,12 @@ def find_foreground(
     background: tuple[float, float, float] | None = None,
     background_at: Point | None = None,
     scribbles: Scribbles | None = None,
+    walker: Walker | None = None,
 ) -> Foreground:
     """Rate every pixel of an (h, w, 4) RGBA image; the parameters are those of `TraceOptions`.
 
-    The field is not smoothed yet: see `smoothed`.
+    The field is not smoothed yet: see `smoothed`. ``walker``, the image's, saves making it anew
+    for every scribble.
 
     Raises
     ------
@@ -55,7 +58,8 @@ def find_foreground(
     elif method == "scribbles":
         if scribbles is None:
             raise TraceError("the method 'scribbles' needs scribbles")
-        score, more = scribble_score(image, scribbles)
+        walker = walker if walker is not None else Walker.of(image)
+        score, more = scribble_score(walker, scribbles, (image.shape[0], image.shape[1]))
         threshold = 0.5
         notes += more
         if inverted:

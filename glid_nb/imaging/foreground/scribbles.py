@@ -1,4 +1,4 @@
-"""Foreground by a user's scribbles: the random walker of Grady (2006)."""
+"""Foreground by a user's scribbles: a random walker's, which ends on them."""
 
 from __future__ import annotations
 
@@ -8,47 +8,24 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 from skimage.draw import line as draw_line
-from skimage.segmentation import random_walker
 
 from glid_nb.imaging.errors import TraceError
+from glid_nb.imaging.foreground.walker import BACKGROUND, FOREGROUND, Walker
 from glid_nb.imaging.options import Scribbles
-from glid_nb.imaging.read import as_rgba8
-
-_PIXELS = 40_000  # solved directly in a third of a second; the outline is smooth in between
-# How much an edge in the picture hinders the walker. scikit-image's default of 130 is for noisy
-# pictures; with it the outline of a photograph runs midway between the strokes, off the edges.
-_BETA = 1000.0
-_FOREGROUND, _BACKGROUND = 1, 2
 
 
 def scribble_score(
-    image: NDArray[np.unsignedinteger], scribbles: Scribbles
+    walker: Walker, scribbles: Scribbles, shape: tuple[int, int]
 ) -> tuple[NDArray[np.float32], tuple[str, ...]]:
     """(h, w) probability that a random walker from the pixel meets the foreground strokes first.
 
-    Computed on a picture scaled down to 40,000 pixels and interpolated. Also notes.
+    Computed on the walker's picture and interpolated to ``shape``, that of the picture. Also notes.
     """
-    height, width = image.shape[:2]
-    scale = min(1.0, np.sqrt(_PIXELS / (height * width)))
-    size = max(1, round(width * scale)), max(1, round(height * scale))
-    small = Image.fromarray(as_rgba8(image))
-    if scale < 1:
-        small = small.resize(size, Image.Resampling.BOX)
-    labels, notes = _labels(scribbles, (height, width), (size[1], size[0]))
-    if (labels > 0).all():
-        probability = (labels == _FOREGROUND).astype(np.float64)
-    else:
-        data = np.asarray(small, dtype=np.float64) / 255
-        data[..., :3] *= data[..., 3:]
-        if data[..., 3].min() == data[..., 3].max():  # it would only weaken the colours' weight
-            data = data[..., :3]
-        probability = random_walker(
-            data, labels, beta=_BETA, mode="bf", channel_axis=-1, return_full_prob=True
-        )[0]
-    field = np.clip(probability, 0, 1).astype(np.float32)
-    if scale < 1:
-        large = Image.fromarray(field).resize((width, height), Image.Resampling.BILINEAR)
-        field = np.asarray(large)
+    labels, notes = _labels(scribbles, shape, walker.shape)
+    field = walker.probability(labels).astype(np.float32)
+    if shape != walker.shape:
+        size = shape[1], shape[0]
+        field = np.asarray(Image.fromarray(field).resize(size, Image.Resampling.BILINEAR))
     return field, notes
 
 
@@ -71,9 +48,9 @@ def _labels(
     elif (foreground & background).any():
         notes = ("foreground and background strokes overlap: they count for nothing there",)
     labels = np.zeros(small, dtype=np.int32)
-    labels[foreground & ~background] = _FOREGROUND
-    labels[background & ~foreground] = _BACKGROUND
-    for label, name in ((_FOREGROUND, "foreground"), (_BACKGROUND, "background")):
+    labels[foreground & ~background] = FOREGROUND
+    labels[background & ~foreground] = BACKGROUND
+    for label, name in ((FOREGROUND, "foreground"), (BACKGROUND, "background")):
         if not (labels == label).any():
             raise TraceError(
                 f"scribbles: all {name} strokes are covered by the other ones; erase some of these"
