@@ -2,10 +2,17 @@
 
 from glid_nb.certificate import bdhm, hermite, lipschitz, rounding
 from glid_nb.certificate.bounds import EndValues, PanelBounds, derivative_bound_weights
-from glid_nb.certificate.certify import Certificate, Method, PanelCertificate, certify
+from glid_nb.certificate.certify import (
+    METHODS,
+    Certificate,
+    Method,
+    PanelCertificate,
+    certify,
+)
 from glid_nb.certificate.injectivity import GlobalInjectivity, global_injectivity
 
 __all__ = [
+    "METHODS",
     "Certificate",
     "EndValues",
     "GlobalInjectivity",

@@ -18,7 +18,10 @@ import numpy as np
 from jaxtyping import Array, Complex, Float, Int
 
 from glid_nb.certificate.bounds import distances, modulus
+from glid_nb.certificate.lipschitz import bounds_from_variation as panel_bounds
 from glid_nb.harmonic.cauchy import Singularities
+
+__all__ = ["SegmentWeights", "constants", "panel_bounds", "segment_weights"]
 
 
 class SegmentWeights(NamedTuple):
@@ -56,8 +59,8 @@ def segment_weights(
     )
 
 
-def constants(coefficients: Complex[Array, "k n"], weights: SegmentWeights) -> Float[Array, "p k"]:
-    """Lipschitz constants on each segment, one column per row of coefficients."""
+def constants(coefficients: Complex[Array, "k n"], weights: SegmentWeights) -> Float[Array, "k p"]:
+    """Lipschitz constants on each segment, one row per row of coefficients."""
     z, m = weights.vertices, weights.vertices.shape[0]
     z1, z2 = z[weights.first], z[weights.second]
 
@@ -69,7 +72,7 @@ def constants(coefficients: Complex[Array, "k n"], weights: SegmentWeights) -> F
         vertices = jnp.sum(weights.constants[:, :m] * rest, axis=1)
         return vertices + weights.constants[:, m:] @ modulus(row[m:])
 
-    return jnp.stack([one(row) for row in coefficients], axis=1)
+    return jnp.stack([one(row) for row in coefficients])
 
 
 def _loops(following: Int[Array, " m"]) -> Int[Array, " m"]:

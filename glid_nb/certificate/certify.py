@@ -21,7 +21,7 @@ from glid_nb.harmonic.basis import Basis
 Array = NDArray[Any]
 Method = Literal["hermite", "lipschitz", "bdhm"]
 
-_METHODS = {"hermite": hermite, "lipschitz": lipschitz, "bdhm": bdhm}
+METHODS = {"hermite": hermite, "lipschitz": lipschitz, "bdhm": bdhm}
 _CHUNK = 256
 _MAX_ROUNDS = 40
 _MAX_PANELS = 400_000
@@ -123,8 +123,8 @@ def certify(
         With ``refine``, panels are split until the bounds are within this relative distance of
         values that the map attains.
     """
-    if method not in _METHODS:
-        raise ValueError(f"unknown method {method!r}; choose one of {', '.join(_METHODS)}")
+    if method not in METHODS:
+        raise ValueError(f"unknown method {method!r}; choose one of {', '.join(METHODS)}")
     if not tightness > 0:
         raise ValueError(f"tightness is {tightness}; it must be positive")
     basis = basis_of(map.domain)
@@ -247,20 +247,19 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Any, method:
     ends = EndValues(
         *(v[:, k] for k in (0, 1) for v in values), *(s[:, k] for k in (0, 1) for s in slopes)
     )
+    length = jnp.abs(chord)
     if method == "bdhm":
-        bounds_of = lipschitz.bounds_from_variation
-        remainder = bdhm.constants(coefficients, bdhm.segment_weights(start, end, singularities))
-        remainder = jnp.abs(chord)[:, None] * remainder
+        segments = bdhm.segment_weights(start, end, singularities)
+        remainder = length * bdhm.constants(coefficients, segments)
     else:
-        module = _METHODS[method]
-        bounds_of = module.panel_bounds
+        module = hermite if method == "hermite" else lipschitz
         jumps = jnp.abs(cauchy.slope_jumps(coefficients, singularities))
         weights = derivative_bound_weights(start, end, singularities, module.DERIVATIVE_ORDER)
-        remainder = module.remainder_factor(jnp.abs(chord))[:, None] * (weights @ jumps.T)
+        remainder = module.remainder_factor(length) * (jumps @ weights.T)
     factor = rounding.slack_factor(coefficients.shape[1]) * jnp.abs(coefficients).max()
     slack = factor * rounding.panel_scale(start, end, singularities)
-    remainder = remainder + slack[:, None]
-    bounds = bounds_of(ends, remainder[:, 0], remainder[:, 1])
+    remainder = remainder + slack
+    bounds = METHODS[method].panel_bounds(ends, remainder[0], remainder[1])
     f, g = (modulus(values[0][:, k]) for k in (0, 1))
     return {
         "sigma2_lower": bounds.sigma2_lower,

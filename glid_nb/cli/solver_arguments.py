@@ -20,9 +20,10 @@ def add_solver_arguments(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("energy and solver")
     group.add_argument(
         "--energy",
-        metavar="{iso,exp,amips,arap}",
+        metavar="{iso,exp,amips,mips,arap}",
         default="iso",
-        help="symmetric Dirichlet (default), its exponential, AMIPS, or as rigid as possible",
+        help="symmetric Dirichlet (default), its exponential, AMIPS, MIPS (conformal distortion "
+        "only), or as rigid as possible",
     )
     group.add_argument(
         "--s", type=float, metavar="S", help="parameter of exp and amips, above 0 (default 1)"
@@ -40,8 +41,9 @@ def add_solver_arguments(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         "--certificate",
-        metavar="{hermite,lipschitz}",
-        help="how injectivity is proved: ours (default) or the paper's Lipschitz bounds",
+        metavar="{hermite,lipschitz,bdhm}",
+        help="how injectivity is proved: ours (default), the paper's Lipschitz bounds, or BDHM's "
+        "looser ones",
     )
     group.add_argument(
         "--hessian",

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from glid_nb.compare.mesh.map import MeshMap
-from glid_nb.compare.method import MethodError
+from glid_nb.compare.method import MethodError, unmet
 from glid_nb.geometry import Domain, Triangulation
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import Pose, StartError
+from glid_nb.solvers import Pose
+from glid_nb.solvers.start import check_belongs
 
 
 def check_arguments(
@@ -29,8 +28,8 @@ def check_arguments(
         raise _wrong("domain", domain, "a Domain", "make one with Domain.from_cage(cage)")
     if not isinstance(pose, Pose):
         raise _wrong("pose", pose, "a Pose", "make one with Pose(handles, targets)")
-    if not isinstance(align, bool | np.bool_):
-        raise MethodError(f"align must be True or False, got {align!r:.60}")
+    if expected := unmet(bool, align):
+        raise MethodError(f"align must be {expected}, got {align!r:.60}")
     if not isinstance(start, HarmonicMap | MeshMap | None):
         remedy = "of an earlier result take result.map"
         raise _wrong("start", start, "a HarmonicMap, a MeshMap or None", remedy)
@@ -39,14 +38,8 @@ def check_arguments(
         raise _wrong("triangulation", triangulation, "a Triangulation or None", remedy)
     if callback is not None and not callable(callback):
         raise _wrong("callback", callback, "a function or None", "it is given a MethodProgress")
-    if isinstance(start, HarmonicMap) and not _same(start.domain, domain):
-        raise StartError(
-            "the map to start from belongs to another domain; start from a map of this one"
-        )
-
-
-def _same(one: Domain, other: Domain) -> bool:
-    return one is other or one.to_dict() == other.to_dict()
+    if isinstance(start, HarmonicMap):
+        check_belongs(start, domain)
 
 
 def _wrong(name: str, value: Any, wanted: str, remedy: str) -> MethodError:

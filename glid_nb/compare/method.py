@@ -172,7 +172,7 @@ class Method:
                 raise MethodError(
                     f"the method {self.name!r} has no setting {name!r}; it has: {known}"
                 )
-            expected = _unmet(kinds[name], value)
+            expected = unmet(kinds[name], value)
             if expected:
                 raise MethodError(
                     f"the setting {name!r} of the method {self.name!r} must be {expected}, "
@@ -180,15 +180,15 @@ class Method:
                 )
 
 
-def _unmet(kind: Any, value: Any) -> str:
+def unmet(kind: Any, value: Any) -> str:
     """What a value of an annotated kind must be, if this one is not; empty if it is."""
     if get_origin(kind) is Literal:
         allowed = get_args(kind)
         known = isinstance(value, str) and value in allowed
         return "" if known else f"one of {', '.join(allowed)}"
     if get_args(kind):
-        unmet = [_unmet(one, value) for one in get_args(kind)]
-        return "" if "" in unmet else " or ".join(unmet)
+        each = [unmet(one, value) for one in get_args(kind)]
+        return "" if "" in each else " or ".join(each)
     if kind is type(None):
         return "" if value is None else "None"
     if kind is bool:

@@ -11,7 +11,7 @@ from glid_nb.compare.arguments import check_arguments
 from glid_nb.compare.bdhm.methods import METHODS as BDHM_METHODS
 from glid_nb.compare.linear.methods import METHODS as LINEAR_METHODS
 from glid_nb.compare.mesh.methods import METHODS as MESH_METHODS
-from glid_nb.compare.method import Inputs, Method, MethodError
+from glid_nb.compare.method import Inputs, Method, MethodError, unmet
 from glid_nb.compare.result import Callback, DeformationMap, MethodResult
 from glid_nb.energies import ARAP, Energy, SymmetricDirichlet, as_energy
 from glid_nb.geometry import Domain, Triangulation
@@ -110,8 +110,8 @@ def run_method(
         raise MethodError(f"p2p_weight must be a positive finite number, got {p2p_weight!r}")
     limit = method.max_iterations if max_iterations is None else max_iterations
     for what, count in (("max_iterations", limit), ("n_vertices", n_vertices)):
-        if isinstance(count, bool) or not isinstance(count, numbers.Integral) or int(count) < 0:
-            raise MethodError(f"{what} must be a whole number of at least 0, got {count!r}")
+        if expected := unmet(int, count):
+            raise MethodError(f"{what} must be {expected}, got {count!r}")
     pose.check_inside(domain)
     inputs = Inputs(
         name,

@@ -6,18 +6,19 @@ from glid_nb.energies.amips import AMIPS
 from glid_nb.energies.arap import ARAP
 from glid_nb.energies.energy import Energy, EnergyError
 from glid_nb.energies.exponential import ExponentialSymmetricDirichlet
+from glid_nb.energies.mips import MIPS
 from glid_nb.energies.parameters import checked_sharpness
 from glid_nb.energies.symmetric_dirichlet import SymmetricDirichlet
 
-ENERGY_NAMES: tuple[str, ...] = ("iso", "exp", "amips", "arap")
+ENERGY_NAMES: tuple[str, ...] = ("iso", "exp", "amips", "mips", "arap")
 """The names that :func:`energy_by_name` knows."""
 
 
 def energy_by_name(name: str, s: float | None = None) -> Energy:
     """The energy called ``name``: one of :data:`ENERGY_NAMES`.
 
-    ``s`` is the parameter of ``exp`` and ``amips`` (default 1); ``iso`` and ``arap`` have none
-    and ignore it, but it must be positive all the same.
+    ``s`` is the parameter of ``exp`` and ``amips`` (default 1); the others have
+    none and ignore it, but it must be positive all the same.
 
     Raises
     ------
@@ -31,6 +32,8 @@ def energy_by_name(name: str, s: float | None = None) -> Energy:
         return ExponentialSymmetricDirichlet(sharpness)
     if name == "amips":
         return AMIPS(sharpness)
+    if name == "mips":
+        return MIPS()
     if name == "arap":
         return ARAP()
     raise EnergyError(f"unknown energy {name!r}; choose one of {', '.join(ENERGY_NAMES)}")

@@ -4,7 +4,8 @@ from glid_nb.solvers.batch import solve_batch
 from glid_nb.solvers.options import OptionError, Options
 from glid_nb.solvers.pose import Pose, PoseError
 from glid_nb.solvers.result import Iteration, Result
-from glid_nb.solvers.solve import Progress, StartError, solve
+from glid_nb.solvers.solve import Progress, solve
+from glid_nb.solvers.start import StartError
 from glid_nb.solvers.status import Status
 
 __all__ = [

@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from glid_nb._runtime import double_precision
-from glid_nb.certificate import derivative_bound_weights, hermite, lipschitz, rounding
+from glid_nb.certificate import bdhm, derivative_bound_weights, hermite, lipschitz, rounding
 from glid_nb.geometry import Domain, graded_panels, panels_between, uniform_boundary_samples
 from glid_nb.geometry.panels import Panels, paired
 from glid_nb.harmonic import basis_of, cauchy
@@ -24,7 +24,7 @@ from glid_nb.harmonic.basis import Basis
 from glid_nb.solvers.whitening import whitened, whitening
 
 Sampling = Literal["graded", "uniform"]
-CertificateKind = Literal["hermite", "lipschitz"]
+CertificateKind = Literal["hermite", "lipschitz", "bdhm"]
 
 UNIFORM_SAMPLES = 10_000
 """``|G|`` of the paper (Section 10)."""
@@ -71,6 +71,8 @@ class Matrices(NamedTuple):
     next: Int[Array, " p"]
     real: Bool[Array, " p"]
     """False for padding."""
+    segments: bdhm.SegmentWeights | None
+    """BDHM's constants, where they take the remainder's place."""
 
 
 class _Rows(NamedTuple):
@@ -214,7 +216,7 @@ def _graded(
         hessian_weights=jnp.asarray(share),
         whitened=whitened(_transposed(nodes[index]), t).astype(jnp.float32),
         whitening=t,
-        **_panel_arrays(panels, rows, p),
+        **_panel_arrays(panels, rows, p, basis, certificate),
     )
     return Discretisation(domain, basis, "graded", certificate, panels, matrices, t)
 
@@ -241,7 +243,7 @@ def _uniform(
         hessian_weights=jnp.asarray(padded(weights, h, 0.0)),
         whitened=whitened(nodes[:, index], t),
         whitening=t,
-        **_panel_arrays(panels, rows, p),
+        **_panel_arrays(panels, rows, p, basis, certificate),
     )
     return Discretisation(domain, basis, "uniform", certificate, panels, matrices, t)
 
@@ -263,8 +265,14 @@ def _transposed(rows: np.ndarray) -> Array:
     return jnp.asarray(np.ascontiguousarray(rows.T))
 
 
-def _panel_arrays(panels: Panels, rows: _Rows, p: int) -> dict[str, Any]:
+def _panel_arrays(
+    panels: Panels, rows: _Rows, p: int, basis: Basis, certificate: CertificateKind
+) -> dict[str, Any]:
     chord = panels.end - panels.start
+    segments = None
+    if certificate == "bdhm":
+        ends = padded(panels.start, p), padded(panels.end, p)
+        segments = _compiled_segment_weights()(*ends, basis.singularities)
     return {
         "slopes": _transposed(padded(rows.slopes, p)),
         "remainder": _transposed(padded(rows.remainder, p)),
@@ -272,7 +280,13 @@ def _panel_arrays(panels: Panels, rows: _Rows, p: int) -> dict[str, Any]:
         "chord": jnp.stack([padded(np.real(chord), p), padded(np.imag(chord), p)]),
         "next": jnp.asarray(padded(panels.next, p)),
         "real": jnp.asarray(np.arange(p) < len(panels)),
+        "segments": segments,
     }
+
+
+@functools.cache
+def _compiled_segment_weights() -> Any:
+    return jax.jit(bdhm.segment_weights)
 
 
 def bucket(count: int) -> int:

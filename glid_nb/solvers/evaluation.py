@@ -12,7 +12,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float
 
 from glid_nb._arrays import AnyArray
-from glid_nb.certificate import EndValues, PanelBounds, hermite, lipschitz
+from glid_nb.certificate import METHODS, EndValues, PanelBounds, bdhm
 from glid_nb.energies import Differentials
 from glid_nb.harmonic.cauchy import Singularities, slope_jumps
 from glid_nb.solvers.discretisation import CertificateKind, Matrices
@@ -57,8 +57,7 @@ def bounds(
     values = EndValues(
         f, f[after], g, g[after], df * chord, df[after] * chord, dg * chord, dg[after] * chord
     )
-    method = hermite if certificate == "hermite" else lipschitz
-    return method.panel_bounds(values, remainder[0], remainder[1])
+    return METHODS[certificate].panel_bounds(values, remainder[0], remainder[1])
 
 
 def tightened_by_splitting(
@@ -135,7 +134,10 @@ def _truncation(
     matrices: Matrices, singularities: Singularities, coefficients: Float[Array, " 4c"]
 ) -> Float[Array, "2 p"]:
     """How far the derivatives of ``phi`` and ``psi`` may be from what their ends say."""
-    jumps = slope_jumps(jnp.stack(_complex_pair(coefficients)), singularities)
+    pair = jnp.stack(_complex_pair(coefficients))
+    if matrices.segments is not None:
+        return jnp.hypot(*matrices.chord) * bdhm.constants(pair, matrices.segments)
+    jumps = slope_jumps(pair, singularities)
     return jnp.abs(jumps) @ matrices.remainder
 
 

@@ -9,7 +9,9 @@ eigenvectors (24) need no division by ``|f_zbar|`` and a zero of ``f_zbar`` is n
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import functools
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -69,6 +71,38 @@ def positive_part(k: LocalHessian) -> LocalHessian:
     )
 
 
+def _in_pieces(assembled: Callable[..., Array]) -> Callable[..., Array]:
+    """A sum over samples, the last axis of all arguments, by pieces where it would take much room.
+
+    The first two arguments are the basis matrix and the weights.
+    """
+
+    @functools.wraps(assembled)
+    def summed(*arguments: Any) -> Array:
+        nodes = arguments[0]
+        count = nodes.shape[1]
+        pieces = -(-nodes.size // (2 * _PIECE))
+        if pieces == 1:
+            return assembled(*arguments)
+        length = -(-count // pieces)
+
+        def piece(i: Array | int) -> Array:
+            # The last piece reaches back to be as long as the others.
+            start = jnp.minimum(i * length, count - length)
+            part, weights, *rest = jax.tree.map(
+                lambda a: lax.dynamic_slice_in_dim(a, start, length, -1), arguments
+            )
+            fresh = start + jnp.arange(length) >= i * length
+            return assembled(part, jnp.where(fresh, weights, 0), *rest)
+
+        blank = jax.eval_shape(piece, 0)
+        zero = jnp.zeros(blank.shape, blank.dtype)
+        return lax.fori_loop(0, pieces, lambda i, total: total + piece(i), zero)
+
+    return summed
+
+
+@_in_pieces
 def assemble(
     nodes: Float[Array, "2c h"],
     weights: Samples,
@@ -97,33 +131,6 @@ def assemble(
     k : LocalHessian
         Entries of ``K`` at the nodes.
     """
-    count = nodes.shape[1]
-    pieces = -(-nodes.size // (2 * _PIECE))
-    if pieces == 1:
-        return _assemble(nodes, weights, f, g, k)
-    length = -(-count // pieces)
-
-    def add(i: Array, total: Float[Array, "4c 4c"]) -> Float[Array, "4c 4c"]:
-        # The last piece reaches back to be as long as the others.
-        start = jnp.minimum(i * length, count - length)
-        part = jax.tree.map(
-            lambda a: lax.dynamic_slice_in_dim(a, start, length, -1), (nodes, weights, f, g, k)
-        )
-        fresh = start + jnp.arange(length) >= i * length
-        return total + _assemble(part[0], jnp.where(fresh, part[1], 0), *part[2:])
-
-    size = 2 * nodes.shape[0]
-    return lax.fori_loop(0, pieces, add, jnp.zeros((size, size), nodes.dtype))
-
-
-def _assemble(
-    nodes: Float[Array, "2c h"],
-    weights: Samples,
-    f: tuple[Samples, Samples],
-    g: tuple[Samples, Samples],
-    k: LocalHessian,
-) -> Float[Array, "4c 4c"]:
-    """:func:`assemble` at once."""
     columns = nodes.shape[0] // 2
     re, im = nodes[:columns], -nodes[columns:]
     plus = [weights * (k.along_ff + k.across_f) / 2, weights * (k.along_gg + k.across_g) / 2]
@@ -140,6 +147,7 @@ def _assemble(
     return jnp.block([[diagonal[0], jnp.zeros_like(cross)], [cross, diagonal[1]]])
 
 
+@_in_pieces
 def assemble_across_f(
     nodes: Float[Array, "2c h"], weights: Samples, f: tuple[Samples, Samples], across: Samples
 ) -> Float[Array, "2c 2c"]:

@@ -32,8 +32,9 @@ class Options:
     sampling : "graded" or "uniform"
         Where the energy is integrated: panels graded by their distance to the singularities,
         or the paper's 10^4 uniform samples (31).
-    certificate : "hermite" or "lipschitz"
-        How local injectivity is proved; "lipschitz" is the paper's (Section 8).
+    certificate : "hermite", "lipschitz" or "bdhm"
+        How local injectivity is proved; "lipschitz" is the paper's (Section 8), "bdhm" has the
+        larger constants that the paper replaces (Figure 7).
     hessian : "adaptive", "projected" or "exact"
         The exact Hessian where it is positive definite, else the projected one; always the
         projected one (the paper's, Section 7); or always the exact one, halting where it is

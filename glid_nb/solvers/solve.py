@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._runtime import compilation_clock, double_precision, single_blas_thread
-from glid_nb.certificate import certify
 from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
@@ -28,6 +27,7 @@ from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Iteration, Result
+from glid_nb.solvers.start import StartError, check_belongs, check_proved
 from glid_nb.solvers.status import Status
 from glid_nb.solvers.unknowns import canonical, unknowns_of
 
@@ -48,10 +48,6 @@ _SLOW_STEP, _SLOW_GAIN = 0.5, 0.05
 _STALLED, _STALL_GAIN = 4, 1e-10
 # A decrease promised by the Newton decrement that rounding of the energy can hide.
 _ROUNDING = 1e-8
-
-
-class StartError(ValueError):
-    """The map to start from cannot be used."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +92,7 @@ def solve(
         Handles, which must lie in the domain, and their targets, which may be anywhere.
     energy : Energy or str, optional
         Isometric energy, or the name of one with its default parameter ("iso", "exp", "amips",
-        "arap"); by default the symmetric Dirichlet energy.
+        "mips", "arap"); by default the symmetric Dirichlet energy.
     options : Options, optional
     start : HarmonicMap or Result, optional
         Where to start; by default the identity. Unless ``options.align`` is off, the start is
@@ -351,10 +347,7 @@ def _starting_point(
     if start is None:
         return HarmonicMap.identity(domain), _discretised(domain, options)
     map_ = start.map if isinstance(start, Result) else start
-    if map_.domain is not domain and map_.domain.to_dict() != domain.to_dict():
-        raise StartError(
-            "the map to start from belongs to another domain; start from a map of this one"
-        )
+    check_belongs(map_, domain)
     if options.conformal and np.abs(map_.psi - map_.psi[0]).max() > 0:
         raise StartError(
             "the map to start from is not conformal (psi is not constant); start from a conformal "
@@ -364,9 +357,7 @@ def _starting_point(
         disc = start.discretisation
         same = (disc.sampling, disc.certificate) == (options.sampling, options.certificate)
         return canonical(map_), disc if same else _discretised(domain, options)
-    certificate = certify(map_)
-    if not certificate.certified:
-        raise StartError(f"the map to start from is not certified: {certificate.reason}")
+    check_proved(map_)
     return canonical(HarmonicMap(domain, map_.phi, map_.psi)), _discretised(domain, options)
 
 

@@ -18,6 +18,7 @@ ENERGY_LABELS = {
     "iso": "Symmetric Dirichlet",
     "exp": "Exponential sym. Dirichlet",
     "amips": "AMIPS",
+    "mips": "MIPS (conformal)",
     "arap": "ARAP",
 }
 """What the menu calls the energies."""
@@ -67,7 +68,11 @@ class SolverPanel(EditControls):
             "Where the energy is integrated",
         )
         self.certificate = _dropdown(
-            [("Hermite–Bernstein", "hermite"), ("Lipschitz (paper)", "lipschitz")],
+            [
+                ("Hermite–Bernstein", "hermite"),
+                ("Lipschitz (paper)", "lipschitz"),
+                ("Lipschitz (BDHM)", "bdhm"),
+            ],
             "How local injectivity is proved",
         )
         self.hessian = _dropdown(

@@ -13,6 +13,7 @@ from glid_nb.certificate import certify
 from glid_nb.compare import MethodResult, run_method
 from glid_nb.compare.subspace.descent import View
 from glid_nb.compare.subspace.first_order import LBFGS
+from glid_nb.compare.subspace.newton_variants import FLOOR, EigenDirection, HessianDirection
 from glid_nb.compare.subspace.problem import SubspaceProblem
 from glid_nb.energies import ARAP, Energy, SymmetricDirichlet
 from glid_nb.harmonic import HarmonicMap
@@ -56,6 +57,36 @@ def test_first_order_methods_reach_the_minimum_where_targets_are_soft(method: st
 def test_modified_hessians_pass_where_the_exact_one_is_indefinite(method: str) -> None:
     ours = run("newton", "bent", align=False)
     assert run(method, "bent", align=False).energy == pytest.approx(ours.energy, rel=1e-6)
+
+
+@double_precision
+def test_newton_eigen_raises_or_mirrors_negative_eigenvalues() -> None:
+    """``-V f(L) V^T g`` with the exact Hessian ``V L V^T``, indefinite after one step."""
+    domain, pose = problem("bent")
+    searcher = SubspaceProblem(domain, pose, SymmetricDirichlet(), Options(align=False))
+    point = searcher.evaluate(searcher.start)
+    view = View(searcher, point, np.asarray(point.gradient), np.nan)
+    step = HessianDirection("projected")(view)
+    assert isinstance(step, np.ndarray)
+    point = searcher.advance(point, step, False).point
+    h = searcher.hessian(point, "exact") + searcher.p2p_hessian
+    gradient = np.asarray(point.gradient)
+    values, vectors = np.linalg.eigh(h)
+    assert values[0] < -1e-3
+    # Along each eigenvector, the gradient over the eigenvalue's replacement.
+    for absolute, least in ((False, FLOOR), (True, -values[0])):
+        moved = EigenDirection(absolute)(View(searcher, point, gradient, np.nan))
+        along = vectors.T @ moved
+        slope = vectors.T @ gradient
+        assert along[0] == pytest.approx(-slope[0] / least, rel=1e-6)
+        assert along[-1] == pytest.approx(-slope[-1] / values[-1], rel=1e-3)
+
+
+def test_newton_eigen_by_modulus_reaches_the_minimum() -> None:
+    result = run("newton-eigen", "bent", align=False, absolute=True)
+    assert result.status.ok
+    ours = run("newton", "bent", align=False)
+    assert result.energy == pytest.approx(ours.energy, rel=1e-6)
 
 
 def test_unmodified_newton_halts_and_says_so() -> None:
@@ -164,8 +195,9 @@ def test_bdhm_constants_bound_the_derivative_and_are_looser() -> None:
     assert measured.sigma1 <= theirs.sigma1_upper
 
 
-def test_the_loose_certificate_still_certifies() -> None:
-    result = run("newton-staged", "ring", loose_certificate=True)
+@pytest.mark.parametrize("method", ["newton", "newton-eigen", "newton-staged"])
+def test_bdhm_constants_certify_as_well(method: str) -> None:
+    result = run(method, "ring", certificate="bdhm")
     assert result.certificate is not None
     assert result.certificate.certified
-    assert result.energy >= run("newton-staged", "ring").energy * (1 - 1e-9)
+    assert result.energy >= run(method, "ring").energy * (1 - 1e-5)

@@ -218,12 +218,12 @@ def test_the_isometry_is_a_minimum(energy: Energy) -> None:
         (SymmetricDirichlet(), 2.0),
         (ExponentialSymmetricDirichlet(1.5), math.exp(3.0)),
         (AMIPS(2.0), math.exp(6.0)),
+        (MIPS(), 1.0),
         (ARAP(), 0.0),
     ],
     ids=ENERGY_NAMES,
 )
 def test_values_at_the_isometry(energy: Energy, value: float) -> None:
-    """E(1, 0): the four terms of (10a) are 1 each."""
     with jax.enable_x64(True):
         assert float(energy.density(np.ones(1), np.zeros(1))[0]) == pytest.approx(value, rel=1e-14)
 
@@ -260,7 +260,7 @@ def test_energies_by_name() -> None:
 
 @pytest.mark.parametrize("name", ["", "ISO", "dirichlet", None, 3])
 def test_unknown_names_are_refused(name: object) -> None:
-    with pytest.raises(EnergyError, match=r"unknown energy .*iso, exp, amips, arap"):
+    with pytest.raises(EnergyError, match=r"unknown energy .*iso, exp, amips, mips, arap"):
         energy_by_name(name)  # type: ignore[arg-type]
 
 

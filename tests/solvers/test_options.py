@@ -40,7 +40,7 @@ def test_the_papers_settings() -> None:
     ("name", "values"),
     [
         ("sampling", ("graded", "uniform")),
-        ("certificate", ("hermite", "lipschitz")),
+        ("certificate", ("hermite", "lipschitz", "bdhm")),
         ("hessian", ("adaptive", "projected", "exact")),
         ("p2p_weight", (1e-300, 1, np.float32(2.5), 1e300)),
         ("tolerance", (0, 1e-3)),

@@ -15,7 +15,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from glid_nb._arrays import AnyArray
 from glid_nb._runtime import COMPILER_OPTIONS
-from glid_nb.certificate import EndValues, PanelBounds, bdhm, lipschitz
+from glid_nb.certificate import PanelBounds
 from glid_nb.energies import Energy
 from glid_nb.harmonic.cauchy import Singularities
 from glid_nb.solvers import evaluation, line_search
@@ -35,8 +35,6 @@ class Setting(NamedTuple):
     unknowns: Unknowns
     constraints: Constraints
     energy: Energy
-    loose: bdhm.SegmentWeights | None
-    """BDHM's constants, when they replace those of the certificate."""
 
 
 class Point(NamedTuple):
@@ -129,10 +127,8 @@ def advance(
         y, samples = moved(t)
         both = (evaluation.largest_modulus(at) for at in (point.coefficients, y))
         largest = jnp.maximum(*both)
-        if setting.loose is None:
-            singularities = setting.singularities
-            return evaluation.bounds(matrices, singularities, y, samples, largest, certificate)
-        return _loose_bounds(setting.loose, matrices, y, samples, largest)
+        singularities = setting.singularities
+        return evaluation.bounds(matrices, singularities, y, samples, largest, certificate)
 
     turning = evaluation.turning(matrices, point.samples.nodes)
     outcome, t, panels, refused = line_search.backtrack(
@@ -165,22 +161,3 @@ def _point(setting: Setting, y: Float[Array, " 4c"], samples: Samples) -> Point:
         gradient + p2p_matrix.T @ (row_weights * residual), setting.unknowns
     )
     return Point(y, samples, iso, 0.5 * jnp.sum(row_weights * residual**2), gradient)
-
-
-def _loose_bounds(
-    weights: bdhm.SegmentWeights,
-    matrices: Matrices,
-    y: Float[Array, " 4c"],
-    samples: Samples,
-    largest: Float[Array, ""],
-) -> PanelBounds:
-    re_phi, im_phi, re_psi, im_psi = y.reshape(4, -1)
-    coefficients = jnp.stack([re_phi + 1j * im_phi, re_psi + 1j * im_psi])
-    length = jnp.hypot(*matrices.chord)
-    rounding = matrices.rounding * largest
-    variation = length[:, None] * bdhm.constants(coefficients, weights) + rounding[:, None]
-    p = matrices.real.shape[0]
-    f, g = (samples.nodes[k, :p] + 1j * samples.nodes[k + 1, :p] for k in (0, 2))
-    after, zero = matrices.next, jnp.zeros_like(f)
-    values = EndValues(f, f[after], g, g[after], zero, zero, zero, zero)
-    return lipschitz.bounds_from_variation(values, variation[:, 0], variation[:, 1])

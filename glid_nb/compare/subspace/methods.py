@@ -102,7 +102,6 @@ def newton_staged(
     certificate: CertificateKind = "lipschitz",
     tolerance: float = 1e-10,
     hessian_samples: int | None = None,
-    loose_certificate: bool = False,
 ) -> MethodResult:
     return _descend(
         inputs,
@@ -111,7 +110,6 @@ def newton_staged(
         certificate,
         tolerance=tolerance,
         hessian_samples=hessian_samples,
-        loose_certificate=loose_certificate,
     )
 
 
@@ -120,8 +118,10 @@ def newton_eigen(
     sampling: Sampling = "graded",
     certificate: CertificateKind = "hermite",
     tolerance: float = 1e-10,
+    absolute: bool = False,
 ) -> MethodResult:
-    return _descend(inputs, EigenDirection(), sampling, certificate, tolerance=tolerance)
+    direction = EigenDirection(absolute)
+    return _descend(inputs, direction, sampling, certificate, tolerance=tolerance)
 
 
 def newton_shift(
@@ -217,7 +217,8 @@ METHODS = (
         "newton-eigen",
         "Newton-Eigen",
         "harmonic",
-        "Newton's method with a full eigen-factorisation, negative eigenvalues raised to 1e-10.",
+        "Newton's method with a full eigen-factorisation, negative eigenvalues raised to 1e-10 "
+        "or, with absolute, by their modulus.",
         newton_eigen,
     ),
     Method(

@@ -43,14 +43,22 @@ class HessianDirection:
 
 
 class EigenDirection:
-    """Newton-Eigen: full eigen-factorisation, negative eigenvalues raised to 1e-10 (Section 10)."""
+    """Newton-Eigen: full eigen-factorisation, negative eigenvalues raised to 1e-10 (Section 10).
+
+    1e-10 is no scale of the problem: along a direction of negative curvature the step is 1e10 times
+    the gradient's component, and the line search shortens all of it to what that one direction
+    allows. With ``absolute``, negative eigenvalues change their sign instead.
+    """
 
     second_order: ClassVar[bool] = True
+
+    def __init__(self, absolute: bool = False) -> None:
+        self.absolute = absolute
 
     def __call__(self, view: View) -> Array:
         h = view.problem.hessian(view.point, "exact") + view.problem.p2p_hessian
         values, vectors = scipy.linalg.eigh(h, check_finite=False)
-        values = np.where(values < FLOOR, FLOOR, values)
+        values = np.maximum(np.abs(values) if self.absolute else values, FLOOR)
         return -vectors @ ((vectors.T @ view.gradient) / values)
 
     def forget(self) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import jax
@@ -14,16 +14,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._runtime import compilation_clock, double_precision
-from glid_nb.certificate import bdhm, certify
 from glid_nb.compare.subspace import evaluation
 from glid_nb.compare.subspace.evaluation import Curvature, Move, Point, Setting
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import OptionError, Options, Pose, StartError
+from glid_nb.solvers import OptionError, Options, Pose
 from glid_nb.solvers.align import aligned
-from glid_nb.solvers.discretisation import discretise, padded
+from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.solve import constraints_of, map_from, real_coefficients
+from glid_nb.solvers.start import check_proved
 from glid_nb.solvers.unknowns import restrict_hessian, unknowns_of
 
 Array = NDArray[Any]
@@ -65,8 +65,6 @@ class SubspaceProblem:
     ----------
     options : Options
         ``sampling``, ``certificate``, ``p2p_weight``, ``conformal`` and ``align`` count here.
-    loose_certificate : bool
-        Use BDHM's Lipschitz constants (Figure 7) on fixed segments.
     hessian_samples : int, optional
         Number of Hessian samples of the uniform sampling, ``|H|`` (Figure 8).
 
@@ -87,14 +85,10 @@ class SubspaceProblem:
         options: Options,
         start: HarmonicMap | None = None,
         *,
-        loose_certificate: bool = False,
         hessian_samples: int | None = None,
     ) -> None:
         self.pose, self.energy, self.options = pose, energy, options
         self.watch = Stopwatch()
-        self.loose = loose_certificate
-        if loose_certificate:
-            options = self.options = replace(options, sampling="uniform", certificate="lipschitz")
         self.discretisation = discretise(domain, options.sampling, options.certificate)
         self.hessian_samples = hessian_samples
         if hessian_samples is not None:
@@ -103,7 +97,10 @@ class SubspaceProblem:
         self.unknowns = unknowns_of(basis, options.conformal)
         self.constraints = constraints_of(domain, pose, options.p2p_weight)
         self.setting = self._setting()
-        map_ = HarmonicMap.identity(domain) if start is None else _proved(start)
+        map_ = HarmonicMap.identity(domain)
+        if start is not None:
+            check_proved(start)
+            map_ = start
         if options.align:
             map_ = aligned(map_, pose)
         self.start = real_coefficients(basis, map_)
@@ -167,7 +164,7 @@ class SubspaceProblem:
     @double_precision
     def _setting(self) -> Setting:
         disc = self.discretisation
-        matrices, loose = disc.matrices, None
+        matrices = disc.matrices
         if self.hessian_samples is not None:
             index = np.linspace(0, len(disc.panels), self.hessian_samples, endpoint=False)
             index = index.astype(int)
@@ -175,22 +172,10 @@ class SubspaceProblem:
                 hessian_index=jnp.asarray(index),
                 hessian_weights=jnp.full(len(index), 1 / len(index)),
             )
-        if self.loose:
-            size = len(matrices.real)
-            start, end = padded(disc.panels.start, size), padded(disc.panels.end, size)
-            loose = jax.jit(bdhm.segment_weights)(start, end, disc.basis.singularities)
         return Setting(
             matrices,
             disc.basis.singularities,
             self.unknowns,
             self.constraints,
             self.energy,
-            loose,
         )
-
-
-def _proved(start: HarmonicMap) -> HarmonicMap:
-    certificate = certify(start)
-    if not certificate.certified:
-        raise StartError(f"the map to start from is not certified: {certificate.reason}")
-    return start
