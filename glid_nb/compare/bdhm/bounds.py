@@ -5,9 +5,15 @@ from __future__ import annotations
 import math
 import numbers
 from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from glid_nb.certificate import Certificate
 from glid_nb.compare.method import MethodError
+
+Array = NDArray[Any]
 
 
 @dataclass(frozen=True)
@@ -43,10 +49,18 @@ class DistortionBounds:
             and certificate.sigma2_lower >= self.sigma2
         )
 
-    def tightened(self, share: float) -> DistortionBounds:
-        """Bounds that are stricter by a share, for what happens between samples."""
-        return DistortionBounds(
-            self.k * (1 - share),
-            1 + (self.sigma1 - 1) * (1 - share),
-            1 - (1 - self.sigma2) * (1 - share),
+    @property
+    def narrowest(self) -> float:
+        """The least of the bounds' ranges, each relative to its bound and no more than 1."""
+        return min(1.0, (self.sigma1 - 1) / self.sigma1, (1 - self.sigma2) / self.sigma2)
+
+    def used(self, k: Array, sigma1: Array, sigma2: Array) -> Array:
+        """(3, n) shares of the way from an isometry to each bound."""
+        return np.stack(
+            [k / self.k, (sigma1 - 1) / (self.sigma1 - 1), (1 - sigma2) / (1 - self.sigma2)]
         )
+
+    def at(self, used: Array) -> tuple[Array, Array, Array]:
+        """k, sigma_1 and sigma_2 at (3, n) such shares."""
+        k, sigma1, sigma2 = used
+        return k * self.k, 1 + sigma1 * (self.sigma1 - 1), 1 - sigma2 * (1 - self.sigma2)

@@ -44,7 +44,7 @@ METHODS = (
         "harmonic",
         "ARAP within given bounds on k, sigma_1 and sigma_2 by cone programs (Clarabel).",
         bounded,
-        max_iterations=60,
+        max_iterations=200,
         energies=("arap",),
         package="clarabel",
         restrict=_check_bounds,

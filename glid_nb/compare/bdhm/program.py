@@ -10,101 +10,96 @@ import numpy as np
 import scipy.sparse
 from numpy.typing import NDArray
 
-from glid_nb.compare.bdhm.bounds import DistortionBounds
+from glid_nb.compare.bdhm.samples import ActiveSet
 
 Array = NDArray[Any]
 
 
 @dataclass(frozen=True, eq=False)
-class Quadratic:
-    """ARAP with fixed rotations plus the soft targets: ``u^T P u / 2 + q^T u`` over unknowns."""
+class Step:
+    """The solution of a program.
 
-    P: Array
-    q: Array
+    Attributes
+    ----------
+    change : array or None
+        What to add to the unknowns; None where the program was not solved.
+    decrease : float
+        No point that the program admits lowers its energy by more: by weak duality.
+    status : str
+        Clarabel's.
+    """
 
+    change: Array | None
+    decrease: float
+    status: str
 
-@dataclass(frozen=True, eq=False)
-class ActiveSet:
-    """Samples at which each bound is imposed, as indices into the pool."""
-
-    k: Array
-    sigma1: Array
-    sigma2: Array
-
-    def __len__(self) -> int:
-        return len(self.k) + len(self.sigma1) + len(self.sigma2)
-
-
-@dataclass(frozen=True, eq=False)
-class Rows:
-    """``f_z = a u + a0`` and ``conj(f_zbar) = b u + b0`` at samples, all complex."""
-
-    a: Array
-    a0: Array
-    b: Array
-    b0: Array
-
-    def at(self, index: Array) -> Rows:
-        """The rows of some samples."""
-        return Rows(self.a[index], self.a0[index], self.b[index], self.b0[index])
+    @property
+    def solved(self) -> bool:
+        """Whether to the accuracy that was asked for."""
+        return self.status == "Solved"
 
 
-def solve_program(
-    quadratic: Quadratic,
-    rows: Rows,
-    frames: Array,
-    active: ActiveSet,
-    bounds: DistortionBounds,
-) -> tuple[Array | None, str]:
-    """The unknowns that minimise the energy within the bounds, and Clarabel's status.
+def solve_program(gradient: Array, active: ActiveSet, v: Array, gap: float) -> Step:
+    """Minimise ``|d|^2 / 2 + gradient^T d`` over ``d`` such that ``v + d`` keeps the bounds.
 
     With the frame ``r`` of a sample (a unit complex number) the bounds become second-order cones:
-    ``|f_zbar| <= Re(conj(r) f_z) - sigma2``, ``|f_zbar| <= k Re(conj(r) f_z)``, and
+    ``|f_zbar| <= k Re(conj(r) f_z)``, ``|f_zbar| <= Re(conj(r) f_z) - sigma2``, and
     ``|f_z| <= s``, ``|f_zbar| <= sigma1 - s`` with one more unknown ``s``. The first two imply the
-    true bounds, the third is exact.
+    true bounds, the third is exact. The duality gap is to be at most ``gap``, or
+    1e-8 of the decrease where that is more.
     """
+    i, j, m = (np.flatnonzero(row) for row in active.chosen)
+    if not len(i) + len(j) + len(m):
+        return Step(-gradient, float(gradient @ gradient) / 2, "Solved")
+    k, sigma1, sigma2 = active.bounds.at(active.levels(v))
+    samples = active.samples
+    f, g = samples.values(v)
+    size = np.abs(f)
+    along = [np.real(samples.a[at] * (f[at].conj() / size[at])[:, None]) for at in (i, m)]
+    nothing = np.zeros((len(j), len(v)))
+    # Each cone is a head and a complex body, (of d, constant) each.
+    cones = [
+        (k[i, None] * along[0], k[i] * size[i], samples.b[i], g[i]),
+        (along[1], size[m] - sigma2[m], samples.b[m], g[m]),
+        (nothing, size[j], samples.a[j], f[j]),
+        (nothing, sigma1[j] - size[j], samples.b[j], g[j]),
+    ]
+    rows = np.concatenate([_triples(head, body) for head, _, body, _ in cones])
+    offset = np.concatenate([_triples(head, body) for _, head, _, body in cones])
+    # s is counted from where the map is now, and only heads have it.
+    of_s = np.kron(np.eye(len(j)), np.array([[1.0], [0.0], [0.0]]))
+    without = np.zeros((3 * (len(i) + len(m)), len(j)))
+    return _solved(gradient, rows, np.concatenate([without, of_s, -of_s]), offset, gap)
+
+
+def _triples(head: Array, body: Array) -> Array:
+    """Head, real and imaginary part of each cone, one after the other."""
+    three = np.stack([head, np.real(body), np.imag(body)], axis=1)
+    return three.reshape(3 * len(head), *head.shape[1:])
+
+
+def _solved(gradient: Array, rows: Array, slack: Array, offset: Array, gap: float) -> Step:
+    """Only what the rows see of ``d`` is left to Clarabel; across them it is minus the gradient."""
+    q, r = np.linalg.qr(rows.T)
+    seen = q.T @ gradient
+    across = gradient - q @ seen
+    n, n_slack = len(seen), slack.shape[1]
     clarabel: Any = importlib.import_module("clarabel")  # optional, and without type stubs
-
-    n, n_slack = len(quadratic.q), len(active.sigma1)
-    along = np.real(rows.a * frames.conj()[:, None])
-    blocks, right = [], []
-    for index, factor, shift in (
-        (active.sigma2, 1.0, -bounds.sigma2),
-        (active.k, bounds.k, 0.0),
-    ):
-        part = rows.at(index)
-        head = factor * along[index]
-        head0 = factor * np.real(frames[index].conj() * part.a0) + shift
-        blocks.append((head, part.b, np.zeros((len(index), n_slack))))
-        right.append((head0, part.b0))
-    part, slack = rows.at(active.sigma1), np.eye(n_slack)
-    zero = np.zeros((n_slack, n))
-    blocks += [(zero, part.a, slack), (zero, part.b, -slack)]
-    right += [(np.zeros(n_slack), part.a0), (np.full(n_slack, bounds.sigma1), part.b0)]
-
-    # Clarabel wants b - A x in the cone; each cone is (head, Re, Im).
-    matrix, offset = [], []
-    for (head, body, s), (head0, body0) in zip(blocks, right, strict=True):
-        three = np.stack([head, body.real, body.imag], axis=1).reshape(3 * len(head), n)
-        tail = np.stack([s, 0 * s, 0 * s], axis=1).reshape(3 * len(s), n_slack)
-        matrix.append(np.concatenate([three, tail], axis=1))
-        offset.append(np.stack([head0, body0.real, body0.imag], axis=1).ravel())
-    full_p = np.zeros((n + n_slack, n + n_slack))
-    full_p[:n, :n] = np.triu(quadratic.P)
     settings = clarabel.DefaultSettings()
     settings.verbose = False
-    rows_matrix = np.concatenate(matrix)
-    cones = [clarabel.SecondOrderConeT(3) for _ in range(len(rows_matrix) // 3)]
-    solver = clarabel.DefaultSolver(
-        scipy.sparse.csc_matrix(full_p),
-        np.concatenate([quadratic.q, np.zeros(n_slack)]),
-        scipy.sparse.csc_matrix(-rows_matrix),
-        np.concatenate(offset),
-        cones,
+    settings.tol_gap_abs = gap
+    # Relative to 1 at least, so that the smaller of the two gaps ends a small program.
+    settings.tol_gap_rel = min(settings.tol_gap_rel, gap)
+    # Clarabel wants b - A x in the cones.
+    solution = clarabel.DefaultSolver(
+        scipy.sparse.diags_array(np.repeat([1.0, 0.0], [n, n_slack])).tocsc(),
+        np.concatenate([seen, np.zeros(n_slack)]),
+        scipy.sparse.csc_matrix(-np.concatenate([r.T, slack], axis=1)),
+        offset,
+        [clarabel.SecondOrderConeT(3)] * (len(rows) // 3),
         settings,
-    )
-    solution = solver.solve()
+    ).solve()
     status = str(solution.status)
-    if status not in ("Solved", "AlmostSolved"):
-        return None, status
-    return np.asarray(solution.x)[:n], status
+    solved = status in ("Solved", "AlmostSolved")
+    change = q @ np.asarray(solution.x)[:n] - across if solved else None
+    return Step(change, float(across @ across) / 2 - float(solution.obj_val_dual), status)
