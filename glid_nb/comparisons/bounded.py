@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from glid_nb.compare.bdhm.methods import TOLERANCE
 from glid_nb.comparisons import drawing, paper
 from glid_nb.comparisons.cases import Case
 from glid_nb.comparisons.store import Measurement
@@ -30,12 +31,13 @@ def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
     settings = {
         name: Setting(
             "bdhm",
-            settings={"k": k, "sigma1": sigma1, "sigma2": sigma2, "tolerance": 1e-3},
+            settings={"k": k, "sigma1": sigma1, "sigma2": sigma2, "tolerance": TOLERANCE},
             slow=True,
         )
         for name, (k, sigma1, sigma2) in BOUNDS.items()
     }
-    return measure_maps(case, detail, {**settings, "newton": Setting()})
+    measured = measure_maps(case, detail, {**settings, "newton": Setting()})
+    return {**measured, "tolerance": TOLERANCE}
 
 
 def draw(data: Measurement, path: Path) -> None:

@@ -6,12 +6,16 @@ import functools
 
 import numpy as np
 import pytest
+from scipy.optimize import minimize
 
+from glid_nb._runtime import single_blas_thread
 from glid_nb.compare import MethodError, MethodResult, run_method
 from glid_nb.compare.bdhm.bounds import DistortionBounds
+from glid_nb.compare.bdhm.problem import BoundedProblem
+from glid_nb.compare.bdhm.samples import MARGIN
 from glid_nb.energies import ARAP
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import Status
+from glid_nb.solvers import Pose, Status
 
 from ..reference_map import DenseCheck, Measured
 from .problems import problem
@@ -108,3 +112,78 @@ def test_it_goes_on_from_a_map_within_its_bounds() -> None:
     beyond = {**settings, "sigma1": 1.2}
     anew = run_method("bdhm", *problem("ring"), start=tight.map, **beyond)
     assert anew.energy_iso == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(("name", "bounds"), [("ring", TIGHT), ("bent", LOOSE), ("bent", TIGHT)])
+def test_the_energy_never_rises_and_the_map_is_the_best(
+    name: str, bounds: tuple[float, float, float]
+) -> None:
+    result = run(name, bounds)
+    assert result.status is Status.CONVERGED
+    energies = np.array([step.energy for step in result.history])
+    assert (np.diff(energies) <= 0).all()
+    assert result.energy == energies.min()
+
+
+def test_within_binding_bounds_it_finds_the_least_energy_up_to_the_margin() -> None:
+    """An unconstrained optimiser with a penalty, which stays below the constrained minimum."""
+    result = run("ring", TIGHT)
+    assert result.status is Status.CONVERGED
+    start = run("ring", LOOSE).map
+    assert isinstance(start, HarmonicMap)
+    full, tightened = penalised(start, 1.0), penalised(start, 1 - MARGIN)
+    assert full < tightened < 1.003 * full
+    # The penalty's own error, and what is left at the tolerance.
+    assert full < result.energy < (1 + 3e-4) * tightened
+
+
+def penalised(start: HarmonicMap, share: float, weight: float = 1e4, count: int = 80) -> float:
+    """The least energy within a share of each bound's range at dense samples, from below."""
+    domain, pose = problem("ring")
+    problem_ = BoundedProblem(domain, pose, 1e5)
+    k, sigma1, sigma2 = TIGHT
+    along = (np.arange(count) + 0.5) / count
+    loops = domain.cage_loops_complex
+    edges = np.concatenate([np.stack([loop, np.roll(loop, -1)], axis=1) for loop in loops])
+    points = (edges[:, :1] + (edges[:, 1:] - edges[:, :1]) * along).ravel()
+    samples = problem_.samples_at(points)
+    weight /= len(points)
+
+    def cost(v: np.ndarray) -> tuple[float, np.ndarray]:
+        f, g = samples.values(v)
+        r, s = np.abs(f), np.abs(g)
+        over_k = np.maximum(s - share * k * r, 0)
+        over_1 = np.maximum(r + s - 1 - share * (sigma1 - 1), 0)
+        over_2 = np.maximum(1 - share * (1 - sigma2) - r + s, 0)
+        penalty = weight / 2 * (over_k**2 + over_1**2 + over_2**2).sum()
+        by_f = weight * (over_1 - over_2 - share * k * over_k) * f / r
+        by_g = weight * (over_k + over_1 + over_2) * g / np.maximum(s, 1e-12)
+        slope = np.real(samples.a.conj().T @ by_f + samples.b.conj().T @ by_g)
+        return sum(problem_.energies(v)) + penalty, problem_.gradient(v) + slope
+
+    with single_blas_thread():
+        options = {"maxiter": 1000, "ftol": 1e-12, "gtol": 1e-8, "maxcor": 40}
+        v = problem_.unknowns(start, align=False)
+        return float(minimize(cost, v, jac=True, method="L-BFGS-B", options=options).fun)
+
+
+def test_a_run_that_is_not_stationary_does_not_claim_to_have_converged(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """No proof: the start is returned, and what stopped the method is said."""
+    started = DistortionBounds.hold
+    calls = iter([True])
+    monkeypatch.setattr(
+        DistortionBounds, "hold", lambda self, c: next(calls, False) and started(self, c)
+    )
+    result = run_method("bdhm", *problem("ring"))
+    assert result.status is Status.BLOCKED
+    assert "did not converge: no step toward the cone program's solution" in result.message
+    assert len(result.history) == 1
+
+
+def test_an_unmoved_pose_is_stationary_at_once() -> None:
+    domain, pose = problem("ring")
+    result = run_method("bdhm", domain, Pose(pose.handles, pose.handles))
+    assert result.status is Status.CONVERGED
+    assert len(result.history) == 1

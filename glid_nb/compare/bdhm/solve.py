@@ -62,12 +62,13 @@ def bdhm(
     tolerance: float,
     start: HarmonicMap | None = None,
 ) -> Run:
-    """Alternate between frames and cone programs until no program lowers the energy.
+    """Alternate between frames and cone programs (Chen & Weber 2015) until none lowers the energy.
 
     The energy never rises, and every map is proved to keep the bounds. The method has converged
-    when the program at the current map predicts, by its dual, a decrease of no more than
-    ``tolerance`` of the energy. A start that is not proved to keep the bounds gives way to the
-    identity.
+    when the program at the current map can, by its dual, lower the energy by no more than
+    ``tolerance`` of it: the map is then stationary within bounds at samples that are stricter than
+    those asked for by `MARGIN` or, where it uses more, by less. A start that is not proved to keep
+    the bounds gives way to the identity.
     """
     descent = _Descent(_problem(domain, pose, p2p_weight), bounds, tolerance)
     identity = HarmonicMap.identity(domain)
@@ -86,7 +87,7 @@ def bdhm(
 
 
 class _Descent:
-    """One run's samples, which it adds to as it goes."""
+    """One run, and the samples that it adds to as it goes."""
 
     def __init__(self, problem: BoundedProblem, bounds: DistortionBounds, tolerance: float) -> None:
         self.problem, self.bounds, self.tolerance = problem, bounds, tolerance
