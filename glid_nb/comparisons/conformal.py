@@ -34,9 +34,12 @@ def draw(data: Measurement, path: Path) -> None:
     for left, right, (name, title) in zip(*pairs, _TITLES.items(), strict=True):
         run = data["runs"][name]
         iso = draw_one(left, data, name, _MOST)
-        left.set_title(f"{title}\nmean $E_{{iso}}$ {run['mean']:.3f}", fontsize=SMALL)
+        left.set_title(
+            f"{title}\n$E_{{iso}}$: mean {run['mean']:.3f}, maximum {run['most']:.1f}",
+            fontsize=SMALL,
+        )
         dilatation = draw_one(right, data, name, _MOST_K, data["arrays"][f"k_{name}"])
-        right.set_title(f"{title}\n$k \\leq {run['bounds'][0]:.2g}$ (proved)", fontsize=SMALL)
+        right.set_title(f"{title}\n$k \\leq$ {run['bounds'][0]:.2g} (proved)", fontsize=SMALL)
     drawing.color_bar(figure, iso, pairs[0], "symmetric Dirichlet density")
     drawing.color_bar(figure, dilatation, pairs[1], "little dilatation $k$")
     drawing.save(figure, path)

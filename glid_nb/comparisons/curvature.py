@@ -22,8 +22,10 @@ Array = NDArray[Any]
 
 
 @double_precision
-def negative_eigenvalues(case: Case) -> list[int]:
-    """How many eigenvalues of the exact Hessian are negative at each iterate of unmodified Newton.
+def negative_eigenvalues(
+    case: Case, method: str = "newton-unmodified", **settings: Any
+) -> list[int]:
+    """How many eigenvalues of the exact Hessian are negative at each iterate of a Newton's method.
 
     Of the total energy with respect to the unknowns, on the panels of our solver.
     """
@@ -33,7 +35,7 @@ def negative_eigenvalues(case: Case) -> list[int]:
         assert isinstance(progress.map, HarmonicMap)
         maps.append(progress.map)
 
-    run("newton-unmodified", case, callback=keep)
+    run(method, case, callback=keep, **settings)
     problem = _problem(case, Options(align=False))
     return [int((np.linalg.eigvalsh(_hessian(problem, m, "exact")) < 0).sum()) for m in maps]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,8 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from glid_nb._files import write_bytes_atomically
+from glid_nb.comparisons.distortion import densities
 from glid_nb.imaging.style import (
     BLUE,
     CYAN,
@@ -64,20 +67,9 @@ def side_by_side(drawn: Figure, ratios: tuple[float, float]) -> tuple[Any, Any]:
 def save(drawn: Figure, path: Path) -> None:
     """Write a figure as PNG."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    drawn.savefig(path, facecolor="white", metadata={"Software": None})
-
-
-def densities(rest: Array, triangles: Array, images: Array) -> Array:
-    """(t,) symmetric Dirichlet density of a piecewise linear map; infinite where it folds."""
-    source, image = (
-        np.stack([v[triangles[:, k]] - v[triangles[:, 0]] for k in (1, 2)], axis=-1)
-        for v in (rest.astype(float), images.astype(float))
-    )
-    jacobian = image @ np.linalg.inv(source)
-    det = np.linalg.det(jacobian)
-    dirichlet = (jacobian**2).sum(axis=(1, 2)) / 2
-    positive = det > 0
-    return np.where(positive, dirichlet * (1 + np.where(positive, det, 1.0) ** -2), np.inf)
+    buffer = io.BytesIO()
+    drawn.savefig(buffer, format="png", facecolor="white", metadata={"Software": None})
+    write_bytes_atomically(path, buffer.getvalue())
 
 
 def draw_map(
@@ -91,7 +83,8 @@ def draw_map(
 ) -> Any:
     """A map's image coloured by its distortion, folded triangles in black.
 
-    ``pose`` (h, 4) holds targets and reached positions: cyan discs and black dots.
+    ``pose`` (h, 4) holds targets and reached positions: cyan discs and black dots. Values above
+    ``most`` have its colour; :func:`color_bar` says so.
     """
     # From the left of the undeformed shape to its right: sheets over one another do not mingle.
     order = np.argsort(rest[triangles, 0].mean(axis=1), kind="stable")
@@ -101,7 +94,7 @@ def draw_map(
     shown = density if values is None else values[order]
     colors = PolyCollection(
         list(images[triangles[~folded]]),
-        array=np.clip(shown[~folded], None, most),
+        array=shown[~folded],
         cmap=distortion_colors(),
         clim=(0.0 if values is not None else 2.0, most),
         edgecolors="face",
@@ -113,19 +106,28 @@ def draw_map(
     if pose is not None and len(pose):
         axes.scatter(pose[:, 0], pose[:, 1], s=11, color=CYAN, lw=0, zorder=3)
         axes.scatter(pose[:, 2], pose[:, 3], s=1.5, color=INK, zorder=4)
-    low, high = images.min(axis=0), images.max(axis=0)
-    if pose is not None and len(pose):
-        low, high = np.minimum(low, pose[:, :2].min(axis=0)), np.maximum(high, pose[:, :2].max(0))
-    pad = 0.03 * float((high - low).max())
-    axes.set(xlim=(low[0] - pad, high[0] + pad), ylim=(low[1] - pad, high[1] + pad))
-    axes.set_aspect("equal")
+    axes.margins(0.03)
+    # Boxes of different heights hang from one line, and their titles stand on it.
+    axes.set_aspect("equal", anchor="N")
     axes.set_axis_off()
     return colors
 
 
 def color_bar(drawn: Figure, colors: Any, axes: Any, label: str) -> None:
-    """A slim colour bar beside axes."""
-    bar = drawn.colorbar(colors, ax=axes, shrink=0.7, aspect=30, pad=0.01)
+    """A slim colour bar beside axes, with an arrow where a map in them exceeds its end."""
+    most = colors.get_clim()[1]
+    maps = [c for ax in np.ravel(axes) for c in ax.collections if isinstance(c, PolyCollection)]
+    drawn_values = [values for c in maps if (values := c.get_array()) is not None and len(values)]
+    beyond = any(float(values.max()) > most for values in drawn_values)
+    bar = drawn.colorbar(
+        colors,
+        ax=axes,
+        shrink=0.7,
+        aspect=30,
+        pad=0.01,
+        panchor=False,
+        extend="max" if beyond else "neither",
+    )
     bar.outline.set_visible(False)
     bar.ax.tick_params(labelsize=SMALL, length=2)
     bar.set_label(label, fontsize=SMALL)

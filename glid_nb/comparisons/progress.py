@@ -9,13 +9,16 @@ from typing import Any
 import numpy as np
 from matplotlib.ticker import NullFormatter
 from numpy.typing import NDArray
+from scipy.spatial import KDTree
 
 from glid_nb.compare import MeshMap, methods
 from glid_nb.comparisons import drawing
 from glid_nb.comparisons.cases import Case
 from glid_nb.comparisons.curvature import contraction, negative_eigenvalues
+from glid_nb.comparisons.distortion import densities, harmonic_area_mean, mesh_area_mean
 from glid_nb.comparisons.drawing import LOOK
 from glid_nb.comparisons.minimum import Minimum, NoMinimumError, mesh_minimum
+from glid_nb.comparisons.preparation import preparation
 from glid_nb.comparisons.runs import (
     CRITERIA,
     LIGHT_WEIGHT,
@@ -43,6 +46,8 @@ Array = NDArray[Any]
 HARMONIC = ("newton", "newton-paper", "newton-unmodified", "newton-eigen", "lbfgs")
 MESH = ("slim", "aqp")
 _FOLLOWED = ("newton", "newton-eigen")
+ENDED = ("converged", "stationary")
+"""How a run ends that got to its minimum."""
 LIMITS = {"lbfgs": 2000, "newton-eigen": 120}
 """Iterations after which these end if they have not converged; the paper's L-BFGS took 1,818."""
 MESH_SECONDS = 40.0
@@ -52,6 +57,7 @@ _UNWATCHED = 2
 _THUMBNAILS = 4
 _LABEL = 0.75  # width of a row's label, in pictures
 _LEAST_GAP = 1e-9
+_TITLE: dict[str, Any] = {"fontsize": SMALL - 1, "pad": 2}
 
 
 def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
@@ -64,28 +70,42 @@ def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
         "display_triangles": display.triangles,
         "mesh": mesh.vertices,
         "mesh_triangles": mesh.triangles,
+        "handles": case.problem.pose.handles,
         "targets": case.problem.pose.targets,
     }
     known = methods(available=True)
     minimum: HarmonicMap | None = None
     for method in HARMONIC:
         detail(f"{case.name}: {LOOK[method][0]}")
-        runs[method], pictures, map_ = _harmonic(method, case, display)
-        arrays |= {f"{name}_{method}": array for name, array in pictures.items()}
+        runs[method], arrays[f"images_{method}"], map_ = _harmonic(method, case, display)
         if method == "newton":
             minimum = map_
     assert minimum is not None
+    runs["newton"]["area_mean"] = harmonic_area_mean(minimum, mesh)
+    detail(f"{case.name}: the minimum on the mesh below ours")
+    below_ours = area_mean_below(minimum, mesh, case.problem.pose)
     other: MeshMap | None = None
     for method in reversed(MESH):
         if method in known:
             runs[method], pictures, other = _on_mesh(method, case, mesh, other, detail)
-            arrays |= {f"{name}_{method}": array for name, array in pictures.items()}
+            arrays[f"images_{method}"] = pictures
+    for method in ("newton", *MESH):
+        if method in runs:
+            detail(f"{case.name}: {LOOK[method][0]}, preparation")
+            on_mesh = method in MESH
+            runs[method]["preparation"] = preparation(method, case, on_mesh, MESH_VERTICES)
     detail(f"{case.name}: {LOOK['lbfgs'][0]}, light targets")
     light: dict[str, Any] = {"p2p_weight": LIGHT_WEIGHT}
     lbfgs = run("lbfgs", case, initial="dirichlet", max_iterations=LIMITS["lbfgs"], **light)
     detail(f"{case.name}: eigenvalues of Hessians")
+    eigen = runs["newton-eigen"]
+    if eigen["status"] not in ENDED:
+        limit = {"max_iterations": LIMITS["newton-eigen"]}
+        eigen["negative"] = negative_eigenvalues(case, "newton-eigen", **limit)
     return {
         "name": case.name,
+        "unknowns": case.unknowns,
+        "area_mean_below_ours": below_ours,
         "handles": len(case.problem.pose),
         "runs": runs,
         "light": {
@@ -100,8 +120,12 @@ def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
 
 def _harmonic(
     method: str, case: Case, display: Triangulation
-) -> tuple[dict[str, Any], dict[str, Array], HarmonicMap]:
-    """A method in the harmonic subspace; its own last map is its minimum, if it converged."""
+) -> tuple[dict[str, Any], Array, HarmonicMap]:
+    """A method in the harmonic subspace; its own last map is its minimum, if it converged.
+
+    With the images of some iterates, of which the last is that of the run whose numbers count: the
+    watched one returns to the host at each iteration and may end one earlier or later.
+    """
     limit: dict[str, Any] = {"max_iterations": LIMITS.get(method)}
     watcher = Watcher(display.vertices)
     watched = run(method, case, callback=watcher, **limit) if method in _FOLLOWED else None
@@ -113,13 +137,12 @@ def _harmonic(
     if watched is not None and watched.status.ok:
         energy = [step.energy for step in watched.history]
         found = reached(watcher.distance(end), watcher.moved, energy, energy[-1], True)
-        # A run that nothing looks at may end an iteration earlier.
         found = {name: _at_most(i, result.iterations) for name, i in found.items()}
         measured["reached"] = _with_times(found, measured["time"])
-    images = watcher.images or {result.iterations: end.astype(np.float32)}
-    measured["thumbnails"], pictures = thumbnails(images, _THUMBNAILS)
-    at_handles = np.asarray(map_(case.problem.pose.handles))
-    return measured, {"images": pictures, "reached": at_handles}, map_
+    measured["thumbnails"], pictures = thumbnails(
+        ended_by(watcher.images, result.iterations, end), _THUMBNAILS
+    )
+    return measured, pictures, map_
 
 
 def _on_mesh(
@@ -128,7 +151,7 @@ def _on_mesh(
     mesh: Triangulation,
     other: MeshMap | None,
     detail: Callable[[str], None],
-) -> tuple[dict[str, Any], dict[str, Array], MeshMap | None]:
+) -> tuple[dict[str, Any], Array, MeshMap | None]:
     """A method on a mesh, followed for a while, and the minimum that it descends to.
 
     That is returned last, ``None`` where there is none; ``other`` is that of another method.
@@ -140,14 +163,15 @@ def _on_mesh(
     map_ = result.map
     assert isinstance(map_, MeshMap)
     measured = outcome(result)
-    measured["thumbnails"], pictures = thumbnails(watcher.images, _THUMBNAILS - 1)
+    measured["thumbnails"], pictures = thumbnails(
+        ended_by(watcher.images, result.iterations, map_.images), _THUMBNAILS - 1
+    )
     detail(f"{case.name}: the minimum below {LOOK[method][0]}")
     pose = case.problem.pose
     try:
         minimum, its_own = minimum_below(method, map_, other, pose)
     except NoMinimumError as error:
-        at_handles = {"images": pictures, "reached": map_(pose.handles)}
-        return {**measured, "minimum": None, "reason": str(error)}, at_handles, None
+        return {**measured, "minimum": None, "reason": str(error)}, pictures, None
     if not its_own:
         measured["borrowed"] = True
     found = reached(
@@ -169,13 +193,13 @@ def _on_mesh(
         "time": time,
         "reached": _with_times(found, time),
         "minimum": minimum.energy,
+        "area_mean": mesh_area_mean(minimum.images, mesh),
         "left": apart(map_.images, minimum.images),
         # The start is left out: in the first run it waits for programs that are compiled.
         "watching": sum(watched[1 : len(unwatched)]) / sum(unwatched[1:]) if needed else None,
     }
-    pictures = np.concatenate([pictures, minimum.images[None].astype(np.float32)])
-    end = MeshMap(mesh, minimum.images)
-    return measured, {"images": pictures, "reached": end(pose.handles)}, end
+    pictures = np.concatenate([pictures, minimum.images[None]])
+    return measured, pictures, MeshMap(mesh, minimum.images)
 
 
 def minimum_below(
@@ -200,6 +224,19 @@ def minimum_below(
         return mesh_minimum(other, pose, SymmetricDirichlet(), constraints, P2P_WEIGHT), False
 
 
+def area_mean_below(map_: HarmonicMap, mesh: Triangulation, pose: Pose) -> float | None:
+    """The distortion of the minimum of SLIM's energy to which a harmonic map leads on the mesh.
+
+    ``None`` where there is none, as where the mesh is too coarse for the map to be injective on it.
+    """
+    start = MeshMap(mesh, map_(mesh.vertices))
+    try:
+        found = mesh_minimum(start, pose, SymmetricDirichlet(), "soft", P2P_WEIGHT)
+    except NoMinimumError:
+        return None
+    return mesh_area_mean(found.images, mesh)
+
+
 def _at_most(iteration: int | None, most: int) -> int | None:
     return None if iteration is None else min(iteration, most)
 
@@ -216,19 +253,18 @@ def draw(data: Measurement, path: Path) -> None:
     """Rows of intermediate maps, and energies against iterations and time."""
     runs, arrays = data["runs"], data["arrays"]
     rows = [m for m in ("newton", "newton-eigen", "newton-unmodified", *MESH) if m in runs]
-    figure = drawing.figure(13.0, 1.35 * len(rows))
+    figure = drawing.figure(13.0, 1.5 * len(rows))
     left, right = drawing.side_by_side(figure, (1.45, 1.0))
     ratios = (_LABEL, *(1.0,) * _THUMBNAILS)
     grid = left.subplots(len(rows), 1 + _THUMBNAILS, squeeze=False, width_ratios=ratios)
-    final = drawing.densities(
-        arrays["display"], arrays["display_triangles"], arrays["images_newton"][-1]
-    )
+    final = densities(arrays["display"], arrays["display_triangles"], arrays["images_newton"][-1])
     most = float(np.clip(np.quantile(final, 0.97), 3.0, 12.0))
     colors = None
     for (label, *row), method in zip(grid, rows, strict=True):
         run = runs[method]
         kind = "mesh" if method in MESH else "display"
         rest, triangles = arrays[kind], arrays[f"{kind}_triangles"]
+        handles = KDTree(rest).query(arrays["handles"])[1]  # they are among the vertices
         pictures = arrays[f"images_{method}"]
         titles = [f"iteration {i}" for i in run["thumbnails"]]
         if run.get("minimum") is not None:
@@ -238,10 +274,9 @@ def draw(data: Measurement, path: Path) -> None:
         # The last one under the last one, so that the ends of all methods stand in a column.
         places = [*row[: len(titles) - 1], row[-1]]
         for axes, title, images in zip(places, titles, pictures, strict=True):
-            pose = np.hstack([arrays["targets"], arrays[f"reached_{method}"]])
-            shown = pose if title == titles[-1] else pose[:, [0, 1, 0, 1]]
-            colors = drawing.draw_map(axes, rest, triangles, images, shown, most)
-            axes.set_title(title, fontsize=SMALL - 1, pad=2)
+            pose = np.hstack([arrays["targets"], images[handles]])
+            colors = drawing.draw_map(axes, rest, triangles, images, pose, most)
+            axes.set_title(f"{title}\n{_largest(rest, triangles, images)}", **_TITLE)
         label.text(
             0.0, 0.5, f"{LOOK[method][0]}\n{_note(run)}", transform=label.transAxes,
             fontsize=SMALL, va="center", color=LOOK[method][1],
@@ -252,11 +287,21 @@ def draw(data: Measurement, path: Path) -> None:
     drawing.save(figure, path)
 
 
+def ended_by(images: dict[int, Array], iterations: int, end: Array) -> dict[int, Array]:
+    """The iterates of a watched run before the last iteration of another, and where that ended."""
+    return {**{i: image for i, image in images.items() if i < iterations}, iterations: end}
+
+
+def _largest(rest: Array, triangles: Array, images: Array) -> str:
+    density = densities(rest, triangles, images)
+    return f"maximum {density[np.isfinite(density)].max():.2g}"
+
+
 def _note(run: dict[str, Any]) -> str:
     if run["status"] in ("indefinite", "blocked"):
         return f"halts after {run['iterations']} it."
     if "minimum" not in run:
-        more = "" if run["status"] in ("converged", "stationary") else "+"
+        more = "" if run["status"] in ENDED else "+"
         return f"{run['iterations']}{more} it., {seconds(run['time'][-1])}"
     near = run["reached"]["energy"] if run["minimum"] is not None else None
     if near is None:
@@ -297,7 +342,7 @@ def _least(runs: dict[str, Any], method: str) -> float:
     run = runs[method]
     if run.get("minimum") is not None:
         return run["minimum"]
-    if method in MESH or run["status"] in ("converged", "stationary"):
+    if method in MESH or run["status"] in ENDED:
         return run["energy"][-1]
     return runs["newton"]["energy"][-1]
 

@@ -58,7 +58,7 @@ class Watcher:
         self.moved.append(apart(images, images if self._last is None else self._last))
         self._last = images
         if step.iteration < _ALL_KEPT or step.iteration >= _APART * max(self.images):
-            self.images[step.iteration] = images.astype(np.float32)
+            self.images[step.iteration] = images
         self._taken += step.time
         return self._taken > self.seconds
 

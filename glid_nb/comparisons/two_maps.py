@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from glid_nb.compare import MethodResult
 from glid_nb.comparisons import drawing
 from glid_nb.comparisons.cases import Case
+from glid_nb.comparisons.distortion import density_at
 from glid_nb.comparisons.runs import display_mesh, last_of, outcome, run
 from glid_nb.comparisons.store import Measurement
 from glid_nb.energies import Energy
@@ -74,10 +75,7 @@ def _distortion(case: Case, result: MethodResult, display: Triangulation) -> dic
     assert isinstance(map_, HarmonicMap)
     z = uniform_boundary_samples(case.problem.domain.cage, _BOUNDARY_SAMPLES).points
     boundary, inside = np.stack([np.real(z), np.imag(z)], axis=-1), display.vertices
-    density = []
-    for points in (boundary, inside):
-        s1, s2 = map_.sigma1(points), map_.sigma2(points)
-        density.append((s1**2 + s2**2 + s1**-2 + s2**-2) / 2)
+    density = [density_at(map_, points) for points in (boundary, inside)]
     return {
         "mean": float(density[0].mean()),
         "most": float(max(d.max() for d in density)),

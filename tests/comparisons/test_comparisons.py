@@ -20,12 +20,11 @@ from glid_nb.comparisons import (
     stages,
 )
 from glid_nb.comparisons.cases import Case, reference_cases, sample_case
-from glid_nb.comparisons.drawing import densities
 from glid_nb.comparisons.lipschitz import lipschitz_constants, refused_segments
 from glid_nb.comparisons.minimum import NoMinimumError
 from glid_nb.comparisons.page import page
 from glid_nb.comparisons.runs import VISIBLE
-from glid_nb.geometry import triangulate, uniform_boundary_samples
+from glid_nb.geometry import uniform_boundary_samples
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session import InputFileError, Problem
 
@@ -39,15 +38,6 @@ def small(name: str = "bent") -> Case:
 
 def nothing(_: str) -> None:
     pass
-
-
-def test_densities_are_those_of_the_singular_values() -> None:
-    mesh = triangulate(problem("ell")[0].cage, 60)
-    matrix = np.array([[1.5, 0.2], [-0.1, 0.8]])
-    s1, s2 = np.linalg.svd(matrix, compute_uv=False)
-    found = densities(mesh.vertices, mesh.triangles, mesh.vertices @ matrix.T)
-    np.testing.assert_allclose(found, (s1**2 + s2**2 + s1**-2 + s2**-2) / 2)
-    assert np.isinf(densities(mesh.vertices, mesh.triangles, mesh.vertices * [-1, 1])).all()
 
 
 @pytest.mark.slow
@@ -125,6 +115,14 @@ def test_progress_from_measurement_to_page(tmp_path: Path) -> None:
     found = runs["newton"]["reached"]
     assert 0 < found["energy"]["iteration"] <= found["map"]["iteration"]
     assert found["map"]["time"] <= runs["newton"]["time"][-1]
+    # Each row ends with the map of the run whose numbers stand beside it.
+    for method in ("newton", "newton-eigen", "newton-unmodified"):
+        assert runs[method]["thumbnails"][-1] == runs[method]["iterations"]
+    # The mesh has far more unknowns, and its minimum the lower energy; both are of one basin.
+    ours, below = runs["newton"]["area_mean"], results["progress"][0]["area_mean_below_ours"]
+    assert 2 <= runs["aqp"]["area_mean"] < ours
+    assert 2 <= below < ours
+    assert all(runs[m]["preparation"] > 0 for m in ("newton", "aqp"))
     aqp = runs["aqp"]
     assert aqp["most_flips"] == 0
     # On so small a mesh it is there in time, and where Newton's method on the mesh goes.
@@ -153,6 +151,8 @@ def test_parts_from_measurement_to_page(tmp_path: Path) -> None:
     assert all(seconds >= 0 for seconds in results["stages"][0]["seconds"].values())
     times = results["iteration-times"][0]["seconds"]
     assert {"newton", "newton-eigen", "lbfgs", "aqp"} <= set(times)
+    least, most = results["iteration-times"][0]["spread"]
+    assert 0 < least <= most
     assert min(times.values()) > 0
     constants = results["lipschitz"][0]["arrays"]
     assert constants["bdhm"].mean() > constants["ours"].mean() > 0

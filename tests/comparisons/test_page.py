@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from glid_nb.comparisons import paper
-from glid_nb.comparisons.page import bounded, lipschitz, progress, speed
-from glid_nb.comparisons.page.words import ended, joined, name_of, spread, table, verdict
+from glid_nb.comparisons.page import bounded, cost, iteration_times, lipschitz, progress, speed
+from glid_nb.comparisons.page.words import briefly, ended, joined, name_of, spread, table, verdict
 from glid_nb.comparisons.units import percent, seconds
 
 
@@ -20,6 +20,9 @@ def test_words() -> None:
     assert name_of("gecko-extreme") == "the bundled gecko, extreme pose"
     assert name_of("t-rex") == "t-rex"
     assert ended({"status": "max_iterations", "iterations": 60}) == "not converged after 60"
+    assert briefly({"status": "max_iterations", "iterations": 2_000}) == "2,000+"
+    assert briefly({"status": "stationary", "iterations": 60}) == "60"
+    assert briefly({"status": "indefinite", "iterations": 2}) == "halts at 2"
     assert table(["a"], [["1"]]) == ["| a |", "| --- |", "| 1 |"]
     assert verdict(True) == "**Reproduced.**"
     assert verdict(False, True) == "**Partly reproduced.**"
@@ -65,7 +68,8 @@ def test_bounds_are_held_and_bind() -> None:
 def run(time: float, reached: dict | None, **more: object) -> dict:
     found = None if reached is None else {**dict.fromkeys(("map", "energy", "rest")), **reached}
     base = {"time": [0.0, time], "energy": [9.0, 1.02], "minimum": 1.0, "left": 0.5}
-    return {**base, "iterations": 1, "reached": found, **more}
+    made = {"preparation": 0.25, "area_mean": 2.1, "step_time": [0.125, time]}
+    return {**base, **made, "iterations": 1, "reached": found, **more}
 
 
 def shape(name: str, slim: dict, aqp: dict) -> dict:
@@ -73,7 +77,8 @@ def shape(name: str, slim: dict, aqp: dict) -> dict:
     ours = run(0.1, dict.fromkeys(("map", "energy", "rest"), there))
     eigen = {k: v for k, v in run(5.0, None).items() if k not in ("reached", "minimum")}
     runs = {"newton": ours, "newton-eigen": eigen, "slim": slim, "aqp": aqp}
-    return {"name": name, "runs": {k: {**v, "watching": None} for k, v in runs.items()}}
+    runs = {k: {**v, "watching": None} for k, v in runs.items()}
+    return {"name": name, "unknowns": 100, "area_mean_below_ours": 2.1, "runs": runs}
 
 
 def test_ratios_that_are_bounds_are_called_so() -> None:
@@ -83,9 +88,10 @@ def test_ratios_that_are_bounds_are_called_so() -> None:
         shape("b", run(40.0, {}), run(9.0, {"energy": there})),
     ]
     text = "\n".join(speed.section(cases))
-    assert "| a | 100 ms | does not converge | 4.0 s, 40x | 2.0 s, 20x |" in text
-    assert "| b | 100 ms | does not converge | 40.0 s+, 2.0% above, at least 400x |" in text
-    assert "0.5 units away, at least 400x" in text
+    assert "| a | 100 ms | unconverged | 4.0 s, 40x | 2.0 s, 20x |" in text
+    assert "| b | 100 ms | unconverged | 40.0 s+, 400x+ |" in text
+    assert "stopped before: SLIM on b (2.0% above). Unconverged, and in no ratio: Newton-" in text
+    assert "SLIM on b (0.5 units away), AQP on a (0.5" in text
     # 20, 40, 40 and at least 400: the median does not depend on how much more.
     assert "of both together **40x**, 3 of 4 runs at 25x or more" in text
     # Both medians have to be high enough: SLIM's is at least 220x, AQP's 30x.
@@ -126,7 +132,8 @@ def test_a_missing_minimum_is_said() -> None:
     del lost["reached"]
     there = {"iteration": 1, "time": 4.0}
     text = "\n".join(speed.section([shape("a", lost, run(9.0, {"map": there}))]))
-    assert "no minimum to compare with" in text
+    assert "| a | 100 ms | unconverged | no minimum | 4.0 s, 40x |" in text
+    assert "There is no minimum to compare with for SLIM on a (singular)." in text
 
 
 def test_borrowed_minima_are_named() -> None:
@@ -160,8 +167,44 @@ def test_reasons_follow_the_numbers() -> None:
     assert "**Reproduced.**" in text
     text = "\n".join(lipschitz.section([constants("giraffe", 0, 0.5)], "figures"))
     assert "on giraffe they prove it on every segment" in text
-    assert "on giraffe they are 0.19 units long, 1.9 times" in text
+    # Two segments of a boundary that is 100 long.
+    assert "| giraffe | 2 |" in text
+    assert "On 2 segments (as many as 529, the paper's number, become" in text
+    assert "on giraffe they are 50.00 units long, 500.0 times" in text
     assert "**Partly reproduced.**" in text
+
+
+def test_far_energies_are_given_as_multiples() -> None:
+    assert speed._left({"energy": [4e7], "minimum": 2.0}, "energy") == "at 2e+07 times it"
+    assert speed._left({"energy": [2.08], "minimum": 2.0}, "energy") == "4.0% above"
+
+
+def test_cost_stands_beside_the_speed() -> None:
+    near = shape("a", run(4.0, {}, area_mean=2.0), run(4.0, {}, area_mean=2.05))
+    near["runs"]["newton"]["area_mean"] = 2.2
+    near["area_mean_below_ours"] = 2.001
+    text = "\n".join(cost.energies([near]))
+    assert "| a | 2.200 | 2.000 | 2.050 | 1.10x | 2.001 |" in text
+    assert "at 1.10 times the lower of theirs, and below it on none of 1 shapes" in text
+    assert text.endswith("Where it is theirs, what lies between is the space's alone.")
+    text = "\n".join(cost.energies([near, {**near, "name": "b", "area_mean_below_ours": 2.3}]))
+    assert "on b it is not" in text
+    # Without SLIM, and without a minimum below ours.
+    alone = {**near, "area_mean_below_ours": None}
+    alone["runs"] = {name: near["runs"][name] for name in ("newton", "aqp")}
+    text = "\n".join(cost.energies([alone]))
+    assert "| a | 2.200 | - | 2.050 | 1.07x | - |" in text
+    assert "on a it finds none from there" in text
+    text = "\n".join(cost.preparation([near, alone]))
+    assert "| a | 250 ms | 250 ms | 250 ms | 125 ms |" in text
+    assert "| a | 250 ms | - | 250 ms | 125 ms |" in text
+
+
+def test_iterations_that_are_not_alike_are_said_so() -> None:
+    cases = [{"name": n, "spread": [0.01, 0.01 * r]} for n, r in (("a", 2), ("b", 4))]
+    text = iteration_times._unlike(cases)
+    assert "most on b, where the dearest takes 4.0 times as long" in text
+    assert "(40.0 against 10.0 ms" in text
 
 
 def newton(iterations: int, energy: float = 2.0, status: str = "converged") -> dict:
@@ -184,6 +227,7 @@ def solved(unmodified: dict, eigen: int, lbfgs: dict) -> dict:
     }
     return {
         "name": "rex",
+        "unknowns": 100,
         "handles": 8,
         "runs": runs,
         "light": {"newton": newton(6), "lbfgs": lbfgs},
@@ -210,6 +254,13 @@ def test_newton_eigen_and_lbfgs_are_judged() -> None:
     fewer = progress._eigen([solved(halted, 10, newton(1_700))])
     assert "20 against 10: the Hessian has no negative eigenvalue on the way" in fewer
     assert "from 0.20 to 2.10" in fewer
+    astray = solved(halted, 120, newton(1_700))
+    astray["runs"]["newton-eigen"] |= {"status": "max_iterations", "negative": [0, 4, 8]}
+    mixed = progress._eigen([solved(halted, 30, newton(1_700)), astray])
+    # The run that was stopped is no win of the other method.
+    assert "on 1 of the 1 shapes where Newton-Eigen converges" in mixed
+    assert "steps are 1e-03 of a full one in the median, with 4.0% of the Hessian's" in mixed
+    assert "**Not judged.**" in progress._eigen([astray])
     assert "**Reproduced.**" in progress._lbfgs([solved(halted, 30, newton(1_700))])
     stuck = progress._lbfgs([solved(halted, 30, newton(2_000, 1e6, "max_iterations"))])
     assert "converges on 0 of 1 shapes" in stuck

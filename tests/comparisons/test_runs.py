@@ -9,6 +9,7 @@ import pytest
 
 from glid_nb.compare import MeshMap, MethodProgress, Step, run_method
 from glid_nb.comparisons.cases import Case
+from glid_nb.comparisons.progress import ended_by
 from glid_nb.comparisons.runs import VISIBLE, Watcher, outcome, reached, run, thumbnails
 from glid_nb.geometry import triangulate
 from glid_nb.session import Problem
@@ -35,8 +36,7 @@ def test_iterates_are_thinned_and_the_method_stopped_in_time() -> None:
         assert 1.01 * before <= after <= 1.01 * before + 1
     np.testing.assert_allclose(watcher.moved, [0, *[0.5] * 999])
     far = watcher.distance(MESH.vertices)
-    # Kept in single precision.
-    np.testing.assert_allclose(list(far.values()), [0.5 * i for i in kept], rtol=1e-6, atol=1e-6)
+    np.testing.assert_allclose(list(far.values()), [0.5 * i for i in kept], atol=1e-12)
 
 
 def test_harmonic_maps_are_watched_at_the_points() -> None:
@@ -71,6 +71,17 @@ def test_thumbnails_are_different_iterations_up_to_the_last() -> None:
     np.testing.assert_array_equal(pictures[:, 0, 0], chosen)
     assert thumbnails({i: images[i] for i in range(3)}, 4)[0] == [1, 2]
     assert thumbnails({3: images[3]}, 4)[0] == [3]
+
+
+def test_thumbnails_end_with_the_run_that_counts() -> None:
+    images = {i: np.full((3, 2), float(i)) for i in range(16)}
+    end = np.full((3, 2), -1.0)
+    # The watched run took 15 iterations.
+    for iterations in (12, 15, 16):
+        chosen, pictures = thumbnails(ended_by(images, iterations, end), 4)
+        assert chosen[-1] == iterations
+        np.testing.assert_array_equal(pictures[-1], end)
+        np.testing.assert_array_equal(pictures[:-1, 0, 0], chosen[:-1])
 
 
 def test_flips_count_at_every_iteration() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from glid_nb.comparisons import paper
-from glid_nb.comparisons.page.words import ended, table, verdict
+from glid_nb.comparisons.page.words import briefly, table, verdict
 from glid_nb.comparisons.store import Measurement
 from glid_nb.comparisons.units import seconds
 
@@ -20,7 +20,7 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
         [
             f"{n:,}",
             f"{data['perimeter'] / n:.2g}",
-            ended(r),
+            briefly(r),
             f"{r['energy'][-1]:.8g}",
             f"{r['contraction']['most']:.3g}",
             seconds(r["time"][-1]),
@@ -44,6 +44,8 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
         "are some; so there are no more of them, and the paper's 50,000 are not measured.",
         "",
         *table(["samples", "spacing", "iterations", "energy", "largest eigenvalue", "time"], rows),
+        "",
+        "A `+` marks runs that had not converged when they were stopped.",
         "",
         f"From {enough:,} samples on the number of iterations is that of {most:,}, which take "
         f"{slower:.1f} times as long (paper: from {said} on that of "

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from glid_nb.comparisons import paper
-from glid_nb.comparisons.page.words import ended, joined, spread, table, verdict
+from glid_nb.comparisons.page.words import briefly, joined, spread, table, verdict
 from glid_nb.comparisons.store import Measurement
 
 
@@ -15,9 +15,11 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
     ratios = [theirs / ours for ours, theirs in means]
     fine = [d["fine_means"][1] / d["fine_means"][0] for d in cases]
     shares = [float((d["arrays"]["ours"] <= d["arrays"]["bdhm"]).mean()) for d in cases]
+    few = [len(d["arrays"]["ours"]) for d in cases]
     rows = [
         [
             d["name"],
+            f"{segments:,}",
             f"{ours:.3f}",
             f"{theirs:.3f}",
             f"{ratio:.1f}x",
@@ -26,8 +28,8 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
             _outcome(d["runs"]["ours"]),
             _outcome(d["runs"]["bdhm"]),
         ]
-        for d, (ours, theirs), ratio, share, finer in zip(
-            cases, means, ratios, shares, fine, strict=True
+        for d, segments, (ours, theirs), ratio, share, finer in zip(
+            cases, few, means, ratios, shares, fine, strict=True
         )
     ]
     stopped = [d["name"] for d in cases if d["runs"]["bdhm"]["status"] == "blocked"]
@@ -41,21 +43,26 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
         *table(
             [
                 "shape",
-                f"mean on {paper.FIGURE_7_SEGMENTS}, paper's",
-                "BDHM's",
+                "segments",
+                "mean, paper's",
+                "mean, BDHM's",
                 "BDHM's / paper's",
                 "paper's is smaller on",
-                f"BDHM's / paper's on {count:,}",
-                "Newton with the paper's",
-                "Newton with BDHM's",
+                f"the same on {count:,}",
+                "Newton, paper's",
+                "Newton, BDHM's",
             ],
             rows,
         ),
         "",
-        f"On about {paper.FIGURE_7_SEGMENTS} segments the paper's constants are smaller by a "
-        f"factor of {spread(ratios)} on average (paper: {paper.FIGURE_7_RATIO}, and on every "
-        f"segment). {_why_not_smaller(cases, shares)}On the solver's {count:,} segments the "
-        f"factor is {spread(fine)}.",
+        "The last two columns are Newton's iterations with either's constants, and the energy at "
+        "which it ended.",
+        "",
+        f"On {spread(few, 0)} segments (as many as {paper.FIGURE_7_SEGMENTS}, the paper's number, "
+        "become when every edge has whole ones) the paper's constants are smaller by a factor of "
+        f"{spread(ratios)} on average (paper: {paper.FIGURE_7_RATIO}, and on every segment). "
+        f"{_why_not_smaller(cases, shares)}On the solver's {count:,} segments the factor is "
+        f"{spread(fine)}.",
         "",
         f"Newton's method on {count:,} fixed segments stops early with BDHM's constants on "
         f"{joined(stopped)} of these shapes (paper: on {joined(paper.FIGURE_7_SHAPES)}; there is "
@@ -65,19 +72,19 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
 
 
 def _outcome(run: dict[str, Any]) -> str:
-    return f"{ended(run)}, at energy {run['energy'][-1]:.4g}"
+    return f"{briefly(run)} ({run['energy'][-1]:.4g})"
 
 
 def _why_not_smaller(cases: list[Measurement], shares: list[float]) -> str:
     larger = [d for d, share in zip(cases, shares, strict=True) if share < 1]
     if not larger:
         return ""
+    means = [d["perimeter"] / len(d["arrays"]["ours"]) for d in larger]
     lengths = joined(
         [
-            f"on {d['name']} they are {d['perimeter'] / paper.FIGURE_7_SEGMENTS:.2f} units long, "
-            f"{d['perimeter'] / paper.FIGURE_7_SEGMENTS / d['offset']:.1f} times as long as the "
-            "singularities of the basis are away"
-            for d in larger
+            f"on {d['name']} they are {mean:.2f} units long, {mean / d['offset']:.1f} times as "
+            "long as the singularities of the basis are away"
+            for d, mean in zip(larger, means, strict=True)
         ]
     )
     return (

@@ -8,6 +8,7 @@ import numpy as np
 
 from glid_nb.comparisons import paper
 from glid_nb.comparisons.drawing import LOOK
+from glid_nb.comparisons.page import cost
 from glid_nb.comparisons.page.words import joined, table, verdict
 from glid_nb.comparisons.progress import MESH
 from glid_nb.comparisons.runs import NEAR, VISIBLE
@@ -20,9 +21,12 @@ _TITLES = {
     "map": "No visible distance from the minimum",
 }
 
+_TIMES = 2.0
+"""From so many times its minimum on an energy is not given in percent above it."""
+
 
 def section(cases: list[Measurement]) -> list[str]:
-    """A table and the medians for each criterion."""
+    """A table and the medians for each criterion, and what the speed is paid with."""
     lines = [
         "### Speed",
         "",
@@ -37,8 +41,8 @@ def section(cases: list[Measurement]) -> list[str]:
     ]
     for criterion, title in _TITLES.items():
         lines += _criterion(cases, criterion, title)
-    lines += [_why_slow(cases), "", _how(cases)]
-    return lines
+    lines += [_why_slow(cases), "", _how(cases), ""]
+    return [*lines, *cost.preparation(cases), "", *cost.energies(cases)]
 
 
 def _criterion(cases: list[Measurement], criterion: str, title: str) -> list[str]:
@@ -55,7 +59,7 @@ def _criterion(cases: list[Measurement], criterion: str, title: str) -> list[str
                 ratios[method].append(ratio)
         rows.append(row)
     heads = ["shape", "ours", *(LOOK[m][0] for m in ("newton-eigen", *MESH))]
-    lines = [f"**{title}**", "", *table(heads, rows), ""]
+    lines = [f"**{title}**", "", *table(heads, rows), "", *_notes(cases, criterion)]
     everything = [ratio for values in ratios.values() for ratio in values]
     if everything:
         low, high = paper.SPEED
@@ -100,18 +104,48 @@ def _cell(
     if run is None:
         return "not installed", None
     if "reached" not in run:
-        return "no minimum to compare with" if "minimum" in run else "does not converge", None
+        return "no minimum" if "minimum" in run else "unconverged", None
     found = run["reached"][criterion]
     if found is not None:
         ratio = found["time"] / ours
         return f"{seconds(found['time'])}, {ratio:.0f}x", (ratio, False)
     spent = run["time"][-1]
-    left = {
-        "map": f"{run['left']:.2g} units away",
-        "energy": f"{percent(run['energy'][-1] / run['minimum'] - 1)} above",
-        "rest": "still moving",
-    }[criterion]
-    return f"{seconds(spent)}+, {left}, at least {spent / ours:.0f}x", (spent / ours, True)
+    return f"{seconds(spent)}+, {spent / ours:.0f}x+", (spent / ours, True)
+
+
+def _notes(cases: list[Measurement], criterion: str) -> list[str]:
+    """What the words and signs in a table's cells stand for."""
+    runs = [
+        (f"{LOOK[m][0]} on {d['name']}", d["runs"][m])
+        for m in ("newton-eigen", *MESH)
+        for d in cases
+        if m in d["runs"]
+    ]
+    stopped = [
+        f"{name} ({_left(run, criterion)})"
+        for name, run in runs
+        if "reached" in run and run["reached"][criterion] is None
+    ]
+    lost = [f"{name} ({run['reason']})" for name, run in runs if "reason" in run]
+    astray = [name for name, run in runs if "reached" not in run and "minimum" not in run]
+    notes = []
+    if stopped:
+        notes.append(f"A `+` marks runs that were stopped before: {joined(stopped)}.")
+    if astray:
+        notes.append(f"Unconverged, and in no ratio: {joined(astray)}.")
+    if lost:
+        notes.append(f"There is no minimum to compare with for {joined(lost)}.")
+    return [" ".join(notes), ""] if notes else []
+
+
+def _left(run: dict[str, Any], criterion: str) -> str:
+    """How far a run was from a criterion when it was stopped."""
+    if criterion == "map":
+        return f"{run['left']:.2g} units away"
+    if criterion == "rest":
+        return "still moving"
+    ratio = run["energy"][-1] / run["minimum"]
+    return f"at {ratio:.2g} times it" if ratio >= _TIMES else f"{percent(ratio - 1)} above"
 
 
 def _median_of(values: list[tuple[float, bool]]) -> tuple[float, bool]:
@@ -165,5 +199,6 @@ def _how(cases: list[Measurement]) -> str:
         "without compilation. Which iteration meets a criterion is found in a first run, whose "
         "iterates are kept; its time is that of a later run that nothing looks at, with programs "
         "compiled and in memory, for all methods alike."
-        f"{watched} Where a criterion was not met the time is that of the first run."
+        f"{watched} Where a criterion was not met the time is that of the first run. Iterations of "
+        "ours that are one call to its program, up to four, share its time evenly."
     )

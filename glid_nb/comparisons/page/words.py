@@ -57,3 +57,10 @@ def ended(run: dict[str, Any]) -> str:
         "indefinite": "halts after",
     }
     return f"{words[run['status']]} {run['iterations']}"
+
+
+def briefly(run: dict[str, Any]) -> str:
+    """The same for a table's cell: a bare number where it converged, ``+`` where it was stopped."""
+    count = f"{run['iterations']:,}"
+    how = {"converged": "", "stationary": "", "blocked": "blocked at ", "indefinite": "halts at "}
+    return f"{how[run['status']]}{count}" if run["status"] in how else f"{count}+"
