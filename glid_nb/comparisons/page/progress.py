@@ -26,8 +26,9 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
         lines += [f"![{data['name']}]({figures}/progress-{data['name']}.png)", ""]
     lines += [
         "Colours end at what 97% of our final map's triangles stay below, but between 3 and 12; an "
-        "arrow on the bar says that there is more, and above each map stands the largest density of a triangle that is drawn. The last map "
-        "of a row is that of the run whose numbers stand beside it.",
+        "arrow on the bar says that there is more, and above each map stands the largest density "
+        "of a triangle that is drawn. The last map of a row is that of the run whose numbers stand "
+        "beside it.",
         "",
         "### Iterations",
         "",
