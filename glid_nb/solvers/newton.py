@@ -14,7 +14,7 @@ from glid_nb._runtime import COMPILER_OPTIONS
 from glid_nb.certificate import PanelBounds
 from glid_nb.energies import Energy
 from glid_nb.harmonic.cauchy import Singularities
-from glid_nb.solvers import evaluation, line_search, whitening
+from glid_nb.solvers import cholesky, evaluation, line_search, whitening
 from glid_nb.solvers.discretisation import CertificateKind, Matrices
 from glid_nb.solvers.evaluation import Constraints, Samples
 from glid_nb.solvers.hessian import (
@@ -113,6 +113,7 @@ def iterations(
     row_weights = jnp.concatenate([constraints.weights, constraints.weights])
     p2p_rows = whitening.pulled_back(p2p_matrix, t)
     p2p_hessian = p2p_rows.T @ (row_weights[:, None] * p2p_rows)
+    p2p_hessian = restrict_hessian(p2p_hessian, unknowns)
 
     def residual_at(y: Float[Array, " 4c"]) -> Float[Array, " 2h"]:
         return p2p_matrix @ y - constraints.targets.T.ravel()
@@ -143,11 +144,9 @@ def iterations(
             k = LocalHessian(*(part.astype(dtype) for part in k))
             return assemble(matrices.whitened, weights, f, g, k)
 
-        def cholesky(h: Float[Array, "4c 4c"]) -> Float[Array, "4c 4c"]:
-            h = restrict_hessian(h + p2p_hessian, unknowns)
-            shift = settings.ridge * jnp.mean(jnp.diag(h))
-            h = h + shift * jnp.eye(h.shape[0])
-            return lax.linalg.cholesky(h, symmetrize_input=False)
+        def factor(h: Float[Array, "4c 4c"]) -> Float[Array, "4c 4c"]:
+            whole = restrict_hessian(h, unknowns, p2p_hessian, settings.ridge)
+            return cholesky.factorise(whole)
 
         def project(h: Float[Array, "4c 4c"]) -> Float[Array, "4c 4c"]:
             if not energy.indefinite_across_f_only:
@@ -163,7 +162,7 @@ def iterations(
         def attempt(carry: tuple) -> tuple:
             _, h, count = carry
             h = lax.cond(count == 0, lambda _: assembled(first), project, h)
-            return cholesky(h), h, count + 1
+            return factor(h), h, count + 1
 
         def goes_on(carry: tuple) -> Bool[Array, ""]:
             lower, _, count = carry
@@ -181,7 +180,7 @@ def iterations(
         gradient = evaluation.energy_gradient(matrices, nodes, d)
         gradient = gradient + p2p_matrix.T @ (row_weights * residual)
         gradient = restrict_gradient(whitening.pulled_back(gradient, t), unknowns)
-        step = -jax.scipy.linalg.cho_solve((lower, True), gradient)
+        step = -cholesky.solve(lower, gradient)
         step = jnp.where(jnp.isfinite(lower[-1, -1]), step, 0)
         squared_decrement = -jnp.dot(gradient, step)
         direction = whitening.coefficients(expand(step, unknowns), t)

@@ -46,23 +46,40 @@ def restrict_gradient(g: Float[Array, " 4c"], unknowns: Unknowns) -> Float[Array
     return g * unknowns.free
 
 
-def restrict_hessian(h: Float[Array, "4c 4c"], unknowns: Unknowns) -> Float[Array, "4c 4c"]:
+def restrict_hessian(
+    h: Float[Array, "4c 4c"],
+    unknowns: Unknowns,
+    other: Float[Array, "4c 4c"] | None = None,
+    ridge: Float[Array, ""] | float = 0.0,
+) -> Float[Array, "4c 4c"]:
     """Hessian with respect to the unknowns, the identity elsewhere.
 
     Of ``h`` the rows of ``psi`` and the block of ``phi`` are read, not the block above the
     diagonal ones; there the result means nothing.
+
+    Parameters
+    ----------
+    h : (4c, 4c)
+    unknowns : Unknowns
+    other : (4c, 4c), optional
+        Another Hessian to add, restricted already.
+    ridge : float
+        The diagonal is raised by so many times its mean.
     """
     phi, psi, sign = _hole_slices(h.shape[0], unknowns)
     if phi is not None:
-        rows = sign[:, None] * h[psi, :]
+        rows = sign.astype(h.dtype)[:, None] * h[psi, :]
         h = h.at[phi, :].add(rows)
         h = h.at[:, phi].add(rows.T)
-        h = h.at[phi[:, None], phi].add(sign * rows[:, psi])
+        h = h.at[phi[:, None], phi].add(sign.astype(h.dtype) * rows[:, psi])
     free = unknowns.free
-    masked = h * free[:, None] * free
-    # Not jnp.diag: a compiled loop would keep that matrix.
+    # One pass over the matrix, nothing that a compiled loop would keep.
+    diagonal = jnp.diag(h) * free + (1 - free if other is None else jnp.diag(other))
+    diagonal = diagonal + ridge * jnp.mean(diagonal)
     index = jnp.arange(len(free))
-    return jnp.where(index[:, None] == index, masked + (1 - free), masked)
+    masked = h * free[:, None] * free
+    masked = masked if other is None else masked + other
+    return jnp.where(index[:, None] == index, diagonal, masked)
 
 
 def expand(step: Float[Array, " 4c"], unknowns: Unknowns) -> Float[Array, " 4c"]:

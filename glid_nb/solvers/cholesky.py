@@ -1,0 +1,100 @@
+"""Cholesky's factorisation of the Hessian, and the solves with it.
+
+XLA stores matrices by rows and LAPACK by columns. ``jax.lax.linalg`` therefore has every matrix
+copied into the other order and back, which takes longer than the factorisation of a few hundred
+unknowns. The lower half by rows is the upper half by columns, so that LAPACK can be given the same
+memory: its ``A = U^T U`` is ``A = L L^T`` with ``L = U^T``. On other platforms than the CPU, or
+should a later JAX call LAPACK otherwise, ``jax.lax.linalg`` does the work.
+"""
+
+from __future__ import annotations
+
+import functools
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+from jaxtyping import Array, Float
+
+_FACTORISE, _SOLVE = "lapack_dpotrf_ffi", "lapack_dtrsm_ffi"
+# What JAX's own calls must look like for ours to be understood.
+_EXPECTED = (
+    f"@{_FACTORISE}(",
+    "{uplo = 76 : ui8}",
+    f"@{_SOLVE}(",
+    "{diag = 78 : ui8, side = 76 : ui8, trans_x = 84 : ui8, uplo = 76 : ui8}",
+)
+
+
+def factorise(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
+    """Lower factor of a symmetric matrix, of which the lower half is read.
+
+    What stands above its diagonal means nothing. The last entry of the diagonal is NaN where the
+    matrix is not positive definite.
+    """
+    if not _understood():
+        return _portable_factor(h)
+    return lax.platform_dependent(h, cpu=_lapack_factor, default=_portable_factor)
+
+
+def solve(lower: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
+    """``(L L^T)^-1 b``."""
+    if not _understood():
+        return _portable_solve(lower, b)
+    return lax.platform_dependent(lower, b, cpu=_lapack_solve, default=_portable_solve)
+
+
+def _portable_factor(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
+    return lax.linalg.cholesky(h, symmetrize_input=False)
+
+
+def _portable_solve(lower: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
+    return jax.scipy.linalg.cho_solve((lower, True), b)
+
+
+def _lapack_factor(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
+    outputs = jax.ShapeDtypeStruct(h.shape, h.dtype), jax.ShapeDtypeStruct((), np.int32)
+    call = jax.ffi.ffi_call(
+        _FACTORISE, outputs, input_output_aliases={0: 0}, vmap_method="broadcast_all"
+    )
+    lower, info = call(h, uplo=_letter("U"))
+    return lower.at[-1, -1].set(jnp.where(info == 0, lower[-1, -1], jnp.nan))
+
+
+def _lapack_solve(lower: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
+    column = b[:, None]
+    call = jax.ffi.ffi_call(
+        _SOLVE,
+        jax.ShapeDtypeStruct(column.shape, column.dtype),
+        input_output_aliases={1: 0},
+        vmap_method="broadcast_all",
+    )
+    for transposed in ("T", "N"):
+        column = call(
+            lower,
+            column,
+            side=_letter("L"),
+            uplo=_letter("U"),
+            trans_x=_letter(transposed),
+            diag=_letter("N"),
+        )
+    return column[:, 0]
+
+
+def _letter(letter: str) -> np.uint8:
+    return np.uint8(ord(letter))
+
+
+@functools.cache
+def _understood() -> bool:
+    """Whether this JAX calls LAPACK as we do. To ask also makes LAPACK ready to be called."""
+
+    def both(h: Array, b: Array) -> Array:
+        lower = lax.linalg.cholesky(h, symmetrize_input=False)
+        return lax.linalg.triangular_solve(lower, b, left_side=True, lower=True, transpose_a=True)
+
+    with jax.enable_x64(True):
+        shapes = jax.ShapeDtypeStruct((2, 2), np.float64), jax.ShapeDtypeStruct((2, 1), np.float64)
+        text = jax.jit(both).trace(*shapes).lower(lowering_platforms=("cpu",)).as_text()
+    return all(part in text for part in _EXPECTED)
