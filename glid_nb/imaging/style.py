@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from matplotlib import colormaps
-from matplotlib.colors import Colormap, ListedColormap
-
 if TYPE_CHECKING:  # half a second of imports that the editor's first canvas does not wait for
     from matplotlib.axes import Axes
+    from matplotlib.colors import Colormap
 
 # The ink of axes and text, and Okabe and Ito's colours.
 INK = "#2b2b2b"
@@ -32,6 +30,9 @@ def distortion_colors() -> Colormap:
 
     Perceptually uniform, with a lightness that only falls, so it also reads in grey.
     """
+    from matplotlib import colormaps  # noqa: PLC0415 - as above
+    from matplotlib.colors import ListedColormap  # noqa: PLC0415
+
     magma = colormaps["magma_r"]
     return ListedColormap([magma(0.02 + 0.8 * i / 255) for i in range(256)], name="distortion")
 

@@ -90,6 +90,7 @@ class Deformation:
         self._certificates = weakref.WeakKeyDictionary()
         self._finder = PointFinder(state.domain)
         self._solver = LiveSolver(self._accept, self._fail)
+        self._begun = False
         if begin:
             self.begin()
 
@@ -193,6 +194,11 @@ class Deformation:
     def busy(self) -> bool:
         """Whether the solver has work."""
         return self._solver.busy
+
+    @property
+    def begun(self) -> bool:
+        """Whether the solver was ever asked for something."""
+        return self._begun
 
     @property
     def can_undo(self) -> bool:
@@ -425,8 +431,10 @@ class Deformation:
         Returns at once. Nothing happens when the solver has been asked for something before.
         """
         with self._lock:
-            if not self._solver.alive:
-                self._submit()
+            if self._begun:
+                return
+            self._submit()
+        self._tell("status")
 
     def solve(self, timeout: float | None = None) -> bool:
         """Wait until the present pose is solved; whether that came within ``timeout`` seconds.
@@ -498,6 +506,7 @@ class Deformation:
         self._submit()
 
     def _submit(self, single: bool = False) -> None:
+        self._begun = True
         current = self.state.current
         if single or not self.solved:
             self._solver.submit(Task(current, self._chain, single))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Callable
 from typing import Any
 
 import ipywidgets
@@ -108,6 +109,7 @@ class DeformCanvas(ipywidgets.HBox):
         self._drawing = threading.RLock()
         self._closed = False  # guarded by the lock: a frame may arrive while the canvas closes
         self._receiving = threading.Lock()
+        self._when_drawn: list[Callable[[], None]] = []
         self._panels_at = 0.0
         super().__init__([self.pane], **kwargs)
         # A box that may scroll would shrink to nothing inside another one.
@@ -135,6 +137,10 @@ class DeformCanvas(ipywidgets.HBox):
     def fit(self) -> None:
         """Make the whole shape and all targets visible."""
         self.pane.fit(self.deformation.shown, self.deformation.pose.targets)
+
+    def when_drawn(self, callback: Callable[[], None]) -> None:
+        """Call ``callback`` once, when the page says that it has drawn the canvas."""
+        self._when_drawn.append(callback)
 
     def close(self) -> None:
         """Remove the canvas from the page and free its renderers; a model of its own ends too."""
@@ -211,6 +217,9 @@ class DeformCanvas(ipywidgets.HBox):
     def _receive(self, _: Any, message: dict[str, Any], __: Any) -> None:
         if "drawn" in message:
             self.deformation.begin()
+            waiting, self._when_drawn = self._when_drawn, []
+            for callback in waiting:
+                callback()
             return
         events = message["events"]
         stage = self.pane.stage

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import html
+import threading
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import ipywidgets
 from numpy.typing import ArrayLike
@@ -24,8 +25,6 @@ from glid_nb.solvers import Pose
 from glid_nb.widgets import cells
 from glid_nb.widgets.canvas import DeformCanvas
 from glid_nb.widgets.closing import close_with_parts
-from glid_nb.widgets.exporting import export
-from glid_nb.widgets.file_panel import FilePanel
 from glid_nb.widgets.monitor import SolverMonitor
 from glid_nb.widgets.pose_list import PoseList
 from glid_nb.widgets.scene import N_VERTICES
@@ -33,7 +32,11 @@ from glid_nb.widgets.solver_panel import SolverPanel
 from glid_nb.widgets.toolbar import Toolbar
 from glid_nb.widgets.tracer import CageTracer
 
+if TYPE_CHECKING:
+    from glid_nb.widgets.file_panel import FilePanel
+
 _TRACE, _DEFORM = 0, 1
+_SOLVER = 1  # among the tabs beside the canvas
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
 
@@ -108,11 +111,12 @@ class Editor(ipywidgets.VBox):
         self.model = EditorModel(image, document=document, path=path)
         """The editor without its widgets."""
         self._size, self._n_vertices = (width, height), n_vertices
-        self.tracer: CageTracer
-        """The Trace tab."""
         self.canvas: DeformCanvas | None = None
         """The canvas of the Deform tab; None while nothing is traced."""
         self._parts: list[Any] = []
+        self._later = threading.RLock()
+        self._tracer: CageTracer | None = None
+        self._panels: tuple[SolverPanel, FilePanel] | None = None
         self.tabs = ipywidgets.Tab()
         """The two tabs."""
         self.unsaved = ipywidgets.HTML(layout={"display": "none"})
@@ -134,6 +138,28 @@ class Editor(ipywidgets.VBox):
         return (
             f"Editor({len(state.poses)} poses, {len(state.pose)} handles in {state.current.name!r})"
         )
+
+    # The parts that the first canvas does not wait for: made when it is drawn, or asked for.
+
+    @property
+    def tracer(self) -> CageTracer:
+        """The Trace tab."""
+        with self._later:
+            if self._tracer is None:
+                self._tracer = CageTracer(model=self.model.tracing, height=self._size[1])
+                self._parts.append(self._tracer)
+                self.tabs.children[_TRACE].children = [self._tracer]
+            return self._tracer
+
+    @property
+    def solver_panel(self) -> SolverPanel:
+        """The Solver tab beside the canvas."""
+        return self._made_panels()[0]
+
+    @property
+    def files(self) -> FilePanel:
+        """The Files tab beside the canvas."""
+        return self._made_panels()[1]
 
     # From code
 
@@ -223,6 +249,8 @@ class Editor(ipywidgets.VBox):
         ExportError
             For another suffix.
         """
+        from glid_nb.widgets.exporting import export  # noqa: PLC0415 - not for the first canvas
+
         return export(self.model, path, size, view)
 
     def save(self, path: str | Path) -> None:
@@ -247,18 +275,39 @@ class Editor(ipywidgets.VBox):
     def _build(self) -> None:
         """New views of new models."""
         self._take_down()
-        self.tracer = CageTracer(model=self.model.tracing, height=self._size[1])
-        self._parts.append(self.tracer)
         if self.model.has_shape:
-            deform = self._deform_tab()
+            self.tabs.children = (ipywidgets.VBox(), self._deform_tab())
             chosen = _DEFORM
         else:
             self.canvas = None
-            deform = ipywidgets.HTML(_EMPTY)
+            self.tabs.children = (ipywidgets.VBox(), ipywidgets.HTML(_EMPTY))
             chosen = _TRACE
-        self.tabs.children = (self.tracer, deform)
         self.tabs.titles = ("Trace", "Deform")
         self.tabs.selected_index = chosen
+        if self.canvas is None:
+            self._fill()
+        else:
+            self.canvas.when_drawn(self._fill)
+
+    def _fill(self, _: Any = None) -> None:
+        """Make what is still missing, all of it hidden behind other tabs."""
+        with self._later:
+            if not self._parts and self.canvas is not None:
+                return  # closed meanwhile
+            self.tracer  # noqa: B018 - made by asking
+            if self.canvas is not None:
+                self._made_panels()
+
+    def _made_panels(self) -> tuple[SolverPanel, FilePanel]:
+        with self._later:
+            if self._panels is None:
+                from glid_nb.widgets.file_panel import FilePanel  # noqa: PLC0415 - as above
+
+                self._panels = SolverPanel(self.deformation), FilePanel(self.model)
+                self._parts += self._panels
+                for box, panel in zip(self._side.children[_SOLVER:], self._panels, strict=True):
+                    box.children = [panel]
+            return self._panels
 
     def _deform_tab(self) -> ipywidgets.Widget:
         model, image = self.model.deformation, self.model.tracing.image
@@ -266,12 +315,17 @@ class Editor(ipywidgets.VBox):
         canvas = DeformCanvas(image, model, *self._size, n_vertices=self._n_vertices)
         toolbar = Toolbar(canvas)
         monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
-        poses, panel = PoseList(model), SolverPanel(model)
-        files = FilePanel(self.model)
+        poses = PoseList(model)
         self.canvas, self.monitor, self.pose_list = canvas, monitor, poses
-        self.solver_panel, self.toolbar, self.files = panel, toolbar, files
-        self._parts += [toolbar, canvas, monitor, poses, panel, files]
-        more = ipywidgets.Tab([monitor.image, panel, files], titles=("Monitor", "Solver", "Files"))
+        self.toolbar = toolbar
+        self._parts += [toolbar, canvas, monitor, poses]
+        more = ipywidgets.Tab(
+            # Boxes to be filled: other children would make the page choose another tab.
+            [monitor.image, ipywidgets.VBox(), ipywidgets.VBox()],
+            titles=("Monitor", "Solver", "Files"),
+        )
+        self._side = more
+        more.observe(self._fill, ["selected_index"])
         more.layout.min_height = f"{_PLOTS_HEIGHT + 64}px"
         side = ipywidgets.VBox([more, poses])
         side.layout.width = f"{_SIDE_WIDTH + 34}px"
@@ -285,7 +339,9 @@ class Editor(ipywidgets.VBox):
         return body
 
     def _take_down(self) -> None:
-        parts, self._parts = self._parts, []
+        with self._later:
+            parts, self._parts = self._parts, []
+            self._tracer = self._panels = None
         close_with_parts(*parts, *self.tabs.children)
 
     def _show_save_error(self) -> None:
@@ -299,5 +355,6 @@ class Editor(ipywidgets.VBox):
 
     def _on_tab(self, change: Any) -> None:
         """What was traced is deformed when somebody goes to look at it."""
+        self._fill()
         if change["new"] == _DEFORM:
             self.model.apply_tracing()

@@ -105,7 +105,8 @@ class SolverMonitor(ipywidgets.VBox):
             f'background:{_TONES[status.level]}"></span>'
             f"<span>{html.escape(self._words(status))}</span></div>"
         )
-        if self._with_plots:
+        # Matplotlib's figures take their time, which the first canvas should have.
+        if self._with_plots and self.deformation.begun:
             self._draw()
         if self.deformation.busy:
             self._background.ask()
@@ -134,7 +135,6 @@ class SolverMonitor(ipywidgets.VBox):
         if (state.map, frame) == self._drawn:
             return
         if self._plots is None or self._plots.cage is not state.domain.cage:
-            # In the background thread: the first canvas need not wait for matplotlib's figures.
             from glid_nb.widgets.live_plots import LivePlots  # noqa: PLC0415
 
             self._plots = LivePlots(state.domain.cage, *self._size)

@@ -6,14 +6,26 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
 from glid_nb.energies import AMIPS, ARAP, Energy, ExponentialSymmetricDirichlet, SymmetricDirichlet
-from glid_nb.imaging.style import distortion_colors
 from glid_nb.solvers.restarts import isometry_energy
 
-N_COLORS = 10
+# Ten evenly spaced colours of `imaging.style.distortion_colors`; the first canvas does not wait for
+# matplotlib to say so.
+_COLORS = (
+    "#fcf4b6",
+    "#fecc8f",
+    "#fea16e",
+    "#f8765c",
+    "#e75263",
+    "#c43c75",
+    "#a02f7f",
+    "#7b2382",
+    "#57157e",
+    "#331067",
+)
+N_COLORS = len(_COLORS)
 """Stops of the colour map in the shader."""
 
 # The kinds that picture.frag knows.
@@ -71,7 +83,7 @@ def color_range(name: str, energy: Energy) -> tuple[float, float]:
 
 def color_stops() -> NDArray[np.float64]:
     """(n, 3) colours, evenly spaced, from isometric to distorted."""
-    return distortion_colors()(np.linspace(0.0, 1.0, N_COLORS))[:, :3]
+    return np.array([[int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)] for color in _COLORS])
 
 
 def legend(name: str, energy: Energy) -> dict[str, Any]:
@@ -82,6 +94,6 @@ def legend(name: str, energy: Energy) -> dict[str, Any]:
     ticks = np.linspace(low, high, 5 if name == "energy" else 3)
     return {
         "title": OVERLAYS[name].label,
-        "colors": [to_hex(color) for color in color_stops()],
+        "colors": list(_COLORS),
         "ticks": [f"{value:.3g}" for value in ticks],
     }

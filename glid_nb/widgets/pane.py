@@ -104,7 +104,8 @@ class Pane(ipywidgets.GridBox):
     def show_lines(self, cage: bool, offset_cage: bool) -> None:
         """Whether the two cages are drawn."""
         self._lines = (cage, offset_cage)
-        self._scene.show_lines(cage, offset_cage)
+        if self._scene.show_lines(cage, offset_cage):
+            self._update_children()
 
     def show_panels(self, panels: Any, sigma2_lower: Array) -> None:
         """The boundary's panels, coloured by margin; None for none."""
@@ -113,7 +114,7 @@ class Pane(ipywidgets.GridBox):
 
     def fit(self, map: DeformationMap, points: Any) -> None:
         """Make the whole shape visible, and these points."""
-        outline = map(np.concatenate(self._scene.domain.cage.loops))
+        outline = _images(map, np.concatenate(self._scene.domain.cage.loops))
         everything = np.concatenate([outline, np.reshape(points, (-1, 2))])
         low, high = everything.min(axis=0), everything.max(axis=0)
         x, y = (low + high) / 2
@@ -165,3 +166,12 @@ class Pane(ipywidgets.GridBox):
         if scene.evaluated_in == "shader" and not scene.shader_map.fits(vectors):
             self._replace_scene(scene.map)
             self.stage.coefficients = b""
+
+
+def _images(map: DeformationMap, points: Array) -> Array:
+    """Images of points; those of the identity without a compiled program, for the first canvas."""
+    if isinstance(map, HarmonicMap):
+        identity = HarmonicMap.identity(map.domain)
+        if np.array_equal(map.phi, identity.phi) and np.array_equal(map.psi, identity.psi):
+            return points
+    return map(points)

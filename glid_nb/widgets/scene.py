@@ -189,20 +189,19 @@ class Scene:
             ("picture.vert", "picture.frag"),
             {**self._picture_uniforms(), "map": {"value": self._texture}},
         )
-        self.cage = self._line(cage_ribbon(domain), BLUE, 0.9, _CAGE_WIDTH)
-        self.offset_cage = self._line(offset_ribbon(domain), GREY, 0.9, _OFFSET_WIDTH)
+        self.cage: Layer | None = None
+        """The cage's line, once it has been shown."""
+        self.offset_cage: Layer | None = None
         self.comparison: ComparisonLayer | None = None
         self._replaced: list[ComparisonLayer] = []
         self.panels: Layer | None = None
         self._panels: Panels | None = None
-        for line in (self.cage, self.offset_cage):
-            line.mesh.visible = False
 
     @property
     def layers(self) -> tuple[Layer, ...]:
         """All layers, the lowest first."""
-        lines = (self.cage, self.offset_cage, *([self.panels] if self.panels else []))
-        return (self.picture, *lines)
+        lines = (self.cage, self.offset_cage, self.panels)
+        return (self.picture, *(line for line in lines if line is not None))
 
     @property
     def meshes(self) -> list[Any]:
@@ -259,12 +258,18 @@ class Scene:
             if self.comparison is not None:
                 self.comparison.set_uniforms(changes)
 
-    def show_lines(self, cage: bool, offset_cage: bool) -> None:
-        """Whether the cage and the offset cage are drawn."""
+    def show_lines(self, cage: bool, offset_cage: bool) -> bool:
+        """Whether the cage and the offset cage are drawn; whether there is another layer now."""
+        before = len(self.layers)
+        if cage and self.cage is None:
+            self.cage = self._line(cage_ribbon(self.domain), BLUE, 0.9, _CAGE_WIDTH)
+        if offset_cage and self.offset_cage is None:
+            self.offset_cage = self._line(offset_ribbon(self.domain), GREY, 0.9, _OFFSET_WIDTH)
         for layer, visible in ((self.cage, cage), (self.offset_cage, offset_cage)):
-            if layer.mesh.visible != visible:
+            if layer is not None and layer.mesh.visible != visible:
                 layer.mesh.visible = visible
                 layer.show_map(self.map)
+        return len(self.layers) > before
 
     def show_panels(self, panels: Panels | None, sigma2_lower: Array) -> bool:
         """The boundary's panels coloured by margin, or none; whether there is another layer now."""

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import gc
+import os
 import shutil
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -14,11 +17,12 @@ import pytest
 from PIL import Image
 
 import glid_nb as glid
+from glid_nb.imaging.style import distortion_colors
 from glid_nb.session.edit_state import EditError
 from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
 from glid_nb.widgets.background import Background
 from glid_nb.widgets.exporting import ExportError
-from glid_nb.widgets.overlays import OVERLAYS
+from glid_nb.widgets.overlays import N_COLORS, OVERLAYS, color_stops
 from glid_nb.widgets.stage import emptiest_corner
 
 from ..domains import domain
@@ -181,7 +185,11 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     assert stage.legend == {}
     canvas.show_panels = True
     assert canvas.pane.scene.panels is not None
+    assert len(stage.materials) == 2
+    canvas.show_cage = canvas.show_offset_cage = True
     assert len(stage.materials) == 4
+    canvas.show_cage = False
+    assert len(stage.materials) == 4  # hidden
     model.drop_hole(0)
     assert model.solve(TIMEOUT)
     assert canvas.pane.scene.domain is model.domain
@@ -189,6 +197,58 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     assert canvas.source is None
     canvas.close()
     assert not model.alive
+
+
+_FIRST_CANVAS = """
+import sys
+import numpy as np
+from ipywidgets.widgets import widget
+import glid_nb as glid
+from glid_nb._runtime import compilation_clock
+
+image = np.zeros((60, 90, 4), np.uint8)
+image[10:50, 10:80] = 255
+clock = compilation_clock()
+editor = glid.Editor(image, n_vertices=300)
+unwanted = [m for m in ("matplotlib", "skimage.draw", "glid_nb.export") if m in sys.modules]
+assert not unwanted, unwanted
+assert clock.programs == 0, clock.programs
+assert len(widget._instances) <= 100, len(widget._instances)
+editor.canvas._receive(None, {"drawn": True}, [])
+boxes = [editor.tabs.children[0], *editor._side.children[1:]]
+made = [type(box.children[0]).__name__ for box in boxes]
+assert made == ["CageTracer", "SolverPanel", "FilePanel"]
+assert editor.monitor.refresh(60)
+assert editor.monitor.image.value
+editor.close()
+"""
+
+
+def test_the_first_canvas_waits_for_no_more_than_it_needs(tmp_path: Path) -> None:
+    environment = {**os.environ, "GLID_NB_CACHE": str(tmp_path)}
+    done = subprocess.run(
+        [sys.executable, "-c", _FIRST_CANVAS], env=environment, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_what_a_hidden_tab_holds_is_there_for_who_asks(editor: Editor) -> None:
+    tracer, panel, files = editor.tracer, editor.solver_panel, editor.files
+    assert editor.tabs.children[0].children == (tracer,)
+    assert [box.children for box in editor._side.children[1:]] == [(panel,), (files,)]
+    assert (editor.tracer, editor.solver_panel, editor.files) == (tracer, panel, files)
+
+
+def test_a_tab_is_filled_when_it_is_chosen(editor: Editor) -> None:
+    box = editor._side.children[1]
+    assert box.children == ()
+    editor._side.selected_index = 1
+    assert box.children == (editor.solver_panel,)
+
+
+def test_the_colours_are_those_of_the_figures() -> None:
+    expected = distortion_colors()(np.linspace(0, 1, N_COLORS))[:, :3]
+    np.testing.assert_allclose(color_stops(), expected, atol=0.5 / 255 + 1e-9)
 
 
 @pytest.mark.slow

@@ -15,7 +15,6 @@ from glid_nb.imaging.foreground.brightness import border_is_bright, brightness, 
 from glid_nb.imaging.foreground.color import color_score, color_threshold
 from glid_nb.imaging.foreground.levels import histogram, otsu
 from glid_nb.imaging.foreground.score import Foreground
-from glid_nb.imaging.foreground.scribbles import scribble_score
 from glid_nb.imaging.foreground.walker import Walker
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.options import Method, Point, Scribbles
@@ -58,6 +57,9 @@ def find_foreground(
     elif method == "scribbles":
         if scribbles is None:
             raise TraceError("the method 'scribbles' needs scribbles")
+        # Nobody waits for what it imports before there are scribbles.
+        from glid_nb.imaging.foreground.scribbles import scribble_score  # noqa: PLC0415
+
         walker = walker if walker is not None else Walker.of(image)
         score, more = scribble_score(walker, scribbles, (image.shape[0], image.shape[1]))
         threshold = 0.5

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 from scipy.sparse import coo_array
-from scipy.sparse.linalg import splu
 
 from glid_nb.imaging.read import as_rgba8
 
@@ -65,6 +64,8 @@ class Walker:
 
     def probability(self, labels: NDArray[np.integer]) -> NDArray[np.float64]:
         """(h, w) probability that a walk from the pixel meets the foreground first."""
+        from scipy.sparse.linalg import splu  # noqa: PLC0415 - slow to import, and seldom needed
+
         result = (labels == FOREGROUND).astype(np.float64)
         free = labels == 0
         count = np.count_nonzero(free)
