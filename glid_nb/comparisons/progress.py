@@ -100,8 +100,9 @@ def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
     detail(f"{case.name}: eigenvalues of Hessians")
     eigen = runs["newton-eigen"]
     if eigen["status"] not in ENDED:
-        limit = {"max_iterations": LIMITS["newton-eigen"]}
+        limit: dict[str, Any] = {"max_iterations": LIMITS["newton-eigen"]}
         eigen["negative"] = negative_eigenvalues(case, "newton-eigen", **limit)
+        eigen["by_modulus"] = outcome(run("newton-eigen", case, absolute=True, **limit))
     return {
         "name": case.name,
         "unknowns": case.unknowns,

@@ -256,10 +256,12 @@ def test_newton_eigen_and_lbfgs_are_judged() -> None:
     assert "from 0.20 to 2.10" in fewer
     astray = solved(halted, 120, newton(1_700))
     astray["runs"]["newton-eigen"] |= {"status": "max_iterations", "negative": [0, 4, 8]}
+    astray["runs"]["newton-eigen"]["by_modulus"] = {"status": "converged", "iterations": 34}
     mixed = progress._eigen([solved(halted, 30, newton(1_700)), astray])
     # The run that was stopped is no win of the other method.
     assert "on 1 of the 1 shapes where Newton-Eigen converges" in mixed
     assert "steps are 1e-03 of a full one in the median, with 4.0% of the Hessian's" in mixed
+    assert "by their modulus instead of 1e-10 it takes 34 iterations" in mixed
     assert "**Not judged.**" in progress._eigen([astray])
     assert "**Reproduced.**" in progress._lbfgs([solved(halted, 30, newton(1_700))])
     stuck = progress._lbfgs([solved(halted, 30, newton(2_000, 1e6, "max_iterations"))])

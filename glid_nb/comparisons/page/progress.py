@@ -224,12 +224,19 @@ def _astray(cases: list[Measurement]) -> str:
         + "; ".join(
             f"on {d['name']} its steps are {_median_step(run):.0e} of a full one in the median, "
             f"with {_negative_share(run['negative'], d['unknowns'])} of the Hessian's eigenvalues "
-            "negative"
+            f"negative; by their modulus instead of 1e-10 {_by_modulus(run['by_modulus'])}"
             for d, run in runs
         )
-        + ". A negative eigenvalue raised to 1e-10 makes the direction along its eigenvector as "
-        "long as the gradient there over 1e-10, and the line search shortens all of it."
+        + ". A negative eigenvalue raised to 1e-10, whatever the Hessian's scale, makes the "
+        "direction along its eigenvector as long as the gradient there over 1e-10, and the line "
+        "search shortens all of the step to what that one direction allows."
     )
+
+
+def _by_modulus(run: dict[str, Any]) -> str:
+    if run["status"] in ENDED:
+        return f"it takes {run['iterations']} iterations"
+    return "it does not converge either"
 
 
 def _negative_share(counts: list[int], unknowns: int) -> str:
