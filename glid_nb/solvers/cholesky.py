@@ -2,9 +2,9 @@
 
 XLA stores matrices by rows and LAPACK by columns. ``jax.lax.linalg`` therefore has every matrix
 copied into the other order and back, which takes longer than the factorisation of a few hundred
-unknowns. The lower half by rows is the upper half by columns, so that LAPACK can be given the same
-memory: its ``A = U^T U`` is ``A = L L^T`` with ``L = U^T``. On other platforms than the CPU, or
-should a later JAX call LAPACK otherwise, ``jax.lax.linalg`` does the work.
+unknowns. The upper half by rows is the lower half by columns, so that LAPACK can be given the same
+memory, and of its two ways the faster. On other platforms than the CPU, or should a later JAX call
+LAPACK otherwise, ``jax.lax.linalg`` does the work.
 """
 
 from __future__ import annotations
@@ -28,29 +28,28 @@ _EXPECTED = (
 
 
 def factorise(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
-    """Lower factor of a symmetric matrix, of which the lower half is read.
+    """The factor of a symmetric matrix, of which the upper half is read, for :func:`solve`.
 
-    What stands above its diagonal means nothing. The last entry of the diagonal is NaN where the
-    matrix is not positive definite.
+    The last entry of its diagonal is NaN where the matrix is not positive definite.
     """
     if not _understood():
         return _portable_factor(h)
     return lax.platform_dependent(h, cpu=_lapack_factor, default=_portable_factor)
 
 
-def solve(lower: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
-    """``(L L^T)^-1 b``."""
+def solve(factor: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
+    """``H^-1 b`` by the factor of ``H``."""
     if not _understood():
-        return _portable_solve(lower, b)
-    return lax.platform_dependent(lower, b, cpu=_lapack_solve, default=_portable_solve)
+        return _portable_solve(factor, b)
+    return lax.platform_dependent(factor, b, cpu=_lapack_solve, default=_portable_solve)
 
 
 def _portable_factor(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
-    return lax.linalg.cholesky(h, symmetrize_input=False)
+    return lax.linalg.cholesky(h.T, symmetrize_input=False)
 
 
-def _portable_solve(lower: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
-    return jax.scipy.linalg.cho_solve((lower, True), b)
+def _portable_solve(factor: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
+    return jax.scipy.linalg.cho_solve((factor, True), b)
 
 
 def _lapack_factor(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
@@ -58,11 +57,11 @@ def _lapack_factor(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
     call = jax.ffi.ffi_call(
         _FACTORISE, outputs, input_output_aliases={0: 0}, vmap_method="broadcast_all"
     )
-    lower, info = call(h, uplo=_letter("U"))
-    return lower.at[-1, -1].set(jnp.where(info == 0, lower[-1, -1], jnp.nan))
+    factor, info = call(h, uplo=_letter("L"))
+    return factor.at[-1, -1].set(jnp.where(info == 0, factor[-1, -1], jnp.nan))
 
 
-def _lapack_solve(lower: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
+def _lapack_solve(factor: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
     column = b[:, None]
     call = jax.ffi.ffi_call(
         _SOLVE,
@@ -70,12 +69,12 @@ def _lapack_solve(lower: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Ar
         input_output_aliases={1: 0},
         vmap_method="broadcast_all",
     )
-    for transposed in ("T", "N"):
+    for transposed in ("N", "T"):
         column = call(
-            lower,
+            factor,
             column,
             side=_letter("L"),
-            uplo=_letter("U"),
+            uplo=_letter("L"),
             trans_x=_letter(transposed),
             diag=_letter("N"),
         )

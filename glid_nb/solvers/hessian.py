@@ -110,9 +110,9 @@ def assemble(
     g: tuple[Samples, Samples],
     k: LocalHessian,
 ) -> Float[Array, "4c 4c"]:
-    """Lower triangle of ``sum_i w_i B_i^T K_i B_i`` over ``[Re phi, Im phi, Re psi, Im psi]``.
+    """Upper triangle of ``sum_i w_i B_i^T K_i B_i`` over ``[Re phi, Im phi, Re psi, Im psi]``.
 
-    Above the diagonal blocks it is zero: a Cholesky factorisation reads no more.
+    Below the diagonal blocks it is zero: a Cholesky factorisation reads no more.
 
     ``K``'s diagonal block for ``phi`` is ``p I + m R``, with ``p`` and ``m`` half the sum and half
     the difference of its entries along and across ``f_z`` and ``R`` the reflection about ``f_z``.
@@ -143,8 +143,8 @@ def assemble(
         mixed = part + part.T
         diagonal.append(_embedded(total - mixed, part - part.T, *_symmetric_product(u, v, m)))
         along.append(jnp.concatenate([u, -v]))
-    cross = (weights * k.along_fg * along[1]) @ along[0].T
-    return jnp.block([[diagonal[0], jnp.zeros_like(cross)], [cross, diagonal[1]]])
+    cross = (weights * k.along_fg * along[0]) @ along[1].T
+    return jnp.block([[diagonal[0], cross], [jnp.zeros_like(cross), diagonal[1]]])
 
 
 @_in_pieces

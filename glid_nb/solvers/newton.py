@@ -144,7 +144,7 @@ def iterations(
             k = LocalHessian(*(part.astype(dtype) for part in k))
             return assemble(matrices.whitened, weights, f, g, k)
 
-        def factor(h: Float[Array, "4c 4c"]) -> Float[Array, "4c 4c"]:
+        def factored(h: Float[Array, "4c 4c"]) -> Float[Array, "4c 4c"]:
             whole = restrict_hessian(h, unknowns, p2p_hessian, settings.ridge)
             return cholesky.factorise(whole)
 
@@ -162,26 +162,26 @@ def iterations(
         def attempt(carry: tuple) -> tuple:
             _, h, count = carry
             h = lax.cond(count == 0, lambda _: assembled(first), project, h)
-            return factor(h), h, count + 1
+            return factored(h), h, count + 1
 
         def goes_on(carry: tuple) -> Bool[Array, ""]:
-            lower, _, count = carry
-            again = (count < most) & ~jnp.isfinite(lower[-1, -1])
+            factor, _, count = carry
+            again = (count < most) & ~jnp.isfinite(factor[-1, -1])
             return wanted & ((count == 0) | again)
 
         blank = jnp.zeros(given.shape, dtype)
-        lower, _, count = lax.while_loop(goes_on, attempt, (given, blank, jnp.array(0)))
-        return lower, wanted & ((count == 2) | (hessian == "projected"))
+        factor, _, count = lax.while_loop(goes_on, attempt, (given, blank, jnp.array(0)))
+        return factor, wanted & ((count == 2) | (hessian == "projected"))
 
-    def line(samples: Samples, y: Float[Array, " 4c"], total: Array, lower: Array) -> _Line:
+    def line(samples: Samples, y: Float[Array, " 4c"], total: Array, factor: Array) -> _Line:
         """The line search along the direction that a factor and the gradient give."""
         nodes, residual = samples.nodes, residual_at(y)
         d = energy.differentials(*evaluation.squares(nodes))
         gradient = evaluation.energy_gradient(matrices, nodes, d)
         gradient = gradient + p2p_matrix.T @ (row_weights * residual)
         gradient = restrict_gradient(whitening.pulled_back(gradient, t), unknowns)
-        step = -cholesky.solve(lower, gradient)
-        step = jnp.where(jnp.isfinite(lower[-1, -1]), step, 0)
+        step = -cholesky.solve(factor, gradient)
+        step = jnp.where(jnp.isfinite(factor[-1, -1]), step, 0)
         squared_decrement = -jnp.dot(gradient, step)
         direction = whitening.coefficients(expand(step, unknowns), t)
         change = evaluation.products(matrices, direction)
@@ -201,13 +201,13 @@ def iterations(
     def bounds(samples: Samples, y: Float[Array, " 4c"], largest: Array) -> PanelBounds:
         return evaluation.bounds(matrices, singularities, y, samples, largest, certificate)
 
-    def corrected(place: _Place, gain: Array, lower: Array) -> tuple:
+    def corrected(place: _Place, gain: Array, factor: Array) -> tuple:
         """Go on by corrections while they pay; the place, how many, and whether at the minimum."""
 
         def correct(carry: tuple) -> tuple:
             place, gain, count, _, _ = carry
             total = place.energy_iso + place.energy_p2p
-            found = line(place.samples, place.coefficients, total, lower)
+            found = line(place.samples, place.coefficients, total, factor)
             minimal = found.squared_decrement / 2 <= settings.tolerance * _scale(total)
             step = found.search.steps[found.search.best]
             takes = found.search.acceptable[found.search.best] & ~minimal
@@ -230,9 +230,9 @@ def iterations(
 
     def iterate(state: State) -> State:
         wanted = jnp.logical_not(settings.reuse) | (state.iteration > 0)
-        lower, modified = factorise(state.samples, state.factor, wanted)
+        factor, modified = factorise(state.samples, state.factor, wanted)
         total = state.energy_iso + state.energy_p2p
-        found = line(state.samples, state.coefficients, total, lower)
+        found = line(state.samples, state.coefficients, total, factor)
 
         def certified(step: Float[Array, ""]) -> PanelBounds:
             samples, y = _moved(state.samples, state.coefficients, found, step)
@@ -245,7 +245,7 @@ def iterations(
         )
         minimal = found.squared_decrement / 2 <= settings.tolerance * _scale(total)
         outcome = jnp.where(minimal, CONVERGED, outcome)
-        outcome = jnp.where(jnp.isfinite(lower[-1, -1]), outcome, INDEFINITE)
+        outcome = jnp.where(jnp.isfinite(factor[-1, -1]), outcome, INDEFINITE)
         stepped = outcome == RUNNING
         step = jnp.where(stepped, step, 0.0)
         samples, y = _moved(state.samples, state.coefficients, found, step)
@@ -255,7 +255,7 @@ def iterations(
 
         def go_on(place: _Place) -> tuple:
             gain = total - (place.energy_iso + place.energy_p2p)
-            further, count, minimal, last = corrected(place, gain, lower)
+            further, count, minimal, last = corrected(place, gain, factor)
             proof = bounds(further.samples, further.coefficients, further.largest)
             zeros = jnp.abs(jnp.sum(jnp.where(matrices.real, proof.turning, 0))) > 1
             proved = jnp.all(proof.injective | ~matrices.real) & ~zeros & (count > 0)
@@ -293,7 +293,7 @@ def iterations(
             records,
             refused,
             jnp.where(stepped, panel.sigma2_lower, state.sigma2_lower),
-            lower,
+            factor,
             place.largest,
         )
 

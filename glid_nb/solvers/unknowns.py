@@ -54,7 +54,7 @@ def restrict_hessian(
 ) -> Float[Array, "4c 4c"]:
     """Hessian with respect to the unknowns, the identity elsewhere.
 
-    Of ``h`` the rows of ``psi`` and the block of ``phi`` are read, not the block above the
+    Of ``h`` the columns of ``psi`` and the block of ``phi`` are read, not the block below the
     diagonal ones; there the result means nothing.
 
     Parameters
@@ -68,10 +68,11 @@ def restrict_hessian(
     """
     phi, psi, sign = _hole_slices(h.shape[0], unknowns)
     if phi is not None:
-        rows = sign.astype(h.dtype)[:, None] * h[psi, :]
-        h = h.at[phi, :].add(rows)
-        h = h.at[:, phi].add(rows.T)
-        h = h.at[phi[:, None], phi].add(sign.astype(h.dtype) * rows[:, psi])
+        sign = sign.astype(h.dtype)
+        tied = sign * h[:, psi]
+        h = h.at[:, phi].add(tied)
+        h = h.at[phi, :].add(tied.T)
+        h = h.at[phi[:, None], phi].add(sign[:, None] * tied[psi])
     free = unknowns.free
     # One pass over the matrix, nothing that a compiled loop would keep.
     diagonal = jnp.diag(h) * free + (1 - free if other is None else jnp.diag(other))

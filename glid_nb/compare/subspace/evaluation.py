@@ -88,8 +88,8 @@ def hessian(setting: Setting, point: Point, *, curvature: Curvature) -> Float[Ar
     f, g = evaluation.directions(nodes)
     basis = matrices.nodes[:, matrices.hessian_index]
     h = assemble(basis, matrices.hessian_weights, f, g, local)
-    lower = jnp.tril(restrict_hessian(h, setting.unknowns))
-    return lower + jnp.tril(lower, -1).T
+    upper = jnp.triu(restrict_hessian(h, setting.unknowns))
+    return upper + jnp.triu(upper, 1).T
 
 
 @functools.partial(jax.jit, static_argnames="certificate", compiler_options=COMPILER_OPTIONS)
