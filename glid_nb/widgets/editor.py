@@ -88,6 +88,7 @@ class Editor(ipywidgets.VBox):
 
     # ipywidgets closes also what was refused while it was made.
     _complete = False
+    _closed = False
 
     def __init__(
         self,
@@ -146,6 +147,7 @@ class Editor(ipywidgets.VBox):
         """The Trace tab."""
         with self._later:
             if self._tracer is None:
+                self._check_open()
                 self._tracer = CageTracer(model=self.model.tracing, height=self._size[1])
                 self._parts.append(self._tracer)
                 self.tabs.children[_TRACE].children = [self._tracer]
@@ -265,6 +267,8 @@ class Editor(ipywidgets.VBox):
         """Take the editor from the page, end its threads and free its renderers."""
         if not self._complete:
             return
+        with self._later:
+            self._closed = True
         self._take_down()
         self.model.close()
         close_with_parts(self.unsaved, self.tabs, self.layout)
@@ -275,6 +279,8 @@ class Editor(ipywidgets.VBox):
     def _build(self) -> None:
         """New views of new models."""
         self._take_down()
+        with self._later:
+            self._tracer = self._panels = None
         if self.model.has_shape:
             self.tabs.children = (ipywidgets.VBox(), self._deform_tab())
             chosen = _DEFORM
@@ -292,15 +298,20 @@ class Editor(ipywidgets.VBox):
     def _fill(self, _: Any = None) -> None:
         """Make what is still missing, all of it hidden behind other tabs."""
         with self._later:
-            if not self._parts and self.canvas is not None:
-                return  # closed meanwhile
+            if self._closed:
+                return  # meanwhile
             self.tracer  # noqa: B018 - made by asking
             if self.canvas is not None:
                 self._made_panels()
 
+    def _check_open(self) -> None:
+        if self._closed:
+            raise RuntimeError("the editor is closed; this part of it was never made")
+
     def _made_panels(self) -> tuple[SolverPanel, FilePanel]:
         with self._later:
             if self._panels is None:
+                self._check_open()
                 from glid_nb.widgets.file_panel import FilePanel  # noqa: PLC0415 - as above
 
                 self._panels = SolverPanel(self.deformation), FilePanel(self.model)
@@ -341,7 +352,6 @@ class Editor(ipywidgets.VBox):
     def _take_down(self) -> None:
         with self._later:
             parts, self._parts = self._parts, []
-            self._tracer = self._panels = None
         close_with_parts(*parts, *self.tabs.children)
 
     def _show_save_error(self) -> None:

@@ -273,6 +273,15 @@ def test_a_closed_editor_leaves_no_widget_behind(tmp_path: Path) -> None:
     assert left == []
 
 
+def test_a_closed_editor_makes_nothing_more() -> None:
+    editor = Editor(bar(), n_vertices=300)
+    tracer = editor.tracer
+    editor.close()
+    assert editor.tracer is tracer
+    with pytest.raises(RuntimeError, match="the editor is closed"):
+        _ = editor.solver_panel
+
+
 def test_a_frame_that_comes_late_finds_the_canvas_closed() -> None:
     from ipywidgets.widgets import widget
 
