@@ -50,7 +50,7 @@ def restrict_hessian(
     h: Float[Array, "4c 4c"],
     unknowns: Unknowns,
     other: Float[Array, "4c 4c"] | None = None,
-    ridge: Float[Array, ""] | float = 0.0,
+    ridge: Float[AnyArray, ""] | float = 0.0,
 ) -> Float[Array, "4c 4c"]:
     """Hessian with respect to the unknowns, the identity elsewhere.
 
