@@ -352,7 +352,8 @@ def _curve(axes: Any, run: dict[str, Any], method: str, against: str, least: flo
     """The relative energy gap; a cross where the method halted."""
     label, color, style = LOOK[method]
     gap = drawing.values_of(run["energy"]) / least - 1
-    x = np.arange(len(gap)) + 1 if against == "iteration" else np.array(run["time"])
+    # The start, iteration 0, has no place on a logarithmic axis.
+    x = np.arange(len(gap)) if against == "iteration" else np.array(run["time"])
     keep = np.isfinite(gap) & (gap > _LEAST_GAP) & (x > 0)
     (line,) = axes.plot(x[keep], gap[keep], style, color=color, lw=LINE, label=label)
     if keep.any() and run["status"] in ("indefinite", "blocked"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from glid_nb.compare.bdhm.bounds import DistortionBounds
 from glid_nb.compare.bdhm.problem import BoundedProblem
 from glid_nb.compare.bdhm.samples import MARGIN
 from glid_nb.energies import ARAP
+from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Pose, Status
 
@@ -187,3 +189,17 @@ def test_an_unmoved_pose_is_stationary_at_once() -> None:
     result = run_method("bdhm", domain, Pose(pose.handles, pose.handles))
     assert result.status is Status.CONVERGED
     assert len(result.history) == 1
+
+
+def test_a_map_that_has_used_up_the_margin_goes_on() -> None:
+    """sigma_1 binds along a whole side here, and no program that admits the map proves a step."""
+    domain = Domain.from_cage(Cage([[0, 0], [4, 0], [4, 2], [0, 2]]))
+    pose = Pose([[0.5, 1], [2, 1], [3.5, 1]], [[0.5, 1], [2, 1.3], [3.4, 0.8]])
+    result = run_method("bdhm", domain, pose, k=0.4, sigma1=2.0, sigma2=0.6)
+    assert result.status is Status.CONVERGED, result.message
+    energies = [step.energy for step in result.history]
+    assert all(b <= a for a, b in itertools.pairwise(energies))
+    # Where it was blocked without them.
+    assert result.energy < 0.99 * 50.98
+    assert result.certificate is not None
+    assert result.certificate.sigma1_upper <= 2.0

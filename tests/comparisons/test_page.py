@@ -95,7 +95,7 @@ def test_ratios_that_are_bounds_are_called_so() -> None:
     # 20, 40, 40 and at least 400: the median does not depend on how much more.
     assert "of both together **40x**, 3 of 4 runs at 25x or more" in text
     # Both medians have to be high enough: SLIM's is at least 220x, AQP's 30x.
-    assert "with its GPU). **Reproduced.**" in text
+    assert "for both: **Reproduced.**" in text
     assert "4 of 4 runs of SLIM and AQP were not visibly at their minimum" in text
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -33,12 +33,16 @@ class ActiveSet:
         First the problem's own, which follow one another, then those that a failed proof added.
     chosen : (3, n) bool array
         Where k, sigma_1 and sigma_2 are bounded.
+    excess : float
+        How much the next map may keep of what this one has beyond the stricter bounds. With 1 the
+        map itself is always admitted; with less it is drawn inward.
     """
 
     problem: BoundedProblem
     bounds: DistortionBounds
     samples: Samples
     chosen: Array
+    excess: float = 1.0
 
     @classmethod
     def empty(cls, problem: BoundedProblem, bounds: DistortionBounds) -> ActiveSet:
@@ -51,11 +55,13 @@ class ActiveSet:
         return _used(self.samples, v, self.bounds)
 
     def levels(self, v: Array) -> Array:
-        """(3, n) shares that the next map may use: this one's where it uses more than it should.
+        """(3, n) shares that the next map may use; no sample is ever given more than before."""
+        strict = 1 - MARGIN
+        return strict + self.excess * np.maximum(self.used(v) - strict, 0)
 
-        So the map itself is always admitted, and no sample is ever given more than before.
-        """
-        return np.maximum(1 - MARGIN, self.used(v))
+    def with_excess(self, excess: float) -> ActiveSet:
+        """The same samples with another share of excess."""
+        return replace(self, excess=excess)
 
     def around(self, v: Array) -> ActiveSet:
         """With the local extremes near a bound, and without samples far from it."""
@@ -77,15 +83,14 @@ class ActiveSet:
         at = np.flatnonzero(failed.any(axis=0))
         ends = (panels.start[at] @ np.array([1, 1j]), panels.end[at] @ np.array([1, 1j]))
         more = self.problem.samples_at(np.concatenate([*ends, (ends[0] + ends[1]) / 2]))
-        return ActiveSet(
-            self.problem,
-            self.bounds,
-            self.samples.and_also(more),
-            np.concatenate([self.chosen, *[failed[:, at]] * 3], axis=1),
+        return replace(
+            self,
+            samples=self.samples.and_also(more),
+            chosen=np.concatenate([self.chosen, *[failed[:, at]] * 3], axis=1),
         )
 
     def _with(self, chosen: Array) -> ActiveSet:
-        return ActiveSet(self.problem, self.bounds, self.samples, chosen)
+        return replace(self, chosen=chosen)
 
     def _peaks(self, used: Array) -> Array:
         """Local extremes; samples that were added are taken for such."""

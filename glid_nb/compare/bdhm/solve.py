@@ -34,6 +34,8 @@ _PROOF = 0.4
 # How often one program is solved again with more samples.
 _ROUNDS = 10
 _HALVINGS = 12
+# What a map may keep of its share of the margin after no step from it could be proved.
+_INWARD = 0.9
 # Before the first full step one program is enough, whose solution is cut short anyway, unless it
 # is cut shorter than this.
 _SHORT = 1 / 64
@@ -107,7 +109,15 @@ class _Descent:
             self.far = isinstance(outcome, Iterate) and _SHORT <= outcome.step < 1
             if isinstance(outcome, Iterate) or outcome.status is Status.CONVERGED:
                 return outcome
-        return self._attempt(now, _ROUNDS)
+        outcome = self._attempt(now, _ROUNDS)
+        if isinstance(outcome, Iterate) or outcome.status is Status.CONVERGED:
+            return outcome
+        # Where the map has used up the margin no step is proved any more. A program that gives
+        # some of it back need not lower the energy, but far from the minimum it does.
+        self.active = self.active.with_excess(_INWARD)
+        inward = self._attempt(now, _ROUNDS)
+        self.active = self.active.with_excess(1.0)
+        return inward if isinstance(inward, Iterate) else outcome
 
     def _attempt(self, now: Iterate, rounds: int) -> Iterate | Ending:
         """The step of a program that is solved again with the samples its solution violates."""
@@ -120,6 +130,8 @@ class _Descent:
             if program.change is None:
                 return _blocked(f"the cone program was not solved ({program.status})")
             if program.decrease <= none and program.solved:
+                if self.active.excess < 1:
+                    return _blocked("giving back some of the margin costs more than it gains")
                 return Ending(
                     Status.CONVERGED,
                     "The solver converged: with the frames held fixed no map within the bounds has "

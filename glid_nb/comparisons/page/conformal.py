@@ -19,7 +19,8 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
         "",
         f"![conformal]({figures}/conformal.png)",
         "",
-        "The paper shows two maps of a domain with two holes and gives no number; its claim is "
+        "The paper shows two maps of a domain with two holes and gives no number "
+        "(ours begin with the rigid alignment); its claim is "
         "that leaving out psi gives a pure conformal map with least isometric distortion. On "
         f"{name_of(data['name'])}, with {data['holes']} holes, the dilatation k of that map is "
         f"proved to be at most {conformal['bounds'][0]:.0e}, against {amips['bounds'][0]:.2f} of "

@@ -41,7 +41,10 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
         "linear system or none, and nothing in them looks at the determinant: "
         f"{joined([f'{METHODS[n][0]} fold on {counts[n]}' for n in linear])} of {len(cases)} "
         f"shapes. Ours turns over {ours or 'none'} and is proved locally injective on {proved} of "
-        f"{len(cases)}, everywhere and not only at vertices of a mesh. {_conformal(cases)}",
+        f"{len(cases)}, everywhere and not only at vertices of a mesh. Mean value coordinates "
+        "have the polygon of the handles, by their angle about their mean, as cage, and are used "
+        "outside it as well: with three handles they are one affine map, which the order of the "
+        f"targets may turn over. {_conformal(cases)}",
     ]
 
 

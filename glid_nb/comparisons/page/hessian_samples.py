@@ -47,8 +47,8 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
         "",
         "A `+` marks runs that had not converged when they were stopped.",
         "",
-        f"From {enough:,} samples on the number of iterations is that of {most:,}, which take "
-        f"{slower:.1f} times as long (paper: from {said} on that of "
+        f"From {enough:,} samples on there is at most {_SLACK} iteration more than with {most:,}, "
+        f"which take {slower:.1f} times as long (paper: from {said} on that of "
         f"{paper.FIGURE_8_MOST:,}, which take {paper.FIGURE_8_SLOWER} times as long). "
         f"{verdict(same and slower > 1, slower > 1)}"
         f"{'' if same else ' ' + _why(data, said, most)}",

@@ -28,7 +28,9 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
         "Colours end at what 97% of our final map's triangles stay below, but between 3 and 12; an "
         "arrow on the bar says that there is more, and above each map stands the largest density "
         "of a triangle that is drawn. The last map of a row is that of the run whose numbers stand "
-        "beside it.",
+        "beside it; for SLIM and AQP it is the minimum to which Newton's method comes from their "
+        "last one, and the iteration within 1% may lie between two of the maps. Newton-Eigen and "
+        "unmodified Newton have our samples and certificate here, *paper's settings* the paper's.",
         "",
         "### Iterations",
         "",
