@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 from numpy.typing import NDArray
+from skimage.measure import find_contours
 
 from glid_nb.geometry._loops import signed_area
 from glid_nb.imaging.components import Component, labelled
-from glid_nb.imaging.contours import closed_contours
 
 _PRECISION = 0.05  # pixels; vertices that change the outline by less are dropped
 _SPECK_SHARE, _SPECK = 1e-5, 4  # smaller holes, relative to the component and in pixels, are noise
@@ -94,8 +94,8 @@ def find_outline(
         field = np.pad(coarse, 1).astype(np.float32) - np.float32(0.5)
     loops = [
         # Pixel centres are at half integers; the padding, the blocks and the crop are undone.
-        (contour[:, ::-1] - 0.5) * block + [columns.start, rows.start]
-        for contour in closed_contours(field)
+        (contour[:-1, ::-1] - 0.5) * block + [columns.start, rows.start]
+        for contour in find_contours(field, 0.0, fully_connected="high")
     ]
     # The component is connected, so one loop goes around it and all others around its holes.
     areas = [abs(signed_area(loop)) for loop in loops]
