@@ -58,7 +58,10 @@ def test_a_problem_that_is_no_json_object(run, problem: Path, text: str) -> None
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["--energy", "stiff"], "unknown energy 'stiff'; choose one of iso, exp, amips, mips, arap"),
+        (
+            ["--energy", "stiff"],
+            "unknown energy 'stiff'; choose one of iso, exp, amips, mips, arap",
+        ),
         (["--energy", "exp", "--s", "0"], "s of the energy 'exp' must be positive"),
         (["--energy", "amips", "--s", "-1"], "s of the energy 'amips' must be positive"),
         (["--s", "2"], "--s is the parameter of exp and amips; iso has none"),

@@ -139,7 +139,9 @@ def test_lbfgs_direction_is_that_of_dense_bfgs() -> None:
     The textbook's inverse loses digits to a heavy weight, so that this one is light.
     """
     domain, pose = problem("ring")
-    searcher = SubspaceProblem(domain, pose, SymmetricDirichlet(), Options(align=False, p2p_weight=1e3))
+    searcher = SubspaceProblem(
+        domain, pose, SymmetricDirichlet(), Options(align=False, p2p_weight=1e3)
+    )
     choose = LBFGS(memory=5)
     free = searcher.unknowns.free
     point = searcher.evaluate(searcher.start)
