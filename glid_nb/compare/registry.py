@@ -20,6 +20,9 @@ from glid_nb.solvers import Pose
 _ALL: tuple[Method, ...] = (*subspace.METHODS, *BDHM_METHODS, *MESH_METHODS, *LINEAR_METHODS)
 
 
+_TRIANGLE = 3
+
+
 def methods(*, available: bool = False) -> dict[str, Method]:
     """All methods by name, in the order in which a list of them should show them.
 
@@ -66,7 +69,7 @@ def run_method(
         triangles turned over. Linear methods have no start.
     triangulation : Triangulation, optional
         For mesh methods; the handles must be among its vertices. By default one of about
-        ``n_vertices`` vertices is made.
+        ``n_vertices`` vertices, at least 3, is made, with all of the cage's among them.
     callback : callable, optional
         Called with a :class:`MethodProgress` after the start and after each iteration; returning
         ``True`` stops the method there.
@@ -112,6 +115,8 @@ def run_method(
     for what, count in (("max_iterations", limit), ("n_vertices", n_vertices)):
         if expected := unmet(int, count):
             raise MethodError(f"{what} must be {expected}, got {count!r}")
+    if n_vertices < _TRIANGLE:
+        raise MethodError(f"n_vertices must be at least {_TRIANGLE}, got {n_vertices!r}")
     pose.check_inside(domain)
     inputs = Inputs(
         name,

@@ -43,7 +43,7 @@ def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
 def draw(data: Measurement, path: Path) -> None:
     """The maps with the bounds that are asked for and proved, and the energies."""
     # High enough for the maps to be as wide as they can, whose titles are then not cut off.
-    figure = drawing.figure(13.0, 4.4)
+    figure = drawing.figure(13.0, 3.7)
     axes = figure.subplots(1, 4, width_ratios=(1, 1, 1, 1))
     colors = None
     for ax, (name, (title, _)) in zip(axes, _TITLES.items(), strict=False):

@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._runtime import double_precision
+from glid_nb.energies import SymmetricDirichlet
 from glid_nb.geometry import Triangulation
 from glid_nb.harmonic import HarmonicMap
 
@@ -27,11 +29,11 @@ def densities(rest: Array, triangles: Array, images: Array) -> Array:
     return np.where(positive, dirichlet * (1 + np.where(positive, det, 1.0) ** -2), np.inf)
 
 
+@double_precision
 def density_at(map_: HarmonicMap, points: Array) -> Array:
     """(p,) density of a harmonic map, from its own ``f_z`` and ``f_zbar``."""
     fz, fzb = map_.wirtinger(points)
-    x, y = np.abs(fz) ** 2, np.abs(fzb) ** 2
-    return (x + y) * (1 + (x - y) ** -2)
+    return np.asarray(SymmetricDirichlet().density(np.abs(fz) ** 2, np.abs(fzb) ** 2))
 
 
 def area_mean(density: Array, mesh: Triangulation) -> float:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import PolyCollection
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -104,6 +104,8 @@ def draw_map(
     if folded.any():
         axes.add_collection(PolyCollection(list(images[triangles[folded]]), facecolors="black"))
     if pose is not None and len(pose):
+        # A line to what is still far from its target tells whose target that is.
+        axes.add_collection(LineCollection(list(pose.reshape(-1, 2, 2)), colors=CYAN, lw=0.7))
         axes.scatter(pose[:, 0], pose[:, 1], s=11, color=CYAN, lw=0, zorder=3)
         axes.scatter(pose[:, 2], pose[:, 3], s=1.5, color=INK, zorder=4)
     axes.margins(0.03)

@@ -46,13 +46,15 @@ def draw(data: Measurement, path: Path) -> None:
     figure = drawing.figure(9.0, 3.0)
     axes = figure.subplots(1, 2, sharey=True)
     least = min(drawing.values_of(run["energy"]).min() for run in data["runs"].values())
-    for (count, run_), color in zip(data["runs"].items(), _COLORS, strict=False):
+    # The first are the widest, so that of curves on one another each is seen.
+    widths = np.linspace(4.0 * LINE, 0.7 * LINE, len(_COLORS))
+    for (count, run_), color, width in zip(data["runs"].items(), _COLORS, widths, strict=False):
         excess = drawing.values_of(run_["energy"]) / least - 1
         keep = excess > 1e-12
         label = f"{int(count):,}"
-        axes[0].semilogy(np.flatnonzero(keep), excess[keep], color=color, lw=LINE, label=label)
+        axes[0].semilogy(np.flatnonzero(keep), excess[keep], color=color, lw=width, label=label)
         axes[1].semilogy(
-            1e3 * np.array(run_["time"])[keep], excess[keep], color=color, lw=LINE, label=label
+            1e3 * np.array(run_["time"])[keep], excess[keep], color=color, lw=width, label=label
         )
     axes[1].set_xscale("log")
     drawing.label_axes(axes[0], "iteration", "energy above its minimum, relative", data["name"])

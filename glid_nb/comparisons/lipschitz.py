@@ -18,12 +18,13 @@ from glid_nb.comparisons.runs import outcome, run
 from glid_nb.comparisons.store import Measurement
 from glid_nb.geometry import panels_between, uniform_boundary_samples
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
-from glid_nb.imaging.style import BLUE, INK, LINE, SMALL
+from glid_nb.imaging.style import BLUE, LINE, ORANGE, SMALL
 from glid_nb.solvers.discretisation import UNIFORM_SAMPLES
 
 Array = NDArray[Any]
 
-_LINES = (("bdhm", "BDHM", INK, "-"), ("ours", "paper, Section 8", BLUE, "--"))
+_LINES = (("bdhm", "BDHM", ORANGE, 3.0), ("ours", "paper, Section 8", BLUE, 1.0))
+"""Name, colour and width over the usual: the wide one is seen beneath the other."""
 _MOST_ITERATIONS = 100
 
 
@@ -83,17 +84,19 @@ def draw(cases: list[Measurement], path: Path) -> None:
     """The constants on all segments of the first shape, and the energies of all."""
     figure = drawing.figure(10.0, 3.0)
     axes = figure.subplots(1, 1 + len(cases), width_ratios=(1.5, *(1,) * len(cases)))
-    for name, label, color, _ in _LINES:
+    for name, label, color, width in _LINES:
         values = cases[0]["arrays"][name]
-        axes[0].semilogy(values, color=color, lw=0.8, label=f"{label} (mean {values.mean():.2f})")
+        axes[0].semilogy(
+            values, color=color, lw=0.7 * width, label=f"{label} (mean {values.mean():.2f})"
+        )
     drawing.label_axes(axes[0], "segment", "Lipschitz constant of $f_z$", cases[0]["name"])
     # Room for the legend above the data.
     axes[0].set_ylim(top=8 * max(cases[0]["arrays"][name].max() for name, *_ in _LINES))
     axes[0].legend(fontsize=SMALL, frameon=False, loc="upper right", ncols=2)
     for ax, data in zip(axes[1:], cases, strict=True):
-        for name, label, color, style in _LINES:
+        for name, label, color, width in _LINES:
             energy = drawing.values_of(data["runs"][name]["energy"])
-            ax.semilogy(energy, style, color=color, lw=LINE, label=label, marker=".", ms=3)
+            ax.semilogy(energy, color=color, lw=width * LINE, label=label, marker=".", ms=3)
             if data["runs"][name]["status"] == "blocked":
                 ax.plot(len(energy) - 1, energy[-1], "x", color=color, ms=7)
         drawing.label_axes(ax, "iteration", "energy", data["name"])

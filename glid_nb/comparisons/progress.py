@@ -103,9 +103,11 @@ def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
         limit: dict[str, Any] = {"max_iterations": LIMITS["newton-eigen"]}
         eigen["negative"] = negative_eigenvalues(case, "newton-eigen", **limit)
         eigen["by_modulus"] = outcome(run("newton-eigen", case, absolute=True, **limit))
+    detail(f"{case.name}: other settings of Newton's method")
     return {
         "name": case.name,
         "unknowns": case.unknowns,
+        **other_settings(case, mesh),
         "area_mean_below_ours": below_ours,
         "handles": len(case.problem.pose),
         "runs": runs,
@@ -116,6 +118,17 @@ def measure(case: Case, detail: Callable[[str], None]) -> Measurement:
         "negative": negative_eigenvalues(case),
         "contraction": contraction(case, minimum),
         "arrays": arrays,
+    }
+
+
+def other_settings(case: Case, mesh: Triangulation) -> dict[str, Any]:
+    """Newton's method as Newton-Eigen is run but for the modification, and ours if it may align."""
+    projected = run("newton-staged", case, sampling="graded", certificate="hermite")
+    aligned = run("newton", case, align=True)
+    assert isinstance(aligned.map, HarmonicMap)
+    return {
+        "projected": outcome(projected),
+        "aligned": {**outcome(aligned), "area_mean": harmonic_area_mean(aligned.map, mesh)},
     }
 
 
@@ -270,11 +283,12 @@ def draw(data: Measurement, path: Path) -> None:
         titles = [f"iteration {i}" for i in run["thumbnails"]]
         if run.get("minimum") is not None:
             titles.append("its minimum")
+        if len(titles) < len(row):
+            titles, pictures = ["the start", *titles], np.concatenate([rest[None], pictures])
         for axes in (label, *row):
             axes.set_axis_off()
         # The last one under the last one, so that the ends of all methods stand in a column.
-        places = [*row[: len(titles) - 1], row[-1]]
-        for axes, title, images in zip(places, titles, pictures, strict=True):
+        for axes, title, images in zip(row[-len(titles) :], titles, pictures, strict=True):
             pose = np.hstack([arrays["targets"], images[handles]])
             colors = drawing.draw_map(axes, rest, triangles, images, pose, most)
             axes.set_title(f"{title}\n{_largest(rest, triangles, images)}", **_TITLE)

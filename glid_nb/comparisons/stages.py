@@ -24,7 +24,7 @@ from glid_nb.solvers import Options
 Array = NDArray[Any]
 
 STAGES = ("gradient", "Hessian", "Cholesky", "line search")
-_REPEATS = 7
+_REPEATS = 25
 
 
 @double_precision

@@ -16,6 +16,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from glid_nb._runtime import double_precision
+from glid_nb.certificate import Method as CertificateKind
 from glid_nb.certificate import bdhm, derivative_bound_weights, hermite, lipschitz, rounding
 from glid_nb.geometry import Domain, graded_panels, panels_between, uniform_boundary_samples
 from glid_nb.geometry.panels import Panels, paired
@@ -24,7 +25,6 @@ from glid_nb.harmonic.basis import Basis
 from glid_nb.solvers.whitening import whitened, whitening
 
 Sampling = Literal["graded", "uniform"]
-CertificateKind = Literal["hermite", "lipschitz", "bdhm"]
 
 UNIFORM_SAMPLES = 10_000
 """``|G|`` of the paper (Section 10)."""

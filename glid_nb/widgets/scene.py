@@ -76,6 +76,7 @@ class Layer:
         evaluated_in: EvaluatedIn,
     ) -> None:
         self._points, self._in_kernel = points, evaluated_in == "kernel"
+        self._evaluated_map: HarmonicMap | None = None
         flat = np.concatenate([points, np.zeros((len(points), 1))], axis=1).astype(np.float32)
         arrays = {
             "position": three.BufferAttribute(flat, normalized=False),
@@ -114,7 +115,7 @@ class Layer:
 
     def show_map(self, map: HarmonicMap) -> None:
         """Bring the vertex buffers up to date, where the kernel computes them."""
-        if self._in_kernel and self.mesh.visible:
+        if self._in_kernel and self.mesh.visible and map is not self._evaluated_map:
             image, derivatives = self._evaluated(map)
             self.attributes["image"].array = image
             self.attributes["derivatives"].array = derivatives
@@ -136,6 +137,7 @@ class Layer:
         self.mesh.close()
 
     def _evaluated(self, map: HarmonicMap) -> tuple[Array, Array]:
+        self._evaluated_map = map
         fz, fzb = map.wirtinger(self._points)
         derivatives = np.stack([np.real(fz), np.imag(fz), np.real(fzb), -np.imag(fzb)], axis=1)
         return map(self._points).astype(np.float32), derivatives.astype(np.float32)

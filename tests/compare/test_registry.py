@@ -44,6 +44,7 @@ def test_every_method_says_what_it_is() -> None:
         ({"p2p_weight": True}, "p2p_weight must be a positive finite number"),
         ({"max_iterations": -1}, "max_iterations must be a whole number"),
         ({"n_vertices": 100.5}, "n_vertices must be a whole number"),
+        ({"n_vertices": 0}, "n_vertices must be at least 3, got 0"),
         ({"name": "lbfgs", "memory": -1}, "'memory' of .* a whole number of at least 0"),
         ({"name": "aqp", "kappa": -1.0}, "'kappa' of .* a finite number of at least 0"),
         ({"name": "aqp", "kappa": 0.5}, "kappa must be at least 1"),

@@ -135,8 +135,10 @@ def test_progress_from_measurement_to_page(tmp_path: Path) -> None:
     assert "it halts on 1 of 1 shapes" in text
     assert "](figures/progress-bent.png)" in text
     assert "nan" not in text
-    # Five claims and three criteria of speed, each with a verdict.
-    assert text.count("eproduced.**") == 7
+    assert results["progress"][0]["projected"]["status"] == "converged"
+    assert results["progress"][0]["aligned"]["certified"]
+    # Four claims, three criteria of speed, and Newton-Eigen's, each with a verdict.
+    assert text.count("eproduced.**") == 8
 
 
 @pytest.mark.slow

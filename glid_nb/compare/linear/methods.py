@@ -129,9 +129,10 @@ METHODS = (
     ),
     Method(
         "harmonic-weights",
-        "Biharmonic weights",
+        "Harmonic weights",
         "linear",
-        "Translations blended by harmonic or biharmonic weights; it may fold (libigl).",
+        "Translations blended by weights of which a power of the Laplacian vanishes: 1 harmonic, 2 "
+        "(default) biharmonic, 3 triharmonic; it may fold (libigl).",
         harmonic,
         weighted=False,
         package="igl",

@@ -82,7 +82,7 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
         ),
         "",
         f"A bound binds where the map uses {100 * WITHIN:.0f}% of the way from an isometry to it. "
-        f"Of the paper's bounds {bound} binds here and {said} in the paper; of the tighter ones "
+        f"Of the paper's bounds {_where(bound, said)}; of the tighter ones "
         f"{joined(binding['tight'])}. Both of BDHM's maps are proved to keep their bounds"
         f"{'' if all(kept) else ', but for one'}, and ours, asked for nothing, takes "
         f"{ours['iterations']} iterations; of the tighter bounds it exceeds {joined(beyond)}. "
@@ -97,6 +97,12 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
         "minimise different energies, ARAP and symmetric Dirichlet, and both run on the CPU, "
         "BDHM's cone programs by Clarabel.",
     ]
+
+
+def _where(here: str, paper_says: str) -> str:
+    if here == paper_says:
+        return f"{here} binds, here as in the paper"
+    return f"{here} binds here and {paper_says} in the paper"
 
 
 def holds(reached: list[float], asked: tuple[float, float, float]) -> bool:
