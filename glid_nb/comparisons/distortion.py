@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import jax.numpy as jnp
 import numpy as np
 from numpy.typing import NDArray
 
@@ -32,8 +33,8 @@ def densities(rest: Array, triangles: Array, images: Array) -> Array:
 @double_precision
 def density_at(map_: HarmonicMap, points: Array) -> Array:
     """(p,) density of a harmonic map, from its own ``f_z`` and ``f_zbar``."""
-    fz, fzb = map_.wirtinger(points)
-    return np.asarray(SymmetricDirichlet().density(np.abs(fz) ** 2, np.abs(fzb) ** 2))
+    x, y = (jnp.abs(derivative) ** 2 for derivative in map_.wirtinger(points))
+    return np.asarray(SymmetricDirichlet().density(x, y))
 
 
 def area_mean(density: Array, mesh: Triangulation) -> float:

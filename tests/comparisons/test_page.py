@@ -304,7 +304,7 @@ def test_newton_eigen_and_lbfgs_are_judged() -> None:
     halted = newton(2, 3e5, "indefinite")
     fair = progress._eigen([solved(halted, 30, newton(1_700))])
     assert "**Reproduced.**" in fair
-    assert "on 1 with Newton-Eigen's own samples" in fair
+    assert "on 1 with the samples and the certificate" in fair
     assert "alone (12 against 30)" in fair
     fewer = progress._eigen([solved(halted, 10, newton(1_700))])
     assert "20 against 10: the Hessian has no negative eigenvalue on the way" in fewer

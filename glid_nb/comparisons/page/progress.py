@@ -28,9 +28,10 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
         "Colours end at what 97% of our final map's triangles stay below, but between 3 and 12; an "
         "arrow on the bar says that there is more, and above each map stands the largest density "
         "of a triangle that is drawn. The last map of a row is that of the run whose numbers stand "
-        "beside it, and a cyan line joins a handle with a target that it has not reached; for SLIM and AQP it is the minimum to which Newton's method comes from their "
-        "last one, and the iteration within 1% may lie between two of the maps. Newton-Eigen and "
-        "unmodified Newton have our samples and certificate here, *paper's settings* the paper's.",
+        "beside it, and a cyan line joins a handle with a target that it has not reached; for SLIM "
+        "and AQP it is the minimum to which Newton's method comes from their last one, and the "
+        "iteration within 1% may lie between two of the maps. Newton-Eigen and unmodified Newton "
+        "have our samples and certificate here, *paper's settings* the paper's.",
         "",
         "### Iterations",
         "",
@@ -208,8 +209,8 @@ def _eigen(cases: list[Measurement]) -> str:
     return (
         "- *The pointwise modification needs no more iterations than Newton-Eigen* (paper: "
         f"{joined(said)}): with the paper's settings on {fewer} of the {len(pairs)} shapes where "
-        f"Newton-Eigen converges, and on {only} with Newton-Eigen's own samples and certificate, so "
-        f"that they differ by the modification alone ({counts}). "
+        f"Newton-Eigen converges, and on {only} with the samples and the certificate of "
+        f"Newton-Eigen, so that they differ by the modification alone ({counts}). "
         f"{_judged(len(more), len(pairs))}{why}{_astray(cases)}"
     )
 
@@ -276,8 +277,8 @@ def _lbfgs(cases: list[Measurement]) -> str:
             f"{FAR:.0f} times the energy of the minimum on "
             f"{joined([name_of(d['name']) for d, _ in stuck])}: targets outweigh distortion so "
             "much that the first steps bring the map next to folding, and from there the line "
-            f"search takes steps of {min(steps):.0e} to {max(steps):.0e} in the median. Where it is "
-            "blocked none of the steps that it tries lowers the energy any more, though the "
+            f"search takes steps of {min(steps):.0e} to {max(steps):.0e} in the median. Where it "
+            "is blocked none of the steps that it tries lowers the energy any more, though the "
             "gradient is not zero."
         )
     return text
