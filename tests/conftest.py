@@ -10,6 +10,8 @@ from typing import TypeVar
 import hypothesis
 import pytest
 
+from glid_nb import enable_compilation_cache
+
 Report = TypeVar("Report", pytest.CollectReport, pytest.TestReport)
 
 os.environ.setdefault("MPLBACKEND", "agg")
@@ -33,6 +35,17 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         help="folder with the reference problems (default: $GLID_NB_REFERENCE); without it the "
         "tests marked `reference` are left out",
     )
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """All processes of a run share what they compile, and so do runs one after the other."""
+    if "GLID_NB_CACHE" not in os.environ and config.cache is not None:
+        os.environ["GLID_NB_CACHE"] = str(config.cache.mkdir("glid_nb"))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _compilation_cache() -> None:
+    enable_compilation_cache()
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -47,7 +47,7 @@ def draw(data: Measurement, path: Path) -> None:
     axes = figure.subplots(1, 2, sharey=True)
     least = min(drawing.values_of(run["energy"]).min() for run in data["runs"].values())
     # The first are the widest, so that of curves on one another each is seen.
-    widths = np.linspace(4.0 * LINE, 0.7 * LINE, len(_COLORS))
+    widths = np.linspace(2.5 * LINE, 0.7 * LINE, len(_COLORS))
     for (count, run_), color, width in zip(data["runs"].items(), _COLORS, widths, strict=False):
         excess = drawing.values_of(run_["energy"]) / least - 1
         keep = excess > 1e-12

@@ -117,7 +117,7 @@ class LiveSolver:
 
     @property
     def busy(self) -> bool:
-        """Whether something is being solved or waits to be."""
+        """Whether something is being solved, and not given up, or waits to be."""
         return self._worker.busy
 
     @property
@@ -159,7 +159,7 @@ class _Worker:
     @property
     def busy(self) -> bool:
         with self._changed:
-            return self._busy or self._is_due()
+            return (self._busy and not self._stopping) or self._is_due()
 
     @property
     def paused(self) -> bool:

@@ -298,7 +298,10 @@ def test_an_interrupt_stops_the_solve_only(
     monkeypatch.setattr("glid_nb.session.live_solver.solve", slow)
     ring.drag(0, to=(4, 2))
     assert entered.wait(TIMEOUT)
-    timer = threading.Timer(0.2, lambda: signal.raise_signal(signal.SIGINT))
+    # To the main thread, as a process is told: its wait is to end, not only what comes after.
+    main = threading.main_thread().ident
+    assert main is not None
+    timer = threading.Timer(0.2, lambda: signal.pthread_kill(main, signal.SIGINT))
     previous = signal.signal(signal.SIGINT, signal.default_int_handler)
     timer.start()
     try:

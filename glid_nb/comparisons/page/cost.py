@@ -112,9 +112,9 @@ def _aligned(cases: list[Measurement]) -> str:
     if not changed:
         return ", which changes none of the minima"
     return (
-        f": {joined(changed)}. From the identity it goes to a local minimum there that is none to "
-        "show, as the pictures above tell, and so its speed to that one tells little; the other "
-        "shapes end where they did"
+        f": {joined(changed)}. From the identity ours ends in a poor local minimum there, as the "
+        "pictures above show, and the time to that one tells little; the other shapes end where "
+        "they did"
     )
 
 

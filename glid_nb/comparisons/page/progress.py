@@ -295,8 +295,8 @@ def _exhausted(light: list[tuple[str, dict[str, Any], dict[str, Any]]]) -> str:
         if run["status"] == "stationary"
     ]
     return (
-        f" On {joined(names)} it ends where no step lowers the energy in double precision, at most "
-        f"{max(*gaps, 0.0):.0e} above ours."
+        f" On {joined(names)} it ends where no step lowers the energy in double precision, "
+        f"{f'at most {max(gaps):.0e} above ours' if max(gaps) > 0 else 'not above ours'}."
     )
 
 
