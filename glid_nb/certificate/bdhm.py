@@ -10,16 +10,18 @@ here every loop has its affine function, and a hole's logarithm the constant ``1
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Complex, Float, Int
 
 from glid_nb.certificate.bounds import distances, modulus
 from glid_nb.certificate.lipschitz import bounds_from_variation as panel_bounds
 from glid_nb.harmonic.cauchy import Singularities
+
+if TYPE_CHECKING:
+    from jaxtyping import Array, Complex, Float, Int
 
 __all__ = ["SegmentWeights", "constants", "panel_bounds", "segment_weights"]
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import jax.numpy as jnp
-from jaxtyping import Array, Bool, Complex, Float
 
 from glid_nb.harmonic.cauchy import Singularities
+
+if TYPE_CHECKING:
+    from jaxtyping import Array, Bool, Complex, Float
 
 UNIT_ROUNDOFF = 2.0**-53
 

@@ -10,17 +10,20 @@ interpolation does not change sign, so the bound holds for complex functions too
 from __future__ import annotations
 
 import functools
+from typing import TYPE_CHECKING
 
 import jax.numpy as jnp
-from jaxtyping import Array, Complex, Float
 
 from glid_nb.certificate.bounds import EndValues, PanelBounds, modulus, turning
 
-DERIVATIVE_ORDER = 4
+if TYPE_CHECKING:
+    from jaxtyping import Array, Complex, Float
 
-# A cubic by its four Bezier control points, or a real sextic by its seven Bernstein coefficients.
-Cubic = list[Complex[Array, " p"]]
-Sextic = list[Float[Array, " p"]]
+    # A cubic by its four Bezier control points, a real sextic by its seven Bernstein coefficients.
+    Cubic = list[Complex[Array, " p"]]
+    Sextic = list[Float[Array, " p"]]
+
+DERIVATIVE_ORDER = 4
 
 
 def remainder_factor(length: Float[Array, " p"]) -> Float[Array, " p"]:

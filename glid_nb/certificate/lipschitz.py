@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import jax.numpy as jnp
-from jaxtyping import Array, Float
 
 from glid_nb.certificate.bounds import EndValues, PanelBounds, modulus, turning
+
+if TYPE_CHECKING:
+    from jaxtyping import Array, Float
 
 DERIVATIVE_ORDER = 2
 

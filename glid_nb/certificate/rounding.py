@@ -13,11 +13,15 @@ error of a sum whose coefficients ``t dphi`` have up to twice the largest modulu
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import jax.numpy as jnp
-from jaxtyping import Array, Complex, Float
 
 from glid_nb.certificate.bounds import UNIT_ROUNDOFF
 from glid_nb.harmonic.cauchy import Singularities, rounding_scale
+
+if TYPE_CHECKING:
+    from jaxtyping import Array, Complex, Float
 
 CARRIED_STEPS = 31
 """Most steps through which values are carried before they are computed anew."""

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import jax.numpy as jnp
 
-from glid_nb.energies.energy import Differentials, Energy, Scalars, register_energy
+from glid_nb.energies.energy import Differentials, Energy, register_energy
 from glid_nb.energies.parameters import checked_sharpness
+
+if TYPE_CHECKING:
+    from glid_nb.energies.energy import Scalars
 
 
 @register_energy

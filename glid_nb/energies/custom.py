@@ -6,13 +6,16 @@ import functools
 import weakref
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 
-from glid_nb.energies.energy import Differentials, Energy, EnergyError, Scalars
+from glid_nb.energies.energy import Differentials, Energy, EnergyError
+
+if TYPE_CHECKING:
+    from glid_nb.energies.energy import Scalars
 
 # JAX rebuilds energies often; each function is tried out once.
 _checked: weakref.WeakSet[Callable[..., Any]] = weakref.WeakSet()

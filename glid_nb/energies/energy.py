@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import fields
-from typing import Any, ClassVar, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeVar
 
 import jax
-from jaxtyping import Array, Float
 
-Scalars = Float[Array, " *samples"]
+if TYPE_CHECKING:
+    from jaxtyping import Array, Float
+
+    Scalars = Float[Array, " *samples"]
 
 
 class EnergyError(ValueError):

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import jax.numpy as jnp
 
-from glid_nb.energies.energy import Differentials, Energy, Scalars, register_energy
+from glid_nb.energies.energy import Differentials, Energy, register_energy
 from glid_nb.energies.parameters import checked_sharpness
 from glid_nb.energies.symmetric_dirichlet import SymmetricDirichlet
+
+if TYPE_CHECKING:
+    from glid_nb.energies.energy import Scalars
 
 
 @register_energy

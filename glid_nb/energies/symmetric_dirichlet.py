@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
-from glid_nb.energies.energy import Differentials, Energy, Scalars, register_energy
+from glid_nb.energies.energy import Differentials, Energy, register_energy
+
+if TYPE_CHECKING:
+    from glid_nb.energies.energy import Scalars
 
 
 @register_energy

@@ -9,7 +9,6 @@ import numpy as np
 import pythoncdt
 import shapely
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial import KDTree
 
 from glid_nb.geometry._loops import GeometryError, edge_lengths, place
 from glid_nb.geometry.cage import Cage
@@ -84,6 +83,8 @@ def triangulate(
     inside = _lattice_points(_lattice_rows(cage, spacing), spacing)
     border = np.stack([boundary.real, boundary.imag], axis=1)
     if len(wanted):
+        from scipy.spatial import KDTree  # noqa: PLC0415 - slow to import, and not always needed
+
         wanted = wanted[KDTree(border).query(wanted)[0] > _SAME * cage.longer_side]
         near = KDTree(inside).query_ball_point(wanted, _CLEARANCE * spacing)
         inside = np.delete(inside, sorted({i for found in near for i in found}), axis=0)

@@ -6,12 +6,13 @@ import itertools
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from jaxtyping import Bool, Complex, Int
 from numpy.typing import NDArray
 
 from glid_nb.harmonic.cauchy import Singularities
 
 if TYPE_CHECKING:
+    from jaxtyping import Bool, Complex, Int
+
     from glid_nb.geometry import Domain
 
 Array = NDArray[Any]

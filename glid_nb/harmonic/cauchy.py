@@ -7,13 +7,15 @@ columns of every matrix here are the ``m`` vertices in the order of the loops, t
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Complex, Float, Int
 
 from glid_nb._arrays import AnyArray
+
+if TYPE_CHECKING:
+    from jaxtyping import Array, Complex, Float, Int
 
 _TWO_PI_I = 2j * np.pi
 

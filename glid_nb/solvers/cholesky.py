@@ -10,12 +10,15 @@ LAPACK otherwise, ``jax.lax.linalg`` does the work.
 from __future__ import annotations
 
 import functools
+from typing import TYPE_CHECKING
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
-from jaxtyping import Array, Float
+
+if TYPE_CHECKING:
+    from jaxtyping import Array, Float
 
 _FACTORISE, _SOLVE = "lapack_dpotrf_ffi", "lapack_dtrsm_ffi"
 # What JAX's own calls must look like for ours to be understood.

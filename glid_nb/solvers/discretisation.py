@@ -8,12 +8,11 @@ from __future__ import annotations
 
 import functools
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Bool, Float, Int
 
 from glid_nb._runtime import double_precision
 from glid_nb.certificate import Method as CertificateKind
@@ -23,6 +22,9 @@ from glid_nb.geometry.panels import Panels, paired
 from glid_nb.harmonic import basis_of, cauchy
 from glid_nb.harmonic.basis import Basis
 from glid_nb.solvers.whitening import whitened, whitening
+
+if TYPE_CHECKING:
+    from jaxtyping import Array, Bool, Float, Int
 
 Sampling = Literal["graded", "uniform"]
 

@@ -5,17 +5,19 @@ All methods in the harmonic subspace evaluate maps by these functions.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import jax.numpy as jnp
 from jax import lax
-from jaxtyping import Array, Bool, Float
 
 from glid_nb._arrays import AnyArray
 from glid_nb.certificate import METHODS, EndValues, PanelBounds, bdhm
 from glid_nb.energies import Differentials
 from glid_nb.harmonic.cauchy import Singularities, slope_jumps
 from glid_nb.solvers.discretisation import CertificateKind, Matrices
+
+if TYPE_CHECKING:
+    from jaxtyping import Array, Bool, Float
 
 
 class Constraints(NamedTuple):

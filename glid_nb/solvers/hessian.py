@@ -11,16 +11,19 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 from jax import lax
-from jaxtyping import Array, Float
 
 from glid_nb.energies import Differentials
 
-Samples = Float[Array, " h"]
+if TYPE_CHECKING:
+    from jaxtyping import Array, Float
+
+    Samples = Float[Array, " h"]
+
 
 # Elements of a basis matrix that are assembled at once: with more, copies of the matrix would need
 # more memory than the Hessian.

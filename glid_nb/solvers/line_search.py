@@ -7,16 +7,18 @@ direction cost no further product (G.11) and many candidate steps are tried at o
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import jax.numpy as jnp
 from jax import lax
-from jaxtyping import Array, Bool, Float, Int
 
 from glid_nb._arrays import AnyArray
 from glid_nb.certificate import PanelBounds
 from glid_nb.energies import Energy
 from glid_nb.solvers.outcome import BLOCKED, NO_DECREASE, PENDING, REFUSED, RUNNING
+
+if TYPE_CHECKING:
+    from jaxtyping import Array, Bool, Float, Int
 
 CANDIDATES = 24
 RATIO = 0.8

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 from jax import lax
-from jaxtyping import Array, Bool, Float, Int
 
 from glid_nb._arrays import AnyArray
 from glid_nb._runtime import COMPILER_OPTIONS
@@ -27,6 +26,9 @@ from glid_nb.solvers.hessian import (
 from glid_nb.solvers.options import HessianKind
 from glid_nb.solvers.outcome import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.unknowns import Unknowns, expand, restrict_gradient, restrict_hessian
+
+if TYPE_CHECKING:
+    from jaxtyping import Array, Bool, Float, Int
 
 # A correction that gains more than this share of what the step before it gained is slow: the
 # Hessian has changed, and a new one gains more for its cost.

@@ -8,15 +8,17 @@ the identity and their gradient 0, which keeps shapes fixed. The hole coefficien
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
 
 from glid_nb._arrays import AnyArray
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.basis import Basis
+
+if TYPE_CHECKING:
+    from jaxtyping import Array, Float
 
 
 class Unknowns(NamedTuple):

@@ -13,13 +13,17 @@ translation, of which no derivative knows, and a logarithm's coordinate is its c
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import jax.numpy as jnp
 import numpy as np
 import scipy.linalg
-from jaxtyping import Array, Float
 
 from glid_nb._arrays import AnyArray
 from glid_nb.harmonic.basis import Basis
+
+if TYPE_CHECKING:
+    from jaxtyping import Array, Float
 
 # Raises the Gram matrix's diagonal, relative to its mean, should columns be dependent.
 _RIDGE = 1e-13

@@ -7,11 +7,10 @@ Newton's own line search and certificate. The direction itself is the method's a
 from __future__ import annotations
 
 import functools
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import jax
 import jax.numpy as jnp
-from jaxtyping import Array, Bool, Float, Int
 
 from glid_nb._arrays import AnyArray
 from glid_nb._runtime import COMPILER_OPTIONS
@@ -23,6 +22,9 @@ from glid_nb.solvers.discretisation import CertificateKind, Matrices
 from glid_nb.solvers.evaluation import Constraints, Samples
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
 from glid_nb.solvers.unknowns import Unknowns, expand, restrict_gradient, restrict_hessian
+
+if TYPE_CHECKING:
+    from jaxtyping import Array, Bool, Float, Int
 
 Curvature = Literal["exact", "projected", "gauss-newton", "dirichlet"]
 

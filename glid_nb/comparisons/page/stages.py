@@ -30,7 +30,8 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
         'stages" and draws bars without numbers. On this CPU the shares of an iteration are: '
         f"{', '.join(f'{stage} {spread(values, 0)}%' for stage, values in shares.items())}; "
         f"the largest stage is {joined([f'the {stage}' for stage in STAGES if stage in largest])}, "
-        "by shape. The times are of single iterates, so that they do not add up to Table 2's means "
+        f"{'on every shape' if len(largest) == 1 else 'by shape'}. The times are of single "
+        "iterates, so that they do not add up to Table 2's means "
         "over a run, and the evaluation of the new map counts as gradient, not as line search. "
         "**Not judged:** there is no number to judge by, and the claim is about a GPU.",
     ]
