@@ -35,9 +35,9 @@ def compare_all(
     reference : Path, optional
         A folder of problems; those named like the paper's shapes replace our own.
     only : sequence of str, optional
-        Some of :data:`NAMES`; by default all.
+        Some of :data:`NAMES`; by default all. Others are on the page if they were measured before.
     fresh : bool
-        Measure everything again.
+        Measure again what is there already, of the chosen ones.
     detail : callable
         Told what is being done.
 

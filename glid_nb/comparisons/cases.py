@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -32,6 +33,14 @@ class Case:
         return 4 * domain.n_coefficients - 10 * domain.n_holes - 2
 
     @property
+    def digest(self) -> str:
+        """Of the cage, the handles and their targets, to the last bit."""
+        digest = hashlib.sha256()
+        for array in (*self.problem.domain.cage.loops, *self._pose):
+            digest.update(np.ascontiguousarray(array, dtype=float).tobytes())
+        return digest.hexdigest()
+
+    @property
     def perimeter(self) -> float:
         """Length of the boundary, world units."""
         return self._boundary.length
@@ -41,6 +50,10 @@ class Case:
         """Median distance of the basis' singularities from the boundary, world units."""
         vertices = np.concatenate(self.problem.domain.offset_cage.loops)
         return float(np.median(shapely.distance(self._boundary, shapely.points(vertices))))
+
+    @property
+    def _pose(self) -> tuple[Any, Any]:
+        return self.problem.pose.handles, self.problem.pose.targets
 
     @property
     def _boundary(self) -> Any:

@@ -79,7 +79,7 @@ class Shapes:
 def measure_all(
     store: Store, shapes: Shapes, only: tuple[str, ...], detail: Detail
 ) -> dict[str, list[Measurement]]:
-    """Every chosen experiment, as a list of measurements, one per shape."""
+    """Every chosen experiment, as a list of measurements, one per shape, and those kept already."""
     table: dict[str, tuple[tuple[str, ...], Callable[[Case, Detail], Measurement]]] = {
         "progress": (shapes.progress, progress.measure),
         "iteration-times": (shapes.progress, iteration_times.measure),
@@ -93,13 +93,18 @@ def measure_all(
     }
     results: dict[str, list[Measurement]] = {}
     for name in NAMES:
-        if name not in only:
-            continue
         chosen, measure = table[name]
-        results[name] = [
-            store.get(f"{name}-{shape}", lambda m=measure, s=shape: m(shapes.case(s), detail))
-            for shape in chosen
-        ]
+        cases = [shapes.case(shape) for shape in chosen]
+        if name in only:
+            results[name] = [
+                store.get(f"{name}-{c.name}", lambda m=measure, c=c: m(c, detail), c.digest)
+                for c in cases
+            ]
+        else:
+            kept = [store.kept(f"{name}-{c.name}", c.digest) for c in cases]
+            there = [data for data in kept if data is not None]
+            if len(there) == len(cases):
+                results[name] = there
     return results
 
 

@@ -18,6 +18,9 @@ Measurement = dict[str, Any]
 """Plain JSON values, and arrays under ``arrays``."""
 
 
+_PROBLEM = "problem"
+
+
 class Store:
     """A folder of measurements.
 
@@ -32,21 +35,41 @@ class Store:
         self.folder, self.fresh = folder, fresh
         folder.mkdir(parents=True, exist_ok=True)
 
-    def get(self, name: str, measure: Callable[[], Measurement]) -> Measurement:
-        """The measurement of a name, made now if it is not there."""
-        table, arrays = self.folder / f"{name}.json", self.folder / f"{name}.npz"
-        if self.fresh or not (table.exists() and arrays.exists()):
-            result = measure()
-            kept: dict[str, NDArray[Any]] = result.pop("arrays", {})
+    def get(self, name: str, measure: Callable[[], Measurement], problem: str = "") -> Measurement:
+        """The measurement of a name, made now if it is not there or of another problem.
+
+        ``problem`` is a digest of what is measured: a shape that is traced or posed otherwise than
+        before is another one.
+        """
+        kept = None if self.fresh else self.kept(name, problem)
+        if kept is None:
+            table, arrays = self._files(name)
+            result = {**measure(), _PROBLEM: problem}
+            images: dict[str, NDArray[Any]] = result.pop("arrays", {})
             buffer = io.BytesIO()
-            np.savez_compressed(buffer, allow_pickle=False, **kept)
+            np.savez_compressed(buffer, allow_pickle=False, **images)
+            # Without the table the measurement counts as missing: it goes first and comes last.
+            table.unlink(missing_ok=True)
             write_bytes_atomically(arrays, buffer.getvalue())
-            # The table comes last: without it the measurement counts as missing.
             write_text_atomically(table, json.dumps(_plain(result), allow_nan=False))
+            kept = self.kept(name, problem)
+            assert kept is not None
+        return kept
+
+    def kept(self, name: str, problem: str = "") -> Measurement | None:
+        """The measurement of a name that is there, if it is of this problem."""
+        table, arrays = self._files(name)
+        if not (table.exists() and arrays.exists()):
+            return None
         loaded = json.loads(table.read_text(encoding="utf-8"))
+        if loaded.pop(_PROBLEM, "") != problem:
+            return None
         with np.load(arrays, allow_pickle=False) as stored:
             loaded["arrays"] = {key: stored[key] for key in stored.files}
         return loaded
+
+    def _files(self, name: str) -> tuple[Path, Path]:
+        return self.folder / f"{name}.json", self.folder / f"{name}.npz"
 
 
 def _plain(value: Any) -> Any:

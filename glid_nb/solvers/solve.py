@@ -41,7 +41,7 @@ _RIDGE_FACTOR = 100.0
 # solve that gets nowhere ends.
 _PATIENCE = 3
 _MOST_ROUNDS = 40
-_MOST_PANELS = 20_000
+MOST_PANELS = 20_000
 # When to put the Hessian on all nodes: many iterations, or a short step that gains little.
 SLOW_ITERATIONS = 20
 _SLOW_STEP, _SLOW_GAIN = 0.5, 0.05
@@ -341,7 +341,7 @@ class _Loop:
         panels = self.discretisation.panels
         wanted = refused[: len(panels)] & panels.divisible
         count = int(wanted.sum())
-        if not self.discretisation.can_refine or not count or len(panels) + count > _MOST_PANELS:
+        if not self.discretisation.can_refine or not count or len(panels) + count > MOST_PANELS:
             return False
         self.discretisation = self.discretisation.refined(wanted)
         self.matrices = self.discretisation.matrices

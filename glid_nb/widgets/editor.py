@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import ipywidgets
-import pythreejs as three
 from numpy.typing import ArrayLike
 
 from glid_nb._runtime import enable_compilation_cache
@@ -110,13 +109,7 @@ class Editor(ipywidgets.VBox):
                     "another path"
                 )
             document = load_document(path)
-        # The largest piece of the page: it loads there while the picture is traced here.
-        self._three = three.Object3D()
-        try:
-            self.model = EditorModel(image, document=document, path=path)
-        except BaseException:
-            self._three.close()
-            raise
+        self.model = EditorModel(image, document=document, path=path)
         """The editor without its widgets."""
         self._size, self._n_vertices = (width, height), n_vertices
         self.canvas: DeformCanvas | None = None
@@ -278,7 +271,7 @@ class Editor(ipywidgets.VBox):
             self._closed = True
         self._take_down()
         self.model.close()
-        close_with_parts(self.unsaved, self.tabs, self.layout, self._three)
+        close_with_parts(self.unsaved, self.tabs, self.layout)
         super().close()
 
     # The widgets

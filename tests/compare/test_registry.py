@@ -48,6 +48,7 @@ def test_every_method_says_what_it_is() -> None:
         ({"name": "lbfgs", "memory": -1}, "'memory' of .* a whole number of at least 0"),
         ({"name": "aqp", "kappa": -1.0}, "'kappa' of .* a finite number of at least 0"),
         ({"name": "aqp", "kappa": 0.5}, "kappa must be at least 1"),
+        ({"name": "aqp", "arap_iterations": 0}, "arap_iterations must be at least 1"),
         ({"name": "newton-shift", "beta": 0}, "beta, .* must be positive"),
         ({"name": "lbfgs", "sampling": np.array(["graded"])}, "'sampling' .* one of graded, uni"),
     ],

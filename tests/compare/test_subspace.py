@@ -105,6 +105,29 @@ def test_least_squares_reaches_newtons_arap(method: str) -> None:
     assert result.energy == pytest.approx(ours.energy, rel=1e-6)
 
 
+@pytest.mark.parametrize("method", ["gauss-newton", "levenberg-marquardt"])
+@pytest.mark.parametrize("handles", [0, 1, 4])
+def test_least_squares_knows_a_perfect_map(method: str, handles: int) -> None:
+    """ARAP's least energy is 0, with which nothing compares relatively."""
+    domain, pose = problem("ell")
+    still = Pose(pose.handles[:handles], pose.handles[:handles])
+    result = run_method(method, domain, still)
+    assert result.status is Status.CONVERGED
+    assert result.iterations == 0
+
+
+@pytest.mark.parametrize("method", ["gauss-newton", "levenberg-marquardt"])
+def test_least_squares_ends_where_it_creeps(method: str) -> None:
+    """No barrier keeps ARAP from folding: steps shrink, each proved on more panels."""
+    domain, pose = problem("ell")
+    far = pose.with_targets(pose.handles * [8.0, -5.0])
+    result = run_method(method, domain, far, align=False)
+    assert result.status is Status.BLOCKED
+    assert result.iterations < 30
+    assert result.certificate is not None
+    assert result.certificate.certified
+
+
 def test_the_staged_solver_is_the_papers() -> None:
     staged, paper = run("newton-staged", "ring"), run("newton-paper", "ring")
     assert staged.iterations == paper.iterations

@@ -37,6 +37,18 @@ def test_what_is_there_is_not_measured_again(tmp_path: Path) -> None:
     assert Store(tmp_path, fresh=True).get("a", measure)["value"] == 2
 
 
+def test_what_is_kept_of_another_problem_does_not_count(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    store.get("a", lambda: measured(1), "one shape")
+    assert store.kept("a", "another shape") is None
+    assert store.kept("b") is None
+    kept = store.kept("a", "one shape")
+    assert kept is not None
+    assert kept["value"] == 1
+    assert store.get("a", lambda: measured(2), "another shape")["value"] == 2
+    assert store.get("a", lambda: measured(3), "another shape")["value"] == 2
+
+
 def test_an_interrupted_measurement_is_made_again(tmp_path: Path) -> None:
     def interrupted() -> dict:
         raise KeyboardInterrupt

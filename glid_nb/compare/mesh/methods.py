@@ -43,6 +43,10 @@ def _check_aqp(_: Energy, settings: Mapping[str, Any]) -> None:
         raise MethodError(
             f"kappa must be at least 1, at which AQP does not extrapolate; got {kappa!r}"
         )
+    if settings["arap_iterations"] < 1:
+        raise MethodError(
+            "arap_iterations must be at least 1: the first brings the handles to their targets"
+        )
 
 
 def _check_slim(energy: Energy, _: Mapping[str, Any]) -> None:

@@ -28,9 +28,20 @@ _WINDOW, _GAIN = 50, 1e-9
 # A direction longer than this multiple of the coefficients is shortened: the line search works on
 # steps between 1e-12 and 2.
 _LONGEST = 10.0
+# Newton's steps that are shorter, and gain less of the energy, creep: each is dearer than the last,
+# for it splits panels next to where the map folds.
+_CREEPING = 1e-6
+# An energy that is 0 at its minimum, as ARAP, is compared with this.
+_NOTHING = 1e-6
 _JAMMED = (
     "No step along the search direction lowers the energy, though its gradient is not zero: the "
     "map is too close to folding for this method; the last certified map is returned."
+)
+
+
+_CREPT = (
+    "Steps gain next to nothing any more, though the gradient is not zero: the map is too close to "
+    "folding for this method; the last certified map is returned."
 )
 
 
@@ -83,6 +94,9 @@ def descend(problem: SubspaceProblem, choose: Direction) -> Run:
             problem, point, seconds, compiling, step=step, sigma2_lower=float(taken.sigma2_lower)
         )
         energies.append(_total(point))
+        gain = energies[-2] - energies[-1]
+        if choose.second_order and max(step, gain / _scale(point)) < _CREEPING:
+            return Ending(Status.BLOCKED, _CREPT)
         recent = energies[-1 - _WINDOW :]
         stalled = len(recent) > _WINDOW and recent[0] - recent[-1] <= _GAIN * abs(recent[-1])
         if stalled and not choose.second_order:
@@ -107,11 +121,11 @@ def _step(
                 chosen = _timed(problem, choose, View(problem, point, gradient, last_step))
                 if isinstance(chosen, Ending):
                     return chosen
-                scale = np.linalg.norm(chosen) / max(np.linalg.norm(point.coefficients), 1e-300)
-                direction = chosen if scale <= _LONGEST else chosen * (_LONGEST / scale)
+                length = np.linalg.norm(chosen) / max(np.linalg.norm(point.coefficients), 1e-300)
+                direction = chosen if length <= _LONGEST else chosen * (_LONGEST / length)
             promised = -float(gradient @ direction)
-            limit = problem.options.tolerance * abs(_total(point))
-            if choose.second_order and promised / 2 <= limit:
+            scale = _scale(point)
+            if choose.second_order and promised / 2 <= problem.options.tolerance * scale:
                 return Ending(Status.CONVERGED)
             move = problem.advance(point, direction, rounds < _PATIENCE)
             end = int(move.outcome)
@@ -122,7 +136,7 @@ def _step(
                     direction = None
                     continue
                 hidden = _ROUNDING if choose.second_order else _SMALL_SLOPE
-                if promised <= 2 * hidden * abs(_total(point)):
+                if promised <= 2 * hidden * scale:
                     return Ending(Status.STATIONARY)
                 return Ending(Status.BLOCKED, _JAMMED)
             total_rounds += 1
@@ -155,6 +169,11 @@ def _snapshot(
         compile_time=compiling,
         **more,
     )
+
+
+def _scale(point: Point) -> float:
+    """What a decrease is compared with: the energy, or 1e-6 of what distortion costs at all."""
+    return max(abs(_total(point)), _NOTHING)
 
 
 def _total(point: Point) -> float:

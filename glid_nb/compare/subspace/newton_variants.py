@@ -33,9 +33,7 @@ class HessianDirection:
         h = view.problem.hessian(view.point, self.curvature) + view.problem.p2p_hessian
         direction = _solve(h, view.gradient)
         if direction is None and self.curvature == "projected":
-            # Semidefinite, but singular for very few samples: Section 9.1's epsilon.
-            ridge = _RIDGE * float(np.diag(h).mean())
-            direction = _solve(h + ridge * np.eye(len(h)), view.gradient)
+            direction = _solve_semidefinite(h, view.gradient)
         return Ending(Status.INDEFINITE) if direction is None else direction
 
     def forget(self) -> bool:
@@ -112,11 +110,20 @@ class LevenbergMarquardt:
             self.damping *= 0.2 if view.step >= 1 else 2.0
         free = view.problem.unknowns.free
         shift = self.damping * float(np.diag(iso)[free > 0].mean())
-        direction = _solve(iso + view.problem.p2p_hessian + shift * np.diag(free), view.gradient)
+        h = iso + view.problem.p2p_hessian + shift * np.diag(free)
+        direction = _solve(h, view.gradient)
+        if direction is None:
+            direction = _solve_semidefinite(h, view.gradient)
         return Ending(Status.INDEFINITE) if direction is None else direction
 
     def forget(self) -> bool:
         return False
+
+
+def _solve_semidefinite(h: Array, gradient: Array) -> Array | None:
+    """The same where H is singular, for want of samples or handles: Section 9.1's epsilon."""
+    ridge = _RIDGE * float(np.diag(h).mean())
+    return _solve(h + ridge * np.eye(len(h)), gradient)
 
 
 def _solve(h: Array, gradient: Array) -> Array | None:

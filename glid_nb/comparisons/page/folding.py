@@ -30,7 +30,7 @@ def section(cases: list[Measurement], figures: str) -> list[str]:
         f"![folding]({figures}/folding.png)",
         "",
         "Poses as above. Triangles with a negative determinant are black, with a ring around each "
-        "group; sheets that lie over one another without being turned over show darker.",
+        "small group; sheets that lie over one another without being turned over show darker.",
         "",
         *table(
             ["shape", "triangles", *(METHODS[name][0] for name in names)],
