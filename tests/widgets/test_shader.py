@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from playwright.sync_api import Page
 
 from glid_nb.energies import SymmetricDirichlet
 from glid_nb.geometry import triangulate
-from glid_nb.widgets.scene import Scene
+from glid_nb.widgets.scene import Scene, drawing_order
 from glid_nb.widgets.shader import ShaderMap, glsl
 
 from ..domains import NAMES, domain, random_map
@@ -161,3 +162,28 @@ def test_the_kernel_evaluates_what_a_shader_cannot_hold(sent: list[Any]) -> None
     scene.show_map(moved)
     assert _wire_size(sent) == 0
     scene.close()
+
+
+def shaded(triangles: np.ndarray, remembered: int = 16) -> int:
+    """How often a vertex is shaded by what remembers the last few."""
+    last: deque[int] = deque(maxlen=remembered)
+    count = 0
+    for vertex in triangles.ravel().tolist():
+        if vertex not in last:
+            last.append(vertex)
+            count += 1
+    return count
+
+
+@pytest.mark.parametrize("name", ["ell", "triple"])
+def test_vertices_are_shaded_little_more_than_once(name: str) -> None:
+    mesh = triangulate(domain(name).cage, 4_000)
+    ordered = drawing_order(mesh)
+    assert sorted(map(tuple, ordered)) == sorted(map(tuple, mesh.triangles))
+    assert shaded(ordered) < 1.4 * len(mesh.vertices)
+    assert shaded(mesh.triangles) > 2 * shaded(ordered)
+
+
+def test_a_mesh_of_a_few_triangles_has_no_rows() -> None:
+    mesh = triangulate(domain("ell").cage, 3)
+    assert sorted(map(tuple, drawing_order(mesh))) == sorted(map(tuple, mesh.triangles))
