@@ -76,7 +76,7 @@ def test_segments_that_are_too_long_are_refused(monkeypatch: pytest.MonkeyPatch)
 @pytest.fixture
 def small_sizes(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(progress, "MESH_VERTICES", 400)
-    monkeypatch.setattr(progress, "MESH_SECONDS", 0.5)
+    monkeypatch.setattr(progress, "MESH_SECONDS", 20.0)
     monkeypatch.setattr(progress, "LIMITS", dict.fromkeys(progress.LIMITS, 12))
     monkeypatch.setattr(iteration_times, "MESH_VERTICES", 400)
     monkeypatch.setattr(hessian_samples, "SAMPLES", (400, 1_000))
