@@ -18,8 +18,6 @@ from glid_nb.geometry import Domain, Triangulation
 from glid_nb.solvers import Pose
 
 _ALL: tuple[Method, ...] = (*subspace.METHODS, *BDHM_METHODS, *MESH_METHODS, *LINEAR_METHODS)
-
-
 _TRIANGLE = 3
 
 

@@ -36,7 +36,8 @@ class Case:
     def digest(self) -> str:
         """Of the cage, the handles and their targets, to the last bit."""
         digest = hashlib.sha256()
-        for array in (*self.problem.domain.cage.loops, *self._pose):
+        pose = self.problem.pose
+        for array in (*self.problem.domain.cage.loops, pose.handles, pose.targets):
             digest.update(np.ascontiguousarray(array, dtype=float).tobytes())
         return digest.hexdigest()
 
@@ -50,10 +51,6 @@ class Case:
         """Median distance of the basis' singularities from the boundary, world units."""
         vertices = np.concatenate(self.problem.domain.offset_cage.loops)
         return float(np.median(shapely.distance(self._boundary, shapely.points(vertices))))
-
-    @property
-    def _pose(self) -> tuple[Any, Any]:
-        return self.problem.pose.handles, self.problem.pose.targets
 
     @property
     def _boundary(self) -> Any:

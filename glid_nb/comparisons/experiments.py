@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -91,10 +92,11 @@ def measure_all(
         "stages": (shapes.progress, stages.measure),
         "folding": (shapes.progress, folding.measure),
     }
+    case = functools.cache(shapes.case)  # tracing a sample takes a moment
     results: dict[str, list[Measurement]] = {}
     for name in NAMES:
         chosen, measure = table[name]
-        cases = [shapes.case(shape) for shape in chosen]
+        cases = [case(shape) for shape in chosen]
         if name in only:
             results[name] = [
                 store.get(f"{name}-{c.name}", lambda m=measure, c=c: m(c, detail), c.digest)

@@ -41,6 +41,7 @@ _CHUNK_ELEMENTS = 1 << 18
 
 _LARGE = 256  # columns; an iteration with more takes as long as a tenth of compiling it
 _GROWTH, _GROWTH_OF_LARGE = 1.5, 1.125
+_MOST_PANELS = 20_000
 
 
 class Matrices(NamedTuple):
@@ -119,6 +120,16 @@ class Discretisation:
     def can_refine(self) -> bool:
         """Whether panels may be split (the paper's uniform sampling is fixed)."""
         return self.sampling == "graded"
+
+    def splittable(self, refused: np.ndarray) -> np.ndarray:
+        """Which panels of ``refused`` (at least p,) bool can be cut in half, (p,) bool.
+
+        None where that would make more panels than the memory should hold.
+        """
+        count = len(self.panels)
+        chosen = refused[:count] & self.panels.divisible
+        fits = self.can_refine and count + int(chosen.sum()) <= _MOST_PANELS
+        return chosen & fits
 
     @double_precision
     def refined(self, chosen: np.ndarray) -> Discretisation:

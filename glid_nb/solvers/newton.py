@@ -36,9 +36,12 @@ _CONTRACTION = 0.3
 # Far from the minimum, after a step that gains more than this share of the energy, corrections
 # creep along the valley that the next Hessian would cross.
 _CLOSE = 0.1
-# Energies are means over the boundary. ARAP's vanish at rigid motions, where nothing is relative to
-# them; below this one nobody sees a distortion.
-_PERFECT = 1e-6
+LEAST_ENERGY = 1e-6
+"""What a decrease is compared with where the energy is less.
+
+Energies are means over the boundary. ARAP's vanish at rigid motions, where nothing is relative to
+them; below this one nobody sees a distortion.
+"""
 
 
 class Record(NamedTuple):
@@ -352,7 +355,7 @@ def _moved(
 
 
 def _scale(total: Float[Array, ""]) -> Float[Array, ""]:
-    return jnp.maximum(jnp.abs(total), _PERFECT)
+    return jnp.maximum(jnp.abs(total), LEAST_ENERGY)
 
 
 def _where(condition: Bool[Array, ""], one: Any, other: Any) -> Any:

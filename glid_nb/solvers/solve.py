@@ -41,7 +41,6 @@ _RIDGE_FACTOR = 100.0
 # solve that gets nowhere ends.
 _PATIENCE = 3
 _MOST_ROUNDS = 40
-MOST_PANELS = 20_000
 # When to put the Hessian on all nodes: many iterations, or a short step that gains little.
 SLOW_ITERATIONS = 20
 _SLOW_STEP, _SLOW_GAIN = 0.5, 0.05
@@ -338,16 +337,14 @@ class _Loop:
 
     def _split(self, refused: Array) -> bool:
         """Split the panels that refused a step; False when none can be."""
-        panels = self.discretisation.panels
-        wanted = refused[: len(panels)] & panels.divisible
-        count = int(wanted.sum())
-        if not self.discretisation.can_refine or not count or len(panels) + count > MOST_PANELS:
+        wanted = self.discretisation.splittable(refused)
+        if not wanted.any():
             return False
         self.discretisation = self.discretisation.refined(wanted)
         self.matrices = self.discretisation.matrices
         if self.full_since is not None:
             self.matrices = self.discretisation.full_matrices
-        self.just_split += count
+        self.just_split += int(wanted.sum())
         return True
 
 

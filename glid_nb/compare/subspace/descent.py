@@ -14,6 +14,7 @@ from glid_nb.compare.recording import Ending, Run, Snapshot
 from glid_nb.compare.subspace.evaluation import Move, Point
 from glid_nb.compare.subspace.problem import SubspaceProblem
 from glid_nb.solvers import Status, outcome
+from glid_nb.solvers.newton import LEAST_ENERGY
 
 Array = NDArray[Any]
 
@@ -31,14 +32,10 @@ _LONGEST = 10.0
 # Newton's steps that are shorter, and gain less of the energy, creep: each is dearer than the last,
 # for it splits panels next to where the map folds.
 _CREEPING = 1e-6
-# An energy that is 0 at its minimum, as ARAP, is compared with this.
-_NOTHING = 1e-6
 _JAMMED = (
     "No step along the search direction lowers the energy, though its gradient is not zero: the "
     "map is too close to folding for this method; the last certified map is returned."
 )
-
-
 _CREPT = (
     "Steps gain next to nothing any more, though the gradient is not zero: the map is too close to "
     "folding for this method; the last certified map is returned."
@@ -172,8 +169,7 @@ def _snapshot(
 
 
 def _scale(point: Point) -> float:
-    """What a decrease is compared with: the energy, or 1e-6 of what distortion costs at all."""
-    return max(abs(_total(point)), _NOTHING)
+    return max(abs(_total(point)), LEAST_ENERGY)
 
 
 def _total(point: Point) -> float:

@@ -22,7 +22,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import OptionError, Options, Pose
 from glid_nb.solvers.align import aligned
 from glid_nb.solvers.discretisation import discretise
-from glid_nb.solvers.solve import MOST_PANELS, constraints_of, map_from, real_coefficients
+from glid_nb.solvers.solve import constraints_of, map_from, real_coefficients
 from glid_nb.solvers.start import check_proved
 from glid_nb.solvers.unknowns import restrict_hessian, unknowns_of
 
@@ -140,10 +140,8 @@ class SubspaceProblem:
 
     def refine(self, refused: Array) -> bool:
         """Split the panels that refused a step; False when none can be."""
-        panels = self.discretisation.panels
-        wanted = refused[: len(panels)] & panels.divisible
-        count = len(panels) + int(wanted.sum())
-        if not self.can_refine or not wanted.any() or count > MOST_PANELS:
+        wanted = self.discretisation.splittable(refused)
+        if not wanted.any():
             return False
         began = time.perf_counter()
         self.discretisation = self.discretisation.refined(wanted)

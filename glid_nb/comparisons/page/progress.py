@@ -286,14 +286,11 @@ def _lbfgs(cases: list[Measurement]) -> str:
 
 def _exhausted(light: list[tuple[str, dict[str, Any], dict[str, Any]]]) -> str:
     """Where it ended because rounding leaves nothing to gain."""
-    names = [name_of(name) for name, run, _ in light if run["status"] == "stationary"]
-    if not names:
+    exhausted = [found for found in light if found[1]["status"] == "stationary"]
+    if not exhausted:
         return ""
-    gaps = [
-        run["energy"][-1] / ours["energy"][-1] - 1
-        for _, run, ours in light
-        if run["status"] == "stationary"
-    ]
+    names = [name_of(name) for name, _, _ in exhausted]
+    gaps = [run["energy"][-1] / ours["energy"][-1] - 1 for _, run, ours in exhausted]
     return (
         f" On {joined(names)} it ends where no step lowers the energy in double precision, "
         f"{f'at most {max(gaps):.0e} above ours' if max(gaps) > 0 else 'not above ours'}."

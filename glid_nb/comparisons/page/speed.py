@@ -25,7 +25,6 @@ _TITLES = {
 _TIMES = 2.0
 """From so many times its minimum on an energy is not given in percent above it."""
 
-
 WANTED = 25
 """The median that the ratios should have for SLIM and for AQP."""
 
@@ -138,17 +137,14 @@ def _paper(method: str) -> str:
 
 def _criterion(cases: list[Measurement], criterion: str, title: str) -> list[str]:
     rows = []
-    ratios: dict[str, list[tuple[float, bool]]] = {method: [] for method in MESH}
     for d in cases:
         ours = d["runs"]["newton"]["reached"][criterion]["time"]
         row = [d["name"], seconds(ours)]
         for method in ("newton-eigen", *MESH):
-            run = d["runs"].get(method)
-            cell, ratio = _cell(run, criterion, ours)
+            cell, _ = _cell(d["runs"].get(method), criterion, ours)
             row.append(cell)
-            if method in MESH and ratio is not None:
-                ratios[method].append(ratio)
         rows.append(row)
+    ratios = {method: _ratios(cases, method, criterion) for method in MESH}
     heads = ["shape", "ours", *(LOOK[m][0] for m in ("newton-eigen", *MESH))]
     lines = [f"**{title}**", "", *table(heads, rows), "", *_notes(cases, criterion)]
     if any(ratios.values()):
