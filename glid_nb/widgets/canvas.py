@@ -20,7 +20,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.widgets.gestures import Gestures
 from glid_nb.widgets.overlays import OVERLAYS
 from glid_nb.widgets.pane import Pane
-from glid_nb.widgets.scene import N_VERTICES, EvaluatedIn
+from glid_nb.widgets.scene import EvaluatedIn
 from glid_nb.widgets.subshells import answer_during_cells
 
 Array = NDArray[Any]
@@ -47,8 +47,9 @@ class DeformCanvas(ipywidgets.HBox):
         The model to show, or the domain of a new one.
     width, height : int
         Size of the result in CSS pixels.
-    n_vertices : int
-        Vertices of the mesh that the picture is drawn on.
+    n_vertices : int, optional
+        Vertices of the mesh that the picture is drawn on. By default 10,000, or fewer where the
+        page needs longer than 40 ms to draw them.
     evaluated_in : "shader" or "kernel", optional
         Who computes the vertices. By default the shader, where it can hold the cage; a frame then
         costs a few kB on the wire whatever the number of vertices.
@@ -84,7 +85,7 @@ class DeformCanvas(ipywidgets.HBox):
         width: int = 600,
         height: int = 500,
         *,
-        n_vertices: int = N_VERTICES,
+        n_vertices: int | None = None,
         evaluated_in: EvaluatedIn | None = None,
         **kwargs: Any,
     ) -> None:
@@ -160,7 +161,7 @@ class DeformCanvas(ipywidgets.HBox):
     def _pane(self, size: tuple[int, int], interactive: bool) -> Pane:
         model = self.deformation
         map_ = model.map if interactive else model.state.identity
-        return Pane(
+        pane = Pane(
             self.image,
             map_,
             model.state.current.energy,
@@ -169,6 +170,14 @@ class DeformCanvas(ipywidgets.HBox):
             n_vertices=self._n_vertices,
             evaluated_in=self._evaluated_in,
         )
+        pane.stage.observe(lambda _: self._adapt(pane), ["uniform_vectors", "drawing_time"])
+        return pane
+
+    def _adapt(self, pane: Pane) -> None:
+        with self._drawing:
+            if not self._closed and pane.adapt():
+                self._draw()
+                self._show_panels()
 
     def _resize(self, _: Any = None) -> None:
         self.layout.height = f"{self.pane.stage.height}px"

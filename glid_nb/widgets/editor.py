@@ -27,7 +27,6 @@ from glid_nb.widgets.canvas import DeformCanvas
 from glid_nb.widgets.closing import close_with_parts
 from glid_nb.widgets.monitor import SolverMonitor
 from glid_nb.widgets.pose_list import PoseList
-from glid_nb.widgets.scene import N_VERTICES
 from glid_nb.widgets.solver_panel import SolverPanel
 from glid_nb.widgets.toolbar import Toolbar
 from glid_nb.widgets.tracer import CageTracer
@@ -61,8 +60,9 @@ class Editor(ipywidgets.VBox):
         in any case it is kept up to date while something changes.
     width, height : int
         Size of the canvas in CSS pixels.
-    n_vertices : int
-        Vertices of the mesh that the picture is drawn on.
+    n_vertices : int, optional
+        Vertices of the mesh that the picture is drawn on. By default 10,000, or fewer where the
+        page needs longer than 40 ms to draw them.
 
     Raises
     ------
@@ -97,7 +97,7 @@ class Editor(ipywidgets.VBox):
         *,
         width: int = 600,
         height: int = 500,
-        n_vertices: int = N_VERTICES,
+        n_vertices: int | None = None,
         **kwargs: Any,
     ) -> None:
         enable_compilation_cache()

@@ -13,13 +13,16 @@ from glid_nb.energies import Energy
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.widgets.closing import close_with_parts
 from glid_nb.widgets.overlays import legend
-from glid_nb.widgets.scene import EvaluatedIn, Scene, renderer
+from glid_nb.widgets.scene import N_VERTICES, EvaluatedIn, Scene, renderer
 from glid_nb.widgets.stage import Stage, emptiest_corner, marks_of
 
 Array = NDArray[Any]
 
 _SHARES = (0.0, 0.25, 0.5, 0.75)  # of an edge
 _ROOM = 1.12  # what is fitted leaves a border
+# Without a graphics processor a vertex costs tens of microseconds: more than these are not moved
+# with the hand. Fewer would show, as a picture that breaks at the mesh's edges.
+_DRAWING_TIME, _FEWEST_VERTICES = 40.0, 1500  # ms, vertices
 
 
 class Pane(ipywidgets.GridBox):
@@ -33,10 +36,12 @@ class Pane(ipywidgets.GridBox):
         size: tuple[int, int],
         *,
         interactive: bool,
-        n_vertices: int,
+        n_vertices: int | None,
         evaluated_in: EvaluatedIn | None,
     ) -> None:
-        self._image, self._energy, self._n_vertices = image, energy, n_vertices
+        self._image, self._energy = image, energy
+        self._n_vertices = N_VERTICES if n_vertices is None else n_vertices
+        self._fewest_vertices = _FEWEST_VERTICES if n_vertices is None else n_vertices
         self._evaluated_in: EvaluatedIn | None = evaluated_in
         self._overlay, self._lines = "texture", (False, False)
         self._scene = self._new_scene(map)
@@ -58,7 +63,6 @@ class Pane(ipywidgets.GridBox):
         self.layout.flex = "0 0 auto"
         self._resize()
         self.stage.observe(self._resize, ["width", "height"])
-        self.stage.observe(self._check_uniforms, ["uniform_vectors"])
         self.fit(map, ())
 
     @property
@@ -76,6 +80,27 @@ class Pane(ipywidgets.GridBox):
         with self.stage.hold_sync():
             self.stage.coefficients = self._wire(map)
             self.stage.marks = marks_of(targets, images, selected)
+
+    def adapt(self) -> bool:
+        """To what the page says of itself; whether there is another scene now.
+
+        Where its shaders do not hold the cage, the kernel evaluates the map; where it draws too
+        slowly for a drag, it gets a coarser mesh.
+        """
+        stage, scene = self.stage, self._scene
+        vectors, time = stage.uniform_vectors, stage.drawing_time
+        overflows = (
+            vectors != 0 and scene.evaluated_in == "shader" and not scene.shader_map.fits(vectors)
+        )
+        affordable = int(self._n_vertices * _DRAWING_TIME / time) if time else self._n_vertices
+        wanted = max(affordable, self._fewest_vertices)
+        if not overflows and wanted >= self._n_vertices:
+            return False
+        self._n_vertices = min(wanted, self._n_vertices)
+        stage.drawing_time = 0.0  # it was that of the scene before
+        self._replace_scene(scene.map)
+        stage.coefficients = self._wire(scene.map)
+        return True
 
     def show_comparison(self, map: MeshMap | None) -> None:
         """Draw a map of a mesh in place of the harmonic one, or this again."""
@@ -159,13 +184,6 @@ class Pane(ipywidgets.GridBox):
             part.layout.width, part.layout.height = f"{width}px", f"{height}px"
         self.layout.grid_template_columns = f"{width}px"
         self.layout.grid_template_rows = f"{height}px"
-
-    def _check_uniforms(self, _: Any) -> None:
-        """The page says what its shaders hold: where that is too little, the kernel computes."""
-        scene, vectors = self._scene, self.stage.uniform_vectors
-        if scene.evaluated_in == "shader" and not scene.shader_map.fits(vectors):
-            self._replace_scene(scene.map)
-            self.stage.coefficients = b""
 
 
 def _images(map: DeformationMap, points: Array) -> Array:

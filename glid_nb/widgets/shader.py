@@ -39,10 +39,11 @@ class ShaderMap:
         sizes = zip(starts, map(len, loops), strict=False)
         chains = [start + np.arange(-1, size) % size for start, size in sizes]
         self._index = np.concatenate(chains)
-        leads = np.concatenate([np.arange(len(chain)) > 0 for chain in chains])
+        inverse_edges = [np.concatenate([[0j], 1 / (p - np.roll(p, 1))]) for p in loops]
         vertices = np.concatenate(loops)[self._index]
-        self.cage = _padded(_vectors(vertices, leads + 0j), [*vertices[-1:].view(float), 0, 0])
-        """(c, 4) float32: a vertex, and whether an edge leads to it."""
+        chain = _vectors(vertices, np.concatenate(inverse_edges))
+        self.cage = _padded(chain, [*vertices[-1:].view(float), 0, 0])
+        """(c, 4) float32: a vertex, and 1 over the edge that leads to it; 0 where none does."""
         self._far = [1e3 * float(np.abs(vertices).max()), 0, 0, 0]
         self.n_holes = len(_padded(np.zeros((domain.n_holes, 4)), self._far))
         """Holes of the shader; those that the domain does not have do nothing."""

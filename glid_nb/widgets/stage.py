@@ -64,6 +64,9 @@ class Stage(anywidget.AnyWidget):
     uniform_vectors = traitlets.Int(0).tag(sync=True)
     """How many vectors of uniforms the page's shaders hold; 0 while no page has said."""
 
+    drawing_time = traitlets.Float(0.0).tag(sync=True)
+    """Milliseconds that the page needs to draw the renderer once; 0 while no page has said."""
+
     renderer = traitlets.Instance(ipywidgets.Widget).tag(sync=True, **_REFERENCE)
     """The pythreejs renderer below."""
 

@@ -1,6 +1,8 @@
-// Messages to the kernel, paced by it: while one batch is on its way, the next one gathers.
+// Messages to the kernel, paced by it and by the page: while one batch is on its way, or what it led
+// to has yet to be drawn, the next one gathers.
 
-const ACKNOWLEDGE_TIMEOUT = 2000; // ms; a kernel that died must not silence the page for ever
+// ms; a kernel that died must not silence the page for ever, nor a page that is hidden
+const ACKNOWLEDGE_TIMEOUT = 2000;
 
 export class Link {
   constructor(model) {
@@ -10,7 +12,10 @@ export class Link {
     this.waiting = false;
     this.number = 0;
     this.onMessage = (message) => {
-      if (message.view === this.view && message.ack >= this.awaited) this.release();
+      // The frame came before this: it is drawn when the page draws next.
+      if (message.view === this.view && message.ack >= this.awaited) {
+        this.drawing = requestAnimationFrame(() => this.release());
+      }
     };
     model.on("msg:custom", this.onMessage);
   }
@@ -41,12 +46,14 @@ export class Link {
 
   release() {
     clearTimeout(this.timer);
+    cancelAnimationFrame(this.drawing);
     this.waiting = false;
     this.flush();
   }
 
   close() {
     clearTimeout(this.timer);
+    cancelAnimationFrame(this.drawing);
     this.model.off("msg:custom", this.onMessage);
   }
 }

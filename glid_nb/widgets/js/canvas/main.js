@@ -4,6 +4,7 @@ import { Input } from "./input.js";
 import { Link } from "./link.js";
 import { drawMarks } from "./marks.js";
 import { Shapes, uniformVectors } from "./shapes.js";
+import { drawingTime } from "./speed.js";
 import { View } from "./view.js";
 
 function element(parent, tag, name, text) {
@@ -132,8 +133,12 @@ function render({ model, el }) {
   showLegend();
   tell();
   let gone = false;
-  // Two frames later the renderer, which is told to draw in this one, has drawn.
-  shapes.load().then(() => requestAnimationFrame(() => requestAnimationFrame(() => gone || link.drawn())));
+  shapes.load().then(() => drawingTime(pad, shapes)).then((time) => {
+    if (gone) return;
+    link.drawn();
+    model.set("drawing_time", time);
+    model.save_changes();
+  });
   if (model.get("uniform_vectors") === 0) {
     model.set("uniform_vectors", uniformVectors() || -1);
     model.save_changes();

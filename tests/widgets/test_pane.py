@@ -1,0 +1,70 @@
+"""A renderer fits what the page can do."""
+
+from __future__ import annotations
+
+import pytest
+
+from glid_nb.widgets import DeformCanvas
+
+from ..domains import domain
+from .test_shader import PICTURE
+
+
+def _canvas(**settings: object) -> DeformCanvas:
+    return DeformCanvas(PICTURE, domain("ell"), **settings)
+
+
+def test_a_page_that_draws_slowly_gets_a_coarser_mesh() -> None:
+    canvas = _canvas()
+    pane, stage = canvas.pane, canvas.pane.stage
+    fine = pane.scene.picture.n_vertices
+    stage.drawing_time = 160.0
+    coarse = pane.scene.picture.n_vertices
+    # A quarter of the vertices within 40 ms; the cage's own are always among them.
+    assert 0.2 * fine < coarse < 0.4 * fine
+    assert stage.materials == pane.scene.materials
+    assert stage.coefficients == pane.scene.shader_map.wire(canvas.deformation.map)
+    # The time was that of the finer mesh: what another page says of this one counts by itself.
+    stage.drawing_time = 30.0
+    assert pane.scene.picture.n_vertices == coarse
+    stage.drawing_time = 1e4
+    assert 1000 < pane.scene.picture.n_vertices < coarse
+    canvas.close()
+
+
+@pytest.mark.parametrize("time", [0.0, 5.0, 39.0])
+def test_a_quick_page_keeps_the_mesh(time: float) -> None:
+    canvas = _canvas()
+    scene = canvas.pane.scene
+    canvas.pane.stage.drawing_time = time
+    assert canvas.pane.scene is scene
+    canvas.close()
+
+
+def test_a_mesh_that_was_asked_for_stays() -> None:
+    canvas = _canvas(n_vertices=4000)
+    scene = canvas.pane.scene
+    canvas.pane.stage.drawing_time = 1e3
+    assert canvas.pane.scene is scene
+    canvas.close()
+
+
+def test_what_was_shown_is_shown_on_the_other_mesh() -> None:
+    canvas = _canvas()
+    canvas.overlay, canvas.show_cage, canvas.show_panels = "sigma1", True, True
+    canvas.pane.stage.drawing_time = 400.0
+    scene = canvas.pane.scene
+    assert scene.cage is not None
+    assert scene.panels is not None
+    assert [material.uniforms["overlay"]["value"] for material in scene.materials[:1]] == [2.0]
+    assert scene.meshes[-1].visible
+    canvas.close()
+
+
+def test_a_page_with_few_uniforms_gets_vertices_from_the_kernel() -> None:
+    canvas = _canvas()
+    assert canvas.pane.scene.evaluated_in == "shader"
+    canvas.pane.stage.uniform_vectors = 40
+    assert canvas.pane.scene.evaluated_in == "kernel"
+    assert canvas.pane.stage.coefficients == b""
+    canvas.close()
