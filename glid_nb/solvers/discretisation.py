@@ -36,6 +36,9 @@ HESSIAN_STRIDE = 10
 # The Hessian's quadrature may be coarser than the energy's: two panels share a node where together
 # they are no longer than this many times their distance to the nearest singularity.
 _PAIR_RATIO = 1.4
+# Of a rotation no energy knows, so a node tells one real number of the two of f_z. With hardly more
+# nodes than that for each coefficient, what oscillates between the nodes has no curvature.
+_NODES_PER_COLUMN = 2.25
 
 _CHUNK_ELEMENTS = 1 << 18
 
@@ -191,9 +194,15 @@ def discretise(
     )
     p = bucket(len(panels))
     if sampling == "graded":
-        t = jnp.asarray(whitening(rows.middles, panels.length / panels.length.sum(), basis))
+        weights = panels.length / panels.length.sum()
+        t = _whitening(rows.middles, weights, panels, basis)
         return _graded(domain, basis, certificate, panels, t, rows, p)
     return _uniform(domain, basis, certificate, panels, rows, p)
+
+
+def _whitening(rows: np.ndarray, weights: np.ndarray, panels: Panels, basis: Basis) -> Array:
+    (anchor,) = basis_rows(cauchy.cauchy_coordinates, panels.start[:1], basis)
+    return jnp.asarray(whitening(rows, weights, anchor, basis))
 
 
 def _graded(
@@ -213,15 +222,9 @@ def _graded(
     weights[: len(panels)] = ends
     weights[p : p + len(panels)] = length * (4 / 6)
     nodes = np.concatenate([padded(rows.ends, p), padded(rows.middles, p)])
-    # The Hessian's nodes: the middle of each pair of panels, an end of both, or of a single panel.
-    first = np.flatnonzero(paired(panels, domain, _PAIR_RATIO))
-    share = padded(length, p, 0.0)
-    share[first] += share[first + 1]
-    index = np.arange(p, 2 * p)
-    index[first] = first + 1
-    kept = np.setdiff1d(np.arange(len(panels)), first + 1)
-    h = bucket(len(kept))
-    index, share = padded(index[kept], h), padded(share[kept], h, 0.0)
+    index, share = _hessian_nodes(panels, domain, length, weights)
+    h = bucket(len(index))
+    index, share = padded(index, h), padded(share, h, 0.0)
     matrices = Matrices(
         nodes=_transposed(nodes),
         weights=jnp.asarray(weights),
@@ -232,6 +235,30 @@ def _graded(
         **_panel_arrays(panels, rows, p, basis, certificate),
     )
     return Discretisation(domain, basis, "graded", certificate, panels, matrices, t)
+
+
+def _hessian_nodes(
+    panels: Panels, domain: Domain, length: np.ndarray, weights: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Which nodes the Hessian's quadrature takes, and their weights: the fewest that will do.
+
+    The middle of each pair of panels, an end of both, or of a single panel; or of every panel; or
+    all nodes of the energy.
+    """
+    wanted = _NODES_PER_COLUMN * domain.n_coefficients
+    p, count = len(weights) // 2, len(panels)
+    middles = np.arange(p, p + count)
+    first = np.flatnonzero(paired(panels, domain, _PAIR_RATIO))
+    if count - len(first) >= wanted:
+        index, share = middles.copy(), length.copy()
+        index[first] = first + 1
+        share[first] += share[first + 1]
+        kept = np.setdiff1d(np.arange(count), first + 1)
+        return index[kept], share[kept]
+    if count >= wanted:
+        return middles, length
+    every = np.concatenate([np.arange(count), middles])
+    return every, weights[every]
 
 
 def _uniform(
@@ -246,7 +273,7 @@ def _uniform(
     chosen = np.arange(0, count, HESSIAN_STRIDE)
     h = -(-len(chosen) // 16) * 16
     weights = np.full(len(chosen), 1 / len(chosen))
-    t = jnp.asarray(whitening(rows.ends[chosen], weights, basis))
+    t = _whitening(rows.ends[chosen], weights, panels, basis)
     index = jnp.asarray(padded(chosen, h))
     nodes = _transposed(padded(rows.ends, p))
     matrices = Matrices(

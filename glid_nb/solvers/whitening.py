@@ -9,6 +9,9 @@ any coordinates.
 ``T`` keeps the unknowns where they are, so that the masks and the tie of
 :mod:`glid_nb.solvers.unknowns` serve in both: the exterior's first coordinate becomes the
 translation, of which no derivative knows, and a logarithm's coordinate is its coefficient, scaled.
+All others vanish at one point of the boundary. So none moves a handle by more than its length along
+the boundary; pinned at the first coefficient instead, what oscillates along a fine cage would move
+all of them by many times the shape's size, and the positional energy would swamp the other.
 """
 
 from __future__ import annotations
@@ -30,7 +33,10 @@ _RIDGE = 1e-13
 
 
 def whitening(
-    rows: Float[np.ndarray, "s 2c"], weights: Float[np.ndarray, " s"], basis: Basis
+    rows: Float[np.ndarray, "s 2c"],
+    weights: Float[np.ndarray, " s"],
+    anchor: Float[np.ndarray, " 2c"],
+    basis: Basis,
 ) -> Float[np.ndarray, "2 c c"]:
     """``T`` as (Re, Im).
 
@@ -40,6 +46,9 @@ def whitening(
         ``[Re D, -Im D]`` at samples of the boundary.
     weights : (s,)
         Quadrature weights.
+    anchor : (2c,)
+        ``[Re C, -Im C]`` at a point of the boundary, where all new functions but the translation
+        vanish.
     basis : Basis
     """
     c = basis.n_columns
@@ -60,6 +69,8 @@ def whitening(
         along = inverse.conj().T @ (inverse @ (columns.conj().T @ scaled[:, j]))
         rest = np.linalg.norm(scaled[:, j] - columns @ along)
         t[single_valued, j], t[j, j] = -along / rest, 1 / rest
+    value = anchor[:c] - 1j * anchor[c:]
+    t[: basis.n_exterior, 1:] -= value @ t[:, 1:]
     return np.stack([np.real(t), np.imag(t)])
 
 

@@ -1,14 +1,20 @@
 """Coordinates in which the basis is orthonormal along the boundary."""
 
+from typing import Any
+
 import jax
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import basis_of
-from glid_nb.solvers.discretisation import discretise
+from glid_nb.harmonic.cauchy import cauchy_coordinates
+from glid_nb.solvers import Options, Pose, Status, newton, solve
+from glid_nb.solvers.discretisation import basis_rows, discretise
 from glid_nb.solvers.evaluation import products
+from glid_nb.solvers.outcome import INDEFINITE
 from glid_nb.solvers.unknowns import expand, unknowns_of
 from glid_nb.solvers.whitening import coefficients, pulled_back, whitened
 
@@ -82,8 +88,50 @@ def test_unknowns_stay_where_they_are(name: str) -> None:
     logarithms = basis.phi_free & ~basis.psi_free
     logarithms[0] = False
     np.testing.assert_array_equal(phi[~basis.phi_free], 0)
-    np.testing.assert_array_equal(psi[~basis.psi_free & ~logarithms], 0)
+    others = ~basis.psi_free & ~logarithms
+    others[0] = False  # a translation, which phi has as well
+    np.testing.assert_array_equal(psi[others], 0)
     np.testing.assert_allclose(psi[logarithms], phi[logarithms].conj(), rtol=1e-13)
     with jax.enable_x64(True):
         moved = np.asarray(products(discretise(domain(name)).matrices, y.ravel()).nodes)
     assert np.abs(moved).max() > 0
+
+
+@pytest.mark.parametrize("sampling", ["graded", "uniform"])
+@pytest.mark.parametrize("name", SHAPES)
+def test_only_the_translation_moves_the_anchor(name: str, sampling: str) -> None:
+    """So no new function of unit slope is far from zero anywhere in the shape."""
+    disc = discretise(domain(name), sampling)  # type: ignore[arg-type]
+    t = np.asarray(disc.matrices.whitening)
+    points = np.array([disc.panels.start[0], *disc.panels.middle[::7]])
+    with jax.enable_x64(True):
+        rows = np.asarray(basis_rows(cauchy_coordinates, points, disc.basis))
+    values = _complex(rows.T) @ (t[0] + 1j * t[1])
+    np.testing.assert_allclose(values[:, 0], 1, atol=1e-9)
+    np.testing.assert_allclose(values[0, 1:], 0, atol=1e-8)
+    # |f(z) - f(anchor)| <= integral of |f'| <= sqrt(length) * length of f' (Cauchy-Schwarz), where
+    # slopes of unit mean square have length sqrt(perimeter).
+    assert np.abs(values[:, 1:]).max() <= 1.1 * disc.panels.length.sum()
+
+
+def test_a_fine_cage_keeps_the_hessian_definite_in_single_precision(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """More vertices than pairs of panels have nodes for: no second Hessian is tried."""
+    run, outcomes = newton.run, []
+
+    def noted(*arguments: Any, **options: Any) -> newton.State:
+        state = run(*arguments, **options)
+        outcomes.append(int(state.outcome))
+        return state
+
+    monkeypatch.setattr(newton, "run", noted)
+    angles = np.linspace(0, 2 * np.pi, 360, endpoint=False)
+    cage = Cage(6 * np.stack([np.cos(angles), np.sin(angles)], axis=1))
+    pose = Pose([[-3, 0], [3, 0]], [[-3, 0], [4, 1]])
+    result = solve(Domain.from_cage(cage), pose, options=Options(restarts=0))
+    assert result.status is Status.CONVERGED
+    assert outcomes
+    assert INDEFINITE not in outcomes
+    nodes = discretise(result.map.domain).matrices.whitened.shape[1]
+    assert nodes >= 2.25 * result.map.domain.n_coefficients
