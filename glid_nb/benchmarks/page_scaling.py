@@ -69,10 +69,10 @@ def scaling(series: dict[str, Rows], picture: str) -> list[str]:
         f"![time and memory against sizes]({picture})",
         "",
         "Each size in a process of its own. An iteration is equal work at every size, one "
-        f"projected Hessian and no corrections: the difference between calls with {STEPS} iterations and "
-        "with none, divided by their number. The call is one without iterations. Exponents "
-        "are between a size and the one before it; memory is what the process held at most, Python "
-        "and JAX included.",
+        "projected Hessian and no corrections: the difference between calls with "
+        f"{STEPS} iterations and with none, divided by their number. The call is one "
+        "without iterations. Exponents are between a size and the one before it; memory is what "
+        "the process held at most, Python and JAX included.",
     ]
     for name, about in _SERIES.items():
         if name in series:

@@ -1,0 +1,21 @@
+"""Exponents of powers."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from glid_nb.benchmarks.growth import exponent, local_exponents
+
+
+def test_exponents_of_a_power() -> None:
+    x = [10, 20, 80]
+    y = [3 * value**2.5 for value in x]
+    assert exponent(x, y) == pytest.approx(2.5)
+    assert local_exponents(x, y) == pytest.approx([2.5, 2.5])
+
+
+def test_one_size_has_no_exponent() -> None:
+    assert math.isnan(exponent([10], [1.0]))
+    assert local_exponents([10], [1.0]) == []
