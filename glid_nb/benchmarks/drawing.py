@@ -24,8 +24,9 @@ SOLVES, SPEEDUPS, SCALING = "solves.png", "speedups.png", "scaling.png"
 # Room above the highest point, so that none touches the top.
 _ROOM = 1.25
 _BAR = 0.36
-# Axes up to so many decades have ticks at 1, 2 and 5, longer ones at 1 alone.
-_SHORT = 3
+# Axes up to so many decades have ticks at 1, 2 and 5, longer ones at 1 alone; across, long numbers
+# stand side by side.
+_SHORT_ACROSS, _SHORT_UP = 1.6, 3.0
 
 
 def draw(results: Results, folder: Path) -> None:
@@ -41,7 +42,7 @@ def _draw_iterations(results: Results, path: Path) -> None:
     """Bars of the measured time per iteration, each with a line at its floor."""
     figure = drawing.figure(9.0, 3.2)
     axes: Any = figure.subplots()
-    solves = [(p, d) for p, d in results.pairs]
+    solves = results.pairs
     place = np.arange(len(solves))
     for i, (mode, color) in enumerate((("paper", SKY), ("default", BLUE))):
         x = place + (i - 0.5) * _BAR
@@ -70,7 +71,8 @@ def _draw_ratios(results: Results, path: Path) -> None:
     same = [same_minimum(p["energy"], d["energy"]) for p, d in pairs]
     colors = [BLUE if alike else FAINT for alike in same]
     bars = axes.bar(place, values, 0.6, color=colors)
-    axes.bar_label(bars, fmt="%.1f", fontsize=SMALL, padding=2)
+    plain = {"facecolor": "white", "edgecolor": "none", "pad": 0.8}
+    axes.bar_label(bars, fmt="%.1f", fontsize=SMALL, padding=3, bbox=plain)
     # Past the last bar, where the lines' labels have room.
     axes.set_xlim(-0.6, len(pairs) + 0.6)
     for goal, name in ((goals.MEDIAN_RATIO, "median"), (goals.LEAST_RATIO, "least")):
@@ -82,10 +84,8 @@ def _draw_ratios(results: Results, path: Path) -> None:
             ha="right",
             va="bottom",
         )
-    for value, name, style in (
-        (float(np.median(values)), f"median of these: {np.median(values):.1f}", ":"),
-    ):
-        axes.axhline(value, color=INK, lw=0.8, ls=style, zorder=0, label=name)
+    middle = float(np.median(values))
+    axes.axhline(middle, color=INK, lw=0.8, ls=":", zorder=0, label=f"median: {middle:.1f}")
     if not all(same):
         axes.bar([0], [0], color=FAINT, label="ends at other minima")
     axes.set_xticks(place, [p["name"] for p, _ in pairs])
@@ -170,11 +170,14 @@ def _draw_memory(ax: Axes, rows: list[dict[str, Any]]) -> None:
         ax.annotate(
             f"goal: {goals.MEMORY / 1e9:g} GB",
             (x[0], goals.MEMORY / 1e9),
-            xytext=(0, 2),
+            xytext=(0, -3),
             textcoords="offset points",
             fontsize=SMALL,
+            va="top",
         )
-        ax.plot(x, [r["memory"] / 1e9 for r in rows], "o-", color=BLUE, ms=4, lw=1.2)
+        memory = [r["memory"] / 1e9 for r in rows]
+        ax.plot(x, memory, "o-", color=BLUE, ms=4, lw=1.2)
+        _reference(ax, x, memory, 2)
     _plain(ax)
 
 
@@ -205,9 +208,12 @@ def _plain(ax: Axes) -> None:
     ax.set_xscale("log")
     ax.set_yscale("log")
     ax.margins(0.08)
-    for axis, limits in ((ax.xaxis, ax.get_xlim()), (ax.yaxis, ax.get_ylim())):
+    for axis, limits, short in (
+        (ax.xaxis, ax.get_xlim(), _SHORT_ACROSS),
+        (ax.yaxis, ax.get_ylim(), _SHORT_UP),
+    ):
         decades = np.log10(limits[1] / limits[0])
-        subs = (1.0, 2.0, 5.0) if decades <= _SHORT else (1.0,)
+        subs = (1.0, 2.0, 5.0) if decades <= short else (1.0,)
         axis.set_major_locator(LogLocator(10, subs, numticks=20))
         axis.set_major_formatter(FuncFormatter(lambda value, _: _number(value)))
         axis.set_minor_formatter(NullFormatter())

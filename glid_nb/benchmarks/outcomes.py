@@ -11,6 +11,7 @@ from glid_nb.benchmarks.results import Results
 from glid_nb.benchmarks.solving import DEFAULT, DRAG, DRAG_GAP, GAP, PAPER
 
 _NEEDS_REX = f"needs the reference shapes, of which {goals.REX} is one"
+_NOT_IN_RUN = "left out of this run"
 
 
 class Outcome(NamedTuple):
@@ -94,7 +95,7 @@ def _iterations(results: Results) -> list[Outcome]:
             None if cage is None else cage["per_iteration"]["median"],
             goals.CAGE_ITERATION,
             "ms",
-            "left out of a quick run" if cage is None else in_words(cage),
+            _NOT_IN_RUN if cage is None else in_words(cage),
         ),
     ]
     slowest = max(
@@ -145,7 +146,9 @@ def _whole_solves(results: Results) -> list[Outcome]:
             None if rex is None else rex["to_gap"]["median"],
             goals.IDENTITY,
             "ms",
-            _NEEDS_REX if rex is None else f"{rex['iterations']} iterations; {in_words(rex)}",
+            _NEEDS_REX
+            if rex is None
+            else f"{rex['iterations']} iterations, for what one takes see its row above",
         )
     )
     rows.append(
@@ -179,9 +182,11 @@ def _ratio_limit(results: Results) -> str:
 
 
 def _least_limit(paper: dict, default: dict) -> str:
+    times = [1e3 * s["per_iteration"]["median"] for s in (paper, default)]
     return (
-        f"{default['name']}: {paper['iterations']} and {default['iterations']} iterations; "
-        f"`default`: {in_words(default)}"
+        f"{default['name']}: {paper['iterations']} iterations of {times[0]:.1f} ms against "
+        f"{default['iterations']} of {times[1]:.1f} ms, of which factor and solves take "
+        f"{1e3 * default['floor']['factor']:.1f} ms at least in both modes"
     )
 
 
@@ -197,15 +202,13 @@ def _others(results: Results) -> list[Outcome]:
             None if counts is None else sum(counts.values()),
             goals.COMPILED_AGAIN,
             "programs",
-            "not counted in this run" if counts is None else "the table below says which",
+            _NOT_IN_RUN if counts is None else "the table below says which",
         ),
         _judged(
             f"peak memory, a cage with {goals.LARGEST_CAGE} vertices, Python and JAX included",
             largest[0]["memory"] if largest else None,
             goals.MEMORY,
             "GB",
-            "the Hessian, its factor and copies of both"
-            if largest
-            else "this size is left out of a quick run",
+            "the Hessian, its factor and copies of both" if largest else _NOT_IN_RUN,
         ),
     ]

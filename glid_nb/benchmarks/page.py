@@ -63,7 +63,7 @@ def _head(results: Results, out: Path) -> list[str]:
     machine, run = results.machine, results.run
     versions = ", ".join(f"{name} {v}" for name, v in machine["versions"].items())
     rates, devices = machine["rates"], machine["devices"]
-    names = listed([f"{devices.count(name)} x {name}" for name in dict.fromkeys(devices)])
+    names = listed([f"{_devices(devices.count(name))} ({name})" for name in dict.fromkeys(devices)])
     command = _command(results, out)
     folder = ", DIR being the folder of the reference problems" if run["reference"] else ""
     lines = [
@@ -199,7 +199,7 @@ def _other_minima(results: Results) -> list[str]:
     others = [p["name"] for p, d in pairs if (p, d) not in same]
     lines = [
         f"On {listed(others)} the two end at minima whose energies differ by more than "
-        f"{SAME_ENERGY:.0%}, for `paper` does not begin with the rigid motion."
+        f"{SAME_ENERGY:.0%}: `paper` begins at the identity itself."
     ]
     if same:
         ratios = [ratio(*pair) for pair in same]
@@ -379,18 +379,23 @@ def _batches(batches: Measurement | None) -> list[str]:
     ]
     on_cpu = batches["taken"]["devices"][0].startswith("cpu")
     if on_cpu:
+        smallest = first["rows"][0]
+        gain = largest[0]["per_second"]["median"] / smallest["per_second"]["median"]
         lines += [
             "",
-            "On a CPU the curve is flat: the poses of a batch run in turn (`lax.map`), for one "
-            "pose keeps the cores busy already, and in lockstep every pose would take every branch "
-            "of every other. What a batch saves is the host's part of each call.",
+            f"On one device a batch of {largest[0]['poses']} runs {gain:.2f} times as many poses "
+            f"per second as one of {smallest['poses']}, and "
+            f"{largest[0]['per_second']['median'] / alone['median']:.2f} times as many as `solve`: "
+            "a CPU has little to gain. The poses of a batch run in turn (`lax.map`), for one pose "
+            "keeps the cores busy already, and in lockstep every pose would take every branch of "
+            "every other. What a batch saves is the host's part of each call.",
         ]
     if on_cpu and len(series) > 1:
         gain = largest[-1]["per_second"]["median"] / largest[0]["per_second"]["median"]
         lines[-1] += (
             f" {_devices(series[-1]['devices']).capitalize()}, forced on the same cores, run "
-            f"{gain:.2f} times as many poses per second as one ({largest[0]['poses']} poses): "
-            "each takes its share of the poses with a share of the cores."
+            f"{gain:.2f} times as many poses per second as one, in batches of "
+            f"{largest[0]['poses']}: each takes its share of the poses, one after the other."
         )
     added = hard["with"]["median"] - hard["without"]["median"]
     lines += [
