@@ -80,9 +80,10 @@ def _head(results: Results, out: Path) -> list[str]:
         "",
         f"Machine: {machine['processor']}, {machine['cores']} cores (the goals are for "
         f"{goals.CORES}), {machine['system']}; JAX computes on {names}; Python "
-        f"{machine['python']}, {versions}. Its best matrix product runs at "
-        f"{rates['float64'] / 1e9:.0f} Gflop/s in double and {rates['float32'] / 1e9:.0f} in "
-        f"single precision, and it reads {rates['bytes'] / 1e9:.0f} GB/s.",
+        f"{machine['python']}, {versions} (sources {machine['sources']}). Its best matrix "
+        f"product runs at {rates['float64'] / 1e9:.0f} Gflop/s in double and "
+        f"{rates['float32'] / 1e9:.0f} in single precision, and it reads "
+        f"{rates['bytes'] / 1e9:.0f} GB/s.",
     ]
     if results.elsewhere:
         lines += [

@@ -6,7 +6,7 @@ import math
 from typing import Any, NamedTuple
 
 from glid_nb.benchmarks.growth import exponent, local_exponents
-from glid_nb.benchmarks.markdown import ms, table
+from glid_nb.benchmarks.markdown import listed, ms, table
 from glid_nb.benchmarks.scaling import STEPS
 
 Rows = list[dict[str, Any]]
@@ -68,13 +68,14 @@ def scaling(series: dict[str, Rows], picture: str) -> list[str]:
         "",
         f"![time and memory against sizes]({picture})",
         "",
-        "Each size in a process of its own. An iteration is equal work at every size, one "
-        "projected Hessian and no corrections: the difference between calls with "
-        f"{STEPS} iterations and with none, divided by their number. The call is one "
-        "without iterations. Exponents are between a size and the one before it; that of the work "
-        "is of its fastest growing part: columns squared times nodes (the Hessian), columns cubed "
-        "(the factorisation), columns times panels or handles (products), columns and nodes "
-        "padded as they are. Memory is what the process held at most, Python and JAX included.",
+        "Each size in a process of its own, a flower with a ring of handles, `default`. An "
+        "iteration is equal work at every size, near a minimum and without corrections: the "
+        f"difference between calls with {STEPS} iterations and with none, divided by their number. "
+        "The call is one without iterations. Exponents are between a size and the one before it; "
+        "that of the work is of its fastest growing part: columns squared times nodes (the "
+        "Hessian), columns cubed (the factorisation), columns times panels or handles (products), "
+        "columns and nodes padded as they are. Memory is what the process held at most, "
+        "corrections and all, Python and JAX included.",
     ]
     for name, about in _SERIES.items():
         if name in series:
@@ -160,6 +161,11 @@ def _statements(
         found.append(f"Memory above that of the first size grows with the power {power} there.")
     beyond = [time - part for time, part in zip(local, work, strict=True)]
     worst = max(range(len(local)), key=lambda i: beyond[i])
+    modified = [str(row[about.by]) for row in rows if row["modified"]]
+    if modified:
+        found.append(
+            f"At {listed(modified)} an exact Hessian was not definite and was factored twice."
+        )
     if beyond[worst] > _CLIFF:
         found.append(
             f"**A cliff:** from {x[worst]:g} to {x[worst + 1]:g} the time grows with the power "

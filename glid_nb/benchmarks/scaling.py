@@ -12,7 +12,7 @@ _SCRIPT = "glid_nb.benchmarks.one_size"
 
 
 STEPS = 2
-"""Iterations that are timed: of equal work, one projected Hessian each and no corrections."""
+"""Iterations that are timed: of equal work, one Hessian each and no corrections."""
 
 
 class Size(NamedTuple):
