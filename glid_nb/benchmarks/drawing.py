@@ -148,9 +148,15 @@ def _curve(
     )
 
 
-def _reference(ax: Axes, x: Sequence[float], y: Sequence[float], power: int) -> None:
-    """A dashed line of a given slope that ends at the last point."""
-    if len(x) < 2:
+def _reference(
+    ax: Axes,
+    x: Sequence[float],
+    y: Sequence[float],
+    power: int,
+    place: str = "upper left",
+) -> None:
+    """A dashed line of a given slope that ends at the last point; its legend has a place."""
+    if len(x) < 2 or min(y) <= 0:
         return
     ends = np.array([x[0], x[-1]], dtype=float)
     line = y[-1] * (ends / ends[-1]) ** power
@@ -159,7 +165,7 @@ def _reference(ax: Axes, x: Sequence[float], y: Sequence[float], power: int) -> 
         ends[0] = ends[-1] * (bottom / y[-1]) ** (1 / power)
         line[0] = bottom
     ax.plot(ends, line, "--", color=GREY, lw=0.9, zorder=0, label=f"slope {power}")
-    ax.legend(fontsize=SMALL, frameon=False, loc="upper left")
+    ax.legend(fontsize=SMALL, frameon=False, loc=place)
 
 
 def _draw_memory(ax: Axes, rows: list[dict[str, Any]]) -> None:
@@ -177,7 +183,7 @@ def _draw_memory(ax: Axes, rows: list[dict[str, Any]]) -> None:
         )
         memory = [r["memory"] / 1e9 for r in rows]
         ax.plot(x, memory, "o-", color=BLUE, ms=4, lw=1.2)
-        _reference(ax, x, memory, 2)
+        _reference(ax, x, memory, 2, "lower left")
     _plain(ax)
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from glid_nb.benchmarks.growth import exponent, local_exponents
 from glid_nb.benchmarks.markdown import listed, ms, table
 from glid_nb.benchmarks.scaling import STEPS
@@ -160,13 +162,13 @@ def _statements(
         power = _power(exponent(x[-2:], extra))
         found.append(f"Memory above that of the first size grows with the power {power} there.")
     beyond = [time - part for time, part in zip(local, work, strict=True)]
-    worst = max(range(len(local)), key=lambda i: beyond[i])
+    worst = int(np.nanargmax([-np.inf, *beyond])) - 1
     modified = [str(row[about.by]) for row in rows if row["modified"]]
     if modified:
         found.append(
             f"At {listed(modified)} an exact Hessian was not definite and was factored twice."
         )
-    if beyond[worst] > _CLIFF:
+    if worst >= 0 and beyond[worst] > _CLIFF:
         found.append(
             f"**A cliff:** from {x[worst]:g} to {x[worst + 1]:g} the time grows with the power "
             f"{_power(local[worst])}, the work with {_power(work[worst])} at most."

@@ -19,3 +19,10 @@ def test_exponents_of_a_power() -> None:
 def test_one_size_has_no_exponent() -> None:
     assert math.isnan(exponent([10], [1.0]))
     assert local_exponents([10], [1.0]) == []
+
+
+def test_what_noise_outweighs_has_no_exponent() -> None:
+    first, second = local_exponents([10, 20, 40], [1.0, -0.1, 16.0])
+    assert math.isnan(first)
+    assert math.isnan(second)
+    assert exponent([10, 20, 40], [1.0, -0.1, 16.0]) == pytest.approx(2)
