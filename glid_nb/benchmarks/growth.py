@@ -16,7 +16,8 @@ def exponent(x: Sequence[float], y: Sequence[float]) -> float:
     points = np.array([(a, b) for a, b in zip(x, y, strict=True) if a > 0 and b > 0], dtype=float)
     if len(points) < 2:
         return float("nan")
-    return float(np.polyfit(*np.log(points).T, 1)[0])
+    log_x, log_y = np.log(points).T
+    return float(np.polyfit(log_x, log_y, 1)[0])
 
 
 def local_exponents(x: Sequence[float], y: Sequence[float]) -> list[float]:
