@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -153,7 +153,7 @@ def _reference(
     x: Sequence[float],
     y: Sequence[float],
     power: int,
-    place: str = "upper left",
+    place: Literal["upper left", "lower left"] = "upper left",
 ) -> None:
     """A dashed line of a given slope that ends at the last point; its legend has a place."""
     if len(x) < 2 or min(y) <= 0:
