@@ -1,49 +1,41 @@
-"""Poses per second of ``solve_batch`` against the size of the batch."""
+"""Poses per second of ``solve_batch`` against the size of the batch and the number of devices."""
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable
 from typing import Any
 
 import jax
-import numpy as np
 
-from glid_nb.benchmarks.timing import timed
+from glid_nb.benchmarks.processes import in_new_process
 from glid_nb.comparisons.cases import Case
-from glid_nb.solvers import Options, Pose, solve, solve_batch
 
 SIZES = (1, 4, 16, 64, 256)
 
+_SCRIPT = "glid_nb.benchmarks.one_batch"
+_REPEATS = 3
+# CPU devices that XLA is made to show; the cores are the same.
+_FORCED = (1, 2)
 
-def measure_batches(case: Case, quick: bool) -> dict[str, Any]:
-    """The case's pose with its targets moved a little at random, in batches and one by one."""
-    domain, pose = case.problem.domain, case.problem.pose
-    options = Options(restarts=0)
-    rng = np.random.default_rng(0)
-    alone = timed(lambda: solve(domain, pose, None, options), 3)
-    rows = []
-    for size in SIZES[: 1 if quick else None]:
-        moves = rng.normal(scale=0.05, size=(size, *pose.targets.shape))
-        targets = pose.targets + moves
 
-        def run(targets: np.ndarray = targets) -> None:
-            solve_batch(domain, pose.handles, targets, options=options)
+def measure_batches(case: Case, quick: bool, detail: Callable[[str], None]) -> dict[str, Any]:
+    """The case's pose with its targets moved a little at random, in batches and one by one.
 
-        def one_by_one(targets: np.ndarray = targets) -> None:
-            for row in targets[:16]:
-                solve(domain, Pose(pose.handles, row), None, options)
-
-        together = timed(run, 1)
-        apart = timed(one_by_one, 1)
-        rows.append(
-            {
-                "poses": size,
-                "per_second": size / together["median"],
-                "one_by_one": min(size, 16) / apart["median"],
-            }
-        )
-    return {
-        "name": case.name,
-        "devices": len(jax.local_devices()),
-        "alone": alone,
-        "rows": rows,
+    On a CPU with one and with two devices, elsewhere on all there are; ``series`` has one entry
+    for each.
+    """
+    given = {
+        "problem": case.problem.to_dict(),
+        "sizes": SIZES[:1] if quick else SIZES,
+        "repeats": 1 if quick else _REPEATS,
     }
+    counts = _FORCED if jax.default_backend() == "cpu" else (None,)
+    series = []
+    for i, count in enumerate(counts):
+        detail("all devices" if count is None else f"{count} device(s)")
+        flags = os.environ.get("XLA_FLAGS", "")
+        if count is not None:
+            flags = f"{flags} --xla_force_host_platform_device_count={count}"
+        series.append(in_new_process("-m", _SCRIPT, {**given, "alone": i == 0}, XLA_FLAGS=flags))
+    return {"name": case.name, "series": series}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import hashlib
 import os
 import platform
 from importlib.metadata import version
@@ -19,6 +20,7 @@ from glid_nb.solvers import cholesky
 from glid_nb.solvers.discretisation import Matrices
 
 _PRODUCTS = (512, 1024)  # sizes of the matrix products whose best rate counts
+_TIMED = ("geometry", "harmonic", "energies", "certificate", "solvers")  # packages
 _LIBRARIES = ("jax", "jaxlib", "numpy", "scipy", "glid-nb")
 
 
@@ -26,12 +28,29 @@ def machine() -> dict[str, Any]:
     """What to say about a machine beside its numbers."""
     return {
         "processor": _processor(),
-        "cores": os.cpu_count(),
+        "cores": cores(),
         "system": platform.platform(),
         "python": platform.python_version(),
         "devices": [f"{d.platform}: {d.device_kind}" for d in jax.local_devices()],
         "versions": {name: version(name) for name in _LIBRARIES},
+        "sources": _sources(),
     }
+
+
+def _sources() -> str:
+    """A digest of the code that is timed: two states of it can have one version."""
+    digest, package = hashlib.sha256(), Path(__file__).parent.parent
+    for name in _TIMED:
+        for path in sorted((package / name).rglob("*.py")):
+            digest.update(path.read_bytes())
+    return digest.hexdigest()[:12]
+
+
+def cores() -> int:
+    """CPU cores that this process may run on."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def _processor() -> str:

@@ -2,71 +2,66 @@
 
 from __future__ import annotations
 
-import json
-import subprocess
-import sys
-from typing import Any
+import functools
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
-VERTICES = (50, 100, 200, 400, 700, 1000)
-HOLES = (0, 5, 10, 20, 35, 50)
-HANDLES = (1, 4, 16, 64, 200, 500)
-MESH = (10_000, 100_000, 1_000_000)
+from glid_nb.benchmarks.processes import in_new_process
 
-# In a process of its own, so that its peak memory is that of one size.
-_ONE_SIZE = """
-import json, pathlib, resource, sys, time
-import numpy as np
-import glid_nb
-from glid_nb.benchmarks.shapes import flower, ring_of_handles
-vertices, holes, handles, mesh = json.loads(sys.argv[1])
-domain = flower(vertices, holes)
-pose = ring_of_handles(handles)
-options = glid_nb.Options(restarts=0, max_iterations=4)
-result = glid_nb.solve(domain, pose, options=options)
-times = []
-for _ in range(3):
-    began = time.perf_counter()
-    again = glid_nb.solve(domain, pose, options=options)
-    times.append((time.perf_counter() - began) / max(again.iterations, 1))
-def peak():
-    # getrusage starts from what the parent process had; Linux counts this one alone in VmHWM.
-    status = pathlib.Path("/proc/self/status")
-    lines = status.read_text().splitlines() if status.exists() else []
-    own = [int(line.split()[1]) for line in lines if line.startswith("VmHWM")]
-    return 1024 * (own[0] if own else resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
-began = time.perf_counter()
-moved = result.map(glid_nb.triangulate(domain.cage, mesh).vertices) if mesh else None
-print(json.dumps({
-    "unknowns": result.n_unknowns, "panels": result.n_panels, "per_iteration": min(times),
-    "evaluate": time.perf_counter() - began if mesh else None,
-    "mesh_vertices": len(moved) if mesh else None,
-    "memory": peak()}))
-"""
+_SCRIPT = "glid_nb.benchmarks.one_size"
 
 
-def measure_scaling(quick: bool) -> dict[str, Any]:
-    """One row per size for each of the series ``vertices``, ``holes``, ``handles``, ``mesh``."""
-    last = 1 if quick else None
-    return {
-        "vertices": [_one(n, 0, 4, 0) for n in VERTICES[:last]],
-        "holes": [_one(40, n, 4, 0) for n in HOLES[:last]],
-        "handles": [_one(100, 0, n, 0) for n in HANDLES[:last]],
-        "mesh": [_one(100, 0, 4, n) for n in MESH[:last]],
-    }
+STEPS = 2
+"""Iterations that are timed: of equal work, one Hessian each and no corrections."""
 
 
-def _one(vertices: int, holes: int, handles: int, mesh: int) -> dict[str, Any]:
-    given = [vertices, holes, handles, mesh]
-    run = subprocess.run(
-        [sys.executable, "-c", _ONE_SIZE, json.dumps(given)],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    return {
-        "vertices": vertices,
-        "holes": holes,
-        "handles": handles,
-        "mesh": mesh,
-        **json.loads(run.stdout),
-    }
+class Size(NamedTuple):
+    """One shape of :mod:`glid_nb.benchmarks.shapes`, with its handles."""
+
+    vertices: int
+    holes: int = 0
+    handles: int = 4
+    pieces: int = 1
+    """Into which each edge of the cage is cut: more panels for the same basis."""
+    mesh: tuple[int, ...] = ()
+    """Display vertices."""
+
+
+SERIES = {
+    "vertices": tuple(Size(n) for n in (50, 100, 200, 400, 700, 1000)),
+    "holes": tuple(Size(40, holes=n) for n in (0, 5, 10, 20, 35, 50)),
+    "panels": tuple(Size(100, pieces=n) for n in (1, 8, 16, 32, 64)),
+    "handles": tuple(Size(100, handles=n) for n in (1, 4, 16, 64, 200, 500)),
+    "mesh": (Size(100, mesh=(10_000, 100_000, 1_000_000)),),
+}
+"""What grows in each series, all else being equal."""
+
+_QUICK = Size(50, mesh=(1000,))
+
+
+def measure_scaling(
+    series: str, repeats: int, quick: bool, detail: Callable[[str], None]
+) -> dict[str, Any]:
+    """The rows of one of :data:`SERIES`, each measured in a process of its own.
+
+    Parameters
+    ----------
+    series : str
+    repeats : int
+        Most timings of each kind; slow ones are repeated three times.
+    quick : bool
+        Only one small size, the same for every series.
+    detail : callable
+        Told which size is measured.
+    """
+    rows = []
+    for size in (_QUICK,) if quick else SERIES[series]:
+        detail(", ".join(f"{n} {name}" for name, n in size._asdict().items() if n))
+        row = {**size._asdict(), **_measured(size, repeats)}
+        rows += [{**row, **mesh} for mesh in row["mesh"]] if series == "mesh" else [row]
+    return {"rows": rows}
+
+
+@functools.cache
+def _measured(size: Size, repeats: int) -> dict[str, Any]:
+    return in_new_process("-m", _SCRIPT, {**size._asdict(), "repeats": repeats})

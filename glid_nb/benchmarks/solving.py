@@ -8,16 +8,29 @@ from typing import Any
 import numpy as np
 
 from glid_nb.benchmarks.machine import floor
-from glid_nb.benchmarks.timing import scaled, timed
+from glid_nb.benchmarks.stages import measure_stages
+from glid_nb.benchmarks.timing import Timing, scaled, timed
 from glid_nb.comparisons.cases import Case
+from glid_nb.harmonic.basis import build_basis
 from glid_nb.solvers import Options, Pose, Result, solve
+from glid_nb.solvers.discretisation import discretise
 
 GAP, DRAG_GAP = 1e-6, 1e-4
 """Relative distances to the converged energy at which a solve and a drag step count as done."""
 DRAG = 0.01
 """How far a target moves in a drag step, in diagonals of the shape's bounding box."""
+SAME_ENERGY = 0.01
+"""Relative difference up to which two energies count as of the same minimum."""
 
-MODES = {"paper": Options.paper(), "default": Options(restarts=0)}
+PAPER, DEFAULT, ALIGNED = "paper", "default", "paper-aligned"
+MODES = {
+    PAPER: Options.paper(),
+    DEFAULT: Options(restarts=0),
+    ALIGNED: Options.paper(align=True),
+}
+"""``paper-aligned`` is measured where the first two end at different minima."""
+
+_MAKING_REPEATS = 3
 
 
 def iterations_to(result: Result, gap: float) -> int:
@@ -26,17 +39,32 @@ def iterations_to(result: Result, gap: float) -> int:
     return 1 + int(np.argmax(energies <= result.energy * (1 + gap)))
 
 
+def same_minimum(one: float, other: float) -> bool:
+    """Whether two energies differ by no more than :data:`SAME_ENERGY` of the lower one."""
+    return abs(one - other) <= SAME_ENERGY * min(one, other)
+
+
 def measure_solve(case: Case, mode: str, repeats: int) -> dict[str, Any]:
     """From the identity until the energy is within :data:`GAP` of its minimum.
 
-    The time is that of a whole call of ``solve`` for so many iterations, with the domain's
-    matrices at hand (their making is timed apart); per iteration it is that time shared evenly.
+    ``to_gap`` is the time of a whole call of ``solve`` for so many iterations, with the domain's
+    matrices at hand; ``per_iteration`` is that time shared evenly. ``making`` is that of making the
+    matrices, ``before`` that of a call that takes no iteration, ``stages`` the stages' by
+    themselves. The gap is to the minimum of this mode's own discrete energy.
     """
-    domain, pose = case.problem.domain, case.problem.pose
-    whole = solve(domain, pose, None, MODES[mode])
+    domain, pose, options = case.problem.domain, case.problem.pose, MODES[mode]
+    whole = solve(domain, pose, None, options)
     count = iterations_to(whole, GAP)
-    limited = _limited(MODES[mode], count)
-    timing = timed(lambda: solve(domain, pose, None, limited), repeats)
+
+    def limited(most: int) -> Timing:
+        taken = replace(options, max_iterations=most)
+        return timed(lambda: solve(domain, pose, None, taken), repeats)
+
+    def make() -> None:
+        build_basis(domain)
+        discretise.__wrapped__(domain, options.sampling, options.certificate)
+
+    timing, history = limited(count), whole.history[:count]
     return {
         "name": case.name,
         "mode": mode,
@@ -45,34 +73,34 @@ def measure_solve(case: Case, mode: str, repeats: int) -> dict[str, Any]:
         "panels": whole.n_panels,
         "split": whole.panels_split,
         "iterations": count,
+        "corrections": sum(entry.corrections for entry in history),
         "energy": whole.energy,
         "certified": whole.certificate.certified,
         "to_gap": timing,
         "per_iteration": scaled(timing, 1 / count),
+        "before": limited(0),
+        "making": timed(make, min(repeats, _MAKING_REPEATS)),
         "floor": floor(whole.discretisation.matrices, whole.n_unknowns),
-        "modified": float(np.mean([e.hessian_modified for e in whole.history[:count]])),
+        "stages": measure_stages(whole, 3 * repeats),
+        "modified": float(np.mean([entry.hessian_modified for entry in history])),
     }
 
 
 def measure_drag(case: Case, repeats: int) -> dict[str, Any]:
     """One target moved by :data:`DRAG`, from the converged map, to within :data:`DRAG_GAP`."""
     domain, pose = case.problem.domain, case.problem.pose
-    before = solve(domain, pose, None, MODES["default"])
+    before = solve(domain, pose, None, MODES[DEFAULT])
     xmin, ymin, xmax, ymax = domain.cage.bounds
     targets = pose.targets.copy()
     targets[0, 0] += DRAG * float(np.hypot(xmax - xmin, ymax - ymin))
     moved = Pose(pose.handles, targets)
-    whole = solve(domain, moved, None, MODES["default"], before)
+    whole = solve(domain, moved, None, MODES[DEFAULT], before)
     count = iterations_to(whole, DRAG_GAP)
-    limited = _limited(MODES["default"], count)
-    timing = timed(lambda: solve(domain, moved, None, limited, before), repeats)
+    limited = replace(MODES[DEFAULT], max_iterations=count)
     return {
         "name": case.name,
         "iterations": count,
-        "time": timing,
+        "corrections": sum(entry.corrections for entry in whole.history[:count]),
+        "time": timed(lambda: solve(domain, moved, None, limited, before), repeats),
         "certified": whole.certificate.certified,
     }
-
-
-def _limited(options: Options, count: int) -> Options:
-    return replace(options, max_iterations=count)

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-import json
-import os
-import subprocess
-import sys
 import tempfile
 from typing import Any
 
+from glid_nb.benchmarks.processes import in_new_process
+from glid_nb.benchmarks.timing import summary
+
+PARTS = ("import_and_trace", "first_solve", "compiling", "second_solve")
+"""``compiling`` is a part of ``first_solve``."""
+
+# Not a module of this package, whose import would come before the clock starts.
 _FIRST_SOLVE = """
 import json, time
 began = time.perf_counter()
@@ -27,19 +30,18 @@ print(json.dumps({
 """
 
 
-def measure_start() -> dict[str, Any]:
-    """Seconds until the first map of the bundled gecko, in a process of its own each."""
-    with tempfile.TemporaryDirectory() as folder:
-        cold, warm = (_in_new_process(folder) for _ in range(2))
-    return {"cold": cold, "warm": warm}
+def measure_start(repeats: int) -> dict[str, Any]:
+    """Seconds until the first map of the bundled gecko; each time a process of its own.
 
-
-def _in_new_process(cache: str) -> dict[str, float]:
-    run = subprocess.run(
-        [sys.executable, "-c", _FIRST_SOLVE],
-        env={**os.environ, "GLID_NB_CACHE": cache},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    return json.loads(run.stdout)
+    ``cold`` with an empty folder of compiled programs, ``warm`` with what the cold start before
+    left there; each holds a timing for each of :data:`PARTS`.
+    """
+    runs: dict[str, list[dict[str, float]]] = {"cold": [], "warm": []}
+    for _ in range(repeats):
+        with tempfile.TemporaryDirectory() as folder:
+            for found in runs.values():
+                found.append(in_new_process("-c", _FIRST_SOLVE, None, GLID_NB_CACHE=folder))
+    return {
+        name: {part: summary([run[part] for run in found]) for part in PARTS}
+        for name, found in runs.items()
+    }

@@ -11,13 +11,24 @@ import numpy as np
 Timing = dict[str, float]
 """``median``, ``low`` and ``high`` (the quartiles) and ``least``, seconds; ``runs``."""
 
+LEAST_REPEATS = 3
+"""Timings that are taken however long one takes."""
 
-def timed(function: Callable[[], Any], repeats: int, warm_up: int = 1) -> Timing:
-    """Wall time of repeated calls, the first ones of which are not counted."""
+
+def timed(
+    function: Callable[[], Any], repeats: int, warm_up: int = 1, budget: float = float("inf")
+) -> Timing:
+    """Wall time of repeated calls, the first ones of which are not counted.
+
+    After ``budget`` seconds no further call begins, unless there are fewer than
+    :data:`LEAST_REPEATS`.
+    """
     for _ in range(warm_up):
         function()
-    seconds = []
-    for _ in range(repeats):
+    seconds: list[float] = []
+    while len(seconds) < repeats:
+        if len(seconds) >= LEAST_REPEATS and sum(seconds) > budget:
+            break
         began = time.perf_counter()
         function()
         seconds.append(time.perf_counter() - began)
@@ -39,3 +50,9 @@ def summary(seconds: list[float]) -> Timing:
 def scaled(timing: Timing, factor: float) -> Timing:
     """The timing of a part, a fraction ``factor`` of the whole."""
     return {key: v if key == "runs" else v * factor for key, v in timing.items()}
+
+
+def rate(timing: Timing, count: float) -> Timing:
+    """So many things a second, where ``count`` of them take the given time."""
+    turned = {"low": "high", "high": "low"}
+    return {turned.get(key, key): v if key == "runs" else count / v for key, v in timing.items()}

@@ -37,20 +37,70 @@ def test_iterations_to_a_gap_are_counted_from_the_history() -> None:
     assert count == 1 or energies[count - 2] > result.energy * (1 + 1e-6)
 
 
-@pytest.mark.slow
-@pytest.mark.timeout(900)
-def test_bench_writes_its_page(run, tmp_path: Path, problem_data: dict) -> None:
+@pytest.fixture
+def problems(tmp_path: Path, problem_data: dict) -> Path:
+    """A folder with one problem, called bar."""
     folder = tmp_path / "problems"
     folder.mkdir()
     (folder / "bar.json").write_text(json.dumps(problem_data))
+    return folder
+
+
+def parts(*names: str) -> list[str]:
+    return [word for name in names for word in ("--only", name)]
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(900)
+def test_bench_writes_its_page(run, tmp_path: Path, problems: Path) -> None:
     out = tmp_path / "speed"
-    words = ["bench", "--quick", "--repeats", 2, "--reference", folder, "--out", out]
-    outcome = run(*words)
+    words = ["bench", "--quick", "--repeats", 1, "--reference", problems, "--out", out]
+    outcome = run(*words, *parts("solves", "drags", "scaling"))
+    assert outcome.code == 0, outcome.err
+    page = tmp_path / "speed.md"
+    text = page.read_text()
+    assert "| bar |" in text
+    assert "glid-nb bench --reference DIR --out speed --quick" in text
+    assert str(tmp_path) not in text
+    pictures = ("scaling.png", "solves.png", "speedups.png")
+    assert all((out / name).exists() and f"speed/{name}" in text for name in pictures)
+    modes = ("paper", "default")
+    solves = [json.loads((out / "data" / f"bar-{m}.json").read_text()) for m in modes]
+    assert all(s["certified"] and s["to_gap"]["median"] > 0 for s in solves)
+
+    page.unlink()
+    assert run("bench", "--render", "--out", out).code == 0
+    assert page.read_text() == text
+    # What is there is not measured again, unless the settings differ.
+    before = [(out / "data" / f"bar-{m}.json").stat().st_mtime_ns for m in modes]
+    assert run(*words, *parts("solves")).code == 0
+    assert [(out / "data" / f"bar-{m}.json").stat().st_mtime_ns for m in modes] == before
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(900)
+def test_bench_measures_starts_and_batches(run, tmp_path: Path, problems: Path) -> None:
+    out = tmp_path / "speed"
+    words = ["bench", "--quick", "--repeats", 1, "--reference", problems, "--out", out]
+    outcome = run(*words, *parts("start", "compilations", "batches"))
     assert outcome.code == 0, outcome.err
     text = (tmp_path / "speed.md").read_text()
-    assert "| bar |" in text
-    assert (out / "scaling.png").exists()
-    solves = [
-        json.loads((out / "data" / f"bar-{m}.json").read_text()) for m in ("paper", "default")
-    ]
-    assert all(s["certified"] and s["to_gap"]["median"] > 0 for s in solves)
+    assert "one device | 2 devices" in text
+    assert "| cold |" in text
+    counts = json.loads((out / "data" / "compilations.json").read_text())["counts"]
+    assert set(counts.values()) == {0}, counts
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--render"], "run.json"),
+        (["--render", "--fresh"], "leave out --fresh"),
+        (["--only", "hope"], "unknown part 'hope'"),
+        (["--repeats", 0], "repeats is 0"),
+    ],
+)
+def test_what_bench_refuses(run, tmp_path: Path, words: list, said: str) -> None:
+    outcome = run("bench", "--out", tmp_path / "speed", *words)
+    assert outcome.code == 1
+    assert said in outcome.err
