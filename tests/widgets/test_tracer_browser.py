@@ -191,6 +191,7 @@ def test_vertices_by_hand(open_notebook: OpenNotebook) -> None:
     np.testing.assert_allclose(hand.vertex(0, i + 1), (a + b) / 2, atol=2)
     page.mouse.click(*hand.place(*hand.vertex(0, i + 1)), button="right")
     book.wait_for(f"tracer.cage.n_vertices == {n}")
+    assert page.locator(".lm-Menu, .p-Menu").count() == 0  # JupyterLab's menu stays away
     page.mouse.click(*hand.place(*hand.vertex(0, i)))
     page.keyboard.press("ArrowLeft")
     page.keyboard.press("ArrowLeft")
