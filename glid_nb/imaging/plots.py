@@ -7,6 +7,7 @@ what has to be drawn anew when they did not.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from typing import Any, Protocol
 
@@ -230,8 +231,15 @@ class CertificatePlot:
         self._starts = np.concatenate([[0.0], np.cumsum(lengths)])
         axes.set_xlim(0.0, float(self._starts[-1]))
         self._name_loops(cage)
-        threshold = axes.axhline(
-            0.0, color=VERMILION, linewidth=LINE, zorder=1, label="threshold 0"
+        axes.axhline(0.0, color=VERMILION, linewidth=LINE, zorder=1)
+        axes.annotate(
+            "threshold 0",
+            (0.0, 0.0),
+            xytext=(3, 2),
+            textcoords="offset points",
+            fontsize=SMALL,
+            color=VERMILION,
+            zorder=6,
         )
         self._bound = _line(
             axes, animated, color=BLUE, label="certified bound", linewidth=0.9, zorder=3
@@ -253,7 +261,7 @@ class CertificatePlot:
             zorder=5,
         )
         self._text = _note(axes, animated)
-        _legend(axes, [self._truth, self._bound, threshold])
+        _legend(axes, [self._truth, self._bound])
 
     @property
     def artists(self) -> tuple[Artist, ...]:
@@ -267,10 +275,9 @@ class CertificatePlot:
             axes.set_xlabel("arc length along the boundary", fontsize=SMALL, labelpad=2)
             axes.xaxis.set_major_locator(MaxNLocator(5))
             return
-        holes = "the hole" if cage.n_holes == 1 else f"holes 1 to {cage.n_holes}"
-        label = f"along the boundary: exterior, then {holes}"
-        axes.set_xlabel(label, fontsize=SMALL, labelpad=2)
-        for loop, (start, end) in enumerate(zip(self._starts, self._starts[1:], strict=False)):
+        holes = "hole 1" if cage.n_holes == 1 else f"holes 1 to {cage.n_holes}"
+        axes.set_xlabel(f"exterior, then {holes}", fontsize=SMALL, labelpad=2)
+        for loop, (start, end) in enumerate(itertools.pairwise(self._starts)):
             if loop % 2:
                 axes.axvspan(start, end, color=FAINT, alpha=0.25, linewidth=0, zorder=0)
             if loop:
@@ -314,8 +321,8 @@ class CertificatePlot:
         self._least.set_data([ends[least].mean()], [bound[least]])
         certified = certificate.certified
         lower = _rounded_down(certificate.sigma2_lower) if certified else ""
-        proof = f"σ₂ ≥ {lower} everywhere" if certified else "not certified"
-        self._text.set_text(f"{proof} · {_winding(certificate)}")
+        proof = f"σ₂ ≥ {lower}" if certified else "not certified"
+        self._text.set_text(f"{proof}, {_winding(certificate)}")
         self._text.set_color(INK if certified else VERMILION)
 
         seen = levels
@@ -381,7 +388,7 @@ def _view(axes: Axes) -> tuple[Any, ...]:
 
 def _iteration_limits(axes: Axes, x: NDArray[np.float64]) -> None:
     first, last = (float(x[0]), float(x[-1])) if len(x) else (0.0, 1.0)
-    step = _rounded_up(max(last - first, 1.0) / 4, _ROUND_COUNTS)
+    step = _rounded_up(max(last - first, 1.0) / 3, _ROUND_COUNTS)
     step = max(step, 1.0)
     low = first if first <= 1 else step * np.floor(first / step)
     high = step * np.ceil(last / step)
@@ -441,7 +448,7 @@ def _loop_names(starts: NDArray[np.float64], character: float) -> list[tuple[flo
 
 
 def _winding(certificate: Certificate) -> str:
-    """The winding number of ``f_z`` along the boundary, and each loop's where they are not all 0."""
+    """The winding number of ``f_z``, and each loop's own where they are not all 0."""
     text = f"winding number {certificate.winding}"
     if any(certificate.windings):
         each = enumerate(certificate.windings)

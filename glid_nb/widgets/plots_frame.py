@@ -9,7 +9,7 @@ from glid_nb.imaging.style import FAINT, GREY
 # CSS pixels. Above a plot is its legend, below it are ticks and the axis's name.
 _LEFT, _RIGHT, _ABOVE, _BELOW = 44, 8, 20, 32
 _BETWEEN = 46  # room for the right plot's ticks
-_TIME_GAP = 8
+_TIME_GAP = 13
 _UPPER_SHARE, _TIME_SHARE = 0.56, 0.28
 _TEXT = 11
 

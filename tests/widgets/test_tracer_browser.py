@@ -128,7 +128,7 @@ def test_tracing_by_the_controls(open_notebook: OpenNotebook) -> None:
     with hand.page.expect_file_chooser() as chooser:
         hand.button("Open a picture").click()
     chooser.value.set_files(Path(__file__))
-    hand.root.locator(".glid-status", has_text="no picture in a format").wait_for()
+    hand.root.locator(".glid-status", has_text="is not in a picture format").wait_for()
     assert book.value("tracer.cage.n_holes") == 1
     hand.page.evaluate(DROP, [hand.stage.element_handle(), [*(samples / "bar.png").read_bytes()]])
     book.wait_for("tracer.cage.n_holes == 0 and tracer.image.shape[0] < 1400")
