@@ -229,7 +229,7 @@ class TestWrongFiles:
     def test_no_picture(self, tmp_path):
         path = tmp_path / "notes.png"
         path.write_text("these are notes")
-        with pytest.raises(TraceError, match=r"notes\.png: this is no picture"):
+        with pytest.raises(TraceError, match=r"notes\.png is not in a picture format"):
             read_image(path)
 
     @pytest.mark.parametrize("kind", ["PNG", "JPEG", "GIF", "TIFF"])

@@ -152,7 +152,7 @@ def test_a_problem_is_shown_with_its_place(tracer: CageTracer, page: Page) -> No
     i = int(np.argmin(tracer.tracing_model.loops[0][:, 0]))
     assert page.ask("move_vertex", loop=0, index=i, to=[150, 60]) is None
     (problem,) = tracer.shown["problems"]
-    assert "cross" in problem["message"]
+    assert problem["message"].startswith("The outline crosses itself; move")
     assert 0 < problem["point"][0] < 160
     assert tracer.cage is cage
     assert tracer.shown["loops"][0][i] == [150, 60]

@@ -208,7 +208,7 @@ def test_vertices_by_hand(open_notebook: OpenNotebook) -> None:
     hand.settle()
     callout = hand.root.locator(".glid-callout")
     callout.wait_for()
-    assert "cross" in callout.inner_text()
+    assert callout.inner_text().startswith("The outline crosses itself; move")
     assert "last valid cage is kept" in hand.status
     problem = book.value("tracer.shown['problems'][0]['point']")
     box = callout.bounding_box()
