@@ -44,7 +44,7 @@ _LOG_FROM = 20.0
 _DECADES = 12
 
 # Up to so many iterations each has a dot of its own; one alone would not be seen without.
-_DOTTED = 40
+_DOTTED = 12
 
 # Limits of axes are among these times a power of ten: they change seldom while values do, and only
 # a change of limits needs a whole new drawing.
@@ -238,7 +238,7 @@ class CertificatePlot:
             xytext=(3, 2),
             textcoords="offset points",
             fontsize=SMALL,
-            color=VERMILION,
+            color=INK,
             zorder=6,
         )
         self._bound = _line(
