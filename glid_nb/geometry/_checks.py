@@ -1,4 +1,8 @@
-"""What a cage's loops must satisfy, checked with a message that names the culprit."""
+"""What a cage's loops must satisfy, checked with a message that names the culprit.
+
+Loops that come from a hand are refused in plain words first, for who draws a cage and has not
+heard of its edges' numbers; these follow in parentheses.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +11,14 @@ import shapely
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._numbers import real_array
-from glid_nb.geometry._loops import GeometryError, loop_name, place, point_objects, segments
+from glid_nb.geometry._loops import (
+    GeometryError,
+    loop_name,
+    place,
+    plain_name,
+    point_objects,
+    segments,
+)
 
 # Two parts of the boundary closer than this share of the cage's size count as touching. It is a few
 # thousand roundings wide: below it neither an offset nor a normal direction can be computed.
@@ -19,9 +30,9 @@ def check_loops(loops: list[NDArray[np.float64]]) -> None:
     corners = np.concatenate(loops)
     resolution = RESOLUTION * float(max(np.ptp(corners, axis=0).max(), np.abs(corners).max()))
     for i, loop in enumerate(loops):
-        _check_distinct(loop, loop_name(i), resolution)
-        _check_not_flat(loop, loop_name(i), resolution)
-        _check_fold_back(loop, loop_name(i), resolution)
+        _check_distinct(loop, i, resolution)
+        _check_not_flat(loop, i, resolution)
+        _check_fold_back(loop, i, resolution)
     _check_crossings(loops, resolution)
     _check_nesting(loops)
 
@@ -54,7 +65,8 @@ def checked_vertices(vertices: ArrayLike, name: str) -> NDArray[np.float64]:
     return loop
 
 
-def _check_distinct(loop: NDArray[np.float64], name: str, resolution: float) -> None:
+def _check_distinct(loop: NDArray[np.float64], number: int, resolution: float) -> None:
+    name = loop_name(number)
     points = point_objects(loop)
     pairs = shapely.STRtree(points).query(points, predicate="dwithin", distance=resolution).T
     pairs = pairs[pairs[:, 0] < pairs[:, 1]]
@@ -67,25 +79,25 @@ def _check_distinct(loop: NDArray[np.float64], name: str, resolution: float) -> 
             "loops close by themselves, leave the last vertex out",
             loop[0],
         )
-    advice = (
-        "; leave one of them out"
+    plain = (
+        f"{plain_name(number)} has two points in one place; leave one of them out"
         if j == i + 1
-        else ", so the loop touches itself there; move one of them"
+        else f"{plain_name(number)} touches itself; move one of the points that meet"
     )
-    raise GeometryError(
-        f"{name}: vertices {i} and {j} coincide at {place(loop[i])}{advice}", loop[i]
-    )
+    details = f"{name}: vertices {i} and {j} coincide at {place(loop[i])}"
+    raise _refusal(plain, details, loop[i])
 
 
-def _check_not_flat(loop: NDArray[np.float64], name: str, resolution: float) -> None:
+def _check_not_flat(loop: NDArray[np.float64], number: int, resolution: float) -> None:
     arms = loop - loop[0]
     far = int(np.argmax(np.hypot(*arms.T)))
     axis = arms[far] / np.hypot(*arms[far])
     if np.abs(arms[:, 0] * axis[1] - arms[:, 1] * axis[0]).max() <= resolution:
-        raise GeometryError(
-            f"{name}: all {len(loop)} vertices lie on one line, through vertex 0 at "
-            f"{place(loop[0])} and vertex {far} at {place(loop[far])}, so its area is zero; "
-            "move a vertex off the line or remove the loop",
+        raise _refusal(
+            f"{plain_name(number)} is flat, so its area is zero; move one of its points off the "
+            "line, or remove it",
+            f"{loop_name(number)}: all {len(loop)} vertices lie on one line, through vertex 0 at "
+            f"{place(loop[0])} and vertex {far} at {place(loop[far])}",
             loop[0],
         )
 
@@ -107,7 +119,7 @@ def _check_crossings(loops: list[NDArray[np.float64]], resolution: float) -> Non
         _raise_crossing(loops, edges, loop_of, index, e[apart], f[apart])
 
 
-def _check_fold_back(loop: NDArray[np.float64], name: str, resolution: float) -> None:
+def _check_fold_back(loop: NDArray[np.float64], number: int, resolution: float) -> None:
     """Raise where an edge runs back along the edge before it."""
     before, after = np.roll(segments(loop), 1), segments(loop)
     corner_before, corner_after = np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0)
@@ -119,11 +131,17 @@ def _check_fold_back(loop: NDArray[np.float64], name: str, resolution: float) ->
     if folded.size:
         i = int(folded[0])
         n = len(loop)
-        raise GeometryError(
-            f"{name}: the edges {_edge((i - 1) % n, n)} and {_edge(i, n)} lie on top of each "
-            f"other, a spike without width at vertex {i} {place(loop[i])}; leave vertex {i} out",
+        raise _refusal(
+            f"{plain_name(number)} has a spike without width; leave out its tip",
+            f"{loop_name(number)}: the edges {_edge((i - 1) % n, n)} and {_edge(i, n)} lie on top "
+            f"of each other up to vertex {i} at {place(loop[i])}",
             loop[i],
         )
+
+
+def _refusal(plain: str, details: str, point: ArrayLike) -> GeometryError:
+    """What is wrong and what to do in plain words, then where in the data."""
+    return GeometryError(f"{plain[0].upper()}{plain[1:]} ({details})", point)
 
 
 def _edge(i: int, n: int) -> str:
@@ -150,17 +168,20 @@ def _raise_crossing(
     edge_a, edge_b = _edge(int(index[e]), len(loops[a])), _edge(int(index[f]), len(loops[b]))
     verb = "cross" if crossing[first] else "touch"
     if a == b:
-        advice = "reorder or move the vertices" if crossing[first] else "move the vertices apart"
-        raise GeometryError(
-            f"{loop_name(a)}: the edges {edge_a} and {edge_b} {verb} at {at}; {advice} so that the "
-            "loop does not meet itself",
+        advice = (
+            "move its points, or change their order, so that no two sides cross"
+            if crossing[first]
+            else "move the points apart that meet"
+        )
+        raise _refusal(
+            f"{plain_name(a)} {verb}es itself; {advice}",
+            f"{loop_name(a)}: the edges {edge_a} and {edge_b} {verb} at {at}",
             point,
         )
     name_a = "the exterior loop" if a == 0 else loop_name(a)
-    raise GeometryError(
-        f"{loop_name(b)} {verb + 'es'} {name_a}: edge {edge_b} of {loop_name(b)} and edge {edge_a} "
-        f"of {name_a} {verb} at {at}; "
-        f"move {loop_name(b)} away or merge the two loops",
+    raise _refusal(
+        f"{plain_name(b)} {verb}es {plain_name(a)}; move it away or merge the two",
+        f"edge {edge_b} of {loop_name(b)} and edge {edge_a} of {name_a} {verb} at {at}",
         point,
     )
 
@@ -177,23 +198,23 @@ def _check_nesting(loops: list[NDArray[np.float64]]) -> None:
     outer, inner = shapely.STRtree(starts).query(regions, predicate="contains")
     around = {(int(o), int(i)) for o, i in zip(outer, inner, strict=True)}
     for i, loop in enumerate(loops[1:], start=1):
-        at = f"vertex 0 at {place(loop[0])}"
         if (i, 0) in around:
-            raise GeometryError(
-                f"{loop_name(i)} contains the exterior loop (vertex 0 of the exterior loop at "
-                f"{place(loops[0][0])} lies in it); swap the two loops",
+            raise _refusal(
+                f"{plain_name(i)} lies around the outline; swap the two",
+                f"vertex 0 of the exterior loop at {place(loops[0][0])} lies in {loop_name(i)}",
                 loops[0][0],
             )
         if (0, i) not in around:
-            raise GeometryError(
-                f"{loop_name(i)} lies outside the exterior loop ({at}); "
-                "remove it or move it into the exterior loop",
+            raise _refusal(
+                f"{plain_name(i)} lies outside the outline; remove it or move it inside",
+                f"vertex 0 of {loop_name(i)} at {place(loop[0])} is not in the exterior loop",
                 loop[0],
             )
     for o, i in sorted(around):
         if o > 0:
-            raise GeometryError(
-                f"{loop_name(i)} lies within {loop_name(o)} (vertex 0 at {place(loops[i][0])}); "
-                "remove the inner one: a hole has no domain inside it",
+            raise _refusal(
+                f"{plain_name(i)} lies within {plain_name(o)}, where there is nothing to cut out; "
+                "remove the inner one",
+                f"vertex 0 of {loop_name(i)} is at {place(loops[i][0])}",
                 loops[i][0],
             )

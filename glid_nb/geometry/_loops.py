@@ -29,6 +29,11 @@ def loop_name(index: int) -> str:
     return "exterior loop" if index == 0 else f"hole {index}"
 
 
+def plain_name(index: int) -> str:
+    """How the first words of a message name a loop: "the outline", "hole 1", "hole 2", ..."""
+    return "the outline" if index == 0 else f"hole {index}"
+
+
 def place(point: ArrayLike) -> str:
     """Coordinates for a message, e.g. "(1.5, -0.25)"."""
     x, y = np.asarray(point, dtype=np.float64)

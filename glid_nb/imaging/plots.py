@@ -1,4 +1,4 @@
-"""The three plots of a solve: energy, Newton steps, certificate.
+"""The plots of a solve: energy, Newton steps, time per iteration, certificate.
 
 Each is drawn once and then updated, so the same code makes a page of a paper and a display that
 moves while the solver works: ``update`` says whether the axes' limits changed, and ``artists`` are
@@ -7,6 +7,7 @@ what has to be drawn anew when they did not.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from typing import Any, Protocol
 
@@ -24,6 +25,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.style import (
     BLUE,
     FAINT,
+    GREEN,
     HAIRLINE,
     INK,
     LINE,
@@ -33,15 +35,24 @@ from glid_nb.imaging.style import (
     tidy,
 )
 
-# An energy is drawn on a logarithmic axis when it falls by this factor or more.
 _BEHIND_TEXT: dict[str, Any] = {"facecolor": "white", "alpha": 0.8, "linewidth": 0, "pad": 0.5}
+
+# An energy is drawn on a logarithmic axis when it falls by this factor or more.
 _LOG_FROM = 20.0
 
 # Decades that a logarithmic axis shows at most below the largest value.
 _DECADES = 12
 
-# A loop's name is written where the loop makes up this share of the boundary.
-_NAMED = 0.18
+# Up to so many iterations each has a dot of its own; one alone would not be seen without.
+_DOTTED = 12
+
+# Limits of axes are among these times a power of ten: they change seldom while values do, and only
+# a change of limits needs a whole new drawing.
+_ROUND = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
+_ROUND_COUNTS = (1.0, 2.0, 5.0, 10.0)
+
+# The mean width of a character, as a share of the font's size.
+_CHARACTER = 0.62
 
 # The certificate's axis ends at this multiple of what nine tenths of the boundary stay below.
 _PEAK = 1.5
@@ -65,6 +76,8 @@ class IterationRecord(Protocol):
     def step(self) -> float: ...
     @property
     def decrement(self) -> float: ...
+    @property
+    def time(self) -> float: ...
 
 
 class EnergyPlot:
@@ -110,7 +123,7 @@ class EnergyPlot:
         if start_energy is None:
             x, series = x[1:], {line: values[1:] for line, values in series.items()}
         for line, values in series.items():
-            line.set_data(x, values)
+            _show(line, x, values)
         self._text.set_text(f"E = {history[-1].energy:.4g}" if len(history) else "no iterations")
         values = np.concatenate([*series.values()])
         values = values[np.isfinite(values)]
@@ -123,7 +136,7 @@ class EnergyPlot:
         else:
             self.axes.set_yscale("linear")
             top = float(values.max(initial=1.0))
-            self.axes.set_ylim(0.0, 1.25 * top)
+            self.axes.set_ylim(0.0, _rounded_up(1.2 * top))
         _iteration_limits(self.axes, x)
         return _view(self.axes) != before
 
@@ -136,9 +149,8 @@ class StepPlot:
         tidy(axes)
         axes.set_xlabel("iteration", fontsize=SMALL, labelpad=2)
         axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
-        style: dict[str, Any] = {"marker": "o", "markersize": 2.4}
-        self._decrement = _line(axes, animated, color=BLUE, label="Newton decrement", **style)
-        self._step = _line(axes, animated, color=VERMILION, label="step length", **style)
+        self._decrement = _line(axes, animated, color=BLUE, label="Newton decrement")
+        self._step = _line(axes, animated, color=VERMILION, label="step length")
         _legend(axes, [self._step, self._decrement])
 
     @property
@@ -153,9 +165,48 @@ class StepPlot:
         values = []
         for line, name in ((self._step, "step"), (self._decrement, "decrement")):
             y = np.array([getattr(record, name) for record in history], dtype=float)
-            line.set_data(x, np.where(y > 0, y, np.nan))
+            _show(line, x, np.where(y > 0, y, np.nan))
             values.append(y[np.isfinite(y) & (y > 0)])
         _log_limits(self.axes, np.concatenate(values))
+        _iteration_limits(self.axes, x)
+        return _view(self.axes) != before
+
+
+class TimePlot:
+    """How long each iteration took, as bars in milliseconds."""
+
+    def __init__(self, axes: Axes, animated: bool = False) -> None:
+        self.axes = axes
+        tidy(axes)
+        axes.set_xlabel("iteration", fontsize=SMALL, labelpad=2)
+        axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
+        axes.yaxis.set_major_locator(MaxNLocator(2, min_n_ticks=2))
+        axes.set_ylabel("ms", fontsize=SMALL, labelpad=2)
+        (self._bars,) = axes.fill(
+            [0.0], [0.0], facecolor=GREEN, alpha=0.6, linewidth=0, animated=animated
+        )
+        self._text = _note(axes, animated)
+
+    @property
+    def artists(self) -> tuple[Artist, ...]:
+        """What ``update`` changes."""
+        return self._bars, self._text
+
+    def update(self, history: Sequence[IterationRecord]) -> bool:
+        """Show these iterations; True when the limits of the axes changed."""
+        before = _view(self.axes)
+        x = np.array([record.iteration for record in history], dtype=float)
+        times = np.array([1e3 * record.time for record in history], dtype=float)
+        times = np.where(np.isfinite(times) & (times > 0), times, 0.0)
+        sides = x[:, None] + [-0.4, -0.4, 0.4, 0.4]
+        heights = times[:, None] * [0.0, 1.0, 1.0, 0.0]
+        corners = np.stack([sides.ravel(), heights.ravel()], axis=1)
+        self._bars.set_xy(corners if len(corners) else [[0.0, 0.0]])
+        usual = float(np.median(times)) if len(times) else 0.0
+        self._text.set_text(f"{usual:.3g} ms per iteration" if usual else "")
+        # One iteration that had to wait must not make the others too low to see.
+        most = min(float(times.max()), 3 * usual) if usual else 1.0
+        self.axes.set_ylim(0.0, _rounded_up(1.7 * most))
         _iteration_limits(self.axes, x)
         return _view(self.axes) != before
 
@@ -167,7 +218,8 @@ class CertificatePlot:
     ----------
     axes : Axes
     cage : Cage
-        The domain's boundary; its loops stand side by side.
+        The domain's boundary; its loops stand side by side, each with its name or, where that does
+        not fit, its number below. Make the axes their final size first.
     animated : bool
         Whether what changes is left out of a normal draw, to be blitted.
     """
@@ -178,11 +230,17 @@ class CertificatePlot:
         lengths = [float(np.linalg.norm(np.roll(p, -1, 0) - p, axis=1).sum()) for p in cage.loops]
         self._starts = np.concatenate([[0.0], np.cumsum(lengths)])
         axes.set_xlim(0.0, float(self._starts[-1]))
-        axes.set_xlabel("arc length along the boundary", fontsize=SMALL, labelpad=2)
-        axes.xaxis.set_major_locator(MaxNLocator(5))
-        for start in self._starts[1:-1]:
-            axes.axvline(start, color=FAINT, linewidth=HAIRLINE, zorder=0)
+        self._name_loops(cage)
         axes.axhline(0.0, color=VERMILION, linewidth=LINE, zorder=1)
+        axes.annotate(
+            "threshold 0",
+            (0.0, 0.0),
+            xytext=(3, 2),
+            textcoords="offset points",
+            fontsize=SMALL,
+            color=INK,
+            zorder=6,
+        )
         self._bound = _line(
             axes, animated, color=BLUE, label="certified bound", linewidth=0.9, zorder=3
         )
@@ -203,8 +261,6 @@ class CertificatePlot:
             zorder=5,
         )
         self._text = _note(axes, animated)
-        self._headroom = 1.36 if cage.n_holes else 1.2
-        self._name_loops(cage)
         _legend(axes, [self._truth, self._bound])
 
     @property
@@ -213,22 +269,24 @@ class CertificatePlot:
         return self._fill, self._bound, self._truth, self._least, self._text
 
     def _name_loops(self, cage: Cage) -> None:
-        """Names above those loops that are long enough to bear one, if there are several."""
-        width = np.diff(self._starts)
-        for i in np.flatnonzero(width > _NAMED * width.sum()) if cage.n_holes else ():
-            self.axes.annotate(
-                Cage.loop_name(int(i)).removesuffix(" loop"),
-                (self._starts[i] + width[i] / 2, 1.0),
-                xytext=(0, -10),
-                textcoords="offset points",
-                xycoords=self.axes.get_xaxis_transform(),
-                ha="center",
-                va="top",
-                fontsize=SMALL,
-                color=INK,
-                bbox=_BEHIND_TEXT,
-                zorder=6,
-            )
+        """Along the boundary: its length, or which loop is where if there are several."""
+        axes = self.axes
+        if not cage.n_holes:
+            axes.set_xlabel("arc length along the boundary", fontsize=SMALL, labelpad=2)
+            axes.xaxis.set_major_locator(MaxNLocator(5))
+            return
+        holes = "hole 1" if cage.n_holes == 1 else f"holes 1 to {cage.n_holes}"
+        axes.set_xlabel(f"exterior, then {holes}", fontsize=SMALL, labelpad=2)
+        for loop, (start, end) in enumerate(itertools.pairwise(self._starts)):
+            if loop % 2:
+                axes.axvspan(start, end, color=FAINT, alpha=0.25, linewidth=0, zorder=0)
+            if loop:
+                axes.axvline(start, color=FAINT, linewidth=HAIRLINE, zorder=0)
+        pixels = axes.get_window_extent().width / self._starts[-1]
+        character = _CHARACTER * SMALL * axes.figure.dpi / 72
+        places, names = zip(*_loop_names(self._starts, character / pixels), strict=True)
+        axes.set_xticks(places, names)
+        axes.tick_params(axis="x", length=0, pad=3)
 
     def clear(self) -> None:
         """Show that nothing is certified."""
@@ -263,7 +321,8 @@ class CertificatePlot:
         self._least.set_data([ends[least].mean()], [bound[least]])
         certified = certificate.certified
         lower = _rounded_down(certificate.sigma2_lower) if certified else ""
-        self._text.set_text(f"σ₂ ≥ {lower} everywhere" if certified else "not certified")
+        proof = f"σ₂ ≥ {lower}" if certified else "not certified"
+        self._text.set_text(f"{proof}, {_winding(certificate)}")
         self._text.set_color(INK if certified else VERMILION)
 
         seen = levels
@@ -277,8 +336,9 @@ class CertificatePlot:
         # What counts is how far above 0 the curves stay, so high peaks are cut off.
         top = max(0.1, min(float(seen.max()), _PEAK * float(np.quantile(seen, 0.9))))
         bottom = min(float(seen.min()), float(bound.min()))
-        low = max(min(-0.04 * top, 1.05 * bottom), -max(top, 1.0))
-        self.axes.set_ylim(low, self._headroom * top)
+        high = _rounded_up(1.2 * top)
+        low = max(min(-0.04 * high, -_rounded_up(-1.05 * bottom)), -max(high, 1.0))
+        self.axes.set_ylim(low, high)
         return _view(self.axes) != before
 
 
@@ -286,6 +346,13 @@ def _line(axes: Axes, animated: bool, linewidth: float = LINE, **style: Any) -> 
     line = Line2D([], [], linewidth=linewidth, animated=animated, **style)
     axes.add_line(line)
     return line
+
+
+def _show(line: Line2D, x: NDArray[np.float64], values: NDArray[np.float64]) -> None:
+    """The line through these points, with a dot at each while there are few."""
+    line.set_data(x, values)
+    line.set_marker("o" if len(x) <= _DOTTED else "")
+    line.set_markersize(2.4)
 
 
 def _note(axes: Axes, animated: bool) -> Text:
@@ -321,8 +388,14 @@ def _view(axes: Axes) -> tuple[Any, ...]:
 
 def _iteration_limits(axes: Axes, x: NDArray[np.float64]) -> None:
     first, last = (float(x[0]), float(x[-1])) if len(x) else (0.0, 1.0)
-    room = 0.03 * max(last - first, 1.0)
-    axes.set_xlim(first - room, max(last, first + 1) + room)
+    step = _rounded_up(max(last - first, 1.0) / 3, _ROUND_COUNTS)
+    step = max(step, 1.0)
+    low = first if first <= 1 else step * np.floor(first / step)
+    high = step * np.ceil(last / step)
+    if first == last:  # one iteration stands in the middle
+        low, high = first - 1, first + 1
+    room = 0.03 * (high - low)
+    axes.set_xlim(low - room, high + room)
 
 
 def _log_limits(axes: Axes, positive: NDArray[np.float64]) -> None:
@@ -336,6 +409,52 @@ def _log_limits(axes: Axes, positive: NDArray[np.float64]) -> None:
     high = np.ceil(np.log10(positive.max()) + 0.1)
     low = np.floor(np.log10(positive.min()) - 0.1)
     axes.set_ylim(10.0 ** max(low, high - _DECADES), 10.0**high)
+
+
+def _rounded_up(value: float, among: Sequence[float] = _ROUND) -> float:
+    """The least of these numbers times a power of ten that is not less; 0 for what is below 0."""
+    if not value > 0:
+        return 0.0
+    unit = 10.0 ** np.floor(np.log10(value))
+    return float(unit * min((m for m in among if m * unit >= value), default=10.0))
+
+
+def _loop_names(starts: NDArray[np.float64], character: float) -> list[tuple[float, str]]:
+    """Where along the boundary which loop's name goes, as (place, name).
+
+    ``starts`` are the loops' starts and the boundary's end, ``character`` is the width of a
+    character. Loops next to each other that are too short for their numbers share one name.
+    """
+    width = np.diff(starts)
+
+    def fits(name: str, loop: int) -> bool:
+        return (len(name) + 1) * character <= width[loop]
+
+    names: list[tuple[float, str]] = []
+    first = 0
+    while first < len(width):
+        last = first
+        name = Cage.loop_name(first).removesuffix(" loop")
+        if not fits(name, first) and first:
+            name = str(first)
+            while not fits(name, first) and last + 1 < len(width):
+                if fits(str(last + 1), last + 1):
+                    break
+                last += 1
+            name = name if last == first else f"{first}–{last}"
+        names.append((float(starts[first] + starts[last + 1]) / 2, name))
+        first = last + 1
+    return names
+
+
+def _winding(certificate: Certificate) -> str:
+    """The winding number of ``f_z``, and each loop's own where they are not all 0."""
+    text = f"winding number {certificate.winding}"
+    if any(certificate.windings):
+        each = enumerate(certificate.windings)
+        loops = (f"{Cage.loop_name(i).removesuffix(' loop')} {turns}" for i, turns in each)
+        text += f" ({', '.join(loops)})"
+    return text.replace("-", "\N{MINUS SIGN}")
 
 
 def _rounded_down(value: float) -> str:

@@ -28,7 +28,7 @@ _BITS_PER_SAMPLE = 258  # the TIFF tag
 _ROWS = 256  # rows per block where a whole picture in float would need gigabytes
 
 
-def read_image(source: ImageSource) -> RGBA:
+def read_image(source: ImageSource, name: str | None = None) -> RGBA:
     """Read a picture.
 
     Parameters
@@ -37,6 +37,8 @@ def read_image(source: ImageSource) -> RGBA:
         Path of a file or its bytes (PNG, JPEG, TIFF, GIF, WebP, BMP and what else Pillow reads; of
         several frames the first), a PIL image, or an array as in `as_rgba`. The orientation in a
         JPEG's EXIF record is applied and palettes are resolved.
+    name
+        What error messages call the picture; by default a file's path.
 
     Returns
     -------
@@ -50,7 +52,7 @@ def read_image(source: ImageSource) -> RGBA:
         The file is missing, no picture or damaged, or the picture is empty or too large.
     """
     if isinstance(source, Image.Image):
-        return _from_pillow(source, "the PIL image")
+        return _from_pillow(source, name or "the PIL image")
     if isinstance(source, (str, os.PathLike)):
         path = Path(source)
         try:
@@ -59,9 +61,9 @@ def read_image(source: ImageSource) -> RGBA:
             raise TraceError(f"{path}: there is no such file") from error
         except OSError as error:
             raise TraceError(f"{path} cannot be read: {error.strerror or error}") from error
-        return _decode(data, str(path))
+        return _decode(data, name or str(path))
     if isinstance(source, (bytes, bytearray, memoryview)):
-        return _decode(bytes(source), "the picture's bytes")
+        return _decode(bytes(source), name or "the picture")
     return as_rgba(source)
 
 
@@ -129,11 +131,11 @@ def as_rgba8(image: ArrayLike) -> NDArray[np.uint8]:
     return rounded
 
 
-def check_size(width: int, height: int) -> None:
-    """Raise if a side is longer than `MAX_SIDE`."""
+def check_size(width: int, height: int, name: str = "the image") -> None:
+    """Raise if a side is longer than `MAX_SIDE`; ``name`` is what the message calls the picture."""
     if max(width, height) > MAX_SIDE:
         raise TraceError(
-            f"the image is too large, {width} x {height} pixels; a side may have at most "
+            f"{name} is too large, {width} x {height} pixels; a side may have at most "
             f"{MAX_SIDE}: scale it down first"
         )
 
@@ -162,15 +164,17 @@ def _from_float(array: NDArray[Any]) -> NDArray[np.uint16]:
 
 def _decode(data: bytes, name: str) -> RGBA:
     if not data:
-        raise TraceError(f"{name}: the file is empty")
+        raise TraceError(f"{name} is empty: there is not one byte in it")
     try:
         picture = Image.open(io.BytesIO(data))
     except UnidentifiedImageError as error:
         if data.startswith(_TIFF_STARTS):
             return _from_tifffile(data, name)  # kinds that Pillow lacks
-        raise TraceError(f"{name}: this is no picture in a format that can be read") from error
+        raise TraceError(
+            f"{name} is not in a picture format that can be read; save it as PNG or JPEG first"
+        ) from error
     except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
-        raise TraceError(f"{name}: the image is too large ({error})") from error
+        raise TraceError(f"{name} is too large ({error}); scale it down first") from error
     except Exception as error:  # Pillow's decoders raise nearly anything for a damaged file
         raise TraceError(f"{name} is damaged or cut short: {error}") from error
     if isinstance(picture, TiffImageFile) and picture.mode in ("RGB", "RGBA"):
@@ -185,16 +189,14 @@ def _decode(data: bytes, name: str) -> RGBA:
 
 def _from_pillow(picture: Image.Image, name: str) -> RGBA:
     if 0 in picture.size:
-        raise TraceError(
-            f"the image is empty: {name} has {picture.width} x {picture.height} pixels"
-        )
-    check_size(*picture.size)  # before the pixels are decoded
+        raise TraceError(f"{name} is empty: it has {picture.width} x {picture.height} pixels")
+    check_size(*picture.size, name)  # before the pixels are decoded
     try:
         picture = ImageOps.exif_transpose(picture)
         if picture.mode.startswith("I"):
             return _from_integers(np.asarray(picture), name)
         if picture.mode == "F":
-            return as_rgba(np.asarray(picture))
+            return _from_array(np.asarray(picture), name)
         return np.array(picture.convert("RGBA"))
     except TraceError:
         raise
@@ -217,10 +219,18 @@ def _from_tifffile(data: bytes, name: str) -> RGBA:
     try:
         with tifffile.TiffFile(io.BytesIO(data)) as file:
             page = file.pages.first
-            check_size(page.imagewidth, page.imagelength)
+            check_size(page.imagewidth, page.imagelength, name)
             array, axes = page.asarray(), page.axes
     except TraceError:
         raise
     except Exception as error:  # as above
         raise TraceError(f"{name} is damaged or cut short: {error}") from error
-    return as_rgba(np.moveaxis(array, 0, -1) if axes == "SYX" else array)
+    return _from_array(np.moveaxis(array, 0, -1) if axes == "SYX" else array, name)
+
+
+def _from_array(array: NDArray[Any], name: str) -> RGBA:
+    """The pixels that a file held."""
+    try:
+        return as_rgba(array)
+    except TraceError as error:
+        raise TraceError(f"{name}: {error}") from error

@@ -123,7 +123,7 @@ class DeformCanvas(ipywidgets.HBox):
         answer_during_cells(self.pane.stage)
         self.observe(self._show_overlay, ["overlay"])
         self.observe(self._show_lines, ["show_cage", "show_offset_cage"])
-        self.observe(self._show_panels, ["show_panels"])
+        self.observe(self._on_show_panels, ["show_panels"])
         self.observe(self._show_source, ["show_source"])
         self._draw()
         if len(self.deformation.pose):
@@ -266,7 +266,12 @@ class DeformCanvas(ipywidgets.HBox):
                 if pane is not None:
                     pane.show_lines(self.show_cage, self.show_offset_cage)
 
-    def _show_panels(self, _: Any = None) -> None:
+    def _on_show_panels(self, _: Any) -> None:
+        with self._drawing:
+            self._show_panels()
+            self._place_legend()
+
+    def _show_panels(self) -> None:
         with self._drawing:
             if self._closed:
                 return

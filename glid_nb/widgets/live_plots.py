@@ -1,4 +1,4 @@
-"""The three plots of a solve as a PNG that is quick to draw again."""
+"""The plots of a solve as a PNG that is quick to draw again."""
 
 from __future__ import annotations
 
@@ -16,7 +16,14 @@ from PIL import Image
 from glid_nb.certificate import Certificate
 from glid_nb.geometry import Cage
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.plots import CertificatePlot, EnergyPlot, IterationRecord, StepPlot
+from glid_nb.imaging.plots import (
+    CertificatePlot,
+    EnergyPlot,
+    IterationRecord,
+    StepPlot,
+    TimePlot,
+)
+from glid_nb.widgets.plots_frame import plot_boxes
 
 Array = NDArray[Any]
 
@@ -24,7 +31,7 @@ _DPI = 100
 
 
 class LivePlots:
-    """Energy and iterations side by side, the certificate below them.
+    """Energy beside steps and times of the iterations, the certificate below them.
 
     What moves is drawn onto a kept background, which is only drawn again when an axis changes: a
     few milliseconds instead of a hundred. Not for several threads at once.
@@ -43,24 +50,29 @@ class LivePlots:
         self.cage = cage
         figure = Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI * scale)
         self._canvas = FigureCanvasAgg(figure)
-        upper, lower = figure.add_gridspec(
-            2,
-            1,
-            left=44 / width,
-            right=1 - 8 / width,
-            top=1 - 20 / height,
-            bottom=32 / height,
-            hspace=56 / (height / 2 - 54),
+        energy, steps, times, certificate = (
+            figure.add_axes(
+                (
+                    box.x / width,
+                    1 - (box.y + box.height) / height,
+                    box.width / width,
+                    box.height / height,
+                )
+            )
+            for box in plot_boxes(width, height)
         )
-        left, right = upper.subgridspec(1, 2, wspace=0.24)
-        self._energy = EnergyPlot(figure.add_subplot(left), animated=True)
-        self._step = StepPlot(figure.add_subplot(right), animated=True)
-        self._certificate = CertificatePlot(figure.add_subplot(lower), cage, animated=True)
+        self._energy = EnergyPlot(energy, animated=True)
+        self._step = StepPlot(steps, animated=True)
+        # They share the axis below them.
+        steps.set_xlabel("")
+        steps.tick_params(labelbottom=False)
+        self._time = TimePlot(times, animated=True)
+        self._certificate = CertificatePlot(certificate, cage, animated=True)
         self._background: Any = None
 
     @property
     def _plots(self) -> tuple[Any, ...]:
-        return self._energy, self._step, self._certificate
+        return self._energy, self._step, self._time, self._certificate
 
     def draw(
         self,
@@ -72,7 +84,7 @@ class LivePlots:
 
         With the map its sampled sigma_2 is drawn over the certified bound.
         """
-        changed = [self._energy.update(history), self._step.update(history)]
+        changed = [plot.update(history) for plot in (self._energy, self._step, self._time)]
         if certificate is None:
             self._certificate.clear()
         else:

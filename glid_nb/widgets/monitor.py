@@ -1,4 +1,4 @@
-"""What the solver is doing: a line in words and three plots, live."""
+"""What the solver is doing: a line in words and plots, live."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.live_solver import Frame
 from glid_nb.session.status_line import StatusLine, rounded_down
 from glid_nb.widgets.background import Background
+from glid_nb.widgets.plots_frame import placeholder
 
 if TYPE_CHECKING:
     from glid_nb.widgets.live_plots import LivePlots
@@ -59,8 +60,10 @@ class SolverMonitor(ipywidgets.VBox):
         """The model that this is a view of."""
         self.line = ipywidgets.HTML()
         """The status line."""
-        self.image = ipywidgets.Image(format="png", width=width, height=height)
-        """The plots."""
+        self.image = ipywidgets.Image(
+            value=placeholder(width, height), format="svg+xml", width=width, height=height
+        )
+        """The plots; empty axes until the solver has begun."""
         self._size = (width, height)
         self._plots: LivePlots | None = None
         self._frames: deque[float] = deque()
@@ -148,7 +151,9 @@ class SolverMonitor(ipywidgets.VBox):
             proof, map_ = _live_certificate(frame, frame.panels), None
         else:
             proof, map_ = model.certificate, state.map
-        self.image.value = self._plots.draw(history, proof, map_)
+        picture = self._plots.draw(history, proof, map_)
+        with self.image.hold_sync():  # the page must not take the one for the other
+            self.image.format, self.image.value = "png", picture
         self._drawn = (state.map, frame)
 
 

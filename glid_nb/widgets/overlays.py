@@ -28,6 +28,9 @@ _COLORS = (
 N_COLORS = len(_COLORS)
 """Stops of the colour map in the shader."""
 
+FULL_MARGIN = 0.5
+"""A certified sigma_2 from which on a panel of the boundary has the palest colour."""
+
 # The kinds that picture.frag knows.
 _KINDS: dict[type[Energy], int] = {
     SymmetricDirichlet: 0,
@@ -96,4 +99,13 @@ def legend(name: str, energy: Energy) -> dict[str, Any]:
         "title": OVERLAYS[name].label,
         "colors": list(_COLORS),
         "ticks": [f"{value:.3g}" for value in ticks],
+    }
+
+
+def panel_legend() -> dict[str, Any]:
+    """The colour bar of the boundary's panels, as the page draws it."""
+    return {
+        "title": "Certified σ₂ on the boundary",
+        "colors": list(_COLORS),
+        "ticks": [f"≥ {FULL_MARGIN:g}", f"{FULL_MARGIN / 2:g}", "0"],
     }

@@ -12,7 +12,7 @@ from glid_nb.compare import DeformationMap, MeshMap
 from glid_nb.energies import Energy
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.widgets.closing import close_with_parts
-from glid_nb.widgets.overlays import legend
+from glid_nb.widgets.overlays import legend, panel_legend
 from glid_nb.widgets.scene import N_VERTICES, EvaluatedIn, Scene, renderer
 from glid_nb.widgets.stage import Stage, emptiest_corner, marks_of
 
@@ -43,7 +43,7 @@ class Pane(ipywidgets.GridBox):
         self._n_vertices = N_VERTICES if n_vertices is None else n_vertices
         self._fewest_vertices = _FEWEST_VERTICES if n_vertices is None else n_vertices
         self._evaluated_in: EvaluatedIn | None = evaluated_in
-        self._overlay, self._lines = "texture", (False, False)
+        self._overlay, self._lines, self._with_panels = "texture", (False, False), False
         self._scene = self._new_scene(map)
         self._renderer, camera = renderer(self._scene, *size)
         self.stage = Stage(
@@ -107,12 +107,13 @@ class Pane(ipywidgets.GridBox):
         if self._scene.show_comparison(map):
             self._update_children()
             self._scene.close_replaced()
+            self._show_legend()
 
     def show_overlay(self, name: str, energy: Energy) -> None:
         """Another way to colour the shape."""
         self._overlay, self._energy = name, energy
         self._scene.show_overlay(name, energy)
-        self.stage.legend = legend(name, energy)
+        self._show_legend()
 
     def place_legend(self, map: DeformationMap, points: Any) -> None:
         """Move the colour bar to where it hides least of the shape and of these points."""
@@ -136,6 +137,8 @@ class Pane(ipywidgets.GridBox):
         """The boundary's panels, coloured by margin; None for none."""
         if self._scene.show_panels(panels, sigma2_lower):
             self._update_children()
+        self._with_panels = panels is not None
+        self._show_legend()
 
     def fit(self, map: DeformationMap, points: Any) -> None:
         """Make the whole shape visible, and these points."""
@@ -165,6 +168,13 @@ class Pane(ipywidgets.GridBox):
         self._scene.show_lines(*self._lines)
         self._update_children()
         old.close()
+
+    def _show_legend(self) -> None:
+        """The overlay's colour bar; without one, that of the panels if they are drawn."""
+        bar = legend(self._overlay, self._energy)
+        if not bar and self._with_panels and self._scene.comparison is None:
+            bar = panel_legend()
+        self.stage.legend = bar
 
     def _update_children(self) -> None:
         self._renderer.scene.children = self._scene.meshes

@@ -20,6 +20,7 @@ from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.style import BLUE, GREY
 from glid_nb.widgets.comparison_layer import ComparisonLayer
 from glid_nb.widgets.overlays import (
+    FULL_MARGIN,
     N_COLORS,
     OVERLAYS,
     color_range,
@@ -44,8 +45,7 @@ N_VERTICES = 10_000
 
 _GRID_LINES = 40  # along the longer side
 _COLUMN = 8.0  # of triangles that are drawn after one another: width in rows' heights
-_CAGE_WIDTH, _OFFSET_WIDTH, _PANEL_WIDTH = 0.9, 0.6, 2.2  # half, in pixels
-_FULL_MARGIN = 0.5  # a certified sigma_2 from which on a panel has the palest colour
+_CAGE_WIDTH, _OFFSET_WIDTH, _PANEL_WIDTH = 0.9, 0.6, 2.8  # half, in pixels
 
 
 class Layer:
@@ -280,7 +280,7 @@ class Scene:
             if self.panels is not None:
                 self.panels.mesh.visible = False
             return False
-        margin = np.clip(np.nan_to_num(sigma2_lower) / _FULL_MARGIN, 0.0, 1.0)
+        margin = np.clip(np.nan_to_num(sigma2_lower) / FULL_MARGIN, 0.0, 1.0)
         values = panel_values(np.rint(255 * (1 - margin)).astype(np.uint8))
         if panels is self._panels and self.panels is not None:
             self.panels.attributes["margin"].array = values
@@ -319,7 +319,7 @@ class Scene:
         half_width: float,
         margin: three.BufferAttribute | None = None,
     ) -> Layer:
-        """A line of one colour, or coloured by margin where there is one."""
+        """A line of one colour, or coloured by margin with borders of it where there is one."""
         by_margin = 0.0 if margin is None else 1.0
         if margin is None:
             values = np.zeros(len(line.points), dtype=np.uint8)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from glid_nb.geometry import Cage, Domain, GeometryError
 from glid_nb.imaging import TraceError, TraceOptions, Tracing
-from glid_nb.imaging.read import ImageSource
+from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session import TracingModel
 from glid_nb.widgets.bundle import bundle, stylesheet
 from glid_nb.widgets.subshells import answer_during_cells
@@ -166,7 +166,7 @@ class CageTracer(anywidget.AnyWidget):
         elif action == "upload":
             data = self._upload.add(message, buffers)
             if data is not None:
-                model.open(data)
+                model.open(read_image(data, message["name"]))
         else:
             raise TraceError(f"the page asked for {action!r}, which the tracer cannot do")
 

@@ -32,8 +32,8 @@ def assert_refused(outcome, *parts: object) -> None:
         ({"cage": [[-8, -2], [8, 2], [8, -2], [-8, 2]]}, "exterior loop: the edges"),
         ({"cage": [[-8, -2], [8, -2], [8, 2], [-8, float("nan")]]}, "cage[3] must be finite"),
         ({"cage": [[-8, -2], [8, -2], [8, -2], [-8, 2]]}, "vertices 1 and 2 coincide"),
-        ({"holes": [[[9, 0], [10, 0], [9, 1]]]}, "hole 1 lies outside"),
-        ({"holes": [[[-8, -1], [1, -1], [1, 1]]]}, "hole 1 touches the exterior loop"),
+        ({"holes": [[[9, 0], [10, 0], [9, 1]]]}, "Hole 1 lies outside"),
+        ({"holes": [[[-8, -1], [1, -1], [1, 1]]]}, "Hole 1 touches the outline"),
         ({"handles": [[-7, 0], [0, -1.5]]}, "2 handles but 3 targets"),
         ({"handles": [[-7, 0], [0, 0], [7, 0]]}, "handle 1 at (0, 0) lies outside the domain"),
         ({"handles": [[-7, 0], [7, 0], [7, 0]]}, "handles 1 and 2 are the same point (7, 0)"),
@@ -107,7 +107,9 @@ def test_a_picture_without_foreground(run, picture: Path, tmp_path: Path) -> Non
 
 
 def test_a_file_that_is_no_picture(run, problem: Path, tmp_path: Path) -> None:
-    assert_refused(run("demo", problem, "--out", tmp_path / "out"), problem, "no picture")
+    assert_refused(
+        run("demo", problem, "--out", tmp_path / "out"), problem, "not in a picture format"
+    )
 
 
 def test_a_picture_that_is_cut_short(run, picture: Path, tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import io
+import itertools
 from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any
@@ -23,7 +24,7 @@ from glid_nb.certificate import Certificate, certify
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.overview import figure_png, overview
-from glid_nb.imaging.plots import CertificatePlot, EnergyPlot, StepPlot
+from glid_nb.imaging.plots import CertificatePlot, EnergyPlot, StepPlot, TimePlot
 from glid_nb.imaging.style import CYAN, distortion_colors
 from glid_nb.solvers import Pose
 
@@ -35,6 +36,7 @@ class Record:
     energy_p2p: float
     step: float = 1.0
     decrement: float = 1.0
+    time: float = 0.02
 
     @property
     def energy(self) -> float:
@@ -219,7 +221,7 @@ def test_the_energy_plot_is_logarithmic_where_that_helps():
     assert plot.axes.get_yscale() == "linear"
 
 
-@pytest.mark.parametrize("kind", [EnergyPlot, StepPlot])
+@pytest.mark.parametrize("kind", [EnergyPlot, StepPlot, TimePlot])
 def test_updates_tell_whether_the_limits_changed(kind: Any):
     plot = kind(new_axes(), animated=True)
     assert all(artist.get_animated() for artist in plot.artists)
@@ -227,6 +229,42 @@ def test_updates_tell_whether_the_limits_changed(kind: Any):
     assert not plot.update(HISTORY[:4])
     assert plot.update(HISTORY)
     plot.update(())  # a new solve starts
+
+
+@pytest.mark.parametrize("kind", [EnergyPlot, StepPlot, TimePlot])
+def test_limits_seldom_change_while_iterations_come(kind: Any):
+    rng = np.random.default_rng(0)
+    records = [
+        Record(i, 2 + rng.random(), 0.1, time=0.02 + 0.01 * rng.random()) for i in range(400)
+    ]
+    plot = kind(new_axes())
+    changes = sum(plot.update(records[max(n - 200, 0) : n]) for n in range(1, 400))
+    assert changes < 40
+
+
+@pytest.mark.parametrize("kind", [EnergyPlot, StepPlot])
+def test_one_iteration_is_seen(kind: Any):
+    plot = kind(new_axes())
+    plot.update(HISTORY[:1])
+    low, high = plot.axes.get_xlim()
+    assert low < 0.5 < 1.5 < high
+    lines = [artist for artist in plot.artists if hasattr(artist, "get_marker")]
+    assert {line.get_marker() for line in lines} == {"o"}
+    plot.update([Record(i, 2.0, 1.0) for i in range(1, 200)])
+    assert {line.get_marker() for line in lines} == {""}
+
+
+def test_the_time_of_each_iteration_is_a_bar():
+    plot = TimePlot(new_axes())
+    plot.update(
+        [*(Record(i, 2, 1, time=0.004 * i) for i in range(1, 6)), Record(6, 2, 1, time=9.0)]
+    )
+    bars, text = plot.artists
+    corners = bars.get_xy()  # type: ignore[attr-defined]
+    np.testing.assert_allclose(corners[:20].reshape(5, 4, 2)[:, 1, 1], [4, 8, 12, 16, 20])
+    assert text.get_text() == "14 ms per iteration"  # type: ignore[attr-defined]
+    # One that had to wait does not flatten the others.
+    assert 20 < plot.axes.get_ylim()[1] < 100
 
 
 def test_the_step_plot_leaves_out_what_a_logarithm_cannot_show():
@@ -260,10 +298,13 @@ def test_the_certificate_plot_puts_the_loops_side_by_side(
     samples = t[~np.isnan(t)].reshape(-1, 5)
     assert (samples >= certificate.panels.sigma2_lower[:, None]).all()
     assert s[~np.isnan(t)].reshape(-1, 5)[0, 0] == 0
-    shown = float(text.get_text().split()[2])  # type: ignore[attr-defined]
+    shown = float(text.get_text().split()[2].strip(","))  # type: ignore[attr-defined]
     assert 0.99 * certificate.sigma2_lower < shown <= certificate.sigma2_lower
-    names = {child.get_text() for child in plot.axes.texts}
-    assert {"exterior", "hole 1"} < names
+    assert text.get_text().endswith(", winding number 0")  # type: ignore[attr-defined]
+    names = [label.get_text() for label in plot.axes.get_xticklabels()]
+    assert names == ["exterior", "hole 1"]
+    np.testing.assert_allclose(plot.axes.get_xticks(), [22, 50])
+    assert "threshold 0" in {child.get_text() for child in plot.axes.texts}
     assert not plot.update(certificate, bent)
 
 
@@ -275,7 +316,41 @@ def test_the_certificate_plot_says_when_nothing_is_proved(
     failed = replace(certificate, certified=False, panels=panels)
     plot.update(failed)
     fill, _, truth, _, text = plot.artists
-    assert text.get_text() == "not certified"  # type: ignore[attr-defined]
+    assert text.get_text() == "not certified, winding number 0"  # type: ignore[attr-defined]
     assert len(truth.get_xdata()) == 0  # type: ignore[attr-defined]
     assert plot.axes.get_ylim()[0] < panels.sigma2_lower.min() < 0
     assert fill.get_xy()[:, 1].min() == 0  # type: ignore[attr-defined]
+
+
+def test_the_certificate_plot_says_how_f_z_winds(bent: HarmonicMap, certificate: Certificate):
+    plot = CertificatePlot(new_axes(), bent.domain.cage)
+    text: Any = plot.artists[-1]
+    plot.update(replace(certificate, windings=(1, -1)))
+    assert text.get_text().endswith("winding number 0 (exterior 1, hole 1 \N{MINUS SIGN}1)")
+    plot.update(replace(certificate, certified=False, windings=(2, 0)))
+    assert "not certified, winding number 2" in text.get_text()
+
+
+def test_every_loop_is_named_or_numbered():
+    """Where not even numbers fit, neighbours share the room of theirs."""
+    squares = [
+        [[x, y], [x, y + s], [x + s, y + s], [x + s, y]]
+        for x, y, s in (
+            *((x, 2.0, 0.9) for x in range(1, 6)),
+            *((x, 4.0, 0.1) for x in range(1, 9)),
+            (7.0, 1.0, 2.9),
+        )
+    ]
+    plot = CertificatePlot(new_axes(), Cage([[0, 0], [12, 0], [12, 6], [0, 6]], squares))
+    names = [label.get_text() for label in plot.axes.get_xticklabels()]
+    assert names[0] == "exterior"
+    assert names[-1] == "hole 14"
+    numbers: list[int] = []
+    for name in names[1:-1]:
+        first, _, last = name.removeprefix("hole ").partition("\N{EN DASH}")
+        numbers += range(int(first), int(last or first) + 1)
+    assert numbers == [*range(1, 14)]
+    # What is written does not overlap.
+    plot.axes.figure.canvas.draw()
+    boxes = [label.get_window_extent() for label in plot.axes.get_xticklabels()]
+    assert all(left.x1 < right.x0 for left, right in itertools.pairwise(boxes))

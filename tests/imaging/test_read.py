@@ -76,6 +76,20 @@ class TestArrays:
         np.testing.assert_array_equal(as_rgba8(every)[..., 0], expected)
 
 
+class TestNames:
+    def test_a_picture_is_called_by_the_name_that_was_given(self):
+        with pytest.raises(TraceError, match=r"^mine\.png is not in a picture format"):
+            read_image(b"nothing", "mine.png")
+        with pytest.raises(TraceError, match=r"^the picture is not in a picture format"):
+            read_image(b"nothing")
+        wide = Image.new("L", (MAX_SIDE + 1, 1))
+        with pytest.raises(TraceError, match=r"^mine\.png is too large"):
+            read_image(encoded(wide, "png"), "mine.png")
+        far = Image.fromarray(np.full((3, 3), 7, np.float32))
+        with pytest.raises(TraceError, match=r"^mine\.tif: a float image"):
+            read_image(encoded(far, "tiff"), "mine.tif")
+
+
 class TestWrongArrays:
     @pytest.mark.parametrize("shape", [(0, 5), (5, 0), (5, 0, 3), (0, 0, 4), (5, 5, 0)])
     def test_empty(self, shape):
@@ -209,13 +223,13 @@ class TestWrongFiles:
     def test_empty(self, tmp_path):
         path = tmp_path / "empty.png"
         path.write_bytes(b"")
-        with pytest.raises(TraceError, match=r"empty\.png: the file is empty"):
+        with pytest.raises(TraceError, match=r"empty\.png is empty"):
             read_image(path)
 
     def test_no_picture(self, tmp_path):
         path = tmp_path / "notes.png"
         path.write_text("these are notes")
-        with pytest.raises(TraceError, match=r"notes\.png: this is no picture"):
+        with pytest.raises(TraceError, match=r"notes\.png is not in a picture format"):
             read_image(path)
 
     @pytest.mark.parametrize("kind", ["PNG", "JPEG", "GIF", "TIFF"])

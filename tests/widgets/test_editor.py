@@ -185,6 +185,15 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     assert stage.legend == {}
     canvas.show_panels = True
     assert canvas.pane.scene.panels is not None
+    assert stage.legend["title"] == "Certified σ₂ on the boundary"
+    assert stage.legend["ticks"] == ["≥ 0.5", "0.25", "0"]
+    canvas.overlay = "k"  # has a bar of its own
+    assert stage.legend["title"] == "Dilatation k"
+    canvas.overlay = "texture"
+    assert stage.legend["title"] == "Certified σ₂ on the boundary"
+    canvas.show_panels = False
+    assert stage.legend == {}
+    canvas.show_panels = True
     assert len(stage.materials) == 2
     canvas.show_cage = canvas.show_offset_cage = True
     assert len(stage.materials) == 4
@@ -213,13 +222,17 @@ editor = glid.Editor(image, n_vertices=300)
 unwanted = [m for m in ("matplotlib", "skimage.draw", "glid_nb.export") if m in sys.modules]
 assert not unwanted, unwanted
 assert clock.programs == 0, clock.programs
+# Axes without anything in them, at once.
+assert editor.monitor.image.format == "svg+xml"
+assert b"time per iteration" in bytes(editor.monitor.image.value)
 assert len(widget._instances) <= 100, len(widget._instances)
 editor.canvas._receive(None, {"drawn": True}, [])
 boxes = [editor.tabs.children[0], *editor._side.children[1:]]
 made = [type(box.children[0]).__name__ for box in boxes]
 assert made == ["CageTracer", "SolverPanel", "FilePanel"]
 assert editor.monitor.refresh(60)
-assert editor.monitor.image.value
+assert editor.monitor.image.format == "png"
+assert bytes(editor.monitor.image.value).startswith(b"\\x89PNG")
 editor.close()
 """
 

@@ -13,6 +13,7 @@ from PIL import Image
 from glid_nb import samples
 from glid_nb.geometry import Cage
 from glid_nb.imaging import TraceError, TraceOptions
+from glid_nb.imaging.read import MAX_SIDE
 from glid_nb.session import TracingModel
 from glid_nb.widgets import CageTracer
 
@@ -151,7 +152,7 @@ def test_a_problem_is_shown_with_its_place(tracer: CageTracer, page: Page) -> No
     i = int(np.argmin(tracer.tracing_model.loops[0][:, 0]))
     assert page.ask("move_vertex", loop=0, index=i, to=[150, 60]) is None
     (problem,) = tracer.shown["problems"]
-    assert "cross" in problem["message"]
+    assert problem["message"].startswith("The outline crosses itself; move")
     assert 0 < problem["point"][0] < 160
     assert tracer.cage is cage
     assert tracer.shown["loops"][0][i] == [150, 60]
@@ -187,8 +188,16 @@ class TestUpload:
         cage = tracer.cage
         refusal = self.send(page, b"no picture at all", 5)
         assert refusal is not None
-        assert "no picture in a format" in refusal
+        assert refusal.startswith("a.png is not in a picture format")
         assert tracer.cage is cage
+
+    def test_a_damaged_file_is_called_by_its_name(self, page: Page) -> None:
+        refusal = self.send(page, png(DRAWING)[:300], 1 << 20)
+        assert refusal is not None
+        assert refusal.startswith("a.png is damaged or cut short")
+        refusal = self.send(page, png(np.zeros((1, MAX_SIDE + 1, 3), np.uint8)), 1 << 20)
+        assert refusal is not None
+        assert refusal.startswith("a.png is too large")
 
     def test_a_part_that_is_missing_is_noticed(self, page: Page) -> None:
         data = png(DRAWING)

@@ -1,6 +1,9 @@
-// A line with soft edges, of one colour or coloured by margin. Premultiplied by alpha.
+// A line with soft edges, of one colour or, within borders of this colour, coloured by margin.
+// Premultiplied by alpha.
 
 precision highp float;
+
+const float BORDER = 0.9; // pixels; the palest colour would not be seen on white, nor the darkest on black
 
 uniform float half_width;
 uniform vec4 line_color;
@@ -15,10 +18,11 @@ void main() {
   vec3 color = line_color.rgb;
   if (by_margin > 0.5) {
     float place = clamp(v_margin, 0.0, 1.0) * float(N_COLORS - 1);
-    color = colors[0];
+    vec3 value = colors[0];
     for (int i = 1; i < N_COLORS; i++) {
-      color = mix(color, colors[i], clamp(place - float(i - 1), 0.0, 1.0));
+      value = mix(value, colors[i], clamp(place - float(i - 1), 0.0, 1.0));
     }
+    color = mix(color, value, clamp(half_width - BORDER + 0.5 - abs(v_side), 0.0, 1.0));
   }
   gl_FragColor = vec4(color, 1.0) * (cover * line_color.a);
 }

@@ -212,7 +212,11 @@ export class Stage {
       this.rests = null;
       this.setHover(null);
     });
-    on("contextmenu", (e) => e.preventDefault());
+    // The right button deletes a vertex; neither the browser's nor JupyterLab's menu may open.
+    on("contextmenu", (e) => {
+      e.preventDefault();
+      e.stopPropagation();
+    });
     on("keydown", (e) => this.key(e));
     on("keyup", (e) => {
       if (e.key === " ") this.space = false;
