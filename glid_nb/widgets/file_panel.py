@@ -95,8 +95,8 @@ class FilePanel(ipywidgets.VBox):
                 _row("Export", self.format, self.export_button),
                 self._picture,
                 _row("", self.code_button, self.clipboard),
-                self.code,
                 self.message,
+                self.code,
             ],
             **kwargs,
         )

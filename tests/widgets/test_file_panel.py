@@ -169,7 +169,7 @@ def test_an_export_asks_too(panel: FilePanel) -> None:
         Path(name).write_bytes(THEIRS)
     panel.format.value = ".obj"
     assert "session.obj and session.mtl are in" in click(panel, panel.export_button)
-    assert THEIRS == Path("session.obj").read_bytes()
+    assert Path("session.obj").read_bytes() == THEIRS
     wrote = "Wrote session.obj, session.mtl and session-texture.png"
     assert wrote in click(panel, panel.export_button)
     assert wrote in click(panel, panel.export_button)
