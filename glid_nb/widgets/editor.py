@@ -362,9 +362,10 @@ class Editor(ipywidgets.VBox):
         error = self.model.save_error
         if error is not None:
             self.unsaved.value = (
-                "<p style='position:absolute;top:2px;right:2px;z-index:5;margin:0;max-width:calc(100% - 300px);"
-                "padding:4px 12px;border-radius:4px;color:#fff;background:#b34700;"
-                f"line-height:1.4;pointer-events:none'>{html.escape(_NOT_SAVED.format(error=error))}</p>"
+                "<p style='position:absolute;top:2px;right:2px;z-index:5;margin:0;"
+                "max-width:calc(100% - 300px);padding:4px 12px;border-radius:4px;color:#fff;"
+                "background:#b34700;line-height:1.4;pointer-events:none'>"
+                f"{html.escape(_NOT_SAVED.format(error=error))}</p>"
             )
         self.unsaved.layout.display = "none" if error is None else "block"
 
