@@ -5,11 +5,12 @@ from __future__ import annotations
 import html
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import ipywidgets
 
 from glid_nb.imaging.read import MAX_SIDE
+from glid_nb.imaging.render import View
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
 from glid_nb.widgets.asking_button import AskingButton
@@ -135,8 +136,8 @@ class FilePanel(ipywidgets.VBox):
         strangers = self.model.own_files.strangers(files_of(path), path)
         if strangers and not sure:
             raise OccupiedError(strangers)
-        size, view = (self.size, self.view.value) if path.suffix == ".png" else (None, "source")
-        files = export(self.model, path, size, view, replace=True)
+        view = cast(View, self.view.value)
+        files = export(self.model, path, self.size, view, replace=True)
         return f"Wrote {_listed([file.name for file in files])} to {path.absolute().parent}"
 
     def _copy(self, sure: bool) -> str:
