@@ -48,7 +48,7 @@ def test_the_exported_picture_is_the_rendering_and_what_the_canvas_shows(
     # The lines that make it, where the page may use the clipboard and where it may not.
     for stem, forbidden in (("allowed", False), ("forbidden", True)):
         if forbidden:
-            page.evaluate("navigator.clipboard.writeText = () => Promise.reject()")
+            page.evaluate("() => { navigator.clipboard.writeText = () => Promise.reject(); }")
         name.fill(str(tmp_path / f"{stem}.glid"))
         name.press("Enter")
         files.get_by_role("button", name="Copy as Python").click()
