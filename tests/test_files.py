@@ -49,5 +49,31 @@ def test_a_failure_leaves_what_was_there(
 
 
 def test_a_missing_folder_is_an_os_error(tmp_path: Path) -> None:
-    with pytest.raises(FileNotFoundError, match="nowhere"):
-        write_text_atomically(tmp_path / "nowhere" / "a.txt", "")
+    folder = tmp_path / "nowhere"
+    with pytest.raises(FileNotFoundError) as refusal:
+        write_text_atomically(folder / "a.txt", "")
+    assert str(refusal.value) == f"The folder {folder} does not exist"
+    (tmp_path / "file").touch()
+    with pytest.raises(NotADirectoryError, match=r"^The folder .*file does not exist$"):
+        write_text_atomically(tmp_path / "file" / "a.txt", "")
+
+
+@pytest.mark.parametrize("name", ["", "."])
+def test_a_folder_is_no_file(tmp_path: Path, name: str) -> None:
+    with pytest.raises(IsADirectoryError, match=r" is a folder; name a file$"):
+        write_text_atomically(tmp_path / name, "")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_error_names_the_file_and_never_a_temporary_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device", str(tmp_path / ".a.txt.tmp"))
+
+    monkeypatch.setattr("os.fsync", full)
+    with pytest.raises(OSError, match="No space") as refusal:
+        write_text_atomically(tmp_path / "a.txt", "")
+    expected = f"{tmp_path / 'a.txt'} cannot be written: No space left on device"
+    assert str(refusal.value) == expected
+    assert list(tmp_path.iterdir()) == []

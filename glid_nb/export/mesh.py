@@ -84,7 +84,7 @@ def textured_mesh(
 
 
 def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
-    """A mesh as Wavefront OBJ: the files ``name.obj``, ``name.mtl`` and ``name.png``, by name.
+    """A mesh as Wavefront OBJ: ``name.obj``, ``name.mtl`` and ``name-texture.png``, by name.
 
     They belong into one folder: the OBJ file names the material file, and that the texture.
     """
@@ -93,7 +93,7 @@ def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
 
     material = SimpleMaterial(
         image=Image.fromarray(mesh.texture),
-        name=name,
+        name=f"{name}-texture",  # which trimesh makes the picture's name as well
         diffuse=[255, 255, 255, 255],
         ambient=[255, 255, 255, 255],
         specular=[0, 0, 0, 255],

@@ -8,7 +8,7 @@ import zlib
 from collections.abc import Mapping
 from pathlib import Path
 
-from glid_nb._files import write_bytes_atomically
+from glid_nb._files import in_words, write_bytes_atomically
 from glid_nb.session.json_file import InputFileError
 
 # A document has at most a handful of members; their names, sizes and places fit in this.
@@ -43,12 +43,16 @@ def read_archive(path: Path, most_bytes: Mapping[str, int]) -> dict[str, bytes]:
         When it is no zip file, is damaged, or has a member that is unknown, repeated, encrypted or
         too large.
     OSError
-        When it cannot be read.
+        When it cannot be read; the message says why in plain words.
     """
-    size, most = path.stat().st_size, sum(most_bytes.values()) + _DIRECTORY_BYTES
-    if size > most:
-        raise InputFileError(f"the file has {size:,} bytes; {most:,} are allowed")
-    data = path.read_bytes()
+    most = sum(most_bytes.values()) + _DIRECTORY_BYTES
+    try:
+        size = path.stat().st_size
+        if size > most:
+            raise InputFileError(f"the file has {size:,} bytes; {most:,} are allowed")
+        data = path.read_bytes()
+    except OSError as error:
+        raise in_words(error, path, "read") from error
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             members = archive.infolist()

@@ -13,6 +13,7 @@ from glid_nb.session.autosave import Autosave
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, load_document, save_document
 from glid_nb.session.edit_state import EditError, EditState
+from glid_nb.session.own_files import OwnFiles
 from glid_nb.session.tracing import TracingModel
 
 
@@ -47,6 +48,8 @@ class EditorModel:
         self._autosave: Autosave | None = None
         self.save_error: Exception | None = None
         """Why the last save in the background failed; None when it did not."""
+        self.own_files = OwnFiles()
+        """The files that were saved, opened and exported."""
         if document is None:
             self.tracing = TracingModel(image)
             """The picture and its cage."""
@@ -57,6 +60,12 @@ class EditorModel:
             self._take(document)
         if path is not None:
             self._autosave = Autosave(path, on_done=self._saved)
+            self.own_files.note_session(path)
+
+    @property
+    def autosave_path(self) -> Path | None:
+        """The session file that is kept up to date; None when there is none."""
+        return None if self._autosave is None else self._autosave.path
 
     @property
     def deformation(self) -> Deformation:
@@ -126,6 +135,7 @@ class EditorModel:
             It cannot be written; what was there before stays.
         """
         save_document(self.document, path)
+        self.own_files.note_session(path)
 
     def load(self, path: str | Path) -> None:
         """Go on with what a file holds.
@@ -136,6 +146,7 @@ class EditorModel:
             It cannot be read; nothing has changed then.
         """
         document = load_document(path)
+        self.own_files.note_session(path)
         with self._lock:
             self._take(document)
         self._tell()

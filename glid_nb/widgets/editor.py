@@ -120,7 +120,10 @@ class Editor(ipywidgets.VBox):
         self._panels: tuple[SolverPanel, FilePanel] | None = None
         self.tabs = ipywidgets.Tab()
         """The two tabs."""
-        self.unsaved = ipywidgets.HTML(layout={"display": "none"})
+        # Without a height: it lies over the page, and nothing moves below a pointer.
+        self.unsaved = ipywidgets.HTML(
+            layout={"display": "none", "height": "0", "margin": "0", "overflow": "visible"}
+        )
         """Why the session file is not up to date; hidden while it is."""
         super().__init__([self.unsaved, self.tabs], **kwargs)
         self.add_class("glid-editor")
@@ -244,12 +247,13 @@ class Editor(ipywidgets.VBox):
         """Write what is shown for other programs; the suffix says how.
 
         ``.png``, ``.obj``, ``.glb``, ``.svg``, ``.html`` or ``.py``; ``size`` and ``view`` are a
-        picture's, as in `glid_nb.render`. Returns the files that were written.
+        picture's, as in `glid_nb.render`. Returns the files that were written: the one that is
+        named, then those that come with it, such as ``-texture.png`` with a mesh.
 
         Raises
         ------
         ExportError
-            For another suffix.
+            For another suffix, or when a file that comes with it would replace another.
         """
         from glid_nb.widgets.exporting import export  # noqa: PLC0415 - not for the first canvas
 
@@ -358,8 +362,10 @@ class Editor(ipywidgets.VBox):
         error = self.model.save_error
         if error is not None:
             self.unsaved.value = (
-                "<p style='margin:4px 0;padding:6px 12px;border-radius:4px;color:#fff;"
-                f"background:#b34700'>{html.escape(_NOT_SAVED.format(error=error))}</p>"
+                "<p style='position:absolute;top:2px;right:2px;z-index:5;margin:0;"
+                "max-width:calc(100% - 300px);padding:4px 12px;border-radius:4px;color:#fff;"
+                "background:#b34700;line-height:1.4;pointer-events:none'>"
+                f"{html.escape(_NOT_SAVED.format(error=error))}</p>"
             )
         self.unsaved.layout.display = "none" if error is None else "block"
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from glid_nb._files import write_bytes_atomically
@@ -29,8 +30,41 @@ FORMATS = {
 """What each suffix stands for."""
 
 
+_BESIDE = {".obj": (".mtl", "-texture.png"), ".py": ("-source.png",)}
+"""What follows the stem in the names of the files that come with one."""
+
+_BESIDE = {".obj": (".mtl", "-texture.png"), ".py": ("-source.png",)}
+"""What follows the stem in the names of the files that come with one."""
+
+
 class ExportError(ValueError):
     """Something cannot be exported that way."""
+
+
+class OccupiedError(ExportError):
+    """Files that belong to something else are where others would be written."""
+
+    def __init__(self, paths: Sequence[Path]) -> None:
+        self.paths = tuple(paths)
+        """The files that are there."""
+        names = ", ".join(str(path.absolute()) for path in paths)
+        super().__init__(f"{names}: there already; choose another name, or move it away")
+
+
+def files_of(path: Path) -> tuple[Path, ...]:
+    """The files that `export` writes for this name: itself, then those that come with it.
+
+    Raises
+    ------
+    ExportError
+        For a suffix that is none of `FORMATS`.
+    """
+    suffix = path.suffix.lower()
+    if suffix not in FORMATS:
+        raise ExportError(
+            f"{str(path)!r} cannot be exported: its name must end in {', '.join(FORMATS)}"
+        )
+    return (path, *(path.with_name(path.stem + rest) for rest in _BESIDE.get(suffix, ())))
 
 
 def export(
@@ -38,54 +72,98 @@ def export(
     path: str | Path,
     size: tuple[int, int] | None = None,
     view: View = "source",
+    *,
+    replace: bool = False,
 ) -> tuple[Path, ...]:
     """Write what is shown to a file whose suffix says how; returns the files that were written.
+
+    What is there under the given name is replaced. The files that come with it, ``.mtl`` and
+    ``-texture.png`` of an OBJ mesh or the ``-source.png`` that a script reads, replace only those
+    of an earlier export under this name.
 
     Parameters
     ----------
     model : EditorModel
     path : path
-        Ends in one of `FORMATS`. An OBJ mesh and a script come with further files beside them.
+        Ends in one of `FORMATS`.
     size : (w, h), optional
         Pixels of a picture; by default the original's.
     view : "source" or "fit"
         Whether a picture shows what the original showed, or all of the shape.
+    replace : bool
+        Whether the files that come with it replace any others too.
 
     Raises
     ------
     ExportError
-        For another suffix.
+        For another suffix; as `OccupiedError` when a file that comes with it would replace another.
     OSError
         When a file cannot be written.
     """
     path = Path(path)
+    contents = dict(zip(files_of(path), _contents(model, path, size, view), strict=True))
+    # What lies beside a file that is there already came with that.
+    if not (replace or path.exists()):
+        _check_free(model, path, {p: data for p, data in contents.items() if p != path})
+    _write(model, path, contents)
+    return tuple(contents)
+
+
+def export_source(model: EditorModel, script: Path, *, replace: bool = False) -> Path:
+    """Write the picture that a script of this name reads, where it is not there yet.
+
+    Raises
+    ------
+    OccupiedError
+        Another file is there, and ``replace`` is false.
+    OSError
+        When it cannot be written.
+    """
+    _, path = files_of(script)
+    contents = {path: png(model.document.image)}
+    if not replace:
+        _check_free(model, script, contents)
+    if not _holds(path, contents[path]):
+        _write(model, script, contents)
+    return path
+
+
+def _contents(
+    model: EditorModel, path: Path, size: tuple[int, int] | None, view: View
+) -> list[bytes]:
+    """What is written to `files_of` the path, in that order."""
     document, map_ = model.document, model.deformation.map
     image, suffix = document.image, path.suffix.lower()
     height, width = image.shape[:2]
-    files: dict[str, bytes]
     if suffix == ".png":
-        files = {path.name: picture_png(image, map_, size, view)}
-    elif suffix == ".obj":
+        return [picture_png(image, map_, size, view)]
+    if suffix == ".obj":
         files = mesh_obj(textured_mesh(image, map_), path.stem)
-    elif suffix == ".glb":
-        files = {path.name: mesh_glb(textured_mesh(image, map_))}
-    elif suffix == ".svg":
+        return [files[path.stem + rest] for rest in (".obj", *_BESIDE[".obj"])]
+    if suffix == ".glb":
+        return [mesh_glb(textured_mesh(image, map_))]
+    if suffix == ".svg":
         text = cage_svg(map_, (width, height), source=True, pose=model.deformation.pose)
-        files = {path.name: text.encode()}
-    elif suffix == ".html":
+        return [text.encode()]
+    if suffix == ".html":
         page = page_html(image, map_, model.deformation.certificate, path.stem)
-        files = {path.name: page.encode()}
-    elif suffix == ".py":
-        picture = f"{path.stem}.png"
-        files = {
-            path.name: python_code(document, picture).encode(),
-            picture: png(image),
-        }
-    else:
-        raise ExportError(
-            f"{path.name}: cannot export to {suffix or 'a file without suffix'!r}; "
-            f"use one of {', '.join(FORMATS)}"
-        )
-    for name, data in files.items():
-        write_bytes_atomically(path.parent / name, data)
-    return tuple(path.parent / name for name in files)
+        return [page.encode()]
+    _, picture = files_of(path)
+    return [python_code(document, picture.name).encode(), png(image)]
+
+
+def _check_free(model: EditorModel, owner: Path, contents: Mapping[Path, bytes]) -> None:
+    strangers = model.own_files.strangers(contents, owner)
+    occupied = [path for path in strangers if not _holds(path, contents[path])]
+    if occupied:
+        raise OccupiedError(occupied)
+
+
+def _holds(path: Path, data: bytes) -> bool:
+    return path.is_file() and path.stat().st_size == len(data) and path.read_bytes() == data
+
+
+def _write(model: EditorModel, owner: Path, contents: Mapping[Path, bytes]) -> None:
+    for path, data in contents.items():
+        write_bytes_atomically(path, data)
+    model.own_files.note(contents, owner)

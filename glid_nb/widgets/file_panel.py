@@ -3,21 +3,37 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Callable
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import ipywidgets
 
+from glid_nb.imaging.read import MAX_SIDE
+from glid_nb.imaging.render import View
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
-from glid_nb.widgets.exporting import FORMATS, export
+from glid_nb.widgets.asking_button import AskingButton
+from glid_nb.widgets.clipboard import Clipboard
+from glid_nb.widgets.exporting import FORMATS, OccupiedError, export, export_source, files_of
 
-_WIDE = {"width": "auto", "flex": "1 1 auto"}
+_SUFFIX = ".glid"
+_LABEL = {"width": "58px", "flex": "0 0 auto"}
+_WIDE = {"width": "auto", "min_width": "0", "flex": "1 1 auto"}
+_VIEWS = (("Whole shape", "fit"), ("Original frame", "source"))
+_NO_AUTOSAVE = "Changes are kept only when you save. Editor(…, path=…) saves by itself."
+_REFUSED = "#d55e00"
+
+
+class FileNameError(ValueError):
+    """A file cannot have that name; the message says which it can have."""
 
 
 class FilePanel(ipywidgets.VBox):
     """Files of an editor: sessions to open and save, and exports.
+
+    A file that the editor neither wrote nor opened is replaced only when its button, which then
+    says "Replace?", is clicked again.
 
     Parameters
     ----------
@@ -27,69 +43,182 @@ class FilePanel(ipywidgets.VBox):
     def __init__(self, model: EditorModel, **kwargs: Any) -> None:
         self.model = model
         """The model that is saved and replaced."""
-        self.path = ipywidgets.Text("session.glid", placeholder="File name", layout=_WIDE)
+        session = model.own_files.session or Path("session.glid")
+        self.path = ipywidgets.Text(str(session), placeholder="Name.glid", layout=_WIDE)
         """Where to save, and what to open; relative to the notebook."""
-        self.save_button = _button("Save", "save", "Write the session file", self._save)
-        self.open_button = _button("Open", "folder-open", "Go on with the session file", self._open)
-        self.message = ipywidgets.HTML()
-        """What was done, or why it was not."""
+        self.save_button = AskingButton("Save", "save", "Write the session file", self._save)
+        self.open_button = AskingButton(
+            "Open", "folder-open", "Go on with the session file", self._open
+        )
+        self.autosave = ipywidgets.HTML()
+        """Where changes are saved without being asked."""
         self.format = ipywidgets.Dropdown(
             options=[(label, suffix) for suffix, label in FORMATS.items()],
             tooltip="What to export",
             layout=_WIDE,
         )
-        self.export_button = _button(
-            "Export", "download", "Write it beside the session", self._export
+        """What to export, by suffix."""
+        self.export_button = AskingButton(
+            "Export", "download", "Write it beside the session file", self._export
         )
-        self.code_button = _button(
-            "Copy as Python", "code", "The lines that make this map", self._code
+        height, width = model.document.image.shape[:2]
+        self._aspect = height / width
+        self.width = ipywidgets.BoundedIntText(
+            width,
+            min=1,
+            max=MAX_SIDE * width // max(width, height),
+            tooltip="Width of the picture in pixels",
+            layout=ipywidgets.Layout(width="76px", flex="0 0 auto"),
+        )
+        """Width of an exported picture in pixels, at first the original's."""
+        self._height = ipywidgets.Label(layout=ipywidgets.Layout(flex="0 0 auto"))
+        self.view = ipywidgets.Dropdown(
+            options=_VIEWS, tooltip="What the picture shows", layout=_WIDE
+        )
+        """What an exported picture shows, as in `glid_nb.render`."""
+        self.code_button = AskingButton(
+            "Copy as Python", "code", "Copy the lines that make this map", self._copy
         )
         self.code = ipywidgets.Textarea(
             rows=9, layout=ipywidgets.Layout(width="auto", display="none")
         )
-        """The lines of "Copy as Python", to be selected and copied."""
-        rows = [
-            [ipywidgets.Label("Session"), self.path, self.save_button, self.open_button],
-            [ipywidgets.Label("Export"), self.format, self.export_button],
-            [self.code_button],
-        ]
-        for row in rows[:2]:
-            row[0].layout.width = "58px"
-        super().__init__([*map(ipywidgets.HBox, rows), self.code, self.message], **kwargs)
+        """The lines of "Copy as Python"."""
+        self.clipboard = Clipboard()
+        """Where they are copied to."""
+        self.message = ipywidgets.HTML()
+        """What was done, or why it was not."""
+        self._buttons = (self.save_button, self.open_button, self.export_button, self.code_button)
+        self._picture = _row("Picture", self.width, self._height, self.view)
+        super().__init__(
+            [
+                _row("Session", self.path, self.save_button, self.open_button),
+                _row("", self.autosave),
+                _row("Export", self.format, self.export_button),
+                self._picture,
+                _row("", self.code_button, self.clipboard),
+                self.message,
+                self.code,
+            ],
+            **kwargs,
+        )
         self.add_class("glid-files")
+        for button in self._buttons:
+            button.on_click(self._on_click)
+        for control in (self.path, self.format):
+            control.observe(self._forget_question, ["value"])
+        for control in (self.format, self.width):
+            control.observe(self._show, ["value"])
+        self._show()
 
-    def _save(self) -> str:
-        path = Path(self.path.value)
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of an exported picture, of the original's proportions."""
+        return self.width.value, max(1, round(self.width.value * self._aspect))
+
+    def _save(self, sure: bool) -> str:
+        path = self._session_path()
+        strangers = self.model.own_files.strangers([path], path)
+        if strangers and not sure:
+            raise OccupiedError(strangers)
         self.model.save(path)
-        return f"Saved {path.resolve()}"
+        self.path.value = str(path)
+        return f"Saved {path.absolute()}"
 
-    def _open(self) -> str:
-        path = Path(self.path.value)
+    def _open(self, _: bool) -> str:
+        path = Path(self.path.value.strip()).expanduser()
+        if not path.is_file():
+            path = self._session_path()
         self.model.load(path)
-        return f"Opened {path.resolve()}"
+        return f"Opened {path.absolute()}"
 
-    def _export(self) -> str:
-        path = Path(self.path.value).with_suffix(str(self.format.value))
-        files = export(self.model, path)
-        return "Wrote " + ", ".join(str(file.resolve()) for file in files)
+    def _export(self, sure: bool) -> str:
+        path = self._session_path().with_suffix(str(self.format.value))
+        strangers = self.model.own_files.strangers(files_of(path), path)
+        if strangers and not sure:
+            raise OccupiedError(strangers)
+        view = cast(View, self.view.value)
+        files = export(self.model, path, self.size, view, replace=True)
+        return f"Wrote {_listed([file.name for file in files])} to {path.absolute().parent}"
 
-    def _code(self) -> str:
-        self.code.value = python_code(self.model.document)
+    def _copy(self, sure: bool) -> str:
+        script = self._session_path().with_suffix(".py")
+        picture = files_of(script)[1]
+        lines = python_code(self.model.document, str(picture))
+        reads = "glid.read_image" in lines  # not where the cage was edited by hand
+        if reads:
+            export_source(self.model, script, replace=sure)
+        self.code.value = lines
         self.code.layout.display = "flex"
-        return "Select the lines and copy them."
+        needed = f" They read {picture}, which was written for them." if reads else ""
 
-    def _act(self, action: Callable[[], str]) -> None:
+        def done(copied: bool) -> None:
+            if copied:
+                self._say("The lines are in the clipboard." + needed)
+            else:
+                self._say("The browser did not allow copying: select the lines." + needed, _REFUSED)
+
+        self.clipboard.copy(lines, done)
+        return "These lines make the map." + needed
+
+    def _session_path(self) -> Path:
+        """The session file that is named, with its suffix."""
+        name = self.path.value.strip()
+        path = Path(name).expanduser()
+        if not path.name or name.endswith(("/", "\\")):
+            raise FileNameError("Give the session file a name, such as session.glid")
+        if not path.suffix:
+            return path.with_suffix(_SUFFIX)
+        if path.suffix.lower() != _SUFFIX:
+            raise FileNameError(
+                f"{path.name} cannot be a session file: its name must end in {_SUFFIX}, as in "
+                f"{path.stem}{_SUFFIX}"
+            )
+        return path
+
+    def _on_click(self, button: AskingButton) -> None:
+        sure = button.answered
+        self._forget_question()
         try:
-            text, color = action(), "inherit"
+            self._say(button.action(sure))
+        except OccupiedError as question:
+            button.ask()
+            names = _listed([path.name for path in question.paths])
+            verb = "is" if len(question.paths) == 1 else "are"
+            folder = question.paths[0].absolute().parent
+            self._say(
+                f"{names} {verb} in {folder} already, and not of this editor's making. Click again "
+                "to replace, or choose another name.",
+                _REFUSED,
+            )
         except (OSError, ValueError) as error:  # refusals for the user; anything else is a bug
-            text, color = str(error), "#d55e00"
-        self.message.value = f"<span style='color:{color}'>{html.escape(text)}</span>"
+            self._say(str(error), _REFUSED)
+        self._show()
+
+    def _forget_question(self, _: Any = None) -> None:
+        for button in self._buttons:
+            button.ask(False)
+
+    def _say(self, text: str, color: str = "inherit") -> None:
+        self.message.value = (
+            f"<div style='line-height:1.4;overflow-wrap:anywhere;color:{color}'>"
+            f"{html.escape(text)}</div>"
+        )
+
+    def _show(self, _: Any = None) -> None:
+        """What depends on the model and on other controls."""
+        self._picture.layout.display = "flex" if self.format.value == ".png" else "none"
+        self._height.value = f"× {self.size[1]} px"
+        path = self.model.autosave_path
+        text = _NO_AUTOSAVE if path is None else f"Saved by itself to {path.absolute()}"
+        self.autosave.value = (
+            "<div style='line-height:1.4;overflow-wrap:anywhere;"
+            f"color:var(--jp-ui-font-color2,inherit)'>{html.escape(text)}</div>"
+        )
 
 
-def _button(label: str, icon: str, tooltip: str, action: Callable[[], str]) -> ipywidgets.Button:
-    button = ipywidgets.Button(
-        description=label, icon=icon, tooltip=tooltip, layout=ipywidgets.Layout(width="auto")
-    )
-    panel = action.__self__  # type: ignore[attr-defined]
-    button.on_click(lambda _: panel._act(action))
-    return button
+def _row(label: str, *controls: ipywidgets.Widget) -> ipywidgets.HBox:
+    return ipywidgets.HBox([ipywidgets.Label(label, layout=_LABEL), *controls])
+
+
+def _listed(names: Sequence[str]) -> str:
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)

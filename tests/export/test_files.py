@@ -93,11 +93,11 @@ class TestMesh:
 
     def test_obj(self, tmp_path: Path) -> None:
         files = mesh_obj(textured_mesh(picture(), bent(), 800), "frog")
-        assert sorted(files) == ["frog.mtl", "frog.obj", "frog.png"]
+        assert sorted(files) == ["frog-texture.png", "frog.mtl", "frog.obj"]
         for name, data in files.items():
             (tmp_path / name).write_bytes(data)
         assert b"mtllib frog.mtl" in files["frog.obj"]
-        assert b"map_Kd frog.png" in files["frog.mtl"]
+        assert b"map_Kd frog-texture.png" in files["frog.mtl"]
         read = trimesh.load(tmp_path / "frog.obj", process=False, maintain_order=True)
         assert isinstance(read, trimesh.Trimesh)
         self.check(read, 1e-7)

@@ -141,7 +141,8 @@ def test_a_save_that_fails_is_shown(tmp_path: Path) -> None:
     shutil.move(folder, tmp_path / "moved")
     change()
     assert editor.unsaved.layout.display == "block"
-    assert "No such file" in editor.unsaved.value
+    assert f"The folder {folder} does not exist." in editor.unsaved.value
+    assert editor.unsaved.layout.height == "0"  # nothing below it moves
     folder.mkdir()
     change()
     assert editor.unsaved.layout.display == "none"

@@ -20,8 +20,9 @@ def test_the_exported_picture_is_the_rendering_and_what_the_canvas_shows(
     open_notebook: OpenNotebook, tmp_path: Path
 ) -> None:
     """The file equals a headless rendering in every pixel. In the middles of the checks of the
-    bar the canvas has its colours, to 6 of 255: the mesh and the textures' filters differ."""
-    book = open_notebook([SETUP, EDITOR])
+    bar the canvas has its colours, to 6 of 255: the mesh and the textures' filters differ. The
+    lines that make it are copied."""
+    book = open_notebook([SETUP, EDITOR], permissions=["clipboard-read", "clipboard-write"])
     hand = Hand(book)
     for point in ((-6.0, 0.0), (6.0, 0.0)):
         hand.click(point)
@@ -31,12 +32,39 @@ def test_the_exported_picture_is_the_rendering_and_what_the_canvas_shows(
     page = book.page
     page.locator(".lm-TabBar-tabLabel", has_text="Files").click()
     files = page.locator(".glid-files")
-    name = files.locator("input[type=text]")
+    name = files.get_by_placeholder("Name.glid")
     name.fill(str(tmp_path / "bent.glid"))
     name.press("Enter")
-    files.locator("select").select_option(label="Picture (PNG)")
+    what, view = files.locator("select").all()
+    what.select_option(label="Picture (PNG)")
+    width = files.locator("input[type=number]")
+    width.fill("300")
+    width.press("Enter")
     files.get_by_role("button", name="Export").click()
     files.get_by_text("Wrote").wait_for()
+    whole = np.array(book.value("glid.render(picture, model.map, (300, 150), view='fit').tolist()"))
+    np.testing.assert_array_equal(imread(tmp_path / "bent.png"), whole)
+
+    # The lines that make it, where the page may use the clipboard and where it may not.
+    for stem, forbidden in (("allowed", False), ("forbidden", True)):
+        if forbidden:
+            page.evaluate("() => { navigator.clipboard.writeText = () => Promise.reject(); }")
+        name.fill(str(tmp_path / f"{stem}.glid"))
+        name.press("Enter")
+        files.get_by_role("button", name="Copy as Python").click()
+        files.get_by_text(f"in the clipboard. They read {tmp_path / stem}-source.png").wait_for()
+        pasted = page.evaluate("navigator.clipboard.readText()")
+        assert pasted == files.locator("textarea").input_value()
+        assert f"{stem}-source.png" in pasted
+    book.screenshot("files")
+
+    name.fill(str(tmp_path / "bent.glid"))
+    name.press("Enter")
+    width.fill("200")
+    width.press("Enter")
+    view.select_option(label="Original frame")
+    files.get_by_role("button", name="Export").click()
+    book.wait_for(f"glid.read_image({str(tmp_path / 'bent.png')!r}).shape[1] == 200")
     exported = imread(tmp_path / "bent.png")
     rendered = np.array(book.value("glid.render(picture, model.map).tolist()"))
     np.testing.assert_array_equal(exported, rendered)

@@ -1,0 +1,255 @@
+"""Saving, opening and exporting by the Files tab and from code, without a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import glid_nb as glid
+from glid_nb.imaging import PixelFrame
+from glid_nb.session.editor_model import EditorModel
+from glid_nb.widgets.asking_button import AskingButton
+from glid_nb.widgets.exporting import FORMATS, ExportError, OccupiedError, export, files_of
+from glid_nb.widgets.file_panel import FilePanel
+
+THEIRS = b"somebody else's"
+
+
+def bar() -> np.ndarray:
+    """An opaque bar of 16 x 6 units, 200 x 100 pixels."""
+    picture = np.zeros((100, 200, 4), np.uint8)
+    picture[20:80, 20:180] = (200, 120, 40, 255)
+    return picture
+
+
+@pytest.fixture
+def model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[EditorModel]:
+    monkeypatch.chdir(tmp_path)
+    model = EditorModel(bar())
+    yield model
+    model.close()
+
+
+@pytest.fixture
+def panel(model: EditorModel, monkeypatch: pytest.MonkeyPatch) -> FilePanel:
+    monkeypatch.setattr("glid_nb.widgets.asking_button._DOUBLE_CLICK", 0.0)
+    return FilePanel(model)
+
+
+def bytes_here() -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in Path().iterdir()}
+
+
+@pytest.mark.parametrize("suffixes", [list(FORMATS), list(FORMATS)[::-1]])
+def test_no_export_touches_the_files_of_another(model: EditorModel, suffixes: list[str]) -> None:
+    seen: dict[str, bytes] = {}
+    for suffix in suffixes:
+        written = export(model, f"e{suffix}")
+        assert written == files_of(Path(f"e{suffix}"))
+        now = bytes_here()
+        assert {name: now[name] for name in seen} == seen
+        assert set(now) - set(seen) == {path.name for path in written}
+        seen = now
+    assert b"mtllib e.mtl" in seen["e.obj"]
+    assert b"map_Kd e-texture.png" in seen["e.mtl"]
+    assert b"read_image('e-source.png')" in seen["e.py"]
+    with Image.open("e-source.png") as source:
+        np.testing.assert_array_equal(np.asarray(source), bar())
+
+
+def test_what_comes_with_an_export_replaces_only_its_own(model: EditorModel) -> None:
+    for suffix, name in ((".obj", "e-texture.png"), (".obj", "e.mtl"), (".py", "e-source.png")):
+        Path(name).write_bytes(THEIRS)
+        with pytest.raises(OccupiedError, match=f"{name}: there already"):
+            export(model, f"e{suffix}")
+        assert bytes_here() == {name: THEIRS}  # nothing was written
+        Path(name).unlink()
+    export(model, "e.obj")
+    Path("e.obj").unlink()
+    export(model, "e.obj")  # written by this editor
+    Path("e-source.png").write_bytes(Path("e-texture.png").read_bytes())
+    other = EditorModel(bar()[:, ::-1].copy())
+    export(other, "e.obj")  # what lies beside an OBJ file came with it
+    export(model, "e.py")  # the very picture
+    other.close()
+
+
+def test_other_names_are_refused(model: EditorModel) -> None:
+    for name in ("e.xyz", "e", ""):
+        with pytest.raises(ExportError, match=r"must end in \.png"):
+            export(model, name)
+
+
+def click(panel: FilePanel, button: AskingButton) -> str:
+    button.click()
+    return panel.message.value
+
+
+def test_a_name_without_suffix_gets_it(panel: FilePanel) -> None:
+    panel.path.value = " bent "
+    assert f"Saved {Path('bent.glid').absolute()}" in click(panel, panel.save_button)
+    assert panel.path.value == "bent.glid"
+    panel.path.value = "bent"
+    assert "Opened" in click(panel, panel.open_button)
+    assert FilePanel(panel.model).path.value == "bent.glid"
+
+
+@pytest.mark.parametrize(
+    ("name", "wanted"),
+    [
+        ("", "Give the session file a name"),
+        (".", "Give the session file a name"),
+        ("/nope/x.glid", "The folder /nope does not exist"),
+        ("test.ipynb", "must end in .glid"),
+    ],
+)
+def test_refusals_are_in_plain_words(panel: FilePanel, name: str, wanted: str) -> None:
+    Path("test.ipynb").write_bytes(THEIRS)
+    panel.path.value = name
+    for button in (panel.save_button, panel.export_button, panel.code_button):
+        said = click(panel, button)
+        assert wanted in said
+        assert "Errno" not in said
+        assert not button.answered
+    if name != "test.ipynb":
+        assert wanted in click(panel, panel.open_button)
+    assert bytes_here() == {"test.ipynb": THEIRS}
+
+
+def test_what_cannot_be_opened_is_named(panel: FilePanel) -> None:
+    path = Path("away.glid").absolute()
+    panel.path.value = "away.glid"
+    assert f"The file {path} does not exist" in click(panel, panel.open_button)
+    path.write_bytes(THEIRS)
+    assert "no intact zip file" in click(panel, panel.open_button)
+
+
+def test_a_file_of_others_is_replaced_by_a_second_click(panel: FilePanel) -> None:
+    path = Path("theirs.glid")
+    path.write_bytes(THEIRS)
+    panel.path.value = "theirs.glid"
+    assert "theirs.glid is in" in click(panel, panel.save_button)
+    assert panel.save_button.description == "Replace?"
+    assert path.read_bytes() == THEIRS
+    assert "Saved" in click(panel, panel.save_button)
+    assert panel.save_button.description == "Save"
+    glid.load_document(path)
+    assert "Saved" in click(panel, panel.save_button)  # now it is this editor's
+
+
+def test_the_question_is_forgotten_when_something_else_is_done(panel: FilePanel) -> None:
+    for name in ("a.glid", "b.glid"):
+        Path(name).write_bytes(THEIRS)
+    panel.path.value = "a.glid"
+    click(panel, panel.save_button)
+    panel.path.value = "b.glid"
+    assert panel.save_button.description == "Save"
+    assert "Saved" not in click(panel, panel.save_button)
+    click(panel, panel.open_button)
+    assert "Saved" not in click(panel, panel.save_button)
+    assert set(bytes_here().values()) == {THEIRS}
+
+
+def test_a_double_click_is_no_answer(model: EditorModel) -> None:
+    panel = FilePanel(model)
+    Path("session.glid").write_bytes(THEIRS)
+    for _ in range(3):
+        click(panel, panel.save_button)
+    assert panel.save_button.description == "Replace?"
+    assert Path("session.glid").read_bytes() == THEIRS
+
+
+def test_an_export_asks_too(panel: FilePanel) -> None:
+    for name in ("session.obj", "session.mtl", "session.png"):
+        Path(name).write_bytes(THEIRS)
+    panel.format.value = ".obj"
+    assert "session.obj and session.mtl are in" in click(panel, panel.export_button)
+    assert Path("session.obj").read_bytes() == THEIRS
+    wrote = "Wrote session.obj, session.mtl and session-texture.png"
+    assert wrote in click(panel, panel.export_button)
+    assert wrote in click(panel, panel.export_button)
+    panel.format.value = ".png"
+    assert "session.png is in" in click(panel, panel.export_button)
+    assert Path("session.png").read_bytes() == THEIRS
+
+
+def test_a_picture_has_the_size_and_the_view_that_are_chosen(panel: FilePanel) -> None:
+    model = panel.model
+    model.deformation.paused = True
+    assert (panel.view.value, panel.size) == ("fit", (200, 100))
+
+    def exported() -> Any:
+        click(panel, panel.export_button)
+        return np.asarray(Image.open("session.png"))
+
+    map = model.deformation.map
+    np.testing.assert_array_equal(exported(), glid.render(bar(), map, view="fit"))
+    panel.width.value = 90
+    panel.view.value = "source"
+    np.testing.assert_array_equal(exported(), glid.render(bar(), map, (90, 45)))
+    assert "× 45 px" in panel._height.value
+    panel.width.value = 10**6
+    assert panel.size == (8000, 4000)
+    assert panel._picture.layout.display == "flex"
+    panel.format.value = ".svg"
+    assert panel._picture.layout.display == "none"
+
+
+def test_it_says_where_changes_are_saved_by_themselves(model: EditorModel, tmp_path: Path) -> None:
+    assert "kept only when you save" in FilePanel(model).autosave.value
+    path = tmp_path / "kept.glid"
+    kept = EditorModel(bar(), path=path)
+    panel = FilePanel(kept)
+    assert panel.path.value == str(path)
+    assert f"Saved by itself to {path}" in panel.autosave.value
+    kept.autosave()
+    kept.close()  # saves
+    assert path.exists()
+    assert "Saved" in click(panel, panel.save_button)  # its own file
+
+
+def test_the_copied_lines_run(panel: FilePanel, sent: list[Any]) -> None:
+    panel.path.value = "bent.glid"
+    sent.clear()
+    said = click(panel, panel.code_button)
+    assert "They read bent-source.png" in said
+    (copy,) = [data["content"] for data, _ in sent if data.get("method") == "custom"]
+    assert copy["text"] == panel.code.value
+    scope: dict[str, Any] = {}
+    exec(copy["text"], scope)
+    assert scope["result"].certificate.certified
+
+    # The page's answers.
+    panel.clipboard._receive(None, {"number": copy["number"], "copied": False}, [])
+    assert "did not allow copying" in panel.message.value
+    panel.clipboard._receive(None, {"number": copy["number"], "copied": True}, [])
+    assert "in the clipboard" in panel.message.value
+    panel.clipboard._receive(None, {"number": copy["number"], "copied": False}, [])
+    assert "in the clipboard" in panel.message.value  # another view of it
+
+
+def test_a_picture_of_others_is_not_replaced_by_copying(panel: FilePanel) -> None:
+    path = Path("session-source.png")
+    path.write_bytes(THEIRS)
+    assert "session-source.png is in" in click(panel, panel.code_button)
+    assert path.read_bytes() == THEIRS
+    assert panel.code_button.description == "Replace?"
+    click(panel, panel.code_button)
+    assert path.read_bytes() != THEIRS
+    assert panel.code_button.description == "Copy as Python"
+
+
+def test_lines_that_need_no_picture_write_none(panel: FilePanel) -> None:
+    cage = panel.model.tracing.cage
+    assert cage is not None
+    x, y = PixelFrame(200, 100).to_pixel(cage.exterior[0])
+    panel.model.tracing.move_vertex(0, 0, (x + np.sign(x - 100), y + np.sign(y - 50)))
+    panel.model.apply_tracing()
+    click(panel, panel.code_button)
+    assert "read_image" not in panel.code.value
+    assert bytes_here() == {}
