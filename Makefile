@@ -16,7 +16,7 @@ demo: $(VENV)/.demo
 
 # --no-skip: a test that would be skipped because something is missing fails instead.
 test: $(VENV)/.test browser
-	$(PYTEST) --no-skip -n auto
+	$(PYTEST) --no-skip -n auto --dist worksteal --durations 25
 	$(PYTEST) --nbval --nbval-current-env notebooks
 
 unit: $(VENV)/.test

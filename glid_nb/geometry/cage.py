@@ -88,6 +88,11 @@ class Cage:
         """The loops as read-only complex128 arrays x + iy."""
         return tuple(_read_only(loop[:, 0] + 1j * loop[:, 1]) for loop in self.loops)
 
+    def equals(self, other: Cage) -> bool:
+        """Whether all loops have the same vertices in the same order."""
+        pairs = zip(self.loops, other.loops, strict=False)
+        return self.n_holes == other.n_holes and all(np.array_equal(a, b) for a, b in pairs)
+
     @property
     def n_holes(self) -> int:
         """Number of hole loops."""

@@ -42,6 +42,7 @@ class Autosave:
             raise ValueError(f"interval is {interval}; it must be at least 0 seconds")
         self.path = Path(path)
         self._worker = _Worker(self.path, interval, on_done)
+        _all.add(self)
         # Also at the end of the process.
         self._finalizer = weakref.finalize(self, self._worker.close)
 
@@ -66,6 +67,17 @@ class Autosave:
     def close(self) -> None:
         """Save what is pending and end the thread. Submitting is an error from then on."""
         self._finalizer()
+
+
+_all: weakref.WeakSet[Autosave] = weakref.WeakSet()
+
+
+def flush(path: str | Path) -> None:
+    """Save what is pending for a file anywhere in this process, before the file is read."""
+    wanted = Path(path).resolve()
+    for autosave in tuple(_all):
+        if autosave.path.resolve() == wanted:
+            autosave.flush()
 
 
 class _Worker:

@@ -279,8 +279,19 @@ class Deformation:
         self.apply(actions.set_pose, pose)
 
     def set_domain(self, domain: Domain) -> None:
-        """Another domain; handles that lie in it are kept."""
-        self.apply(actions.set_domain, domain)
+        """Another domain; handles that lie in it are kept.
+
+        One with the present cage changes nothing. One with the cage of the step before takes that
+        step back, with all the handles that it had.
+        """
+        with self._lock:
+            past = self.history.past
+            if domain.cage.equals(self.state.domain.cage):
+                return
+            if past and domain.cage.equals(past[-1].domain.cage) and not self.dragged:
+                self.undo()
+                return
+            self.apply(actions.set_domain, domain)
 
     def drop_hole(self, index: int) -> None:
         """Fill a hole, counted from 0."""

@@ -2,19 +2,43 @@
 
 from __future__ import annotations
 
+import itertools
 import threading
 import warnings
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from glid_nb.geometry import Domain
+from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import ImageSource
-from glid_nb.session.autosave import Autosave
+from glid_nb.session.autosave import Autosave, flush
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, load_document, save_document
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.own_files import OwnFiles
 from glid_nb.session.tracing import TracingModel
+
+Array = NDArray[np.uint8]
+
+
+@dataclass(frozen=True, eq=False)
+class _Applied:
+    """What the tracing was when it was last applied."""
+
+    image: Array
+    domain: Domain | None
+    options: TraceOptions
+    scribbles: Scribbles | None
+
+
+def open_document(path: str | Path) -> Document:
+    """`load_document`, after what any editor of this process has pending for the file."""
+    flush(path)
+    return load_document(path)
 
 
 class EditorModel:
@@ -50,17 +74,16 @@ class EditorModel:
         """Why the last save in the background failed; None when it did not."""
         self.own_files = OwnFiles()
         """The files that were saved, opened and exported."""
+        self._deformation: Deformation | None = None
+        self._applied: _Applied | None = None
         if document is None:
             self.tracing = TracingModel(image)
-            """The picture and its cage."""
-            self._deformation: Deformation | None = None
-            self._applied: Any = (None, None)
+            """The picture that is open and its cage."""
             self.apply_tracing()
         else:
             self._take(document)
         if path is not None:
-            self._autosave = Autosave(path, on_done=self._saved)
-            self.own_files.note_session(path)
+            self._save_to(Path(path))
 
     @property
     def autosave_path(self) -> Path | None:
@@ -96,32 +119,48 @@ class EditorModel:
         """Call ``callback`` after each save in the background; ``save_error`` says how it went."""
         self._save_observers.append(callback)
 
-    def apply_tracing(self) -> None:
-        """Deform what is traced now: a step for undo, or a new start for a new picture."""
+    @property
+    def image(self) -> Array | None:
+        """The picture that is deformed; the tracing may have another one open, not applied yet."""
+        return None if self._applied is None else self._applied.image
+
+    def apply_tracing(self) -> int:
+        """Deform what is traced now: a step for undo, or a new start for a new picture.
+
+        A new picture is another session: where there is a file to save to, that one is left as it
+        is, and the new session is saved beside it. Returns how many handles, of all poses, do not
+        lie in the new shape; undo brings them back.
+        """
         with self._lock:
             domain, image = self.tracing.domain, self.tracing.image
-            if domain is None or (domain, id(image)) == self._applied:
-                return
-            same_picture = self._applied[1] == id(image)
-            self._applied = (domain, id(image))
-            if same_picture and self._deformation is not None:
-                self._deformation.set_domain(domain)
-                return
+            applied, deformation = self._applied, self._deformation
+            if domain is None or (applied is not None and applied.domain is domain):
+                return 0
+            self._applied = self._traced()
+            if applied is not None and applied.image is image and deformation is not None:
+                before = _count_handles(deformation)
+                deformation.set_domain(domain)
+                return max(before - _count_handles(deformation), 0)
+            if self._autosave is not None and deformation is not None:
+                self._save_to(_free(self._autosave.path))
             self._replace(Deformation(domain, begin=False))
         self._tell()
+        return 0
 
     @property
     def document(self) -> Document:
         """Everything as one value."""
         with self._lock:
-            state, image = self.deformation.state, self.tracing.image
-            assert image is not None  # a shape comes from a picture
+            state, applied = self.deformation.state, self._applied
+            assert applied is not None  # a shape comes from a picture
+            if self.tracing.image is applied.image:
+                applied = self._traced()
             return Document(
-                image,
+                applied.image,
                 state.domain.cage,
                 state.domain,
-                self.tracing.options,
-                self.tracing.scribbles,
+                applied.options,
+                applied.scribbles,
                 tuple(pose.named() for pose in state.poses),
                 state.active,
             )
@@ -138,16 +177,18 @@ class EditorModel:
         self.own_files.note_session(path)
 
     def load(self, path: str | Path) -> None:
-        """Go on with what a file holds.
+        """Go on with what a file holds; if there was a file to save to, it is this one from now on.
 
         Raises
         ------
         DocumentError, OSError
             It cannot be read; nothing has changed then.
         """
-        document = load_document(path)
-        self.own_files.note_session(path)
+        document = open_document(path)
         with self._lock:
+            if self._autosave is not None:
+                self._save_to(Path(path))
+            self.own_files.note_session(path)
             self._take(document)
         self._tell()
 
@@ -176,14 +217,29 @@ class EditorModel:
         if self._deformation is not None:
             self._deformation.close()
 
+    def _traced(self) -> _Applied:
+        tracing = self.tracing
+        assert tracing.image is not None
+        return _Applied(tracing.image, tracing.domain, tracing.options, tracing.scribbles)
+
+    def _save_to(self, path: Path) -> None:
+        """From now on this file is kept up to date; what is pending for another is saved there."""
+        old = self._autosave
+        if old is not None:
+            if old.path.resolve() == path.resolve():
+                return
+            old.close()
+        self._autosave = Autosave(path, on_done=self._saved)
+        self.own_files.note_session(path)
+
     def _take(self, document: Document) -> None:
         self.tracing = TracingModel.from_document(document)
         state = EditState.from_poses(document.domain, document.poses, document.active)
-        self._applied = (self.tracing.domain, id(self.tracing.image))
+        self._applied = self._traced()
         self._replace(Deformation.from_state(state, begin=False))
 
     def _replace(self, deformation: Deformation) -> None:
-        old, self._deformation = getattr(self, "_deformation", None), deformation
+        old, self._deformation = self._deformation, deformation
         if old is not None:
             old.close()
         deformation.observe(self._on_change)
@@ -204,3 +260,13 @@ class EditorModel:
     def _tell(self) -> None:
         for callback in tuple(self._observers):
             callback()
+
+
+def _count_handles(deformation: Deformation) -> int:
+    return sum(len(pose.pose) for pose in deformation.poses)
+
+
+def _free(path: Path) -> Path:
+    """The first of name-2, name-3, ... that does not exist."""
+    others = (path.with_stem(f"{path.stem}-{number}") for number in itertools.count(2))
+    return next(other for other in others if not other.exists())

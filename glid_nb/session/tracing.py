@@ -427,6 +427,9 @@ class TracingModel:
                 del self._past[:-_MOST_STEPS]
             same_picture = state.image is self._state.image
             fallback = self.outcome.domain if same_picture else None
+            if gesture is not None and gesture == self._gesture:
+                # What was valid for a moment, on the way, nobody chose.
+                fallback = self._state.fallback
             self._future.clear()
             self._gesture = gesture
             self._state = replace(state, fallback=fallback)

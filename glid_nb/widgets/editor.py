@@ -8,24 +8,26 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import ipywidgets
+import numpy as np
 from numpy.typing import ArrayLike
 
 from glid_nb._runtime import enable_compilation_cache
 from glid_nb.certificate import Certificate
 from glid_nb.compare import MeshMap
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.read import ImageSource
+from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.imaging.render import View
-from glid_nb.session import Document, load_document
+from glid_nb.session import Document
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditedPose
-from glid_nb.session.editor_model import EditorModel
+from glid_nb.session.editor_model import EditorModel, open_document
 from glid_nb.session.status_line import StatusLine
 from glid_nb.solvers import Pose
 from glid_nb.widgets import cells
 from glid_nb.widgets.canvas import DeformCanvas
 from glid_nb.widgets.closing import close_with_parts
 from glid_nb.widgets.monitor import SolverMonitor
+from glid_nb.widgets.open_panel import OpenPanel
 from glid_nb.widgets.pose_list import PoseList
 from glid_nb.widgets.solver_panel import SolverPanel
 from glid_nb.widgets.toolbar import Toolbar
@@ -39,6 +41,7 @@ _SOLVER = 1  # among the tabs beside the canvas
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
 
+_LOST = "{} outside the new outline and went with the old one; undo brings it all back."
 _NOT_SAVED = (
     "The session could not be saved: {error}. It is tried again with the next change; "
     "Save in the Files tab writes it elsewhere."
@@ -56,8 +59,9 @@ class Editor(ipywidgets.VBox):
     image
         A picture, as in `glid_nb.read_image`. Without one the editor asks for a file.
     path : path, optional
-        A session file. If it exists, the editor goes on from there (give no picture then);
-        in any case it is kept up to date while something changes.
+        A session file. If it exists, the editor goes on from there (give the same picture or
+        none); in any case it is kept up to date while something changes. A session that is opened
+        later is kept up to date instead, and a picture that is opened later is saved beside it.
     width, height : int
         Size of the canvas in CSS pixels.
     n_vertices : int, optional
@@ -70,6 +74,8 @@ class Editor(ipywidgets.VBox):
         The picture cannot be read.
     DocumentError
         The session file cannot be read.
+    ValueError
+        The session file is of another picture.
 
     Examples
     --------
@@ -103,12 +109,12 @@ class Editor(ipywidgets.VBox):
         enable_compilation_cache()
         document: Document | None = None
         if path is not None and Path(path).exists():
-            if image is not None:
+            document = open_document(path)
+            if image is not None and not np.array_equal(read_image(image), document.image):
                 raise ValueError(
-                    f"{path} exists; leave the picture out to go on with that session, or give "
-                    "another path"
+                    f"{path} exists and is of another picture; leave the picture out to go on with "
+                    "that session, or give another path"
                 )
-            document = load_document(path)
         self.model = EditorModel(image, document=document, path=path)
         """The editor without its widgets."""
         self._size, self._n_vertices = (width, height), n_vertices
@@ -118,7 +124,11 @@ class Editor(ipywidgets.VBox):
         self._later = threading.RLock()
         self._tracer: CageTracer | None = None
         self._panels: tuple[SolverPanel, FilePanel] | None = None
-        self.tabs = ipywidgets.Tab()
+        # Boxes that stay: a page to which tabs are given anew chooses another one by itself.
+        self._trace_box, self._deform_box = ipywidgets.VBox(), ipywidgets.VBox()
+        self.tabs = ipywidgets.Tab(
+            [self._trace_box, self._deform_box], titles=("Trace", "Deform"), selected_index=_DEFORM
+        )
         """The two tabs."""
         # Without a height: it lies over the page, and nothing moves below a pointer.
         self.unsaved = ipywidgets.HTML(
@@ -153,7 +163,7 @@ class Editor(ipywidgets.VBox):
                 self._check_open()
                 self._tracer = CageTracer(model=self.model.tracing, height=self._size[1])
                 self._parts.append(self._tracer)
-                self.tabs.children[_TRACE].children = [self._tracer]
+                self._trace_box.children = [self._tracer]
             return self._tracer
 
     @property
@@ -282,22 +292,18 @@ class Editor(ipywidgets.VBox):
 
     def _build(self) -> None:
         """New views of new models."""
-        self._take_down()
         with self._later:
-            self._tracer = self._panels = None
-        if self.model.has_shape:
-            self.tabs.children = (ipywidgets.VBox(), self._deform_tab())
-            chosen = _DEFORM
-        else:
-            self.canvas = None
-            self.tabs.children = (ipywidgets.VBox(), ipywidgets.HTML(_EMPTY))
-            chosen = _TRACE
-        self.tabs.titles = ("Trace", "Deform")
-        self.tabs.selected_index = chosen
-        if self.canvas is None:
-            self._fill()
-        else:
-            self.canvas.when_drawn(self._fill)
+            self._take_down()
+            self._tracer = self._panels = self.canvas = None
+            if self.model.has_shape:
+                self._deform_box.children = [self._deform_tab()]
+            else:
+                self._deform_box.children = [ipywidgets.HTML(_EMPTY), OpenPanel(self.model)]
+            self.tabs.selected_index = _DEFORM if self.model.has_shape else _TRACE
+            if self.canvas is None:
+                self._fill()
+            else:
+                self.canvas.when_drawn(self._fill)
 
     def _fill(self, _: Any = None) -> None:
         """Make what is still missing, all of it hidden behind other tabs."""
@@ -325,7 +331,7 @@ class Editor(ipywidgets.VBox):
             return self._panels
 
     def _deform_tab(self) -> ipywidgets.Widget:
-        model, image = self.model.deformation, self.model.tracing.image
+        model, image = self.model.deformation, self.model.image
         assert image is not None
         canvas = DeformCanvas(image, model, *self._size, n_vertices=self._n_vertices)
         toolbar = Toolbar(canvas)
@@ -356,7 +362,9 @@ class Editor(ipywidgets.VBox):
     def _take_down(self) -> None:
         with self._later:
             parts, self._parts = self._parts, []
-        close_with_parts(*parts, *self.tabs.children)
+            shown = (*self._trace_box.children, *self._deform_box.children)
+            self._trace_box.children = self._deform_box.children = ()
+        close_with_parts(*parts, *shown)
 
     def _show_save_error(self) -> None:
         error = self.model.save_error
@@ -373,4 +381,8 @@ class Editor(ipywidgets.VBox):
         """What was traced is deformed when somebody goes to look at it."""
         self._fill()
         if change["new"] == _DEFORM:
-            self.model.apply_tracing()
+            lost = self.model.apply_tracing()
+            if lost and self.canvas is not None:
+                self.canvas.pane.stage.notice = _LOST.format(
+                    "A handle was" if lost == 1 else f"{lost} handles were"
+                )

@@ -29,10 +29,6 @@ FORMATS = {
 }
 """What each suffix stands for."""
 
-
-_BESIDE = {".obj": (".mtl", "-texture.png"), ".py": ("-source.png",)}
-"""What follows the stem in the names of the files that come with one."""
-
 _BESIDE = {".obj": (".mtl", "-texture.png"), ".py": ("-source.png",)}
 """What follows the stem in the names of the files that come with one."""
 

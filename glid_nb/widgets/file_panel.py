@@ -16,17 +16,13 @@ from glid_nb.session.script import python_code
 from glid_nb.widgets.asking_button import AskingButton
 from glid_nb.widgets.clipboard import Clipboard
 from glid_nb.widgets.exporting import FORMATS, OccupiedError, export, export_source, files_of
+from glid_nb.widgets.open_panel import session_path
 
-_SUFFIX = ".glid"
 _LABEL = {"width": "58px", "flex": "0 0 auto"}
 _WIDE = {"width": "auto", "min_width": "0", "flex": "1 1 auto"}
 _VIEWS = (("Whole shape", "fit"), ("Original frame", "source"))
 _NO_AUTOSAVE = "Changes are kept only when you save. Editor(…, path=…) saves by itself."
 _REFUSED = "#d55e00"
-
-
-class FileNameError(ValueError):
-    """A file cannot have that name; the message says which it can have."""
 
 
 class FilePanel(ipywidgets.VBox):
@@ -116,7 +112,7 @@ class FilePanel(ipywidgets.VBox):
         return self.width.value, max(1, round(self.width.value * self._aspect))
 
     def _save(self, sure: bool) -> str:
-        path = self._session_path()
+        path = session_path(self.path.value)
         strangers = self.model.own_files.strangers([path], path)
         if strangers and not sure:
             raise OccupiedError(strangers)
@@ -126,13 +122,12 @@ class FilePanel(ipywidgets.VBox):
 
     def _open(self, _: bool) -> str:
         path = Path(self.path.value.strip()).expanduser()
-        if not path.is_file():
-            path = self._session_path()
+        path = path if path.is_file() else session_path(self.path.value)
         self.model.load(path)
         return f"Opened {path.absolute()}"
 
     def _export(self, sure: bool) -> str:
-        path = self._session_path().with_suffix(str(self.format.value))
+        path = session_path(self.path.value).with_suffix(str(self.format.value))
         strangers = self.model.own_files.strangers(files_of(path), path)
         if strangers and not sure:
             raise OccupiedError(strangers)
@@ -141,7 +136,7 @@ class FilePanel(ipywidgets.VBox):
         return f"Wrote {_listed([file.name for file in files])} to {path.absolute().parent}"
 
     def _copy(self, sure: bool) -> str:
-        script = self._session_path().with_suffix(".py")
+        script = session_path(self.path.value).with_suffix(".py")
         picture = files_of(script)[1]
         lines = python_code(self.model.document, str(picture))
         reads = "glid.read_image" in lines  # not where the cage was edited by hand
@@ -159,21 +154,6 @@ class FilePanel(ipywidgets.VBox):
 
         self.clipboard.copy(lines, done)
         return "These lines make the map." + needed
-
-    def _session_path(self) -> Path:
-        """The session file that is named, with its suffix."""
-        name = self.path.value.strip()
-        path = Path(name).expanduser()
-        if not path.name or name.endswith(("/", "\\")):
-            raise FileNameError("Give the session file a name, such as session.glid")
-        if not path.suffix:
-            return path.with_suffix(_SUFFIX)
-        if path.suffix.lower() != _SUFFIX:
-            raise FileNameError(
-                f"{path.name} cannot be a session file: its name must end in {_SUFFIX}, as in "
-                f"{path.stem}{_SUFFIX}"
-            )
-        return path
 
     def _on_click(self, button: AskingButton) -> None:
         sure = button.answered

@@ -22,6 +22,7 @@ from glid_nb.session.edit_state import EditError
 from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
 from glid_nb.widgets.background import Background
 from glid_nb.widgets.exporting import ExportError
+from glid_nb.widgets.open_panel import OpenPanel
 from glid_nb.widgets.overlays import N_COLORS, OVERLAYS, color_stops
 from glid_nb.widgets.stage import emptiest_corner
 
@@ -114,8 +115,8 @@ def test_a_session_file_is_kept_up_to_date(tmp_path: Path) -> None:
     editor.solve(TIMEOUT)
     phi = editor.map.phi
     editor.close()
-    with pytest.raises(ValueError, match="exists"):
-        Editor(bar(), path=path)
+    with pytest.raises(ValueError, match="exists and is of another picture"):
+        Editor(bar()[:-1], path=path)
     again = Editor(path=path, n_vertices=300)
     assert np.array_equal(again.map.phi, phi)
     assert again.pose.targets.tolist()[1] == [6, 1]
@@ -437,3 +438,45 @@ def test_background_work_is_rare_but_always_done() -> None:
     background.ask()
     thread.join(TIMEOUT)
     assert not thread.is_alive()
+
+
+@pytest.mark.slow
+def test_a_cell_with_picture_and_file_can_run_again(tmp_path: Path) -> None:
+    path = tmp_path / "bar.glid"
+    first = Editor(bar(), path=path, n_vertices=300)
+    first.deformation.paused = True
+    first.add_handle((-7, 0))
+    first.add_handle((7, 0))  # within the interval of the autosave
+    again = Editor(bar(), path=path, n_vertices=300)
+    assert again.pose.handles.tolist() == [[-7, 0], [7, 0]]
+    for editor in (first, again):
+        editor.close()
+
+
+def test_lost_handles_are_told(editor: Editor) -> None:
+    editor.deformation.paused = True
+    editor.add_handle((-7.5, 1.5))
+    editor.tabs.selected_index = 0
+    tracing, exterior = editor.model.tracing, editor.deformation.domain.cage.exterior
+    corner = int(np.argmin(np.hypot(*(exterior - [-8, 2]).T)))
+    assert tracing.frame is not None
+    tracing.move_vertex(0, corner, tracing.frame.to_pixel([-6.5, 0.5]))
+    editor.tabs.selected_index = 1
+    assert editor.canvas is not None
+    assert "A handle was outside the new outline" in editor.canvas.pane.stage.notice
+    assert len(editor.pose) == 0
+
+
+def test_an_empty_editor_opens_sessions(editor: Editor, tmp_path: Path) -> None:
+    editor.save(tmp_path / "bar.glid")
+    empty = Editor(n_vertices=300)
+    panel = empty._deform_box.children[1]
+    assert isinstance(panel, OpenPanel)
+    panel.path.value = str(tmp_path / "none")
+    panel.button.click()
+    assert "none.glid" in panel.message.value
+    panel.path.value = str(tmp_path / "bar")
+    panel.button.click()
+    assert empty.document.cage.equals(editor.document.cage)
+    assert empty.tabs.selected_index == 1
+    empty.close()

@@ -98,3 +98,38 @@ def test_two_views_and_a_reload(open_notebook: OpenNotebook) -> None:
     again.wait_until_drawn()
     again.drag(line(state[1], [6.0, 1.0], 5))
     again.wait_for_target(1, [6.0, 1.0])
+
+
+def test_an_opened_session_and_another_picture_are_seen(open_notebook: OpenNotebook) -> None:
+    other = "other = np.ascontiguousarray(picture[:, 40:160])"
+    book = open_notebook([SETUP, f"{other}\n{EDITOR}"])
+    hand = Hand(book, canvas="editor.canvas")
+    hand.click((-6.0, 0.0))
+    book.wait_for("len(editor.pose) == 1")
+    hand.settle()
+    handles, page = hand.handles, book.page
+    page.get_by_role("tab", name="Files").click()
+    page.get_by_placeholder("Name.glid").fill("seen.glid")
+    page.get_by_title("Write the session file").click()
+    page.get_by_text("Saved", exact=False).first.wait_for()
+    book.value("None", setup="before = editor.canvas")
+    page.get_by_title("Go on with the session file").click()
+    book.wait_for("editor.canvas is not before")
+    again = Hand(book, canvas="editor.canvas")
+    assert again.handles == handles
+    bar = page.locator(".glid-editor .lm-TabBar").first
+    selected = bar.locator(".lm-mod-current .lm-TabBar-tabLabel")
+    assert selected.all_inner_texts() == ["Deform"]
+    # Every tab has something in it.
+    page.get_by_role("tab", name="Files").click()
+    page.get_by_title("Write the session file").wait_for()
+    page.get_by_role("tab", name="Trace").click()
+    page.locator(".glid-tracer canvas").first.wait_for()
+    # Another picture is deformed as soon as one goes to look at it.
+    book.value("None", setup="before = editor.canvas; editor.model.tracing.open(other)")
+    page.get_by_role("tab", name="Deform").click()
+    book.wait_for("editor.canvas is not before")
+    Hand(book, canvas="editor.canvas").click((1.0, 0.0))
+    book.wait_for("len(editor.pose) == 1")
+    assert selected.all_inner_texts() == ["Deform"]
+    book.screenshot("editor-another-picture")

@@ -1,0 +1,116 @@
+"""An editor without widgets: what belongs together stays together, and no file is lost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from glid_nb.session.document import load_document
+from glid_nb.session.editor_model import EditorModel, open_document
+
+
+def picture(width: int = 80) -> np.ndarray:
+    """An opaque box with a hole, 100 x 60 pixels."""
+    y, x = np.mgrid[:60, :100]
+    image = np.zeros((60, 100, 4), np.uint8)
+    inside = (abs(x - 49.5) < width / 2) & (abs(y - 29.5) < 20)
+    image[inside & (np.hypot(x - 49.5, y - 29.5) > 6)] = (200, 120, 40, 255)
+    return image
+
+
+@pytest.fixture
+def model(tmp_path: Path) -> Iterator[EditorModel]:
+    model = EditorModel(picture(), path=tmp_path / "a.glid")
+    model.deformation.paused = True  # nothing here needs a solve
+    yield model
+    model.close()
+
+
+def _pin(model: EditorModel, *points: tuple[float, float]) -> None:
+    model.deformation.paused = True
+    for point in points:
+        model.deformation.add_handle(point)
+
+
+def _move_corner(model: EditorModel, to: tuple[float, float], gesture: str | None = None) -> None:
+    """Drag what was the outline's upper left vertex."""
+    frame, loops = model.tracing.frame, model.deformation.domain.cage.loops
+    assert frame is not None
+    corner = int(np.argmin(np.hypot(*(loops[0] - [-8, 4]).T)))
+    model.tracing.move_vertex(0, corner, frame.to_pixel(to), gesture)
+
+
+def test_a_picture_that_is_open_but_not_traced_is_not_saved(model: EditorModel) -> None:
+    _pin(model, (-6, 0))
+    before = model.document
+    model.tracing.open(np.zeros((30, 30, 4), np.uint8))
+    assert model.tracing.problems
+    model.apply_tracing()
+    assert model.document.image is before.image
+    assert model.image is before.image
+    assert model.document.trace_options == before.trace_options
+    assert model.document.cage is before.cage
+
+
+def test_an_opened_session_is_the_one_that_is_kept_up_to_date(
+    model: EditorModel, tmp_path: Path
+) -> None:
+    first, second = tmp_path / "a.glid", tmp_path / "b.glid"
+    other = EditorModel(picture(60))
+    _pin(other, (5, 0))
+    other.save(second)
+    other.close()
+    _pin(model, (-6, 0), (6, 0))
+    model.load(second)
+    assert model.autosave_path == second
+    # What was pending for the first file is in it.
+    assert open_document(first).poses[0].pose.handles.tolist() == [[-6, 0], [6, 0]]
+    _pin(model, (-5, 0))
+    assert open_document(second).poses[0].pose.handles.tolist() == [[5, 0], [-5, 0]]
+    assert load_document(first).poses[0].pose.handles.tolist() == [[-6, 0], [6, 0]]
+
+
+def test_another_picture_is_another_session(model: EditorModel, tmp_path: Path) -> None:
+    _pin(model, (-6, 0))
+    (tmp_path / "a-2.glid").write_bytes(b"somebody's")
+    model.tracing.open(picture(60))
+    model.apply_tracing()
+    assert model.autosave_path == tmp_path / "a-3.glid"
+    _pin(model, (5, 0))
+    assert open_document(tmp_path / "a-3.glid").poses[0].pose.handles.tolist() == [[5, 0]]
+    old = open_document(tmp_path / "a.glid")
+    assert old.poses[0].pose.handles.tolist() == [[-6, 0]]
+    assert np.array_equal(old.image, picture())
+    assert (tmp_path / "a-2.glid").read_bytes() == b"somebody's"
+
+
+def test_without_a_file_opening_a_session_keeps_none_up_to_date(tmp_path: Path) -> None:
+    model = EditorModel(picture())
+    model.save(tmp_path / "c.glid")
+    model.load(tmp_path / "c.glid")
+    assert model.autosave_path is None
+    model.close()
+
+
+def test_handles_outside_a_new_outline_come_back_with_the_old_one(model: EditorModel) -> None:
+    _pin(model, (-6, 0), (-7.5, 3.5))
+    state = model.deformation.state
+    _move_corner(model, (-6.5, 2.5))
+    assert model.apply_tracing() == 1
+    assert model.deformation.pose.handles.tolist() == [[-6, 0]]
+    model.tracing.undo()
+    assert model.apply_tracing() == 0
+    assert model.deformation.state is state
+
+
+def test_what_was_valid_for_a_moment_of_a_drag_is_not_deformed(model: EditorModel) -> None:
+    _pin(model, (-6, 0))
+    domain = model.deformation.domain
+    for point in ((-6.5, 2.5), (-6, 2.4), (20, -1)):  # valid, then across the opposite side
+        _move_corner(model, point, gesture="drag")
+    assert model.tracing.problems
+    assert model.apply_tracing() == 0
+    assert model.deformation.domain is domain
