@@ -95,7 +95,7 @@ def solve_batch(
     Raises
     ------
     TypeError
-        When the domain or the options are of the wrong type.
+        When the domain or the options are of the wrong type, or there is no device.
     PoseError
         When a handle lies outside the domain, or the targets have another shape.
     """
@@ -107,6 +107,10 @@ def solve_batch(
         return ()
     poses[0].check_inside(domain)
     devices = tuple(jax.local_devices() if devices is None else devices)
+    if not devices or not all(isinstance(device, jax.Device) for device in devices):
+        raise TypeError(
+            f"devices must be one or more of jax.local_devices(), not {list(devices)!r}"
+        )
     batch = _Batch(domain, poses, energy, options, devices)
     with single_blas_thread():
         batch.run()
@@ -114,8 +118,11 @@ def solve_batch(
 
 
 def _poses(handles: ArrayLike, targets: ArrayLike) -> list[Pose]:
-    rows = np.asarray(targets)
-    if rows.ndim != 3:
+    try:
+        rows = np.asarray(targets)
+    except ValueError as error:
+        raise PoseError(f"targets are no array of (poses, handles, 2): {error}") from error
+    if rows.ndim != 3 and rows.size:
         raise PoseError(f"targets have shape {rows.shape}; expected (poses, handles, 2)")
     poses = []
     for i, row in enumerate(rows):

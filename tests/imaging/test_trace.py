@@ -561,7 +561,7 @@ class TestBadPictures:
             (np.zeros((30, 30), dtype=int), "has the type int64"),
             (np.zeros(30), "must have the shape"),
             ("no/such/file.png", "there is no such file"),
-            (b"GIF89a", "damaged|no picture"),
+            (b"GIF89a", "damaged|not in a picture format"),
         ],
     )
     def test_messages(self, picture, message):

@@ -41,7 +41,19 @@ def test_a_batch_is_the_poses_one_by_one() -> None:
 
 
 def test_an_empty_batch() -> None:
-    assert solve_batch(domain("ell"), HANDLES, np.zeros((0, 3, 2))) == ()
+    for none in (np.zeros((0, 3, 2)), []):
+        assert solve_batch(domain("ell"), HANDLES, none) == ()
+
+
+def test_ragged_targets_are_refused() -> None:
+    with pytest.raises(PoseError, match=r"targets are no array of \(poses, handles, 2\)"):
+        solve_batch(domain("ell"), HANDLES, [[[0, 0]], [[0, 0], [1, 1]]])
+
+
+@pytest.mark.parametrize("devices", [[], ["cpu"]])
+def test_devices_are_jax_devices(devices: list[str]) -> None:
+    with pytest.raises(TypeError, match="devices must be one or more of"):
+        solve_batch(domain("ell"), HANDLES, targets(1), devices=devices)
 
 
 @pytest.mark.slow
