@@ -41,6 +41,12 @@ def open_document(path: str | Path) -> Document:
     return load_document(path)
 
 
+def find_document(path: str | Path) -> Document | None:
+    """`open_document`, or None where no file is, nor will be once what is pending is saved."""
+    flush(path)
+    return load_document(path) if Path(path).exists() else None
+
+
 class EditorModel:
     """A tracing and the deformation of what was traced.
 

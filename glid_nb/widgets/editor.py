@@ -20,7 +20,7 @@ from glid_nb.imaging.render import View
 from glid_nb.session import Document
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditedPose
-from glid_nb.session.editor_model import EditorModel, open_document
+from glid_nb.session.editor_model import EditorModel, find_document
 from glid_nb.session.status_line import StatusLine
 from glid_nb.solvers import Pose
 from glid_nb.widgets import cells
@@ -107,14 +107,16 @@ class Editor(ipywidgets.VBox):
         **kwargs: Any,
     ) -> None:
         enable_compilation_cache()
-        document: Document | None = None
-        if path is not None and Path(path).exists():
-            document = open_document(path)
-            if image is not None and not np.array_equal(read_image(image), document.image):
-                raise ValueError(
-                    f"{path} exists and is of another picture; leave the picture out to go on with "
-                    "that session, or give another path"
-                )
+        document = None if path is None else find_document(path)
+        if (
+            document is not None
+            and image is not None
+            and not np.array_equal(read_image(image), document.image)
+        ):
+            raise ValueError(
+                f"{path} exists and is of another picture; leave the picture out to go on with "
+                "that session, or give another path"
+            )
         self.model = EditorModel(image, document=document, path=path)
         """The editor without its widgets."""
         self._size, self._n_vertices = (width, height), n_vertices
