@@ -31,5 +31,3 @@ energy's parameter changes."""
 
 PUBLISHED_SECONDS = 72e-3
 """Rex from the identity on the paper's GPU."""
-REFERENCE_CODE_ITERATION = 26e-3
-"""One iteration of the public reference code on rex, on a machine with two cores."""

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import statistics
+from collections.abc import Callable
 from typing import NamedTuple
 
 from glid_nb.benchmarks import goals
-from glid_nb.benchmarks.breakdown import floor_of, in_words, over_floor
+from glid_nb.benchmarks.breakdown import Measurement, floor_of, in_words, over_floor
 from glid_nb.benchmarks.results import Results
 from glid_nb.benchmarks.solving import DEFAULT, DRAG, DRAG_GAP, GAP, PAPER
 
@@ -53,6 +54,25 @@ def _judged(goal: str, value: float | None, most: float, unit: str, limit: str) 
     return Outcome(goal, wanted, measured, f"missed {by}", limit)
 
 
+def _judged_by(
+    goal: str,
+    source: Measurement | None,
+    value: Callable[[Measurement], float],
+    most: float,
+    unit: str,
+    limit: Callable[[Measurement], str],
+    missing: str = _NEEDS_REX,
+) -> Outcome:
+    """What a measurement says of a goal; ``missing`` is why there is none."""
+    if source is None:
+        return _judged(goal, None, most, unit, missing)
+    return _judged(goal, value(source), most, unit, limit(source))
+
+
+def _iteration(solve: Measurement) -> float:
+    return solve["per_iteration"]["median"]
+
+
 def _at_least(goal: str, value: float | None, least: float, limit: str) -> Outcome:
     wanted = f">= {least:g} times"
     if value is None:
@@ -64,105 +84,93 @@ def _at_least(goal: str, value: float | None, least: float, limit: str) -> Outco
 def _iterations(results: Results) -> list[Outcome]:
     paper = results.solves[PAPER].get(goals.REX)
     default = results.solves[DEFAULT].get(goals.REX)
-    cage = results.cage
-    rows = [
-        _judged(
+    slowest = max(results.solves[DEFAULT].values(), key=_iteration, default=None)
+    return [
+        _judged_by(
             f"`paper`, {goals.REX}: one iteration, certificate included",
-            None if paper is None else paper["per_iteration"]["median"],
+            paper,
+            _iteration,
             goals.PAPER_ITERATION,
             "ms",
-            _NEEDS_REX if paper is None else in_words(paper),
+            in_words,
         ),
-        _judged(
+        _judged_by(
             f"`paper`, {goals.REX}: the same over the machine's floor",
-            None if paper is None else over_floor(paper),
+            paper,
+            over_floor,
             goals.FLOOR_FACTOR,
             "times",
-            _NEEDS_REX
-            if paper is None
-            else f"the floor is {1e3 * floor_of(paper):.1f} ms, each part at the best rate seen "
-            "and nothing between the parts; stage by stage below",
+            lambda solve: (
+                f"the floor is {1e3 * floor_of(solve):.1f} ms, each part at the best "
+                "rate seen and nothing between the parts; stage by stage below"
+            ),
         ),
-        _judged(
+        _judged_by(
             f"`default`, {goals.REX}: one iteration",
-            None if default is None else default["per_iteration"]["median"],
+            default,
+            _iteration,
             goals.DEFAULT_ITERATION,
             "ms",
-            _NEEDS_REX if default is None else in_words(default),
+            in_words,
         ),
-        _judged(
+        _judged_by(
             f"`default`, a cage with {goals.CAGE_VERTICES} vertices: one iteration",
-            None if cage is None else cage["per_iteration"]["median"],
+            results.cage,
+            _iteration,
             goals.CAGE_ITERATION,
             "ms",
-            _NOT_IN_RUN if cage is None else in_words(cage),
+            in_words,
+            _NOT_IN_RUN,
         ),
-    ]
-    slowest = max(
-        results.solves[DEFAULT].values(),
-        key=lambda s: s["per_iteration"]["median"],
-        default=None,
-    )
-    gpu = slowest if on_gpu(results) else None
-    return [
-        *rows,
-        _judged(
+        _judged_by(
             "`default` on a GPU, every shape: one iteration",
-            None if gpu is None else gpu["per_iteration"]["median"],
+            slowest if on_gpu(results) else None,
+            _iteration,
             goals.GPU_ITERATION,
             "ms",
-            "no GPU in this machine" if gpu is None else f"{gpu['name']}: {in_words(gpu)}",
+            lambda solve: f"{solve['name']}: {in_words(solve)}",
+            "no GPU in this machine",
         ),
     ]
 
 
 def _whole_solves(results: Results) -> list[Outcome]:
     pairs = results.pairs
-    rows = []
     by_ratio = sorted(pairs, key=lambda pair: ratio(*pair))
     missing = "no shape has both modes"
-    rows.append(
+    rex = results.solves[DEFAULT].get(goals.REX)
+    drag = next((d for d in results.drags if d["name"] == goals.REX), None)
+    return [
         _at_least(
             f"`paper` over `default`, identity to a gap of {GAP:g}: median of all shapes",
             statistics.median(ratio(*pair) for pair in pairs) if pairs else None,
             goals.MEDIAN_RATIO,
             _ratio_limit(results) if pairs else missing,
-        )
-    )
-    rows.append(
+        ),
         _at_least(
             "the same: the least",
             ratio(*by_ratio[0]) if pairs else None,
             goals.LEAST_RATIO,
             _least_limit(*by_ratio[0]) if pairs else missing,
-        )
-    )
-    rex = results.solves[DEFAULT].get(goals.REX)
-    drag = next((d for d in results.drags if d["name"] == goals.REX), None)
-    rows.append(
-        _judged(
+        ),
+        _judged_by(
             f"`default`, {goals.REX}: identity to a gap of {GAP:g} (the paper's GPU: "
             f"{1e3 * goals.PUBLISHED_SECONDS:.0f} ms)",
-            None if rex is None else rex["to_gap"]["median"],
+            rex,
+            lambda solve: solve["to_gap"]["median"],
             goals.IDENTITY,
             "ms",
-            _NEEDS_REX
-            if rex is None
-            else f"{rex['iterations']} iterations, for what one takes see its row above",
-        )
-    )
-    rows.append(
-        _judged(
+            lambda solve: f"{solve['iterations']} iterations, for what one takes see its row above",
+        ),
+        _judged_by(
             f"drag step, {goals.REX}: one target moved by {DRAG:.0%}, to a gap of {DRAG_GAP:g}",
-            None if drag is None else drag["time"]["median"],
+            drag,
+            lambda step: step["time"]["median"],
             goals.DRAG_STEP,
             "ms",
-            _NEEDS_REX
-            if drag is None
-            else f"{drag['iterations']} iterations with {drag['corrections']} corrections",
-        )
-    )
-    return rows
+            lambda step: f"{step['iterations']} iterations with {step['corrections']} corrections",
+        ),
+    ]
 
 
 def _ratio_limit(results: Results) -> str:

@@ -14,7 +14,7 @@ from glid_nb.benchmarks.breakdown import (
     shares,
 )
 from glid_nb.benchmarks.drawing import SCALING, SOLVES, SPEEDUPS
-from glid_nb.benchmarks.markdown import listed, ms, spread, table
+from glid_nb.benchmarks.markdown import ms, spread
 from glid_nb.benchmarks.measurements import Measurement
 from glid_nb.benchmarks.outcomes import on_gpu, outcomes, ratio
 from glid_nb.benchmarks.page_scaling import scaling
@@ -22,6 +22,7 @@ from glid_nb.benchmarks.results import Results
 from glid_nb.benchmarks.solving import ALIGNED, DRAG, DRAG_GAP, GAP, SAME_ENERGY, same_minimum
 from glid_nb.benchmarks.starting import PARTS
 from glid_nb.certificate.rounding import CARRIED_STEPS, carried_slack_factor, slack_factor
+from glid_nb.comparisons.page.words import joined, table
 from glid_nb.solvers import Options
 
 # What was tried for speed, with prediction and outcome.
@@ -63,7 +64,7 @@ def _head(results: Results, out: Path) -> list[str]:
     machine, run = results.machine, results.run
     versions = ", ".join(f"{name} {v}" for name, v in machine["versions"].items())
     rates, devices = machine["rates"], machine["devices"]
-    names = listed([f"{_devices(devices.count(name))} ({name})" for name in dict.fromkeys(devices)])
+    names = joined([f"{_devices(devices.count(name))} ({name})" for name in dict.fromkeys(devices)])
     command = _command(results, out)
     folder = ", DIR being the folder of the reference problems" if run["reference"] else ""
     lines = [
@@ -89,7 +90,7 @@ def _head(results: Results, out: Path) -> list[str]:
         lines += [
             "",
             "**Not all from this machine and these versions:** "
-            f"{listed([f'`{name}`' for name in results.elsewhere])} were measured with others.",
+            f"{joined([f'`{name}`' for name in results.elsewhere])} were measured with others.",
         ]
     if run["quick"]:
         lines += ["", "**A quick run:** sizes are small, and its numbers mean little."]
@@ -187,7 +188,7 @@ def _solves(results: Results, figures: str) -> list[str]:
         for s in by_shape.values()
         if not s["certified"]
     ]
-    certified = "Every map was certified." if not failed else f"Not certified: {listed(failed)}."
+    certified = "Every map was certified." if not failed else f"Not certified: {joined(failed)}."
     return [*lines, "", certified]
 
 
@@ -199,7 +200,7 @@ def _other_minima(results: Results) -> list[str]:
     pairs, same = results.pairs, results.like_for_like
     others = [p["name"] for p, d in pairs if (p, d) not in same]
     lines = [
-        f"On {listed(others)} the two end at minima whose energies differ by more than "
+        f"On {joined(others)} the two end at minima whose energies differ by more than "
         f"{SAME_ENERGY:.0%}: `paper` begins at the identity itself."
     ]
     if same:

@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from glid_nb.benchmarks.growth import exponent, local_exponents
-from glid_nb.benchmarks.markdown import listed, ms, table
+from glid_nb.benchmarks.markdown import ms
 from glid_nb.benchmarks.scaling import STEPS
+from glid_nb.comparisons.page.words import joined, table
 
 Rows = list[dict[str, Any]]
 
@@ -166,7 +167,7 @@ def _statements(
     modified = [str(row[about.by]) for row in rows if row["modified"]]
     if modified:
         found.append(
-            f"At {listed(modified)} an exact Hessian was not definite and was factored twice."
+            f"At {joined(modified)} an exact Hessian was not definite and was factored twice."
         )
     if worst >= 0 and beyond[worst] > _CLIFF:
         found.append(

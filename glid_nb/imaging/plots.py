@@ -93,9 +93,7 @@ class EnergyPlot:
 
     def __init__(self, axes: Axes, animated: bool = False) -> None:
         self.axes = axes
-        tidy(axes)
-        axes.set_xlabel("iteration", fontsize=SMALL, labelpad=2)
-        axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
+        _over_iterations(axes)
         self._p2p = _line(axes, animated, color=VERMILION, label="targets")
         self._iso = _line(axes, animated, color=BLUE, label="isometric")
         self._total = _line(axes, animated, color=INK, label="total", linestyle=(0, (4, 1.5)))
@@ -146,9 +144,7 @@ class StepPlot:
 
     def __init__(self, axes: Axes, animated: bool = False) -> None:
         self.axes = axes
-        tidy(axes)
-        axes.set_xlabel("iteration", fontsize=SMALL, labelpad=2)
-        axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
+        _over_iterations(axes)
         self._decrement = _line(axes, animated, color=BLUE, label="Newton decrement")
         self._step = _line(axes, animated, color=VERMILION, label="step length")
         _legend(axes, [self._step, self._decrement])
@@ -177,9 +173,7 @@ class TimePlot:
 
     def __init__(self, axes: Axes, animated: bool = False) -> None:
         self.axes = axes
-        tidy(axes)
-        axes.set_xlabel("iteration", fontsize=SMALL, labelpad=2)
-        axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
+        _over_iterations(axes)
         axes.yaxis.set_major_locator(MaxNLocator(2, min_n_ticks=2))
         axes.set_ylabel("ms", fontsize=SMALL, labelpad=2)
         (self._bars,) = axes.fill(
@@ -384,6 +378,12 @@ def _legend(axes: Axes, lines: Sequence[Line2D]) -> None:
 
 def _view(axes: Axes) -> tuple[Any, ...]:
     return axes.get_xlim(), axes.get_ylim(), axes.get_yscale()
+
+
+def _over_iterations(axes: Axes) -> None:
+    tidy(axes)
+    axes.set_xlabel("iteration", fontsize=SMALL, labelpad=2)
+    axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
 
 
 def _iteration_limits(axes: Axes, x: NDArray[np.float64]) -> None:

@@ -162,7 +162,7 @@ class Document:
         _checked("trace_options", self.trace_options, TraceOptions)
         if self.scribbles is not None:
             _checked("scribbles", self.scribbles, Scribbles)
-        if not _same_loops(self.cage, self.domain.cage):
+        if not self.cage.equals(self.domain.cage):
             raise DocumentError("cage: it is not the cage of the domain")
         if self.trace_options.scribbles not in (None, self.scribbles):
             raise DocumentError(
@@ -359,10 +359,3 @@ def _checked_image(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
         array = array.copy()
         array.setflags(write=False)
     return array
-
-
-def _same_loops(cage: Cage, other: Cage) -> bool:
-    return cage is other or (
-        cage.n_holes == other.n_holes
-        and all(np.array_equal(a, b) for a, b in zip(cage.loops, other.loops, strict=True))
-    )

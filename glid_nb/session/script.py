@@ -10,7 +10,7 @@ import numpy as np
 
 from glid_nb.compare import OURS
 from glid_nb.energies import CustomEnergy, Energy
-from glid_nb.geometry import Cage, Domain
+from glid_nb.geometry import Domain
 from glid_nb.imaging import TraceError, TraceOptions, trace
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.solvers import Options
@@ -122,13 +122,7 @@ def _is_traced(document: Document) -> bool:
         cage = trace(document.image, document.trace_options).cage
     except TraceError:
         return False  # the cage comes from other options than those that were tried last
-    return _same(cage, document.cage)
-
-
-def _same(cage: Cage, other: Cage) -> bool:
-    return cage.n_holes == other.n_holes and all(
-        np.array_equal(a, b) for a, b in zip(cage.loops, other.loops, strict=True)
-    )
+    return cage.equals(document.cage)
 
 
 def _energy(energy: Energy) -> str:

@@ -163,7 +163,7 @@ class TracingModel:
         model._begin(state)
         # Exactly what tracing gives anew was not edited by hand.
         tracing = model.tracing
-        if tracing is not None and _equal(tracing.cage.loops, document.cage.loops):
+        if tracing is not None and tracing.cage.equals(document.cage):
             model._state = replace(state, loops=None)
         return model
 
@@ -474,7 +474,7 @@ class TracingModel:
         try:
             if cage is None:
                 cage = Cage(loops[0], loops[1:])
-            same = state.fallback is not None and _equal(cage.loops, state.fallback.cage.loops)
+            same = state.fallback is not None and cage.equals(state.fallback.cage)
             domain = state.fallback if same else Domain.from_cage(cage)
         except GeometryError as error:
             problems.append(_problem(error, frame))
@@ -524,7 +524,3 @@ def _pixels(image: ImageSource) -> NDArray[np.uint8]:
         pixels = pixels.copy()  # an array of the caller's
         pixels.setflags(write=False)
     return pixels
-
-
-def _equal(loops: Loops, others: Loops) -> bool:
-    return len(loops) == len(others) and all(map(np.array_equal, loops, others))

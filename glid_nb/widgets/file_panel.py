@@ -16,7 +16,7 @@ from glid_nb.session.script import python_code
 from glid_nb.widgets.asking_button import AskingButton
 from glid_nb.widgets.clipboard import Clipboard
 from glid_nb.widgets.exporting import FORMATS, OccupiedError, export, export_source, files_of
-from glid_nb.widgets.open_panel import session_path
+from glid_nb.widgets.open_panel import existing_path, session_path
 
 _LABEL = {"width": "58px", "flex": "0 0 auto"}
 _WIDE = {"width": "auto", "min_width": "0", "flex": "1 1 auto"}
@@ -121,8 +121,7 @@ class FilePanel(ipywidgets.VBox):
         return f"Saved {path.absolute()}"
 
     def _open(self, _: bool) -> str:
-        path = Path(self.path.value.strip()).expanduser()
-        path = path if path.is_file() else session_path(self.path.value)
+        path = existing_path(self.path.value)
         self.model.load(path)
         return f"Opened {path.absolute()}"
 

@@ -39,6 +39,12 @@ def session_path(text: str) -> Path:
     return path
 
 
+def existing_path(text: str) -> Path:
+    """The file that somebody wants to open: any that is there, else as in :func:`session_path`."""
+    path = Path(text.strip()).expanduser()
+    return path if path.is_file() else session_path(text)
+
+
 class OpenPanel(ipywidgets.VBox):
     """Opens a session file by its name, before there is a picture.
 
@@ -65,8 +71,7 @@ class OpenPanel(ipywidgets.VBox):
         self.button.on_click(self._open)
 
     def _open(self, _: Any) -> None:
-        path = Path(self.path.value.strip()).expanduser()
         try:
-            self.model.load(path if path.is_file() else session_path(self.path.value))
+            self.model.load(existing_path(self.path.value))
         except (OSError, ValueError) as error:  # refusals for the user; anything else is a bug
             self.message.value = html.escape(str(error))

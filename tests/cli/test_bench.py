@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -46,17 +47,24 @@ def problems(tmp_path: Path, problem_data: dict) -> Path:
     return folder
 
 
-def parts(*names: str) -> list[str]:
-    return [word for name in names for word in ("--only", name)]
+@pytest.fixture
+def bench(run, tmp_path: Path, problems: Path) -> Callable[..., None]:
+    """Measures some parts, as quickly as can be, into the folder ``speed``."""
+    words = ["bench", "--quick", "--repeats", 1, "--reference", problems]
+
+    def measured(*names: str) -> None:
+        only = [word for name in names for word in ("--only", name)]
+        outcome = run(*words, "--out", tmp_path / "speed", *only)
+        assert outcome.code == 0, outcome.err
+
+    return measured
 
 
 @pytest.mark.slow
 @pytest.mark.timeout(900)
-def test_bench_writes_its_page(run, tmp_path: Path, problems: Path) -> None:
+def test_bench_writes_its_page(run, bench: Callable[..., None], tmp_path: Path) -> None:
     out = tmp_path / "speed"
-    words = ["bench", "--quick", "--repeats", 1, "--reference", problems, "--out", out]
-    outcome = run(*words, *parts("solves", "drags", "scaling"))
-    assert outcome.code == 0, outcome.err
+    bench("solves", "drags", "scaling")
     page = tmp_path / "speed.md"
     text = page.read_text()
     assert "| bar |" in text
@@ -73,17 +81,15 @@ def test_bench_writes_its_page(run, tmp_path: Path, problems: Path) -> None:
     assert page.read_text() == text
     # What is there is not measured again, unless the settings differ.
     before = [(out / "data" / f"bar-{m}.json").stat().st_mtime_ns for m in modes]
-    assert run(*words, *parts("solves")).code == 0
+    bench("solves")
     assert [(out / "data" / f"bar-{m}.json").stat().st_mtime_ns for m in modes] == before
 
 
 @pytest.mark.slow
 @pytest.mark.timeout(900)
-def test_bench_measures_starts_and_batches(run, tmp_path: Path, problems: Path) -> None:
+def test_bench_measures_starts_and_batches(bench: Callable[..., None], tmp_path: Path) -> None:
     out = tmp_path / "speed"
-    words = ["bench", "--quick", "--repeats", 1, "--reference", problems, "--out", out]
-    outcome = run(*words, *parts("start", "compilations", "batches"))
-    assert outcome.code == 0, outcome.err
+    bench("start", "compilations", "batches")
     text = (tmp_path / "speed.md").read_text()
     assert "one device | 2 devices" in text
     assert "| cold |" in text
