@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import threading
 import time
 import weakref
@@ -9,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from glid_nb.session.document import Document, save_document
+from glid_nb.session.own_files import version_of
 
 INTERVAL = 3.0
 """Least number of seconds between two saves, by default."""
@@ -19,7 +21,8 @@ class Autosave:
 
     The file is written by a thread of its own, atomically; a document that was overtaken by a later
     one is never written. What is pending when the process ends, or when this object is dropped, is
-    written then.
+    written then. A file that somebody else has changed is left to them: from then on this one
+    writes beside it (`free_sibling`).
 
     Parameters
     ----------
@@ -40,11 +43,20 @@ class Autosave:
     ) -> None:
         if not interval >= 0:
             raise ValueError(f"interval is {interval}; it must be at least 0 seconds")
-        self.path = Path(path)
-        self._worker = _Worker(self.path, interval, on_done)
+        self._worker = _Worker(Path(path), interval, on_done)
         _all.add(self)
         # Also at the end of the process.
         self._finalizer = weakref.finalize(self, self._worker.close)
+
+    @property
+    def path(self) -> Path:
+        """The file."""
+        return self._worker.path
+
+    @property
+    def left(self) -> Path | None:
+        """The file that was left to somebody else; None while nobody else has changed it."""
+        return self._worker.left
 
     @property
     def error(self) -> Exception | None:
@@ -59,6 +71,20 @@ class Autosave:
     def submit(self, document: Document) -> None:
         """Save this document soon; returns at once."""
         self._worker.submit(document)
+
+    def write(self, document: Document) -> None:
+        """Save this document now, in this thread, whoever has changed the file.
+
+        Raises
+        ------
+        DocumentError, OSError
+            It cannot be written; what was there before stays.
+        """
+        self._worker.write(document)
+
+    def take_over(self) -> None:
+        """Accept the file as it is now: its next save is not a change by somebody else."""
+        self._worker.take_over()
 
     def flush(self, timeout: float | None = None) -> bool:
         """Save what is pending now; whether that was done (or had failed) within ``timeout``."""
@@ -80,6 +106,12 @@ def flush(path: str | Path) -> None:
             autosave.flush()
 
 
+def free_sibling(path: Path) -> Path:
+    """The first of name-2, name-3, ... that does not exist."""
+    others = (path.with_stem(f"{path.stem}-{number}") for number in itertools.count(2))
+    return next(other for other in others if not other.exists())
+
+
 class _Worker:
     """The thread and what it shares; it does not know the `Autosave`, so that one can be dropped.
 
@@ -89,7 +121,9 @@ class _Worker:
     def __init__(
         self, path: Path, interval: float, on_done: Callable[[Exception | None], None] | None
     ) -> None:
-        self._path, self._interval, self._on_done = path, interval, on_done
+        self.path, self._interval, self._on_done = path, interval, on_done
+        self.left: Path | None = None
+        self._known = version_of(path)
         self._changed = threading.Condition()
         self._pending: Document | None = None
         self._hurry = self._busy = self._closed = False
@@ -100,11 +134,11 @@ class _Worker:
     def submit(self, document: Document) -> None:
         with self._changed:
             if self._closed:
-                raise RuntimeError(f"the autosave of {self._path} is closed")
+                raise RuntimeError(f"the autosave of {self.path} is closed")
             self._pending = document
             if self._thread is None:
                 self._thread = threading.Thread(
-                    target=self._run, name=f"autosave {self._path.name}", daemon=True
+                    target=self._run, name=f"autosave {self.path.name}", daemon=True
                 )
                 self._thread.start()
             self._changed.notify_all()
@@ -125,6 +159,25 @@ class _Worker:
         if thread is not None and thread is not threading.current_thread():
             thread.join()
 
+    def write(self, document: Document) -> None:
+        with self._changed:
+            self._changed.wait_for(lambda: not self._busy)
+            save_document(document, self.path)
+            self._pending, self._known, self.error = None, version_of(self.path), None
+            self._changed.notify_all()
+
+    def take_over(self) -> None:
+        with self._changed:
+            self._changed.wait_for(lambda: not self._busy)
+            self._known = version_of(self.path)
+
+    def _save(self, document: Document) -> None:
+        found = version_of(self.path)
+        if found not in (None, self._known):
+            self.left, self.path = self.path, free_sibling(self.path)
+        save_document(document, self.path)
+        self._known = version_of(self.path)
+
     def _run(self) -> None:
         last = -float("inf")
         while True:
@@ -136,11 +189,13 @@ class _Worker:
                 )
                 document, self._pending = self._pending, None
                 if document is None:
-                    return
+                    if self._closed:
+                        return
+                    continue  # it was written meanwhile
                 self._busy = True
             failure: Exception | None = None
             try:
-                save_document(document, self._path)
+                self._save(document)
             except Exception as error:  # reported; the thread must live on
                 failure = error
             last = time.monotonic()

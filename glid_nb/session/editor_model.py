@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import threading
 import warnings
 from collections.abc import Callable
@@ -15,7 +14,7 @@ from numpy.typing import NDArray
 from glid_nb.geometry import Domain
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import ImageSource
-from glid_nb.session.autosave import Autosave, flush
+from glid_nb.session.autosave import Autosave, flush, free_sibling
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, load_document, save_document
 from glid_nb.session.edit_state import EditError, EditState
@@ -57,7 +56,8 @@ class EditorModel:
     document : Document, optional
         Go on from there instead.
     path : path, optional
-        A file that is saved to every few seconds while something changes.
+        A file that is saved to every few seconds while something changes, until somebody else
+        changes it: then one beside it.
 
     Raises
     ------
@@ -95,6 +95,17 @@ class EditorModel:
     def autosave_path(self) -> Path | None:
         """The session file that is kept up to date; None when there is none."""
         return None if self._autosave is None else self._autosave.path
+
+    @property
+    def left_path(self) -> Path | None:
+        """The file that was kept up to date until somebody else changed it; None otherwise."""
+        return None if self._autosave is None else self._autosave.left
+
+    def take_over_file(self) -> None:
+        """Go on with the session file although its last writer was another editor, now closed."""
+        if self._autosave is not None:
+            self._autosave.take_over()
+            self._note_autosave()
 
     @property
     def deformation(self) -> Deformation:
@@ -148,7 +159,7 @@ class EditorModel:
                 deformation.set_domain(domain)
                 return max(before - _count_handles(deformation), 0)
             if self._autosave is not None and deformation is not None:
-                self._save_to(_free(self._autosave.path))
+                self._save_to(free_sibling(self._autosave.path))
             self._replace(Deformation(domain, begin=False))
         self._tell()
         return 0
@@ -179,7 +190,12 @@ class EditorModel:
         DocumentError, OSError
             It cannot be written; what was there before stays.
         """
-        save_document(self.document, path)
+        autosave, path = self._autosave, Path(path)
+        if autosave is not None and autosave.path.resolve() == path.resolve():
+            autosave.write(self.document)
+            self._saved(None)
+        else:
+            save_document(self.document, path)
         self.own_files.note_session(path)
 
     def load(self, path: str | Path) -> None:
@@ -217,6 +233,7 @@ class EditorModel:
             autosave, self._autosave = self._autosave, None
         if autosave is not None:
             autosave.close()
+            self.own_files.note([autosave.path], autosave.path)
             if autosave.error is not None:
                 text = f"the session was not saved: {autosave.error}"
                 warnings.warn(text, RuntimeWarning, stacklevel=2)
@@ -233,6 +250,7 @@ class EditorModel:
         old = self._autosave
         if old is not None:
             if old.path.resolve() == path.resolve():
+                old.take_over()
                 return
             old.close()
         self._autosave = Autosave(path, on_done=self._saved)
@@ -260,8 +278,17 @@ class EditorModel:
     def _saved(self, error: Exception | None) -> None:
         """After a save in the background, in its thread."""
         self.save_error = error
+        if error is None:
+            self._note_autosave()
         for callback in tuple(self._save_observers):
             callback()
+
+    def _note_autosave(self) -> None:
+        if (path := self.autosave_path) is None:
+            return
+        self.own_files.note([path], path)
+        if self.own_files.session == self.left_path:
+            self.own_files.session = path
 
     def _tell(self) -> None:
         for callback in tuple(self._observers):
@@ -270,9 +297,3 @@ class EditorModel:
 
 def _count_handles(deformation: Deformation) -> int:
     return sum(len(pose.pose) for pose in deformation.poses)
-
-
-def _free(path: Path) -> Path:
-    """The first of name-2, name-3, ... that does not exist."""
-    others = (path.with_stem(f"{path.stem}-{number}") for number in itertools.count(2))
-    return next(other for other in others if not other.exists())

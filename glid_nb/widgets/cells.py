@@ -17,23 +17,24 @@ class Closable(Protocol):
 _made: dict[str, tuple[str, list[weakref.ref[Any]]]] = {}
 
 
-def register(made: Closable) -> None:
+def register(made: Closable) -> bool:
     """Close what earlier runs of this cell registered, and remember this for the next run.
 
-    Outside a notebook nothing happens.
+    Outside a notebook nothing happens. Returns whether something was closed.
     """
     here = _running_cell()
     if here is None:
-        return
+        return False
     cell, run = here
     last_run, earlier = _made.get(cell, (run, []))
+    closed = []
     if last_run != run:
-        for reference in earlier:
-            old = reference()
-            if old is not None:
-                old.close()
+        closed = [old for reference in earlier if (old := reference()) is not None]
+        for old in closed:
+            old.close()
         earlier = []
     _made[cell] = (run, [*earlier, weakref.ref(made)])
+    return bool(closed)
 
 
 def _running_cell() -> tuple[str, str] | None:

@@ -42,6 +42,10 @@ _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
 
 _LOST = "{} outside the new outline and went with the old one; undo brings it all back."
+_LEFT = (
+    "{left} was changed by another editor or program and stays as it is; this session is saved to "
+    "{path} from now on."
+)
 _NOT_SAVED = (
     "The session could not be saved: {error}. It is tried again with the next change; "
     "Save in the Files tab writes it elsewhere."
@@ -61,7 +65,8 @@ class Editor(ipywidgets.VBox):
     path : path, optional
         A session file. If it exists, the editor goes on from there (give the same picture or
         none); in any case it is kept up to date while something changes. A session that is opened
-        later is kept up to date instead, and a picture that is opened later is saved beside it.
+        later is kept up to date instead, and a picture that is opened later is saved beside it; so
+        is this session should another editor or program change the file.
     width, height : int
         Size of the canvas in CSS pixels.
     n_vertices : int, optional
@@ -95,6 +100,7 @@ class Editor(ipywidgets.VBox):
     # ipywidgets closes also what was refused while it was made.
     _complete = False
     _closed = False
+    _told_path: Path | None = None
 
     def __init__(
         self,
@@ -141,10 +147,11 @@ class Editor(ipywidgets.VBox):
         self.add_class("glid-editor")
         self._build()
         self.model.on_replaced(self._build)
-        self.model.on_saved(self._show_save_error)
+        self.model.on_saved(self._show_saving)
         self.tabs.observe(self._on_tab, ["selected_index"])
         self._complete = True
-        cells.register(self)
+        if cells.register(self):
+            self.model.take_over_file()
 
     def __repr__(self) -> str:
         """What a notebook shows where it cannot show widgets."""
@@ -368,8 +375,9 @@ class Editor(ipywidgets.VBox):
             self._trace_box.children = self._deform_box.children = ()
         close_with_parts(*parts, *shown)
 
-    def _show_save_error(self) -> None:
-        error = self.model.save_error
+    def _show_saving(self) -> None:
+        """After a save in the background: what went wrong with it."""
+        error, left, path = self.model.save_error, self.model.left_path, self.model.autosave_path
         if error is not None:
             self.unsaved.value = (
                 "<p style='position:absolute;top:2px;right:2px;z-index:5;margin:0;"
@@ -378,6 +386,13 @@ class Editor(ipywidgets.VBox):
                 f"{html.escape(_NOT_SAVED.format(error=error))}</p>"
             )
         self.unsaved.layout.display = "none" if error is None else "block"
+        if left is None or path is None or path == self._told_path:
+            return
+        self._told_path = path
+        if self.canvas is not None:
+            self.canvas.pane.stage.notice = _LEFT.format(left=left.name, path=path.name)
+        if self._panels is not None:
+            self._panels[1].follow_autosave()
 
     def _on_tab(self, change: Any) -> None:
         """What was traced is deformed when somebody goes to look at it."""

@@ -111,6 +111,11 @@ class FilePanel(ipywidgets.VBox):
         """Width and height of an exported picture, of the original's proportions."""
         return self.width.value, max(1, round(self.width.value * self._aspect))
 
+    def follow_autosave(self) -> None:
+        """Name the file that is kept up to date, now that it is another."""
+        self.path.value = str(self.model.autosave_path or self.path.value)
+        self._show()
+
     def _save(self, sure: bool) -> str:
         path = session_path(self.path.value)
         strangers = self.model.own_files.strangers([path], path)

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from glid_nb.session.autosave import Autosave
-from glid_nb.session.document import load_document
+from glid_nb.session.document import load_document, save_document
 
 from .test_document import document
 
@@ -109,6 +109,61 @@ for component in range(5):
 """
     subprocess.run([sys.executable, "-c", source], check=True, timeout=120)
     assert load_document(path).trace_options.component == 4
+
+
+def test_a_file_that_somebody_else_changed_is_left_to_them(tmp_path: Path) -> None:
+    path, base = tmp_path / "a.glid", document()
+    autosave = Autosave(path, interval=0)
+    autosave.submit(replace(base, active=0))
+    assert autosave.flush(timeout=60)
+    save_document(replace(base, active=1), path)
+    (tmp_path / "a-2.glid").write_bytes(b"also somebody's")
+    for _ in range(2):  # and from then on
+        autosave.submit(replace(base, active=0))
+        assert autosave.flush(timeout=60)
+        assert (autosave.error, autosave.left) == (None, path)
+        assert autosave.path == tmp_path / "a-3.glid"
+    assert load_document(path).active == 1
+    assert load_document(autosave.path).active == 0
+    assert (tmp_path / "a-2.glid").read_bytes() == b"also somebody's"
+    autosave.close()
+
+
+@pytest.mark.parametrize("accept", [True, False], ids=["taken over", "written"])
+def test_a_change_that_was_accepted_is_written_over(tmp_path: Path, accept: bool) -> None:
+    path, base = tmp_path / "a.glid", document()
+    autosave = Autosave(path, interval=0)
+    save_document(replace(base, active=1), path)
+    if accept:
+        autosave.take_over()
+    else:
+        autosave.write(replace(base, active=1))
+    autosave.submit(replace(base, active=0))
+    assert autosave.flush(timeout=60)
+    assert (autosave.left, load_document(path).active) == (None, 0)
+    autosave.close()
+
+
+def test_a_file_that_was_deleted_is_written_anew(tmp_path: Path) -> None:
+    path = tmp_path / "a.glid"
+    autosave = Autosave(path, interval=0)
+    autosave.write(document())
+    path.unlink()
+    autosave.submit(document())
+    assert autosave.flush(timeout=60)
+    assert (autosave.left, path.exists()) == (None, True)
+    autosave.close()
+
+
+def test_what_is_pending_is_not_written_after_a_later_one(tmp_path: Path) -> None:
+    path, base = tmp_path / "a.glid", document()
+    autosave = Autosave(path, interval=600)
+    autosave.submit(base)
+    assert autosave.flush(timeout=60)
+    autosave.submit(replace(base, active=0))
+    autosave.write(replace(base, active=1))
+    autosave.close()
+    assert (autosave.n_saved, load_document(path).active) == (1, 1)
 
 
 def test_a_negative_interval_is_refused(tmp_path: Path) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from glid_nb.session.autosave import flush
 from glid_nb.session.document import load_document
 from glid_nb.session.editor_model import EditorModel, open_document
 
@@ -114,3 +115,34 @@ def test_what_was_valid_for_a_moment_of_a_drag_is_not_deformed(model: EditorMode
     assert model.tracing.problems
     assert model.apply_tracing() == 0
     assert model.deformation.domain is domain
+
+
+def test_two_editors_of_one_file_do_not_write_over_one_another(
+    model: EditorModel, tmp_path: Path
+) -> None:
+    path = tmp_path / "a.glid"
+    _pin(model, (-6, 0))
+    other = EditorModel(document=open_document(path), path=path)
+    _pin(model, (6, 0))
+    flush(path)
+    _pin(other, (0, 2))
+    flush(path)
+    flush(tmp_path / "a-2.glid")
+    assert (model.autosave_path, model.left_path) == (path, None)
+    assert (other.autosave_path, other.left_path) == (tmp_path / "a-2.glid", path)
+    assert load_document(path).poses[0].pose.handles.tolist() == [[-6, 0], [6, 0]]
+    assert load_document(tmp_path / "a-2.glid").poses[0].pose.handles.tolist() == [[-6, 0], [0, 2]]
+    assert other.own_files.strangers([path], path) == (path,)  # Save asks before replacing it
+    assert model.own_files.strangers([path], path) == ()
+    other.close()
+
+
+def test_saving_to_the_file_that_is_kept_up_to_date_is_no_conflict(
+    model: EditorModel, tmp_path: Path
+) -> None:
+    for point in [(-6, 0), (6, 0), (0, 3), (0, -3)]:
+        _pin(model, point)
+        model.save(tmp_path / "a.glid")
+    flush(tmp_path / "a.glid")
+    assert model.left_path is None
+    assert len(load_document(tmp_path / "a.glid").poses[0].pose.handles) == 4

@@ -18,6 +18,8 @@ from PIL import Image
 
 import glid_nb as glid
 from glid_nb.imaging.style import distortion_colors
+from glid_nb.session.autosave import flush
+from glid_nb.session.document import load_document
 from glid_nb.session.edit_state import EditError
 from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
 from glid_nb.widgets.background import Background
@@ -451,6 +453,25 @@ def test_a_cell_with_picture_and_file_can_run_again(tmp_path: Path) -> None:
     assert again.pose.handles.tolist() == [[-7, 0], [7, 0]]
     for editor in (first, again):
         editor.close()
+
+
+def test_a_file_of_another_editor_is_left_and_told(tmp_path: Path) -> None:
+    path = tmp_path / "bar.glid"
+    first, second = (Editor(bar(), path=path, n_vertices=300) for _ in range(2))
+    for editor, point in ((first, (-7, 0)), (second, (7, 0))):
+        editor.deformation.paused = True
+        editor.add_handle(point)
+        flush(path)
+    assert second.canvas is not None
+    assert "bar.glid was changed by another editor" in second.canvas.pane.stage.notice
+    assert "saved to bar-2.glid" in second.canvas.pane.stage.notice
+    assert Path(second.files.path.value).name == "bar-2.glid"
+    assert first.canvas is not None
+    assert not first.canvas.pane.stage.notice
+    for editor in (first, second):
+        editor.close()
+    for name, x in (("bar.glid", -7), ("bar-2.glid", 7)):
+        assert load_document(tmp_path / name).poses[0].pose.handles.tolist() == [[x, 0]]
 
 
 def test_lost_handles_are_told(editor: Editor) -> None:
