@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import socket
 import subprocess
 import sys
 from collections.abc import Callable
@@ -11,6 +12,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from glid_nb.geometry import Domain
 from glid_nb.solvers import Options, Pose, PoseError, Status, solve, solve_batch
 
 from ..domains import domain
@@ -115,3 +117,62 @@ def test_two_devices_find_what_one_finds() -> None:
     (both, certified), (one, _) = json.loads(run.stdout)
     assert certified == [True, True]
     np.testing.assert_allclose(both, one, rtol=1e-9)
+
+
+_ON_ONE_OF_TWO_HOSTS = """
+import json, sys
+given = json.load(sys.stdin)
+import jax
+jax.distributed.initialize(given["coordinator"], num_processes=2, process_id=given["host"])
+import glid_nb as glid
+shape = glid.Domain.from_cage(glid.Cage(given["exterior"], given["holes"]))
+share = given["targets"][jax.process_index()::jax.process_count()]
+options = glid.Options(restarts=0)
+results = glid.solve_batch(shape, given["handles"], share, options=options)
+print(json.dumps([
+    jax.process_count(),
+    len(jax.devices()) - len(jax.local_devices()),
+    [result.energy for result in results],
+    [result.certificate.certified for result in results],
+]))
+"""
+
+
+@pytest.mark.slow
+def test_under_jax_distributed_every_host_solves_its_share() -> None:
+    shape, goals = Domain.from_cage(domain("ell").cage), targets(4)[:3]
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    hosts = []
+    for host in range(2):
+        given = {
+            "coordinator": f"127.0.0.1:{port}",
+            "host": host,
+            "exterior": shape.cage.exterior.tolist(),
+            "holes": [hole.tolist() for hole in shape.cage.holes],
+            "handles": HANDLES.tolist(),
+            "targets": goals.tolist(),
+        }
+        process = subprocess.Popen(
+            [sys.executable, "-c", _ON_ONE_OF_TWO_HOSTS],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        assert process.stdin is not None
+        process.stdin.write(json.dumps(given))
+        process.stdin.close()
+        hosts.append(process)
+    shares = []
+    for process in hosts:
+        assert process.stdout is not None
+        with process:
+            shares.append(json.loads(process.stdout.read()))
+        assert process.returncode == 0
+    for host, (count, elsewhere, energies, certified) in enumerate(shares):
+        assert (count, elsewhere) == (2, 1)  # they know of one another
+        assert certified == [True] * len(goals[host::2])
+        poses = [Pose(HANDLES, goal) for goal in goals[host::2]]
+        alone = [solve(shape, pose, options=Options(restarts=0)).energy for pose in poses]
+        np.testing.assert_allclose(energies, alone, rtol=1e-6)
