@@ -68,18 +68,23 @@ class Deformation:
         *,
         begin: bool = True,
     ) -> None:
-        self._start(EditState.initial(domain, pose, energy, options), begin)
+        self._start(History(EditState.initial(domain, pose, energy, options)), begin)
 
     @classmethod
     def from_state(cls, state: EditState, *, begin: bool = True) -> Deformation:
         """Go on from a state, with an empty undo history."""
+        return cls.from_history(History(state), begin=begin)
+
+    @classmethod
+    def from_history(cls, history: History[EditState], *, begin: bool = True) -> Deformation:
+        """Go on from another one's present, with its past and what was undone."""
         new = cls.__new__(cls)
-        new._start(state, begin)
+        new._start(history, begin)
         return new
 
-    def _start(self, state: EditState, begin: bool) -> None:
+    def _start(self, history: History[EditState], begin: bool) -> None:
         self._lock = threading.RLock()
-        self._history = History(state)
+        self._history = history
         self._observers: list[Observer] = []
         self._chain = 0
         self._drag: tuple[EditState, tuple[int, ...]] | None = None
@@ -88,9 +93,9 @@ class Deformation:
         self._error: Exception | None = None
         self._certificates: weakref.WeakKeyDictionary[HarmonicMap, Certificate]
         self._certificates = weakref.WeakKeyDictionary()
-        self._finder = PointFinder(state.domain)
+        self._finder = PointFinder(history.present.domain)
         self._solver = LiveSolver(self._accept, self._fail)
-        self._begun = False
+        self._begun = self._closed = False
         if begin:
             self.begin()
 
@@ -325,9 +330,10 @@ class Deformation:
         Raises
         ------
         EditError, PoseError, OptionError, EnergyError, MethodError, GeometryError
-            When the action is refused; nothing has changed then.
+            When the action is refused, or this is closed; nothing has changed then.
         """
         with self._lock:
+            self._check_open()
             new = action(self.state, *arguments, **named)
             grip = self._drag
             if grip is not None:
@@ -354,6 +360,7 @@ class Deformation:
     def begin_drag(self, indices: Sequence[int]) -> None:
         """Take hold of some handles."""
         with self._lock:
+            self._check_open()
             self.end_drag()
             actions.nudge(self.state, indices, (0, 0))  # refuses what does not exist
             self._drag = (self.state, tuple(int(i) for i in indices))
@@ -406,6 +413,7 @@ class Deformation:
     def undo(self) -> None:
         """One step back, to exactly what was; during a drag, to where that began."""
         with self._lock:
+            self._check_open()
             if self._drag is not None:
                 self.cancel_drag()
                 return
@@ -417,6 +425,7 @@ class Deformation:
     def redo(self) -> None:
         """One step forward again."""
         with self._lock:
+            self._check_open()
             if self._drag is not None or not self._history.future:
                 return
             self._set(self._history.redone(), moved=self.state)
@@ -451,8 +460,14 @@ class Deformation:
         """Wait until the present pose is solved; whether that came within ``timeout`` seconds.
 
         An interrupt stops the solve; the editor lives on, with the map as far as it came.
+
+        Raises
+        ------
+        EditError
+            When this is closed.
         """
         with self._lock:
+            self._check_open()
             if not self.solved and not self._solver.busy:
                 self._submit()
         try:
@@ -486,8 +501,9 @@ class Deformation:
             self._submit(single=True)
 
     def close(self) -> None:
-        """End the solver's thread. The state can still be read."""
+        """End the solver's thread. The state can still be read, and no longer be changed."""
         with self._lock:
+            self._closed = True
             self._observers.clear()
         self._solver.close()
 
@@ -503,6 +519,10 @@ class Deformation:
         self.close()
 
     # Behind it; the lock is held where these are called
+
+    def _check_open(self) -> None:
+        if self._closed:
+            raise EditError("it is closed: what was deformed here can be read, but not changed")
 
     def _set(self, history: History[EditState], moved: EditState) -> None:
         """Make a history the present one. ``moved`` is the state whose selection is to be kept."""

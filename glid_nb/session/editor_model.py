@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 import threading
 import warnings
-from collections.abc import Callable
+import weakref
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,21 +20,42 @@ from glid_nb.imaging.read import ImageSource
 from glid_nb.session.autosave import Autosave, flush, free_sibling
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, load_document, save_document
-from glid_nb.session.edit_state import EditError, EditState
+from glid_nb.session.edit_state import EditedPose, EditError, EditState
 from glid_nb.session.own_files import OwnFiles
-from glid_nb.session.tracing import TracingModel
+from glid_nb.session.tracing import TracingModel, TracingState
 
 Array = NDArray[np.uint8]
 
 
 @dataclass(frozen=True, eq=False)
-class _Applied:
-    """What the tracing was when it was last applied."""
+class _Session:
+    """A picture that is deformed, and what its tracing was when it was last applied."""
 
     image: Array
     domain: Domain | None
     options: TraceOptions
     scribbles: Scribbles | None
+    deformation: Deformation
+
+
+@dataclass(frozen=True)
+class Application:
+    """What the application of a tracing has done to what was there.
+
+    Attributes
+    ----------
+    lost_handles
+        So many handles, of all poses, do not lie in the new outline; undo brings them back.
+    replaced
+        Whether another picture's session took the place of this one's, which comes back when the
+        tracing's undo brings its picture back.
+    replaced_path
+        The file that the replaced session was kept up to date in.
+    """
+
+    lost_handles: int = 0
+    replaced: bool = False
+    replaced_path: Path | None = None
 
 
 def open_document(path: str | Path) -> Document:
@@ -80,8 +104,15 @@ class EditorModel:
         """Why the last save in the background failed; None when it did not."""
         self.own_files = OwnFiles()
         """The files that were saved, opened and exported."""
-        self._deformation: Deformation | None = None
-        self._applied: _Applied | None = None
+        self._session: _Session | None = None
+        self._swap = threading.Lock()
+        # Sessions of other pictures, to which the tracing's undo may go back, and their files.
+        self._shelf: list[tuple[_Session, Path | None]] = []
+        # What a domain was traced by; undo of the deformation goes back to it.
+        self._sources: weakref.WeakKeyDictionary[Domain, TracingState]
+        self._sources = weakref.WeakKeyDictionary()
+        self._named_path: Path | None = None
+        self._saved_work: tuple[Any, ...] = ()
         if document is None:
             self.tracing = TracingModel(image)
             """The picture that is open and its cage."""
@@ -119,14 +150,23 @@ class EditorModel:
         EditError
             Nothing has been traced yet.
         """
-        if self._deformation is None:
+        if self._session is None:
             raise EditError("there is no cage yet; open a picture and trace a shape first")
-        return self._deformation
+        return self._session.deformation
 
     @property
     def has_shape(self) -> bool:
         """Whether there is something to deform."""
-        return self._deformation is not None
+        return self._session is not None
+
+    @property
+    def unsaved(self) -> bool:
+        """Whether there are handles that would be lost with this session, for no file has them."""
+        session = self._session
+        if session is None or self._autosave is not None:
+            return False
+        poses = session.deformation.poses
+        return any(len(pose.pose) for pose in poses) and _work_of(poses) != self._saved_work
 
     def on_replaced(self, callback: Callable[[], None]) -> None:
         """Call ``callback`` when ``deformation`` or ``tracing`` is another object."""
@@ -139,48 +179,50 @@ class EditorModel:
     @property
     def image(self) -> Array | None:
         """The picture that is deformed; the tracing may have another one open, not applied yet."""
-        return None if self._applied is None else self._applied.image
+        return None if self._session is None else self._session.image
 
-    def apply_tracing(self) -> int:
+    def apply_tracing(self) -> Application:
         """Deform what is traced now: a step for undo, or a new start for a new picture.
 
         A new picture is another session: where there is a file to save to, that one is left as it
-        is, and the new session is saved beside it. Returns how many handles, of all poses, do not
-        lie in the new shape; undo brings them back.
+        is, and the new session is saved beside it. A picture that the tracing's undo has brought
+        back comes back with its poses and its file.
         """
         with self._lock:
             domain, image = self.tracing.domain, self.tracing.image
-            applied, deformation = self._applied, self._deformation
-            if domain is None or (applied is not None and applied.domain is domain):
-                return 0
-            self._applied = self._traced()
-            if applied is not None and applied.image is image and deformation is not None:
-                before = _count_handles(deformation)
-                deformation.set_domain(domain)
-                return max(before - _count_handles(deformation), 0)
-            if self._autosave is not None and deformation is not None:
-                self._save_to(free_sibling(self._autosave.path))
-            self._replace(Deformation(domain, begin=False))
+            session = self._session
+            if domain is None or (session is not None and session.domain is domain):
+                return Application()
+            assert image is not None  # a domain comes from a picture
+            if session is not None and session.image is image:
+                self._swap_session(session, self._traced(session.deformation))
+                return Application(_apply(session.deformation, domain))
+            done = Application()
+            if session is not None:
+                self._shelf.append((session, self.autosave_path))
+                done = Application(0, True, self.autosave_path)
+            self._change_picture(domain, image)
         self._tell()
-        return 0
+        return done
 
     @property
     def document(self) -> Document:
         """Everything as one value."""
-        with self._lock:
-            state, applied = self.deformation.state, self._applied
-            assert applied is not None  # a shape comes from a picture
-            if self.tracing.image is applied.image:
-                applied = self._traced()
-            return Document(
-                applied.image,
-                state.domain.cage,
-                state.domain,
-                applied.options,
-                applied.scribbles,
-                tuple(pose.named() for pose in state.poses),
-                state.active,
-            )
+        session = self._session
+        if session is None:
+            raise EditError("there is no cage yet; open a picture and trace a shape first")
+        state = session.deformation.state
+        if self.tracing.image is session.image:
+            session = self._traced(session.deformation)
+        return Document(
+            session.image,
+            state.domain.cage,
+            state.domain,
+            session.options,
+            session.scribbles,
+            tuple(pose.named() for pose in state.poses),
+            state.active,
+        )
 
     def save(self, path: str | Path) -> None:
         """Write everything to a file, atomically.
@@ -196,6 +238,7 @@ class EditorModel:
             self._saved(None)
         else:
             save_document(self.document, path)
+        self._saved_work = _work_of(self.deformation.poses)
         self.own_files.note_session(path)
 
     def load(self, path: str | Path) -> None:
@@ -210,8 +253,10 @@ class EditorModel:
         with self._lock:
             if self._autosave is not None:
                 self._save_to(Path(path))
+            self._named_path = Path(path)
             self.own_files.note_session(path)
             self._take(document)
+            self._saved_work = _work_of(self.deformation.poses)
         self._tell()
 
     def autosave(self) -> None:
@@ -237,13 +282,41 @@ class EditorModel:
             if autosave.error is not None:
                 text = f"the session was not saved: {autosave.error}"
                 warnings.warn(text, RuntimeWarning, stacklevel=2)
-        if self._deformation is not None:
-            self._deformation.close()
+        if self._session is not None:
+            self._session.deformation.close()
 
-    def _traced(self) -> _Applied:
+    def _traced(self, deformation: Deformation) -> _Session:
+        """The session of what is traced now."""
         tracing = self.tracing
         assert tracing.image is not None
-        return _Applied(tracing.image, tracing.domain, tracing.options, tracing.scribbles)
+        if tracing.domain is not None:
+            self._sources[tracing.domain] = tracing.state
+        return _Session(
+            tracing.image, tracing.domain, tracing.options, tracing.scribbles, deformation
+        )
+
+    def _swap_session(self, old: _Session, new: _Session) -> None:
+        """Put one session in the place of another, unless that is there no longer."""
+        with self._swap:
+            if self._session is old:
+                self._session = new
+
+    def _change_picture(self, domain: Domain, image: Array) -> None:
+        """Begin with another picture, or go on with one that was there before."""
+        shelved = next((s for s in self._shelf if s[0].image is image), None)
+        if shelved is None:
+            if self._autosave is not None and self._session is not None:
+                self._save_to(free_sibling(self._named_path or self._autosave.path))
+            self._replace(Deformation(domain, begin=False))
+            return
+        self._shelf.remove(shelved)
+        session, path = shelved
+        if path is not None and self._autosave is not None:
+            self._save_to(path)
+        deformation = Deformation.from_history(session.deformation.history, begin=False)
+        self._replace(deformation)
+        if session.domain is not domain:
+            _apply(deformation, domain)
 
     def _save_to(self, path: Path) -> None:
         """From now on this file is kept up to date; what is pending for another is saved there."""
@@ -253,27 +326,45 @@ class EditorModel:
                 old.take_over()
                 return
             old.close()
+        self._named_path = self._named_path or path
         self._autosave = Autosave(path, on_done=self._saved)
         self.own_files.note_session(path)
 
     def _take(self, document: Document) -> None:
         self.tracing = TracingModel.from_document(document)
         state = EditState.from_poses(document.domain, document.poses, document.active)
-        self._applied = self._traced()
+        self._shelf.clear()
         self._replace(Deformation.from_state(state, begin=False))
 
     def _replace(self, deformation: Deformation) -> None:
-        old, self._deformation = self._deformation, deformation
+        old, self._session = self._session, self._traced(deformation)
         if old is not None:
-            old.close()
-        deformation.observe(self._on_change)
+            old.deformation.close()
+        deformation.observe(functools.partial(self._on_change, deformation))
 
-    def _on_change(self, what: str) -> None:
-        model = self._deformation
-        if self._autosave is None or model is None or model.dragged:
+    def _on_change(self, deformation: Deformation, what: str) -> None:
+        session = self._session
+        if session is None or session.deformation is not deformation:
             return
-        if what == "state" or (what == "frame" and model.solved):
+        if what == "state" and session.domain is not deformation.domain:
+            self._follow(session, deformation.domain)
+        if self._autosave is None or deformation.dragged:
+            return
+        if what == "state" or (what == "frame" and deformation.solved):
             self.autosave()
+
+    def _follow(self, session: _Session, domain: Domain) -> None:
+        """Undo, or a dropped hole, has changed the outline: the tracing shows that one too."""
+        tracing = self.tracing
+        if tracing.image is not session.image or tracing.domain is None:
+            return
+        if not tracing.domain.cage.equals(domain.cage):
+            source = self._sources.get(domain)
+            if source is not None:
+                tracing.return_to(source)
+            else:
+                tracing.set_loops(domain.cage.loops)
+        self._swap_session(session, self._traced(session.deformation))
 
     def _saved(self, error: Exception | None) -> None:
         """After a save in the background, in its thread."""
@@ -293,6 +384,18 @@ class EditorModel:
     def _tell(self) -> None:
         for callback in tuple(self._observers):
             callback()
+
+
+def _apply(deformation: Deformation, domain: Domain) -> int:
+    """Deform another outline of the same picture; how many handles do not lie in it."""
+    before = _count_handles(deformation)
+    deformation.set_domain(domain)
+    return max(before - _count_handles(deformation), 0)
+
+
+def _work_of(poses: Sequence[EditedPose]) -> tuple[Any, ...]:
+    """What somebody chose in all poses; equal values are the same work."""
+    return tuple((pose.name, pose.pose, pose.energy, pose.options, pose.method) for pose in poses)
 
 
 def _count_handles(deformation: Deformation) -> int:

@@ -256,6 +256,12 @@ class TracingModel:
         return self._state.loops is not None
 
     @property
+    def has_discarded_edits(self) -> bool:
+        """Whether the last step, such as another option, took edits by hand away."""
+        before = self._past[-1] if self._past else self._state
+        return before.loops is not None and not self.edited and before.image is self.image
+
+    @property
     def can_undo(self) -> bool:
         """Whether there is a state to go back to."""
         return bool(self._past)
@@ -403,6 +409,19 @@ class TracingModel:
         """Go back to the loops as traced; undo brings the edits back."""
         if self.edited:
             self._push(replace(self._state, loops=None))
+
+    def set_loops(self, loops: Loops) -> None:
+        """Other loops as if edited by hand, world coordinates, the exterior first."""
+        self._edit(lambda _: loops)
+
+    def return_to(self, state: TracingState) -> None:
+        """Go to a state of before in a new step."""
+        with self._lock:
+            if state is self._state:
+                return
+            self._replace(state)
+            self._state = state  # with the fallback that it had
+        self._notify()
 
     def undo(self) -> bool:
         """Go back one step; whether there was one."""

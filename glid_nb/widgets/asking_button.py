@@ -11,18 +11,27 @@ _DOUBLE_CLICK = 0.5  # seconds
 
 
 class AskingButton(ipywidgets.Button):
-    """A button that can ask "Replace?", and is answered by another click.
+    """A button that can ask "Replace?", or another question, and is answered by another click.
 
     Parameters
     ----------
     label, icon, tooltip : str
     action : callable
         What it is for: is told whether the answer was yes, and says what was done.
+    question : str
     """
 
-    def __init__(self, label: str, icon: str, tooltip: str, action: Callable[[bool], str]) -> None:
+    def __init__(
+        self,
+        label: str,
+        icon: str,
+        tooltip: str,
+        action: Callable[[bool], str],
+        question: str = "Replace?",
+    ) -> None:
         self.action = action
         """As given."""
+        self._question = question
         self._label = label
         self._asked: float | None = None
         super().__init__(
@@ -40,5 +49,5 @@ class AskingButton(ipywidgets.Button):
     def ask(self, asking: bool = True) -> None:
         """Ask, or be the button that it was."""
         self._asked = time.monotonic() if asking else None
-        self.description = "Replace?" if asking else self._label
+        self.description = self._question if asking else self._label
         self.button_style = "warning" if asking else ""

@@ -19,9 +19,10 @@ from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.imaging.render import View
 from glid_nb.session import Document
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.edit_state import EditedPose
-from glid_nb.session.editor_model import EditorModel, find_document
+from glid_nb.session.edit_state import EditedPose, EditError
+from glid_nb.session.editor_model import Application, EditorModel, find_document
 from glid_nb.session.status_line import StatusLine
+from glid_nb.session.tracing import TracingProblem
 from glid_nb.solvers import Pose
 from glid_nb.widgets import cells
 from glid_nb.widgets.canvas import DeformCanvas
@@ -42,6 +43,10 @@ _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
 
 _LOST = "{} outside the new outline and went with the old one; undo brings it all back."
+_REPLACED = (
+    "Another picture, another session. The one before{place} comes back with Undo in the Trace tab."
+)
+_NOT_VALID = "The outline in the Trace tab is not valid yet: this is the last one that was."
 _LEFT = (
     "{left} was changed by another editor or program and stays as it is; this session is saved to "
     "{path} from now on."
@@ -234,7 +239,11 @@ class Editor(ipywidgets.VBox):
         ------
         TraceError
             An unknown option or a value out of its range.
+        EditError
+            The editor is closed.
         """
+        if self._closed:
+            raise EditError("the editor is closed")
         self.model.tracing.set_options(**options)
         self.model.apply_tracing()
 
@@ -398,8 +407,19 @@ class Editor(ipywidgets.VBox):
         """What was traced is deformed when somebody goes to look at it."""
         self._fill()
         if change["new"] == _DEFORM:
-            lost = self.model.apply_tracing()
-            if lost and self.canvas is not None:
-                self.canvas.pane.stage.notice = _LOST.format(
-                    "A handle was" if lost == 1 else f"{lost} handles were"
-                )
+            notice = _applied_in_words(self.model.apply_tracing(), self.model.tracing.problems)
+            if notice and self.canvas is not None:
+                self.canvas.pane.stage.notice = notice
+
+
+def _applied_in_words(done: Application, problems: tuple[TracingProblem, ...]) -> str:
+    """What somebody who comes from the Trace tab should know; empty when it is as expected."""
+    if problems:
+        return _NOT_VALID
+    if done.replaced:
+        place = "" if done.replaced_path is None else f" (in {done.replaced_path.name})"
+        return _REPLACED.format(place=place)
+    if done.lost_handles:
+        many = done.lost_handles > 1
+        return _LOST.format(f"{done.lost_handles} handles were" if many else "A handle was")
+    return ""

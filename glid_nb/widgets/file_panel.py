@@ -22,7 +22,15 @@ _LABEL = {"width": "58px", "flex": "0 0 auto"}
 _WIDE = {"width": "auto", "min_width": "0", "flex": "1 1 auto"}
 _VIEWS = (("Whole shape", "fit"), ("Original frame", "source"))
 _NO_AUTOSAVE = "Changes are kept only when you save. Editor(…, path=…) saves by itself."
+_UNSAVED = (
+    "What is here is in no file yet. Click again to open the other session without it, or save it "
+    "under another name first."
+)
 _REFUSED = "#d55e00"
+
+
+class _UnsavedError(Exception):
+    """A question: opening a session would discard what is in no file."""
 
 
 class FilePanel(ipywidgets.VBox):
@@ -44,7 +52,7 @@ class FilePanel(ipywidgets.VBox):
         """Where to save, and what to open; relative to the notebook."""
         self.save_button = AskingButton("Save", "save", "Write the session file", self._save)
         self.open_button = AskingButton(
-            "Open", "folder-open", "Go on with the session file", self._open
+            "Open", "folder-open", "Go on with the session file", self._open, "Discard?"
         )
         self.autosave = ipywidgets.HTML()
         """Where changes are saved without being asked."""
@@ -125,8 +133,10 @@ class FilePanel(ipywidgets.VBox):
         self.path.value = str(path)
         return f"Saved {path.absolute()}"
 
-    def _open(self, _: bool) -> str:
+    def _open(self, sure: bool) -> str:
         path = existing_path(self.path.value)
+        if self.model.unsaved and not sure:
+            raise _UnsavedError(_UNSAVED)
         self.model.load(path)
         return f"Opened {path.absolute()}"
 
@@ -174,6 +184,9 @@ class FilePanel(ipywidgets.VBox):
                 "to replace, or choose another name.",
                 _REFUSED,
             )
+        except _UnsavedError as question:
+            button.ask()
+            self._say(str(question), _REFUSED)
         except (OSError, ValueError) as error:  # refusals for the user; anything else is a bug
             self._say(str(error), _REFUSED)
         self._show()

@@ -56,6 +56,7 @@ def described(model: TracingModel) -> dict[str, Any]:
         "can_undo": model.can_undo,
         "can_redo": model.can_redo,
         "edited": model.edited,
+        "discarded": model.has_discarded_edits,
     }
 
 

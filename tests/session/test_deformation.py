@@ -278,8 +278,17 @@ def test_the_thread_dies_with_the_model() -> None:
 def test_closing_ends_the_thread(ring: Deformation) -> None:
     ring.close()
     assert not ring.alive
-    ring.drag(0, to=(3, 0))
-    assert ring.solve(1.0)
+    state = ring.state
+    for change in (
+        lambda: ring.drag(0, to=(3, 0)),
+        lambda: ring.add_handle((2, 0)),
+        lambda: ring.solve(1.0),
+        ring.undo,
+        ring.redo,
+    ):
+        with pytest.raises(EditError, match="closed"):
+            change()
+    assert ring.state is state
     assert certify(ring.map).certified
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from glid_nb.session.autosave import flush
 from glid_nb.session.document import load_document
-from glid_nb.session.editor_model import EditorModel, open_document
+from glid_nb.session.editor_model import Application, EditorModel, open_document
 
 
 def picture(width: int = 80) -> np.ndarray:
@@ -88,6 +88,81 @@ def test_another_picture_is_another_session(model: EditorModel, tmp_path: Path) 
     assert (tmp_path / "a-2.glid").read_bytes() == b"somebody's"
 
 
+@pytest.mark.parametrize("kept", [True, False], ids=["with a file", "without"])
+def test_undo_brings_a_picture_back_with_its_poses(tmp_path: Path, kept: bool) -> None:
+    path = tmp_path / "a.glid" if kept else None
+    model = EditorModel(picture(), path=path)
+    _pin(model, (-6, 0), (6, 0))
+    poses, image = model.deformation.state.poses, model.image
+    for width in (60, 50):
+        model.tracing.open(picture(width))
+        before = model.autosave_path
+        assert model.apply_tracing() == Application(0, True, before)
+        _pin(model, (4, 0))
+    for _ in range(2):
+        model.tracing.undo()
+    assert model.apply_tracing() == Application(0, True, tmp_path / "a-3.glid" if kept else None)
+    assert model.image is image
+    assert model.deformation.state.poses == poses
+    assert model.autosave_path == path
+    model.deformation.undo()
+    assert len(model.deformation.pose) == 1  # its own steps are there too
+    model.tracing.redo()
+    model.apply_tracing()
+    assert model.deformation.pose.handles.tolist() == [[4, 0]]
+    assert model.autosave_path == (tmp_path / "a-2.glid" if kept else None)
+    model.close()
+
+
+def test_undo_of_the_deformation_takes_the_tracing_along(model: EditorModel) -> None:
+    _pin(model, (-6, 0))
+    traced = model.tracing.domain
+    for _ in range(2):
+        model.tracing.toggle_hole(0)
+        assert model.apply_tracing() == Application()
+        assert model.deformation.domain.cage.n_holes == 0
+        model.deformation.undo()
+        assert model.deformation.domain is model.tracing.domain is traced
+        assert not model.tracing.options.drop_holes
+        assert model.document.trace_options == model.tracing.options
+        model.deformation.redo()
+        assert model.tracing.cage is not None
+        assert model.tracing.cage.n_holes == 0
+        model.deformation.undo()
+    assert model.deformation.pose.handles.tolist() == [[-6, 0]]
+    assert not model.tracing.edited
+
+
+def test_a_hole_dropped_in_the_deformation_is_dropped_in_the_tracing(model: EditorModel) -> None:
+    model.deformation.paused = True
+    model.deformation.drop_hole(0)
+    assert model.tracing.cage is not None
+    assert model.tracing.cage.equals(model.deformation.domain.cage)
+    assert model.apply_tracing() == Application()
+    model.deformation.undo()
+    assert model.tracing.cage.n_holes == 1
+    assert not model.tracing.edited
+
+
+def test_what_is_in_no_file_is_unsaved(tmp_path: Path) -> None:
+    model = EditorModel(picture())
+    assert not model.unsaved
+    _pin(model, (-6, 0))
+    assert model.unsaved
+    model.save(tmp_path / "c.glid")
+    assert not model.unsaved
+    model.deformation.drag(0, to=(-5, 1))
+    assert model.unsaved
+    model.load(tmp_path / "c.glid")
+    assert not model.unsaved
+    model.close()
+
+
+def test_a_file_that_is_kept_up_to_date_has_everything(model: EditorModel) -> None:
+    _pin(model, (-6, 0))
+    assert not model.unsaved
+
+
 def test_without_a_file_opening_a_session_keeps_none_up_to_date(tmp_path: Path) -> None:
     model = EditorModel(picture())
     model.save(tmp_path / "c.glid")
@@ -100,10 +175,10 @@ def test_handles_outside_a_new_outline_come_back_with_the_old_one(model: EditorM
     _pin(model, (-6, 0), (-7.5, 3.5))
     state = model.deformation.state
     _move_corner(model, (-6.5, 2.5))
-    assert model.apply_tracing() == 1
+    assert model.apply_tracing().lost_handles == 1
     assert model.deformation.pose.handles.tolist() == [[-6, 0]]
     model.tracing.undo()
-    assert model.apply_tracing() == 0
+    assert model.apply_tracing() == Application()
     assert model.deformation.state is state
 
 
@@ -113,7 +188,7 @@ def test_what_was_valid_for_a_moment_of_a_drag_is_not_deformed(model: EditorMode
     for point in ((-6.5, 2.5), (-6, 2.4), (20, -1)):  # valid, then across the opposite side
         _move_corner(model, point, gesture="drag")
     assert model.tracing.problems
-    assert model.apply_tracing() == 0
+    assert model.apply_tracing() == Application()
     assert model.deformation.domain is domain
 
 

@@ -374,7 +374,9 @@ class TestVertices:
         edited = model.outcome.loops
         model.set_options(offset=4)
         assert not model.edited
+        assert model.has_discarded_edits
         model.undo()
+        assert not model.has_discarded_edits
         assert_same_loops(model.outcome, edited)
         model.discard_edits()
         assert not model.edited

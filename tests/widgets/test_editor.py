@@ -462,6 +462,7 @@ def test_a_file_of_another_editor_is_left_and_told(tmp_path: Path) -> None:
         editor.deformation.paused = True
         editor.add_handle(point)
         flush(path)
+        flush(tmp_path / "bar-2.glid")
     assert second.canvas is not None
     assert "bar.glid was changed by another editor" in second.canvas.pane.stage.notice
     assert "saved to bar-2.glid" in second.canvas.pane.stage.notice
@@ -486,6 +487,33 @@ def test_lost_handles_are_told(editor: Editor) -> None:
     assert editor.canvas is not None
     assert "A handle was outside the new outline" in editor.canvas.pane.stage.notice
     assert len(editor.pose) == 0
+
+
+def test_what_becomes_of_the_tracing_is_told(editor: Editor) -> None:
+    tracing, frame = editor.model.tracing, editor.model.tracing.frame
+    assert frame is not None
+    editor.tabs.selected_index = 0
+    corner = int(np.argmin(np.hypot(*(editor.deformation.domain.cage.exterior - [-8, 2]).T)))
+    tracing.move_vertex(0, corner, frame.to_pixel([20, -1]))
+    editor.tabs.selected_index = 1
+    assert editor.canvas is not None
+    assert "not valid yet" in editor.canvas.pane.stage.notice
+    editor.tabs.selected_index = 0
+    tracing.open(glid.samples.image("bar")[::-1])
+    editor.tabs.selected_index = 1
+    assert "comes back with Undo in the Trace tab" in editor.canvas.pane.stage.notice
+
+
+def test_a_closed_editor_refuses() -> None:
+    editor = Editor(bar(), n_vertices=300)
+    editor.close()
+    for change in (
+        lambda: editor.add_handle((-7, 0)),
+        lambda: editor.trace(offset=3),
+        editor.solve,
+    ):
+        with pytest.raises(EditError, match="closed"):
+            change()
 
 
 def test_an_empty_editor_opens_sessions(editor: Editor, tmp_path: Path) -> None:

@@ -164,6 +164,20 @@ def test_a_double_click_is_no_answer(model: EditorModel) -> None:
     assert Path("session.glid").read_bytes() == THEIRS
 
 
+def test_opening_asks_before_it_discards(panel: FilePanel, tmp_path: Path) -> None:
+    panel.path.value = str(tmp_path / "other.glid")
+    panel.model.save(panel.path.value)
+    assert "Opened" in click(panel, panel.open_button)
+    panel.model.deformation.paused = True
+    panel.model.deformation.add_handle(panel.model.deformation.domain.cage.exterior.mean(axis=0))
+    count = len(panel.model.deformation.pose)
+    assert "in no file yet" in click(panel, panel.open_button)
+    assert panel.open_button.description == "Discard?"
+    assert len(panel.model.deformation.pose) == count
+    assert "Opened" in click(panel, panel.open_button)
+    assert len(panel.model.deformation.pose) == count - 1
+
+
 def test_an_export_asks_too(panel: FilePanel) -> None:
     for name in ("session.obj", "session.mtl", "session.png"):
         Path(name).write_bytes(THEIRS)

@@ -108,7 +108,7 @@ function render({ model, el }) {
   el.append(root);
 
   function showStatus() {
-    const { size, loops, problems, n_components: count } = model.get("shown");
+    const { size, loops, problems, n_components: count, discarded } = model.get("shown");
     const n = loops.reduce((sum, loop) => sum + loop.length, 0);
     const holes = Math.max(loops.length - 1, 0);
     let kind = "ok";
@@ -118,7 +118,8 @@ function render({ model, el }) {
     else if (!size) [kind, text] = ["idle", "No picture yet"];
     else if (problems.length) {
       [kind, text] = ["bad", loops.length ? "This is no cage yet; the last valid cage is kept" : "There is no cage yet"];
-    } else if (count > 1) text += ` · ${count} components in the picture`;
+    } else if (discarded) text += " · your edits went with the old outline; Undo brings them back";
+    else if (count > 1) text += ` · ${count} components in the picture`;
     root.dataset.status = kind;
     status.textContent = text;
   }
