@@ -72,7 +72,8 @@ def scaling(series: dict[str, Rows], picture: str) -> list[str]:
         f"![time and memory against sizes]({picture})",
         "",
         "Each size in a process of its own, a flower with a ring of handles, `default`. An "
-        "iteration is equal work at every size, near a minimum and without corrections: the "
+        "iteration is equal work at every size, near a minimum, on a boundary whose panels need "
+        "no further splitting, and without corrections: the "
         f"difference between calls with {STEPS} iterations and with none, divided by their number. "
         "The call is one without iterations. Exponents are between a size and the one before it; "
         "that of the work is of its fastest growing part: columns squared times nodes (the "
@@ -169,6 +170,13 @@ def _statements(
         found.append(
             f"At {joined(modified)} an exact Hessian was not definite and was factored twice."
         )
+    found += [
+        f"At {row[about.by]} the solve must split {row['split']} panels first, which takes "
+        f"{1e3 * row['splitting']:.0f} ms beside its iterations: the matrices of the finer "
+        "boundary are made anew."
+        for row in rows
+        if row["split"]
+    ]
     if worst >= 0 and beyond[worst] > _CLIFF:
         found.append(
             f"**A cliff:** from {x[worst]:g} to {x[worst + 1]:g} the time grows with the power "

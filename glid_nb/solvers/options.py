@@ -77,7 +77,7 @@ class Options:
     max_iterations: int = 200
     tolerance: float = 1e-10
     corrections: int = MOST_CORRECTIONS
-    iterations_per_call: int = 4
+    iterations_per_call: int = _MOST_PER_CALL
 
     def __post_init__(self) -> None:
         for name, kinds in (

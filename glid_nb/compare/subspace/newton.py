@@ -21,7 +21,7 @@ def run_newton(inputs: Inputs, **options: Any) -> MethodResult:
         p2p_weight=inputs.p2p_weight,
         max_iterations=inputs.max_iterations,
         align=inputs.align,
-        iterations_per_call=1 if inputs.callback else 4,
+        iterations_per_call=1 if inputs.callback else Options.iterations_per_call,
         **settings,
     )
     arguments = (inputs.domain, inputs.pose, inputs.energy)
