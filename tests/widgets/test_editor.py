@@ -9,8 +9,10 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,6 +23,7 @@ from glid_nb.imaging.style import distortion_colors
 from glid_nb.session.autosave import flush
 from glid_nb.session.document import load_document
 from glid_nb.session.edit_state import EditError
+from glid_nb.session.status_line import StatusLine
 from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
 from glid_nb.widgets.background import Background
 from glid_nb.widgets.exporting import ExportError
@@ -385,6 +388,26 @@ def test_the_monitor_draws_plots_and_words() -> None:
         assert monitor.refresh(TIMEOUT)
         assert bytes(monitor.image.value) != before
         monitor.close()
+
+
+def test_frames_are_counted_in_words() -> None:
+    observers: list[Callable[[str], None]] = []
+
+    def observe(observer: Callable[[str], None]) -> Callable[[], None]:
+        observers.append(observer)
+        return observers.clear
+
+    working = StatusLine("working", "Working")
+    model: Any = SimpleNamespace(
+        observe=observe, status=working, solved=False, busy=True, begun=False
+    )
+    monitor = SolverMonitor(model, plots=False)
+    assert monitor.text == "Working"
+    observers[0]("frame")
+    assert monitor.text == "Working · 1 frame/s"
+    observers[0]("frame")
+    assert monitor.text == "Working · 2 frames/s"
+    monitor.close()
 
 
 def test_a_comparison_is_drawn_in_place_of_the_map(editor: Editor) -> None:
