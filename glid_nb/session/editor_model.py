@@ -16,7 +16,7 @@ from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import ImageSource
 from glid_nb.session.autosave import Autosave, flush, free_sibling
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.document import Document, load_document, save_document
+from glid_nb.session.document import Document, DocumentError, load_document, save_document
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.own_files import OwnFiles
 from glid_nb.session.tracing import TracingModel
@@ -41,7 +41,16 @@ def open_document(path: str | Path) -> Document:
 
 
 def find_document(path: str | Path) -> Document | None:
-    """`open_document`, or None where no file is, nor will be once what is pending is saved."""
+    """`open_document`, or None where no file is, nor will be once what is pending is saved.
+
+    Raises
+    ------
+    DocumentError
+        The file is no valid document, or none can be at this path.
+    OSError
+        It cannot be read.
+    """
+    _check_place(Path(path))
     flush(path)
     return load_document(path) if Path(path).exists() else None
 
@@ -63,6 +72,8 @@ class EditorModel:
     ------
     TraceError
         The picture cannot be read.
+    DocumentError
+        No file can be at ``path``.
     """
 
     def __init__(
@@ -72,6 +83,8 @@ class EditorModel:
         document: Document | None = None,
         path: str | Path | None = None,
     ) -> None:
+        if path is not None:
+            _check_place(Path(path))
         self._lock = threading.RLock()
         self._observers: list[Callable[[], None]] = []
         self._save_observers: list[Callable[[], None]] = []
@@ -293,6 +306,17 @@ class EditorModel:
     def _tell(self) -> None:
         for callback in tuple(self._observers):
             callback()
+
+
+def _check_place(path: Path) -> None:
+    """Raise where a session file can neither be nor be written."""
+    if path.is_dir():
+        raise DocumentError(f"{path.absolute()} is a folder; name a file")
+    if not path.parent.is_dir():
+        raise DocumentError(
+            f"{path}: the folder {path.parent.absolute()} does not exist; make it first, or name a "
+            "file elsewhere"
+        )
 
 
 def _count_handles(deformation: Deformation) -> int:
