@@ -26,6 +26,8 @@ Array = NDArray[Any]
 
 # Handles nearer to each other than this share of the cage's size would be one for any eye.
 _LEAST_DISTANCE = 1e-6
+# A map that moves a point by less than this share moves it by rounding.
+_ROUNDING = 1e-13
 
 
 def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None = None) -> EditState:
@@ -42,7 +44,7 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
         gap = np.linalg.norm(others - point, axis=1)
         if (gap < _LEAST_DISTANCE * cage.longer_side).any():
             raise EditError(f"there already is a handle at {_text(point)}")
-    wanted = state.map(points) if targets is None else _points(targets, "to")
+    wanted = _places_now(state, points) if targets is None else _points(targets, "to")
     return _with_pose(
         state,
         Pose(np.concatenate([pose.handles, points]), np.concatenate([pose.targets, wanted])),
@@ -194,6 +196,13 @@ def _points(values: ArrayLike, name: str) -> Array:
     if not np.isfinite(points).all():
         raise EditError(f"{name} holds a coordinate that is not finite; give finite numbers")
     return points
+
+
+def _places_now(state: EditState, points: Array) -> Array:
+    """Where the map has these points; without its rounding where it leaves them in place."""
+    images = state.map(points)
+    moved = np.linalg.norm(images - points, axis=1, keepdims=True)
+    return np.where(moved < _ROUNDING * state.domain.cage.longer_side, points, images)
 
 
 def _checked_indices(state: EditState, indices: Iterable[int]) -> Array:
