@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
+
+from glid_nb._bounds import rounded_down, rounded_up
 
 _LONG = ("history", "options", "versions", "machine")
 
@@ -75,9 +77,9 @@ def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
             f"targets: {_number(report['E_p2p'])})",
         ),
         ("certified", "yes" if report["certified"] else "no"),
-        ("sigma_2", f">= {_number(report['sigma2_lower'])}"),
-        ("sigma_1", f"<= {_number(report['sigma1_upper'])}"),
-        ("k", f"<= {_number(report['k_upper'])}"),
+        ("sigma_2", f">= {_bound(report['sigma2_lower'], rounded_down)}"),
+        ("sigma_1", f"<= {_bound(report['sigma1_upper'], rounded_up)}"),
+        ("k", f"<= {_bound(report['k_upper'], rounded_up)}"),
         ("winding number", winding),
         ("injective", injective if report["certified"] else "not proved"),
         (
@@ -86,6 +88,10 @@ def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
             f"certify {report['certify_time']:.3f} s",
         ),
     ]
+
+
+def _bound(value: float | None, rounded: Callable[[float, int], str]) -> str:
+    return "unbounded" if value is None else rounded(value, 6)
 
 
 def _number(value: float | None) -> str:

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb.certificate import Certificate
+from glid_nb._bounds import rounded_down, rounded_up
+from glid_nb.certificate import Certificate, global_injectivity
 from glid_nb.export.picture import png
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
@@ -22,6 +23,12 @@ _FOLDER = Path(__file__).parent
 _VERTICES = 4000
 _TOLERANCE = 0.004  # world units; the picture is 20 long
 _MARGIN = 0.04  # of the canvas, as in a rendering with view="fit"
+# What a proof of local injectivity leaves open, by what is known of it.
+_OVERLAPS = {
+    "yes": "no part lies over another",
+    "no": "parts of the shape lie over one another",
+    "undecided": "whether parts lie over one another is not known",
+}
 
 
 def page_html(
@@ -43,7 +50,7 @@ def page_html(
     map : HarmonicMap
         The map.
     certificate : Certificate, optional
-        Its proof, whose bounds are then stated.
+        Its proof. Its bounds are then stated, and whether the shape overlaps itself.
     title : str
         The page's title and heading.
     tolerance : float
@@ -65,7 +72,7 @@ def page_html(
     }
     parts = {
         "title": html.escape(title),
-        "caption": html.escape(_caption(certificate)),
+        "caption": html.escape(_caption(map, certificate)),
         "style": _read("page.css"),
         "script": _read("page.js"),
         "data": json.dumps(data, allow_nan=False),
@@ -74,13 +81,14 @@ def page_html(
     return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _read("page.html"))
 
 
-def _caption(certificate: Certificate | None) -> str:
+def _caption(map: HarmonicMap, certificate: Certificate | None) -> str:
     if certificate is None or not certificate.certified:
         return ""
+    whole = global_injectivity(map, certificate)
     return (
-        "Proved not to fold anywhere: "
-        f"σ₂ ≥ {certificate.sigma2_lower:.3g}, σ₁ ≤ {certificate.sigma1_upper:.3g}, "
-        f"k ≤ {certificate.k_upper:.3g}"
+        f"Proved not to fold over or tear at any point; {_OVERLAPS[whole.verdict]}. "
+        f"Bounds: σ₂ ≥ {rounded_down(certificate.sigma2_lower)}, "
+        f"σ₁ ≤ {rounded_up(certificate.sigma1_upper)}, k ≤ {rounded_up(certificate.k_upper)}"
     )
 
 

@@ -78,6 +78,7 @@ def _check_distinct(loop: NDArray[np.float64], number: int, resolution: float) -
             f"{name}: the last vertex {j} repeats vertex 0 at {place(loop[0])}; "
             "loops close by themselves, leave the last vertex out",
             loop[0],
+            f"{_sentence(plain_name(number))} has two points in one place; leave one of them out",
         )
     plain = (
         f"{plain_name(number)} has two points in one place; leave one of them out"
@@ -141,7 +142,12 @@ def _check_fold_back(loop: NDArray[np.float64], number: int, resolution: float) 
 
 def _refusal(plain: str, details: str, point: ArrayLike) -> GeometryError:
     """What is wrong and what to do in plain words, then where in the data."""
-    return GeometryError(f"{plain[0].upper()}{plain[1:]} ({details})", point)
+    plain = _sentence(plain)
+    return GeometryError(f"{plain} ({details})", point, plain)
+
+
+def _sentence(text: str) -> str:
+    return text[0].upper() + text[1:]
 
 
 def _edge(i: int, n: int) -> str:

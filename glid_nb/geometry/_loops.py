@@ -17,10 +17,15 @@ class GeometryError(ValueError):
     ----------
     point
         The place that the message speaks of, for a picture that shows it; None if there is none.
+    plain
+        The message for who sees that place in a picture: without coordinates and numbers of edges.
     """
 
-    def __init__(self, message: str, point: ArrayLike | None = None) -> None:
+    def __init__(
+        self, message: str, point: ArrayLike | None = None, plain: str | None = None
+    ) -> None:
         super().__init__(message)
+        self.plain = message if plain is None else plain
         self.point = None if point is None else tuple(map(float, np.asarray(point)))
 
 

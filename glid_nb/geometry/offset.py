@@ -90,6 +90,7 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
             f"no offset cage fits: the {corners.describe(i)} lies in a passage too narrow for any "
             "offset; widen the passage, merge the two sides or remove the vertex",
             corners.points[i],
+            "This passage is too narrow; widen it, merge its two sides or remove the point",
         )
     loops = corners.split(corners.moved(local))
     try:
@@ -97,7 +98,9 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
     except GeometryError as error:
         raise GeometryError(
             f"no valid offset cage at distance {distance:.6g} ({error}); "
-            "use a smaller offset or widen the cage's narrowest passage"
+            "use a smaller offset or widen the cage's narrowest passage",
+            error.point,
+            "There is no room around the outline here; widen the narrowest passage",
         ) from error
     distances = corners.split(local * corners.height)
     for array in distances:
@@ -133,7 +136,9 @@ def hole_points(cage: Cage) -> NDArray[np.float64]:
         if not candidates:
             raise GeometryError(
                 f"no point strictly inside {loop_name(i + 1)} of the offset cage was found near "
-                f"{place(hole[0])}; widen the hole or remove it"
+                f"{place(hole[0])}; widen the hole or remove it",
+                hole[0],
+                "This hole is too narrow; widen it or remove it",
             )
         best = max(candidates, key=region.exterior.distance)
         points[i] = best.x, best.y

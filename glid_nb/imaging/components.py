@@ -82,7 +82,9 @@ class Components:
             raise TraceError(
                 f"component {rank} does not exist: the foreground has {self.n_components} "
                 f"{'component' if self.n_components == 1 else 'components'}, counted from 0, the "
-                "largest"
+                "largest",
+                f"The component that was chosen is gone, {self.n_components} "
+                f"{'is' if self.n_components == 1 else 'are'} left; choose another",
             )
         if rank < _LISTED:
             return self.largest[rank]
@@ -111,7 +113,8 @@ class Components:
         if rank < 0:
             raise TraceError(
                 f"component_at: the pixel ({point[0]:g}, {point[1]:g}) is background; pick a pixel "
-                "of the shape"
+                "of the shape",
+                "There is only background at the place that was picked; pick a place on the shape",
             )
         return rank
 

@@ -85,7 +85,8 @@ class PixelFrame:
         if not (0 <= x < self.width and 0 <= y < self.height):
             raise TraceError(
                 f"{name}: the pixel ({x:g}, {y:g}) lies outside the image of {self.width} x "
-                f"{self.height} pixels"
+                f"{self.height} pixels",
+                "That place lies outside the picture",
             )
         return int(y), int(x)
 

@@ -19,6 +19,7 @@ from matplotlib.text import Text
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
+from glid_nb._bounds import rounded_down
 from glid_nb.certificate import Certificate
 from glid_nb.geometry import Cage
 from glid_nb.harmonic import HarmonicMap
@@ -314,7 +315,7 @@ class CertificatePlot:
         least = int(np.argmin(bound))
         self._least.set_data([ends[least].mean()], [bound[least]])
         certified = certificate.certified
-        lower = _rounded_down(certificate.sigma2_lower) if certified else ""
+        lower = rounded_down(certificate.sigma2_lower) if certified else ""
         proof = f"σ₂ ≥ {lower}" if certified else "not certified"
         self._text.set_text(f"{proof}, {_winding(certificate)}")
         self._text.set_color(INK if certified else VERMILION)
@@ -455,12 +456,6 @@ def _winding(certificate: Certificate) -> str:
         loops = (f"{Cage.loop_name(i).removesuffix(' loop')} {turns}" for i, turns in each)
         text += f" ({', '.join(loops)})"
     return text.replace("-", "\N{MINUS SIGN}")
-
-
-def _rounded_down(value: float) -> str:
-    """Three digits of a positive lower bound that still is one."""
-    unit = 10.0 ** (np.floor(np.log10(value)) - 2)
-    return f"{np.floor(value / unit) * unit:.3g}"
 
 
 def _with_gaps(rows: NDArray[np.float64], starts: NDArray[np.intp]) -> NDArray[np.float64]:

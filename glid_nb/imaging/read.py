@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import os
+import re
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,7 @@ RGBA = NDArray[np.uint8] | NDArray[np.uint16]
 
 _TIFF_STARTS = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 _BITS_PER_SAMPLE = 258  # the TIFF tag
+_ADDRESS = re.compile(r"([a-z][a-z0-9+.-]+):/{1,2}(.*)", re.IGNORECASE | re.DOTALL)
 _ROWS = 256  # rows per block where a whole picture in float would need gigabytes
 
 
@@ -49,11 +51,19 @@ def read_image(source: ImageSource, name: str | None = None) -> RGBA:
     Raises
     ------
     TraceError
-        The file is missing, no picture or damaged, or the picture is empty or too large.
+        The file is missing, no picture or damaged, or an address; or the picture is empty or too
+        large.
     """
     if isinstance(source, Image.Image):
         return _from_pillow(source, name or "the PIL image")
     if isinstance(source, (str, os.PathLike)):
+        address = _ADDRESS.match(str(source))
+        if address:
+            scheme, rest = address.groups()  # a Path keeps one slash of two
+            raise TraceError(
+                f"{scheme}://{rest} is an address, and only files are read; download the picture "
+                "and give the path of its file, or give its bytes"
+            )
         path = Path(source)
         try:
             data = path.read_bytes()

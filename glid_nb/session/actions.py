@@ -6,6 +6,7 @@ from there to the new targets is the solver's part.
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
@@ -13,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._numbers import real_array
 from glid_nb.compare import MethodChoice
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
@@ -24,11 +26,13 @@ Array = NDArray[Any]
 
 # Handles nearer to each other than this share of the cage's size would be one for any eye.
 _LEAST_DISTANCE = 1e-6
+# A map that moves a point by less than this share moves it by rounding.
+_ROUNDING = 1e-13
 
 
 def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None = None) -> EditState:
     """Pin points of the domain (h, 2); by default where they are now, so that nothing moves."""
-    points = _points(points)
+    points = _points(points, "point")
     pose, cage = state.pose, state.domain.cage
     outside = np.flatnonzero(~cage.contains(points))
     if outside.size:
@@ -40,7 +44,7 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
         gap = np.linalg.norm(others - point, axis=1)
         if (gap < _LEAST_DISTANCE * cage.longer_side).any():
             raise EditError(f"there already is a handle at {_text(point)}")
-    wanted = state.map(points) if targets is None else _points(targets)
+    wanted = _places_now(state, points) if targets is None else _points(targets, "to")
     return _with_pose(
         state,
         Pose(np.concatenate([pose.handles, points]), np.concatenate([pose.targets, wanted])),
@@ -62,15 +66,17 @@ def clear_handles(state: EditState) -> EditState:
 def move_targets(state: EditState, indices: Iterable[int], targets: ArrayLike) -> EditState:
     """Put the targets of some handles elsewhere; anywhere."""
     chosen = _checked_indices(state, indices)
-    moved = np.array(state.pose.targets)
-    moved[chosen] = _points(targets)
+    moved, wanted = np.array(state.pose.targets), _points(targets, "to")
+    if len(wanted) not in (1, len(chosen)):
+        raise EditError(f"to holds {len(wanted)} points for {len(chosen)} handles; give one each")
+    moved[chosen] = wanted
     return _with_pose(state, state.pose.with_targets(moved))
 
 
 def nudge(state: EditState, indices: Iterable[int], delta: ArrayLike) -> EditState:
     """Shift the targets of some handles by ``delta`` (2,)."""
     chosen = _checked_indices(state, indices)
-    return move_targets(state, chosen, state.pose.targets[chosen] + np.asarray(delta, dtype=float))
+    return move_targets(state, chosen, state.pose.targets[chosen] + _points(delta, "delta"))
 
 
 def reset(state: EditState) -> EditState:
@@ -175,18 +181,37 @@ def _with_pose(state: EditState, pose: Pose) -> EditState:
     return state.with_current(state.current.changed(pose=pose))
 
 
-def _points(values: ArrayLike) -> Array:
-    points = np.array(values, dtype=float)
+def _points(values: ArrayLike, name: str) -> Array:
+    try:
+        points = real_array(values)
+    except (TypeError, ValueError) as error:
+        raise EditError(
+            f"{name} must be [x, y], or a list of such pairs, not {values!r:.60}: {error}"
+        ) from error
     points = points[None] if points.shape == (2,) else points
     if points.ndim != 2 or points.shape[1] != 2:
-        raise EditError(f"points must be [x, y] pairs; the shape is {points.shape}")
+        raise EditError(
+            f"{name} must be [x, y], or a list of such pairs; its shape is {points.shape}"
+        )
     if not np.isfinite(points).all():
-        raise EditError("a coordinate is not finite; points must be pairs of finite numbers")
+        raise EditError(f"{name} holds a coordinate that is not finite; give finite numbers")
     return points
 
 
+def _places_now(state: EditState, points: Array) -> Array:
+    """Where the map has these points; without its rounding where it leaves them in place."""
+    images = state.map(points)
+    moved = np.linalg.norm(images - points, axis=1, keepdims=True)
+    return np.where(moved < _ROUNDING * state.domain.cage.longer_side, points, images)
+
+
 def _checked_indices(state: EditState, indices: Iterable[int]) -> Array:
-    chosen = np.array([int(i) for i in indices], dtype=int)
+    try:
+        chosen = np.array([operator.index(i) for i in indices], dtype=int)
+    except TypeError as error:
+        raise EditError(
+            f"handles are named by their indices, whole numbers, not by {indices!r:.60}"
+        ) from error
     wrong = [i for i in chosen if not 0 <= i < len(state.pose)]
     if wrong:
         raise EditError(f"there is no handle {wrong[0]}; the pose has {len(state.pose)}")

@@ -6,6 +6,7 @@ import threading
 import weakref
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from glid_nb.session.live_solver import Frame, LiveSolver, Task
 from glid_nb.session.point_finder import PointFinder
 from glid_nb.session.status_line import StatusLine, describe, describe_error
 from glid_nb.solvers import Options, Pose
+from glid_nb.solvers.arguments import check_type
 
 Array = NDArray[Any]
 Observer = Callable[[str], None]
@@ -353,7 +355,7 @@ class Deformation:
         with self._lock:
             self.begin_drag([handle])
             try:
-                self.drag_to(np.asarray(to, dtype=float)[None])
+                self.drag_to(to)
             finally:
                 self.end_drag()
 
@@ -466,6 +468,7 @@ class Deformation:
         EditError
             When this is closed.
         """
+        check_type("timeout", timeout, Real | None, "give seconds, or None to wait to the end")
         with self._lock:
             self._check_open()
             if not self.solved and not self._solver.busy:

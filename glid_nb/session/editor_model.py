@@ -19,7 +19,7 @@ from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import ImageSource
 from glid_nb.session.autosave import Autosave, flush, free_sibling
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.document import Document, load_document, save_document
+from glid_nb.session.document import Document, DocumentError, load_document, save_document
 from glid_nb.session.edit_state import EditedPose, EditError, EditState
 from glid_nb.session.own_files import OwnFiles
 from glid_nb.session.tracing import TracingModel, TracingState
@@ -65,7 +65,16 @@ def open_document(path: str | Path) -> Document:
 
 
 def find_document(path: str | Path) -> Document | None:
-    """`open_document`, or None where no file is, nor will be once what is pending is saved."""
+    """`open_document`, or None where no file is, nor will be once what is pending is saved.
+
+    Raises
+    ------
+    DocumentError
+        The file is no valid document, or none can be at this path.
+    OSError
+        It cannot be read.
+    """
+    _check_place(Path(path))
     flush(path)
     return load_document(path) if Path(path).exists() else None
 
@@ -87,6 +96,8 @@ class EditorModel:
     ------
     TraceError
         The picture cannot be read.
+    DocumentError
+        No file can be at ``path``.
     """
 
     def __init__(
@@ -96,6 +107,8 @@ class EditorModel:
         document: Document | None = None,
         path: str | Path | None = None,
     ) -> None:
+        if path is not None:
+            _check_place(Path(path))
         self._lock = threading.RLock()
         self._observers: list[Callable[[], None]] = []
         self._save_observers: list[Callable[[], None]] = []
@@ -396,6 +409,17 @@ def _apply(deformation: Deformation, domain: Domain) -> int:
 def _work_of(poses: Sequence[EditedPose]) -> tuple[Any, ...]:
     """What somebody chose in all poses; equal values are the same work."""
     return tuple((pose.name, pose.pose, pose.energy, pose.options, pose.method) for pose in poses)
+
+
+def _check_place(path: Path) -> None:
+    """Raise where a session file can neither be nor be written."""
+    if path.is_dir():
+        raise DocumentError(f"{path.absolute()} is a folder; name a file")
+    if not path.parent.is_dir():
+        raise DocumentError(
+            f"{path}: the folder {path.parent.absolute()} does not exist; make it first, or name a "
+            "file elsewhere"
+        )
 
 
 def _count_handles(deformation: Deformation) -> int:

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+from glid_nb._bounds import rounded_down
 from glid_nb.compare import MeshMap, MethodError
 from glid_nb.session.edit_state import EditState, Solution
 from glid_nb.session.live_solver import Frame
@@ -103,11 +104,3 @@ def _miss(state: EditState) -> str:
     gap = state.map(pose.handles) - pose.targets
     worst = float(max(math.hypot(*row) for row in gap))
     return f", {worst:.2g} units from its target" if worst > _REACHED else ""
-
-
-def rounded_down(value: float) -> str:
-    """Three digits of a lower bound that still is one."""
-    if not (value > 0 and math.isfinite(value)):
-        return f"{value:.3g}"
-    unit = 10.0 ** (math.floor(math.log10(value)) - 2)
-    return f"{math.floor(value / unit) * unit:.3g}"

@@ -45,11 +45,14 @@ class TracingProblem:
     ----------
     message
         A sentence that says what is wrong and what to do.
+    plain
+        The same for who has picture and controls in view: no code words, no coordinates.
     point
         Where, (x, y) in pixels; None when it is nowhere in particular.
     """
 
     message: str
+    plain: str
     point: Point | None = None
 
 
@@ -532,9 +535,9 @@ class TracingModel:
 def _problem(error: TraceError | GeometryError, frame: PixelFrame) -> TracingProblem:
     point = error.point if isinstance(error, GeometryError) else None
     if point is None:
-        return TracingProblem(str(error))
+        return TracingProblem(str(error), error.plain)
     x, y = frame.to_pixel(point)
-    return TracingProblem(str(error), (float(x), float(y)))
+    return TracingProblem(str(error), error.plain, (float(x), float(y)))
 
 
 def _pixels(image: ImageSource) -> NDArray[np.uint8]:

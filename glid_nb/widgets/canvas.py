@@ -17,6 +17,7 @@ from glid_nb.geometry import Domain
 from glid_nb.geometry.panels import Panels
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session.deformation import Deformation
+from glid_nb.widgets.arguments import LEAST_CANVAS, check_count, check_vertices
 from glid_nb.widgets.gestures import Gestures
 from glid_nb.widgets.overlays import OVERLAYS
 from glid_nb.widgets.pane import Pane
@@ -46,10 +47,10 @@ class DeformCanvas(ipywidgets.HBox):
     deformation : Deformation or Domain
         The model to show, or the domain of a new one.
     width, height : int
-        Size of the result in CSS pixels.
+        Size of the result in CSS pixels, at least 100 each.
     n_vertices : int, optional
         Vertices of the mesh that the picture is drawn on. By default 10,000, or fewer where the
-        page needs longer than 40 ms to draw them.
+        page needs longer than 40 ms to draw them. At least 3.
     evaluated_in : "shader" or "kernel", optional
         Who computes the vertices. By default the shader, where it can hold the cage; a frame then
         costs a few kB on the wire whatever the number of vertices.
@@ -58,6 +59,8 @@ class DeformCanvas(ipywidgets.HBox):
     ------
     TraceError
         The picture cannot be read.
+    TypeError, ValueError
+        A size or a number of vertices cannot be used.
     """
 
     overlay = traitlets.Enum(tuple(OVERLAYS), "texture")
@@ -89,6 +92,11 @@ class DeformCanvas(ipywidgets.HBox):
         evaluated_in: EvaluatedIn | None = None,
         **kwargs: Any,
     ) -> None:
+        size = (
+            check_count("width", width, LEAST_CANVAS, "pixels"),
+            check_count("height", height, LEAST_CANVAS, "pixels"),
+        )
+        self._n_vertices = check_vertices(n_vertices)
         self.image = read_image(image)
         """The picture, (h, w, 4) uint8."""
         self._owns_model = isinstance(deformation, Domain)
@@ -96,9 +104,8 @@ class DeformCanvas(ipywidgets.HBox):
             Deformation(deformation) if isinstance(deformation, Domain) else deformation
         )
         """The model that this is a view of."""
-        self._n_vertices = n_vertices
         self._evaluated_in: EvaluatedIn | None = evaluated_in
-        self.pane = self._pane((width, height), interactive=True)
+        self.pane = self._pane(size, interactive=True)
         self.source: Pane | None = None
         self.gestures = Gestures(self.deformation, self.fit)
         # The page's events that wait for the frame they led to; guarded by their own lock, in

@@ -25,6 +25,7 @@ from glid_nb.session.status_line import StatusLine
 from glid_nb.session.tracing import TracingProblem
 from glid_nb.solvers import Pose
 from glid_nb.widgets import cells
+from glid_nb.widgets.arguments import check_count, check_vertices
 from glid_nb.widgets.canvas import DeformCanvas
 from glid_nb.widgets.closing import close_with_parts
 from glid_nb.widgets.monitor import SolverMonitor
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from glid_nb.widgets.file_panel import FilePanel
 
 _TRACE, _DEFORM = 0, 1
+_LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
 _SOLVER = 1  # among the tabs beside the canvas
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
@@ -73,19 +75,19 @@ class Editor(ipywidgets.VBox):
         later is kept up to date instead, and a picture that is opened later is saved beside it; so
         is this session should another editor or program change the file.
     width, height : int
-        Size of the canvas in CSS pixels.
+        Size of the canvas in CSS pixels, at least 240 each.
     n_vertices : int, optional
         Vertices of the mesh that the picture is drawn on. By default 10,000, or fewer where the
-        page needs longer than 40 ms to draw them.
+        page needs longer than 40 ms to draw them. At least 3.
 
     Raises
     ------
     TraceError
         The picture cannot be read.
     DocumentError
-        The session file cannot be read.
-    ValueError
-        The session file is of another picture.
+        The session file cannot be read, or not be written where it should be.
+    TypeError, ValueError
+        A size or a number of vertices cannot be used, or the session file is of another picture.
 
     Examples
     --------
@@ -117,6 +119,11 @@ class Editor(ipywidgets.VBox):
         n_vertices: int | None = None,
         **kwargs: Any,
     ) -> None:
+        self._size = (
+            check_count("width", width, _LEAST_SIZE, "pixels"),
+            check_count("height", height, _LEAST_SIZE, "pixels"),
+        )
+        self._n_vertices = check_vertices(n_vertices)
         enable_compilation_cache()
         document = None if path is None else find_document(path)
         if (
@@ -130,7 +137,6 @@ class Editor(ipywidgets.VBox):
             )
         self.model = EditorModel(image, document=document, path=path)
         """The editor without its widgets."""
-        self._size, self._n_vertices = (width, height), n_vertices
         self.canvas: DeformCanvas | None = None
         """The canvas of the Deform tab; None while nothing is traced."""
         self._parts: list[Any] = []

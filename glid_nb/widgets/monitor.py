@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any
 import ipywidgets
 import numpy as np
 
+from glid_nb._bounds import rounded_down, rounded_up
 from glid_nb.certificate import Certificate
 from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.geometry.panels import Panels
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.live_solver import Frame
-from glid_nb.session.status_line import StatusLine, rounded_down
+from glid_nb.session.status_line import StatusLine
 from glid_nb.widgets.background import Background
 from glid_nb.widgets.plots_frame import placeholder
 
@@ -120,10 +121,12 @@ class SolverMonitor(ipywidgets.VBox):
             proof = self.deformation.certificate
             words = (
                 f"{words.split(' · ')[0]} · certified σ₂ ≥ {rounded_down(proof.sigma2_lower)}, "
-                f"σ₁ ≤ {_rounded_up(proof.sigma1_upper)}, k ≤ {_rounded_up(proof.k_upper)}"
+                f"σ₁ ≤ {rounded_up(proof.sigma1_upper)}, k ≤ {rounded_up(proof.k_upper)}"
             )
         if not self.deformation.solved and self.deformation.busy:
-            words += f" · {self._rate()} frames/s"
+            rate = self._rate()
+            if rate:
+                words += f" · {rate} {'frame' if rate == 1 else 'frames'}/s"
         return words
 
     def _rate(self) -> int:
@@ -168,11 +171,3 @@ def _live_certificate(frame: Frame, panels: Panels) -> Certificate:
     return Certificate(
         True, least, np.nan, np.nan, (), proof, "hermite", "Certified step by step by the solver."
     )
-
-
-def _rounded_up(value: float) -> str:
-    """Three digits of an upper bound that still is one."""
-    if not (value > 0 and np.isfinite(value)):
-        return f"{value:.3g}"
-    unit = 10.0 ** (np.floor(np.log10(value)) - 2)
-    return f"{np.ceil(value / unit) * unit:.3g}"

@@ -28,6 +28,9 @@ _DRAWING_TIME, _FEWEST_VERTICES = 40.0, 1500  # ms, vertices
 class Pane(ipywidgets.GridBox):
     """A picture under a map, with marks over it; renderer and pad share one grid cell."""
 
+    # ipywidgets closes also what was refused while it was made.
+    _complete = False
+
     def __init__(
         self,
         image: Array,
@@ -64,6 +67,7 @@ class Pane(ipywidgets.GridBox):
         self._resize()
         self.stage.observe(self._resize, ["width", "height"])
         self.fit(map, ())
+        self._complete = True
 
     @property
     def scene(self) -> Scene:
@@ -152,6 +156,8 @@ class Pane(ipywidgets.GridBox):
 
     def close(self) -> None:
         """Free the renderer: a page has only eight."""
+        if not self._complete:
+            return
         self._scene.close()
         close_with_parts(self.stage, self._renderer, self.layout)
         super().close()

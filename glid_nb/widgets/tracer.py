@@ -138,7 +138,7 @@ class CageTracer(anywidget.AnyWidget):
         try:
             self._act(message, buffers)
         except (TraceError, GeometryError) as error:
-            refusal = str(error)
+            refusal = error.plain
         except Exception as error:
             refusal = f"{type(error).__name__}: {error}"  # shown, and logged by the kernel
             raise

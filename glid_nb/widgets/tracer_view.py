@@ -31,7 +31,7 @@ def described(model: TracingModel) -> dict[str, Any]:
         "size": None if frame is None else [frame.width, frame.height],
         "loops": [_rounded(loop) for loop in model.loops],
         "problems": [
-            {"message": p.message, "point": None if p.point is None else _rounded(p.point)}
+            {"message": p.plain, "point": None if p.point is None else _rounded(p.point)}
             for p in outcome.problems
         ],
         "options": _options(model.options),

@@ -5,13 +5,15 @@ from __future__ import annotations
 import base64
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 
 from glid_nb.certificate import certify
 from glid_nb.export import page_html
+from glid_nb.harmonic import HarmonicMap
 
-from .shapes import bent, picture
+from .shapes import bent, domain, picture
 
 
 def data_of(page: str) -> dict:
@@ -46,3 +48,20 @@ def test_a_title_cannot_break_out() -> None:
 def test_bounds_are_stated_only_if_they_are_proved() -> None:
     assert "Proved not to fold" in page_html(picture(), bent(), certify(bent()))
     assert "Proved" not in page_html(picture(), bent())
+
+
+def test_stated_bounds_are_bounds() -> None:
+    proof = replace(certify(bent()), sigma2_lower=0.4567, sigma1_upper=1.2341, k_upper=1.12e-10)
+    page = page_html(picture(), bent(), proof)
+    assert "σ₂ ≥ 0.456, σ₁ ≤ 1.24, k ≤ 0.001" in page
+
+
+def test_an_overlap_is_told_of() -> None:
+    start = HarmonicMap.identity(domain())
+    # (z + 1)^2 on a ring about -1 goes around twice.
+    phi = np.where(start.phi != 0, (start.phi + 1) ** 2, 0)
+    twice = HarmonicMap(domain(), phi, start.psi)
+    proof = certify(twice)
+    assert proof.certified
+    assert "parts of the shape lie over one another" in page_html(picture(), twice, proof)
+    assert "no part lies over another" in page_html(picture(), bent(), certify(bent()))

@@ -336,6 +336,20 @@ def test_one_colour(image):
         find(image)
 
 
+@pytest.mark.parametrize(
+    ("image", "colours"),
+    [
+        (np.full((9, 9, 3), 255, np.uint8), "red 255, green 255, blue 255, alpha 255 (of 255)"),
+        (np.full((9, 9), 128, np.uint8), "red 128, green 128, blue 128, alpha 255 (of 255)"),
+        (np.full((9, 9), 32896, np.uint16), "red 128, green 128, blue 128, alpha 255 (of 255)"),
+    ],
+)
+def test_the_one_colour_is_told_as_elsewhere(image, colours):
+    with pytest.raises(TraceError) as caught:
+        find(image)
+    assert colours in str(caught.value)
+
+
 def test_one_odd_pixel_is_found_anywhere():
     image = np.zeros((90, 91))
     image[41, 3] = 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -215,6 +216,23 @@ class TestWrongFiles:
     def test_missing(self, tmp_path):
         with pytest.raises(TraceError, match=r"nothing\.png: there is no such file"):
             read_image(tmp_path / "nothing.png")
+
+    @pytest.mark.parametrize(
+        "address", ["https://example.com/a.png", "HTTP://x.y/", "file:///tmp/a b.png"]
+    )
+    def test_an_address(self, address):
+        with pytest.raises(TraceError) as caught:
+            read_image(address)
+        assert str(caught.value).startswith(f"{address} is an address")
+        assert "download" in str(caught.value)
+
+    def test_an_address_that_became_a_path(self):
+        with pytest.raises(TraceError, match=r"^https://example\.com/a\.png is an address"):
+            read_image(Path("https://example.com/a.png"))
+
+    def test_a_colon_makes_no_address(self):
+        with pytest.raises(TraceError, match="no such file"):
+            read_image("nowhere/12:/a.png")
 
     def test_a_folder(self, tmp_path):
         with pytest.raises(TraceError, match="cannot be read"):

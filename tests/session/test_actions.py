@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from glid_nb.energies import AMIPS
+from glid_nb.harmonic import HarmonicMap
 from glid_nb.session import actions
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.solvers import OptionError, Pose
@@ -23,10 +24,19 @@ def state() -> EditState:
 def test_a_handle_is_pinned_where_it_is(state: EditState) -> None:
     new = actions.add_handles(state, (0, 2))
     assert new.pose.handles[2].tolist() == [0, 2]
-    np.testing.assert_allclose(new.pose.targets[2], [0, 2], atol=1e-9)
+    assert new.pose.targets[2].tolist() == [0, 2]
     assert len(state.pose) == 2
     assert new.map is state.map
     assert not new.current.solved
+
+
+def test_what_has_moved_is_pinned_where_it_has_moved_to(state: EditState) -> None:
+    identity = state.map
+    turned = HarmonicMap(state.domain, 1j * identity.phi, -1j * identity.psi)
+    new = actions.add_handles(
+        state.with_current(state.current.changed(map=turned)), [(0, 2), (0.1, 2.1)]
+    )
+    np.testing.assert_allclose(new.pose.targets[2:], [[-2, 0], [-2.1, 0.1]], atol=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -37,6 +47,15 @@ def test_a_handle_is_pinned_where_it_is(state: EditState) -> None:
         (lambda s: actions.add_handles(s, [(0, 2), (0, 2)]), "already is a handle"),
         (lambda s: actions.add_handles(s, (np.nan, 2)), "not finite"),
         (lambda s: actions.move_targets(s, [0], (np.inf, 2)), "not finite"),
+        (lambda s: actions.add_handles(s, "ab"), r"point must be \[x, y\].*not 'ab'"),
+        (lambda s: actions.add_handles(s, (0, 2), "ab"), r"to must be \[x, y\].*not 'ab'"),
+        (lambda s: actions.add_handles(s, (True, 2)), "true and false are not numbers"),
+        (lambda s: actions.add_handles(s, (1, 2, 3)), r"point must be.*shape is \(3,\)"),
+        (lambda s: actions.move_targets(s, [0], None), r"to must be \[x, y\]"),
+        (lambda s: actions.move_targets(s, [0], [(1, 2), (3, 4)]), "2 points for 1 handles"),
+        (lambda s: actions.move_targets(s, "a", (1, 2)), "whole numbers, not by 'a'"),
+        (lambda s: actions.move_targets(s, [0.5], (1, 2)), "whole numbers"),
+        (lambda s: actions.nudge(s, [0], "left"), r"delta must be \[x, y\]"),
         (lambda s: actions.move_targets(s, [2], (0, 0)), "no handle 2"),
         (lambda s: actions.remove_handles(s, [-1]), "no handle -1"),
         (lambda s: actions.drop_hole(s, 1), "no hole 2"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -9,8 +10,13 @@ import numpy as np
 import pytest
 
 from glid_nb.session.autosave import flush
-from glid_nb.session.document import load_document
-from glid_nb.session.editor_model import Application, EditorModel, open_document
+from glid_nb.session.document import DocumentError, load_document
+from glid_nb.session.editor_model import (
+    Application,
+    EditorModel,
+    find_document,
+    open_document,
+)
 
 
 def picture(width: int = 80) -> np.ndarray:
@@ -190,6 +196,17 @@ def test_what_was_valid_for_a_moment_of_a_drag_is_not_deformed(model: EditorMode
     assert model.tracing.problems
     assert model.apply_tracing() == Application()
     assert model.deformation.domain is domain
+
+
+@pytest.mark.parametrize(("place", "reason"), [(".", "is a folder"), ("no/a.glid", "not exist")])
+def test_a_path_where_no_file_can_be_is_refused(tmp_path: Path, place: str, reason: str) -> None:
+    threads = threading.active_count()
+    with pytest.raises(DocumentError, match=reason):
+        find_document(tmp_path / place)
+    with pytest.raises(DocumentError, match=reason):
+        EditorModel(picture(), path=tmp_path / place)
+    assert threading.active_count() == threads
+    assert not list(tmp_path.iterdir())
 
 
 def test_two_editors_of_one_file_do_not_write_over_one_another(

@@ -127,6 +127,11 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     book.theme("JupyterLab Dark")
     arrow = overlay.evaluate("menu => getComputedStyle(menu).backgroundImage")
     assert "e0e0e0" in arrow  # light on dark
+    tools = page.locator(".glid-tools button")
+    pressed, other = tools.filter(has_text="Certificate"), tools.filter(has_text="Source")
+    color = "button => getComputedStyle(button).backgroundColor"
+    assert pressed.evaluate(color) == "rgb(0, 114, 178)"
+    assert other.evaluate(color) != "rgb(0, 114, 178)"
     book.screenshot("editor-certificate-dark")
     book.theme("JupyterLab Light")
     overlay.select_option(label="Picture and grid")

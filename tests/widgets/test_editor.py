@@ -9,9 +9,12 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
+import ipywidgets
 import numpy as np
 import pytest
 from PIL import Image
@@ -19,8 +22,9 @@ from PIL import Image
 import glid_nb as glid
 from glid_nb.imaging.style import distortion_colors
 from glid_nb.session.autosave import flush
-from glid_nb.session.document import load_document
+from glid_nb.session.document import DocumentError, load_document
 from glid_nb.session.edit_state import EditError
+from glid_nb.session.status_line import StatusLine
 from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
 from glid_nb.widgets.background import Background
 from glid_nb.widgets.exporting import ExportError
@@ -368,6 +372,55 @@ def test_the_panel_and_the_model_show_each_other() -> None:
         assert poses.name.value == "second"
 
 
+def _widgets() -> set[str]:
+    return set(ipywidgets.Widget.get_manager_state(drop_defaults=True)["state"])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "kind", "message"),
+    [
+        ({"n_vertices": 0}, ValueError, "n_vertices is 0; it must be at least 3 vertices"),
+        ({"n_vertices": "a"}, TypeError, "n_vertices must be a whole number of vertices, not 'a'"),
+        ({"width": -5}, ValueError, "width is -5; it must be at least 240 pixels"),
+        ({"height": 0}, ValueError, "height is 0; it must be at least 240 pixels"),
+        ({"width": "a"}, TypeError, "width must be a whole number of pixels, not 'a'"),
+        ({"height": 300.5}, TypeError, "height must be a whole number of pixels, not 300.5"),
+        ({"path": "."}, DocumentError, "is a folder"),
+        ({"path": "no/a.glid"}, DocumentError, "does not exist"),
+    ],
+)
+def test_wrong_arguments_are_refused_and_leave_nothing(
+    arguments: dict[str, Any], kind: type[Exception], message: str
+) -> None:
+    before = _widgets()
+    with pytest.raises(kind, match=message):
+        Editor(bar(), **arguments)
+    if "path" not in arguments:
+        with pytest.raises(kind, match=message.replace("240", "100")):
+            DeformCanvas(bar(), domain("ell"), **arguments)
+    gc.collect()  # what is dropped would complain here: warnings are errors
+    assert _widgets() == before
+
+
+def test_a_canvas_that_cannot_be_made_is_dropped_quietly(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise MemoryError
+
+    complaints: list[Any] = []
+    monkeypatch.setattr("sys.unraisablehook", complaints.append)
+    monkeypatch.setattr("glid_nb.widgets.pane.Scene", fail)
+    with pytest.raises(MemoryError):
+        DeformCanvas(bar(), domain("ell"))
+    gc.collect()
+    assert not complaints
+
+
+@pytest.mark.parametrize("timeout", ["a", [1.0]])
+def test_a_timeout_that_is_no_number_is_refused(editor: Editor, timeout: Any) -> None:
+    with pytest.raises(TypeError, match="timeout must be Real or None"):
+        editor.solve(timeout)
+
+
 def test_the_monitor_draws_plots_and_words() -> None:
     from glid_nb.session.deformation import Deformation
 
@@ -385,6 +438,26 @@ def test_the_monitor_draws_plots_and_words() -> None:
         assert monitor.refresh(TIMEOUT)
         assert bytes(monitor.image.value) != before
         monitor.close()
+
+
+def test_frames_are_counted_in_words() -> None:
+    observers: list[Callable[[str], None]] = []
+
+    def observe(observer: Callable[[str], None]) -> Callable[[], None]:
+        observers.append(observer)
+        return observers.clear
+
+    working = StatusLine("working", "Working")
+    model: Any = SimpleNamespace(
+        observe=observe, status=working, solved=False, busy=True, begun=False
+    )
+    monitor = SolverMonitor(model, plots=False)
+    assert monitor.text == "Working"
+    observers[0]("frame")
+    assert monitor.text == "Working · 1 frame/s"
+    observers[0]("frame")
+    assert monitor.text == "Working · 2 frames/s"
+    monitor.close()
 
 
 def test_a_comparison_is_drawn_in_place_of_the_map(editor: Editor) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import json
+import re
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -126,7 +128,7 @@ def test_every_action_reaches_the_model(tracer: CageTracer, page: Page) -> None:
         ("move_vertex", {"loop": 9, "index": 0, "to": [1, 1]}, "no loop 9"),
         ("toggle_hole", {"number": 99}, "no hole 99"),
         ("paint", {"brush": "foreground", "stroke": []}, "stroke"),
-        ("pick_background", {"at": [-5, 0]}, "outside"),
+        ("pick_background", {"at": [-5, 0]}, "That place lies outside the picture"),
         ("format_disk", {}, "cannot do"),
     ],
 )
@@ -156,6 +158,55 @@ def test_a_problem_is_shown_with_its_place(tracer: CageTracer, page: Page) -> No
     assert 0 < problem["point"][0] < 160
     assert tracer.cage is cage
     assert tracer.shown["loops"][0][i] == [150, 60]
+
+
+def _disc(alpha: bool) -> np.ndarray:
+    """A disc on a transparent ground, or noise without any."""
+    if not alpha:
+        noise = np.random.default_rng(3).integers(0, 256, (60, 80, 3))
+        return noise.astype(np.uint8)
+    y, x = np.mgrid[:60, :80] + 0.5
+    picture = np.full((60, 80, 4), (200, 40, 90, 255), np.uint8)
+    picture[np.hypot(x - 40, y - 30) > 20, 3] = 0
+    return picture
+
+
+def _cross(model: TracingModel) -> None:
+    model.move_vertex(0, int(np.argmin(model.loops[0][:, 0])), (75.0, 31.0))
+
+
+def _coincide(model: TracingModel) -> None:
+    model.move_vertex(0, 1, tuple(model.loops[0][0]))
+
+
+def _coincide_at_the_end(model: TracingModel) -> None:
+    model.move_vertex(0, len(model.loops[0]) - 1, tuple(model.loops[0][0]))
+
+
+@pytest.mark.parametrize(
+    ("alpha", "act", "words"),
+    [
+        (True, lambda m: m.set_options(method="color"), "choose Alpha, or pick"),
+        (True, lambda m: m.set_options(method="scribbles"), "press Shape and paint"),
+        (True, lambda m: m.set_options(component=3), "choose another"),
+        (True, lambda m: m.set_options(component_at=(1.0, 1.0)), "only background at the place"),
+        (True, _cross, "The outline crosses itself; move its points"),
+        (True, _coincide, "The outline has two points in one place"),
+        (True, _coincide_at_the_end, "The outline has two points in one place"),
+        (False, lambda m: m.set_options(method="alpha"), "choose Colour or Brightness"),
+        (False, lambda m: m.set_options(threshold=1.0), "paint over the shape with Scribbles"),
+        (False, lambda m: m.set_options(threshold=0.0, invert=False), "with Scribbles"),
+    ],
+)
+def test_a_problem_is_told_in_plain_words(
+    alpha: bool, act: Callable[[TracingModel], object], words: str
+) -> None:
+    tracer = CageTracer(_disc(alpha))
+    act(tracer.tracing_model)
+    (problem,) = tracer.shown["problems"]
+    assert words in problem["message"]
+    # No option, no coordinates, no value of code.
+    assert not re.search(r"[=_()]|'\w+'|\d\.\d|edges|exterior loop", problem["message"])
 
 
 def png(image: np.ndarray) -> bytes:

@@ -36,5 +36,7 @@ def check_alpha(image: NDArray[np.unsignedinteger]) -> None:
         raise TraceError(
             "the foreground covers the whole image: its alpha channel is "
             f"{low / np.iinfo(image.dtype).max:.3g} everywhere; use method='color', 'threshold' or "
-            "'scribbles'"
+            "'scribbles'",
+            "The picture is equally transparent everywhere; choose Colour or Brightness, or paint "
+            "over the shape with Scribbles",
         )

@@ -109,10 +109,11 @@ def _check_not_uniform(image: NDArray[np.unsignedinteger]) -> None:
     # A coarse sample decides for nearly every picture.
     if (image[::37, ::37] != first).any() or (image != first).any():
         return
-    red, green, blue, alpha = (f"{value / np.iinfo(image.dtype).max:.3g}" for value in first)
+    scale = 255 / np.iinfo(image.dtype).max
+    red, green, blue, alpha = (f"{value * scale:.4g}" for value in first)
     raise TraceError(
-        f"the image has one colour only: red {red}, green {green}, blue {blue}, alpha {alpha} "
-        "everywhere; there is nothing to trace"
+        f"the image has one colour only: red {red}, green {green}, blue {blue}, alpha {alpha} (of "
+        "255) everywhere; there is nothing to trace"
     )
 
 
@@ -149,7 +150,9 @@ def _background(
         if border is None:
             raise TraceError(
                 "the border of the image is transparent, so it shows no background colour; use "
-                "method='alpha', or give background or background_at"
+                "method='alpha', or give background or background_at",
+                "The picture's border is transparent, so it shows no background colour; choose "
+                "Alpha, or pick the background's colour",
             )
         note = f"background colour estimated from the border: {_percent(border.color)}"
         if not border.is_uniform:

@@ -15,11 +15,29 @@ _EMPTY = {
     "color": "lower the threshold, or pick another background colour",
     "scribbles": "draw foreground strokes over more of the shape",
 }
+_EMPTY_PLAIN = {
+    "alpha": "lower the Threshold, or paint over the shape with Scribbles",
+    "threshold": "change the Threshold, or paint over the shape with Scribbles",
+    "color": "lower the Threshold, or paint over the shape with Scribbles",
+    "scribbles": "paint over more of the shape",
+}
 _FULL = {
     "alpha": "use method='color', 'threshold' or 'scribbles'",
     "threshold": "change the threshold, or set invert",
     "color": "raise the threshold, or pick another background colour",
     "scribbles": "draw background strokes around the shape",
+}
+_FULL_PLAIN = {
+    "alpha": "choose Colour or Brightness, or paint over the shape with Scribbles",
+    "threshold": "change the Threshold, or paint over the shape with Scribbles",
+    "color": "raise the Threshold, or paint over the shape with Scribbles",
+    "scribbles": "paint over the background around the shape",
+}
+_CONTROLS = {
+    "alpha": "Alpha",
+    "threshold": "Brightness",
+    "color": "Colour",
+    "scribbles": "Scribbles",
 }
 
 
@@ -72,12 +90,16 @@ class Foreground:
         if not mask.any():
             raise TraceError(
                 f"the image has no foreground by {describe(self)}: no pixel passes the threshold "
-                f"{self.threshold(threshold):.3g}; {_EMPTY[self.method]}"
+                f"{self.threshold(threshold):.3g}; {_EMPTY[self.method]}",
+                f"{_CONTROLS[self.method]} finds no shape in the picture; "
+                f"{_EMPTY_PLAIN[self.method]}",
             )
         if mask.all():
             raise TraceError(
                 f"the foreground covers the whole image by {describe(self)}: every pixel passes "
-                f"the threshold {self.threshold(threshold):.3g}; {_FULL[self.method]}"
+                f"the threshold {self.threshold(threshold):.3g}; {_FULL[self.method]}",
+                f"{_CONTROLS[self.method]} takes the whole picture for the shape; "
+                f"{_FULL_PLAIN[self.method]}",
             )
         return mask
 

@@ -35,7 +35,10 @@ def _labels(
     foreground = _drawn(scribbles.foreground, shape, small, "foreground")
     background = _drawn(scribbles.background, shape, small, "background")
     if not foreground.any():
-        raise TraceError("scribbles: there are no foreground strokes; draw some over the shape")
+        raise TraceError(
+            "scribbles: there are no foreground strokes; draw some over the shape",
+            "Nothing is painted over the shape yet; press Shape and paint over it",
+        )
     notes: tuple[str, ...] = ()
     if not background.any():
         background[[0, -1], :] = background[:, [0, -1]] = True
@@ -43,7 +46,9 @@ def _labels(
         notes = ("no background was scribbled: the picture's border was taken for it",)
         if not background.any():
             raise TraceError(
-                "scribbles: the foreground strokes cover the whole border; draw background strokes"
+                "scribbles: the foreground strokes cover the whole border; draw background strokes",
+                "What is painted over the shape covers the whole border; press Background and "
+                "paint over that",
             )
     elif (foreground & background).any():
         notes = ("foreground and background strokes overlap: they count for nothing there",)
@@ -53,7 +58,8 @@ def _labels(
     for label, name in ((FOREGROUND, "foreground"), (BACKGROUND, "background")):
         if not (labels == label).any():
             raise TraceError(
-                f"scribbles: all {name} strokes are covered by the other ones; erase some of these"
+                f"scribbles: all {name} strokes are covered by the other ones; erase some of these",
+                "One of the colours is painted over the other altogether; undo the last strokes",
             )
     return labels, notes
 
