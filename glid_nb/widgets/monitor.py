@@ -145,7 +145,7 @@ class SolverMonitor(ipywidgets.VBox):
             self._plots = LivePlots(cage, *self._size)
         # Also while the present targets have no solution yet: the frame's map is still shown.
         latest = frame if frame is not None else solution
-        history = latest.history if latest is not None else ()
+        history, starts = (latest.history, latest.starts) if latest is not None else ((), ())
         if moment.comparison is not None:
             proof, map_ = None, None
         elif (
@@ -157,7 +157,7 @@ class SolverMonitor(ipywidgets.VBox):
             proof, map_ = _live_certificate(frame, frame.panels), None
         else:
             proof, map_ = self.deformation.certificate_of(moment.map), moment.map
-        picture = self._plots.draw(history, proof, map_)
+        picture = self._plots.draw(history, proof, map_, starts)
         with self.image.hold_sync():  # the page must not take the one for the other
             self.image.format, self.image.value = "png", picture
         self._drawn = new

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import itertools
 import threading
 import time
 from collections.abc import Iterator
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from glid_nb.certificate import certify
 from glid_nb.geometry import Cage, Domain
+from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.status_line import rounded_down
 from glid_nb.widgets import SolverMonitor
 from glid_nb.widgets.background import Background
+from glid_nb.widgets.live_plots import LivePlots
 
 from ..domains import domain
 
@@ -160,3 +164,58 @@ def test_the_history_stays_while_the_next_targets_are_not_solved(
     assert monitor.refresh(TIMEOUT)
     assert monitor._plots is not None
     assert len(monitor._plots._energy._total.get_xdata())
+
+
+def _legend_texts(axes: Any) -> list[Any]:
+    legend = axes.get_legend()
+    return [] if legend is None else legend.get_texts()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("width", [500, 320])
+@pytest.mark.parametrize("n_holes", [0, 1, 8])
+def test_no_text_lies_over_data_or_other_text(n_holes: int, width: int):
+    holes = [[[x, 2], [x, 3], [x + 0.5, 3], [x + 0.5, 2]] for x in range(1, n_holes + 1)]
+    cage = Cage([[0, 0], [12, 0], [12, 6], [0, 6]], holes)
+    map_ = HarmonicMap.identity(Domain.from_cage(cage))
+    plots = LivePlots(cage, width, 370)
+    records = [
+        SimpleNamespace(
+            iteration=i,
+            energy=2.1,
+            energy_iso=2.0,
+            energy_p2p=0.1,
+            step=1.0,
+            decrement=0.1,
+            time=0.02,
+        )
+        for i in range(1, 60)
+    ]
+    plots.draw(records, certify(map_))
+    for plot in plots._plots:
+        axes = plot.axes
+        texts: list[Any] = [*axes.texts, axes.xaxis.label, *_legend_texts(axes)]
+        boxes = [t.get_window_extent() for t in texts if t.get_text() and t.get_visible()]
+        inside = axes.get_window_extent()
+        assert not any(box.overlaps(inside) for box in boxes)
+        assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
+        assert all(b.y0 >= 0 and b.y1 <= axes.figure.bbox.y1 for b in boxes)
+
+
+def test_a_frame_says_where_its_solves_began(model: Deformation) -> None:
+    model.add_handles([(2, 0), (-2, 0)])
+    assert model.solve(TIMEOUT)
+    model.begin_drag([0])
+    for x in (2.5, 3.0, 3.5):
+        model.drag_to([(x, 1.0)])
+        assert model.solve(TIMEOUT)
+    model.end_drag()
+    frame, solution = model.frame, model.solution
+    assert frame is not None
+    assert solution is not None
+    assert solution.starts == frame.starts
+    energies = {i.iteration: i.energy for i in frame.history}
+    assert set(frame.starts) <= set(energies)
+    moved = [i for i in frame.starts if i - 1 in energies]
+    assert len(moved) >= 2
+    assert all(energies[i] > energies[i - 1] for i in moved)
