@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import jax.numpy as jnp
 import numpy as np
 from numpy.typing import NDArray
 
@@ -136,7 +137,7 @@ def _values(
     if name == "k":
         return g / np.maximum(r, 1e-6)
     if name == "energy" and energy_kind(energy) is not None:
-        return np.asarray(energy.density(r**2, g**2))
+        return np.asarray(energy.density(jnp.asarray(r**2), jnp.asarray(g**2)))
     return np.full(len(r), start)
 
 

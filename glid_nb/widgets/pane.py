@@ -168,6 +168,7 @@ class Pane(ipywidgets.GridBox):
         self._scene = self._new_scene(map, None if vectors == 0 else vectors)
         self._scene.show_overlay(self._overlay, self._energy)
         self._scene.show_lines(*self._lines)
+        self._show_legend()
         self._update_children()
         old.close()
 

@@ -199,6 +199,13 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     assert stage.legend["ticks"][-1] == f"{canvas.pane.scene.color_range[1]:g}"
     range_ = canvas.pane.scene.picture.material.uniforms["color_range"]["value"]
     assert range_ == list(canvas.pane.scene.color_range)
+    model.drag(0, to=(4.5, 1.5))
+    assert model.solve(TIMEOUT)
+    bar = stage.legend["ticks"]
+    model.set_domain(domain("twin"))  # at rest there: another scene, with its own range
+    assert canvas.pane.scene.color_range == (0.0, 0.1)
+    assert stage.legend["ticks"][-1] == "0.1" != bar[-1]
+    model.undo()
     canvas.overlay = "texture"
     canvas.show_panels = False
     assert stage.legend == stage.panel_legend == {}
