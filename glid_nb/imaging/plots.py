@@ -8,7 +8,7 @@ what has to be drawn anew when they did not.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -36,7 +36,12 @@ from glid_nb.imaging.style import (
     tidy,
 )
 
-_BEHIND_TEXT: dict[str, Any] = {"facecolor": "white", "alpha": 0.8, "linewidth": 0, "pad": 0.5}
+# Points from the axis down to its name.
+_AXIS_NAME = 12.0
+
+# Above axes narrower than so many inches a line of text does not fit beside the legend, which is
+# so many points high.
+_WIDE, _LEGEND_HEIGHT = 3.0, 12.0
 
 # An energy is drawn on a logarithmic axis when it falls by this factor or more.
 _LOG_FROM = 20.0
@@ -98,18 +103,25 @@ class EnergyPlot:
         self._p2p = _line(axes, animated, color=VERMILION, label="targets")
         self._iso = _line(axes, animated, color=BLUE, label="isometric")
         self._total = _line(axes, animated, color=INK, label="total", linestyle=(0, (4, 1.5)))
+        self._within = _dots(axes, animated, INK)
         self._text = _note(axes, animated)
         _legend(axes, [self._total, self._iso, self._p2p])
 
     @property
     def artists(self) -> tuple[Artist, ...]:
         """What ``update`` changes."""
-        return self._p2p, self._iso, self._total, self._text
+        return self._p2p, self._iso, self._total, self._within, self._text
 
-    def update(self, history: Sequence[IterationRecord], start_energy: float | None = None) -> bool:
+    def update(
+        self,
+        history: Sequence[IterationRecord],
+        start_energy: float | None = None,
+        starts: Collection[int] = (),
+    ) -> bool:
         """Show these iterations; True when the limits or the scale of the axes changed.
 
-        ``start_energy`` is the total before the first of them, drawn at iteration 0.
+        ``start_energy`` is the total before the first of them, drawn at iteration 0. ``starts`` are
+        the iterations that began with moved targets: the lines join what they ended with.
         """
         before = _view(self.axes)
         x = np.array([0, *(record.iteration for record in history)], dtype=float)
@@ -121,12 +133,17 @@ class EnergyPlot:
         }
         if start_energy is None:
             x, series = x[1:], {line: values[1:] for line, values in series.items()}
+        ends = _ends(x, starts)
         for line, values in series.items():
-            _show(line, x, values)
+            _show(line, x[ends], values[ends])
+        within = ~ends
+        self._within.set_data(x[within], series[self._total][within])
         self._text.set_text(f"E = {history[-1].energy:.4g}" if len(history) else "no iterations")
-        values = np.concatenate([*series.values()])
+        # The limits are those of the lines: how high a moved target first lifts the energy would
+        # flatten them.
+        values = np.concatenate([y[ends] for y in series.values()])
         values = values[np.isfinite(values)]
-        total = series[self._total]
+        total = series[self._total][ends]
         falls = len(total) > 0 and total[0] > _LOG_FROM * total[-1] > 0
         if falls:
             # The targets' part ends at nothing; the plot need not follow it all the way.
@@ -148,23 +165,33 @@ class StepPlot:
         _over_iterations(axes)
         self._decrement = _line(axes, animated, color=BLUE, label="Newton decrement")
         self._step = _line(axes, animated, color=VERMILION, label="step length")
+        self._within = _dots(axes, animated, BLUE)
         _legend(axes, [self._step, self._decrement])
 
     @property
     def artists(self) -> tuple[Artist, ...]:
-        """The lines."""
-        return self._decrement, self._step
+        """What ``update`` changes."""
+        return self._decrement, self._step, self._within
 
-    def update(self, history: Sequence[IterationRecord]) -> bool:
-        """Show these iterations; True when the limits of the axes changed."""
+    def update(self, history: Sequence[IterationRecord], starts: Collection[int] = ()) -> bool:
+        """Show these iterations; True when the limits of the axes changed.
+
+        ``starts`` are the iterations that began with moved targets: the lines join what they ended
+        with.
+        """
         before = _view(self.axes)
         x = np.array([record.iteration for record in history], dtype=float)
-        values = []
-        for line, name in ((self._step, "step"), (self._decrement, "decrement")):
-            y = np.array([getattr(record, name) for record in history], dtype=float)
-            _show(line, x, np.where(y > 0, y, np.nan))
-            values.append(y[np.isfinite(y) & (y > 0)])
-        _log_limits(self.axes, np.concatenate(values))
+        ends = _ends(x, starts)
+        steps, decrements = (
+            np.array([getattr(record, name) for record in history], dtype=float)
+            for name in ("step", "decrement")
+        )
+        steps, decrements = (np.where(y > 0, y, np.nan) for y in (steps, decrements))
+        _show(self._step, x[ends], steps[ends])
+        _show(self._decrement, x[ends], decrements[ends])
+        self._within.set_data(x[~ends], decrements[~ends])
+        values = np.concatenate([steps, decrements])
+        _log_limits(self.axes, values[np.isfinite(values)])
         _iteration_limits(self.axes, x)
         return _view(self.axes) != before
 
@@ -180,7 +207,7 @@ class TimePlot:
         (self._bars,) = axes.fill(
             [0.0], [0.0], facecolor=GREEN, alpha=0.6, linewidth=0, animated=animated
         )
-        self._text = _note(axes, animated)
+        self._text = _note(axes, animated, legend=False)
 
     @property
     def artists(self) -> tuple[Artist, ...]:
@@ -201,7 +228,7 @@ class TimePlot:
         self._text.set_text(f"{usual:.3g} ms per iteration" if usual else "")
         # One iteration that had to wait must not make the others too low to see.
         most = min(float(times.max()), 3 * usual) if usual else 1.0
-        self.axes.set_ylim(0.0, _rounded_up(1.7 * most))
+        self.axes.set_ylim(0.0, _rounded_up(1.1 * most))
         _iteration_limits(self.axes, x)
         return _view(self.axes) != before
 
@@ -227,15 +254,8 @@ class CertificatePlot:
         axes.set_xlim(0.0, float(self._starts[-1]))
         self._name_loops(cage)
         axes.axhline(0.0, color=VERMILION, linewidth=LINE, zorder=1)
-        axes.annotate(
-            "threshold 0",
-            (0.0, 0.0),
-            xytext=(3, 2),
-            textcoords="offset points",
-            fontsize=SMALL,
-            color=INK,
-            zorder=6,
-        )
+        # Curves may be anywhere above the axis, so the line's name is below it.
+        _below(axes, 0.0, "threshold 0", color=VERMILION, ha="left")
         self._bound = _line(
             axes, animated, color=BLUE, label="certified bound", linewidth=0.9, zorder=3
         )
@@ -264,14 +284,12 @@ class CertificatePlot:
         return self._fill, self._bound, self._truth, self._least, self._text
 
     def _name_loops(self, cage: Cage) -> None:
-        """Along the boundary: its length, or which loop is where if there are several."""
+        """Below the axis: lengths along the boundary, or the loops where there are several."""
         axes = self.axes
         if not cage.n_holes:
-            axes.set_xlabel("arc length along the boundary", fontsize=SMALL, labelpad=2)
+            axes.set_xlabel("arc length", fontsize=SMALL, labelpad=2)
             axes.xaxis.set_major_locator(MaxNLocator(5))
             return
-        holes = "hole 1" if cage.n_holes == 1 else f"holes 1 to {cage.n_holes}"
-        axes.set_xlabel(f"exterior, then {holes}", fontsize=SMALL, labelpad=2)
         for loop, (start, end) in enumerate(itertools.pairwise(self._starts)):
             if loop % 2:
                 axes.axvspan(start, end, color=FAINT, alpha=0.25, linewidth=0, zorder=0)
@@ -281,6 +299,9 @@ class CertificatePlot:
         character = _CHARACTER * SMALL * axes.figure.dpi / 72
         places, names = zip(*_loop_names(self._starts, character / pixels), strict=True)
         axes.set_xticks(places, names)
+        if any(name[0].isdigit() for name in names):
+            middle = (self._starts[1] / self._starts[-1] + 1.0) / 2
+            _below(axes, float(middle), "hole" if cage.n_holes == 1 else "holes", ha="center")
         axes.tick_params(axis="x", length=0, pad=3)
 
     def clear(self) -> None:
@@ -343,6 +364,21 @@ def _line(axes: Axes, animated: bool, linewidth: float = LINE, **style: Any) -> 
     return line
 
 
+def _dots(axes: Axes, animated: bool, color: str) -> Line2D:
+    """Faint dots for what a line leaves out."""
+    style = {"linestyle": "none", "marker": "o", "markersize": 1.6, "markeredgewidth": 0.0}
+    return _line(axes, animated, color=color, alpha=0.35, zorder=1.5, **style)
+
+
+def _ends(x: NDArray[np.float64], starts: Collection[int]) -> NDArray[np.bool_]:
+    """Which of the iterations ``x`` were the last before one of ``starts``, or of all.
+
+    Where only one solve is seen, all of them.
+    """
+    begins = np.isin(x[1:], np.fromiter(starts, dtype=float))
+    return np.append(begins, True)[: len(x)] if begins.any() else np.ones(len(x), dtype=bool)
+
+
 def _show(line: Line2D, x: NDArray[np.float64], values: NDArray[np.float64]) -> None:
     """The line through these points, with a dot at each while there are few."""
     line.set_data(x, values)
@@ -350,12 +386,39 @@ def _show(line: Line2D, x: NDArray[np.float64], values: NDArray[np.float64]) -> 
     line.set_markersize(2.4)
 
 
-def _note(axes: Axes, animated: bool) -> Text:
-    """An empty line of text in the upper right corner."""
-    style: dict[str, Any] = {"ha": "right", "va": "top", "fontsize": SMALL, "color": INK}
-    text = axes.text(0.99, 0.99, "", transform=axes.transAxes, **style)
-    text.set_bbox(_BEHIND_TEXT)
-    text.set_zorder(6)
+def _below(axes: Axes, place: float, name: str, color: str = INK, **style: Any) -> None:
+    """A word in the line of the axis's name, at this share of the axis."""
+    axes.annotate(
+        name,
+        (place, 0.0),
+        xycoords="axes fraction",
+        xytext=(0.0, -_AXIS_NAME),
+        textcoords="offset points",
+        va="top",
+        fontsize=SMALL,
+        color=color,
+        **style,
+    )
+
+
+def _note(axes: Axes, animated: bool, legend: bool = True) -> Text:
+    """An empty line of text above the axes at the right, where no curve gets.
+
+    Beside the legend where the axes are wide, above it where they are not.
+    """
+    inches = axes.get_window_extent().width / axes.figure.dpi
+    text = axes.annotate(
+        "",
+        (1.0, 1.0),
+        xycoords="axes fraction",
+        xytext=(0.0, _LEGEND_HEIGHT if legend and inches < _WIDE else 2.0),
+        textcoords="offset points",
+        ha="right",
+        va="bottom",
+        fontsize=SMALL,
+        color=INK,
+        annotation_clip=False,
+    )
     text.set_animated(animated)
     return text
 

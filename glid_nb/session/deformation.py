@@ -21,8 +21,9 @@ from glid_nb.session import actions
 from glid_nb.session.edit_state import EditedPose, EditError, EditState, Solution
 from glid_nb.session.history import History
 from glid_nb.session.live_solver import Frame, LiveSolver, Task
+from glid_nb.session.moment import Moment
 from glid_nb.session.point_finder import PointFinder
-from glid_nb.session.status_line import StatusLine, describe, describe_error
+from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.solvers import Options, Pose
 from glid_nb.solvers.arguments import check_type
 
@@ -129,7 +130,7 @@ class Deformation:
 
         It is not part of the state, and lags behind it while the method works.
         """
-        return None if self._frame is None else self._frame.mesh
+        return self.moment.comparison
 
     @property
     def shown(self) -> DeformationMap:
@@ -140,12 +141,7 @@ class Deformation:
     @property
     def solution(self) -> Solution | None:
         """How the present pose was solved; None while it is not."""
-        with self._lock:
-            current, frame = self.state.current, self._frame
-            if current.method.method.family == "harmonic":
-                return current.solution
-            latest = frame is not None and frame.task.pose.asks_the_same(current)
-            return frame.solution if frame is not None and latest else None
+        return self.moment.solution
 
     @property
     def solved(self) -> bool:
@@ -181,21 +177,26 @@ class Deformation:
     @property
     def certificate(self) -> Certificate:
         """The proof for the present map, recomputed from its coefficients alone."""
-        map_ = self.map
-        known = self._certificates.get(map_)
+        return self.certificate_of(self.map)
+
+    def certificate_of(self, map: HarmonicMap) -> Certificate:
+        """The proof for a map, recomputed from its coefficients alone, once."""
+        known = self._certificates.get(map)
         if known is None:
-            known = self._certificates[map_] = certify(map_)
+            known = self._certificates[map] = certify(map)
         return known
 
     @property
     def status(self) -> StatusLine:
-        """What is going on, in words."""
+        """What is going on, in words, and at rest what :attr:`certificate` proves."""
+        return describe(self.moment, self.certificate_of)
+
+    @property
+    def moment(self) -> Moment:
+        """The state and what the solver makes of it, both as they are at this moment."""
         with self._lock:
-            if self._error is not None:
-                return describe_error(self._error)
-            return describe(
-                self.state, self.solution, self._solver.busy, self._solver.paused, self._frame
-            )
+            solver = self._solver
+            return Moment(self.state, self._frame, solver.busy, solver.paused, self._error)
 
     @property
     def busy(self) -> bool:

@@ -38,6 +38,8 @@ class Solution:
     energy_iso: float
     energy_p2p: float
     history: tuple[Iteration, ...] | tuple[Step, ...]
+    starts: tuple[int, ...] = ()
+    """Which of the gesture's iterations began with moved targets."""
 
     @property
     def ended(self) -> bool:
@@ -45,7 +47,9 @@ class Solution:
         return self.status is not Status.STOPPED
 
     @classmethod
-    def of(cls, result: Result, before: Sequence[Iteration] = ()) -> Solution:
+    def of(
+        cls, result: Result, before: Sequence[Iteration] = (), starts: tuple[int, ...] = (1,)
+    ) -> Solution:
         """The outcome of a solve that continued one with the iterations ``before``."""
         return cls(
             result.status,
@@ -54,6 +58,7 @@ class Solution:
             result.energy_iso,
             result.energy_p2p,
             continued_history(before, result.history),
+            starts,
         )
 
     @classmethod

@@ -72,6 +72,8 @@ class Frame:
     """(p,) certified bound per panel; empty when it is not known."""
     mesh: MeshMap | None = None
     """The map of a method on a mesh, which may fold."""
+    starts: tuple[int, ...] = ()
+    """Which of the gesture's iterations began a solve, the targets having moved before."""
 
     @property
     def bound(self) -> float:
@@ -154,6 +156,7 @@ class _Worker:
         self._last: Result | MethodResult | None = None
         self._last_chain: int | None = None
         self._iterations: tuple[Any, ...] = ()
+        self._starts: tuple[int, ...] = ()
         self._published = -np.inf
 
     @property
@@ -238,6 +241,9 @@ class _Worker:
         continued = self._last_chain == task.chain and self._last is not None
         last = self._last if continued else None
         before = self._iterations if continued else ()
+        start = before[-1].iteration + 1 if before else 1
+        earlier = tuple(i for i in self._starts if before and before[0].iteration <= i < start)
+        self._starts = (*earlier, start)
         if task.pose.method.name == OURS:
             assert not isinstance(last, MethodResult)
             result, frame = self._solve_by_ours(task, last, before)
@@ -266,7 +272,9 @@ class _Worker:
             if moved and self._is_time():
                 history = continued_history(before, progress.history)
                 panels = progress.discretisation.panels
-                self._publish(Frame(task, progress.map, history, None, panels, bounds))
+                self._publish(
+                    Frame(task, progress.map, history, None, panels, bounds, starts=self._starts)
+                )
             return False
 
         start = _starting_point(edited, last)
@@ -275,11 +283,13 @@ class _Worker:
         options = replace(edited.options, align=len(edited.pose) == 1, restarts=0)
         domain = edited.map.domain
         result = solve(domain, edited.pose, edited.energy, options, start, callback)
-        solution = Solution.of(result, before)
+        solution = Solution.of(result, before, self._starts)
         panels = result.discretisation.panels
         bounds = bounds if len(bounds) == len(panels) else np.empty(0)
         history = continued_history(before, result.history)
-        return result, Frame(task, result.map, history, solution, panels, bounds)
+        return result, Frame(
+            task, result.map, history, solution, panels, bounds, starts=self._starts
+        )
 
     def _solve_by_method(
         self, task: Task, last: MethodResult | None, before: tuple[Step, ...]

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
-from glid_nb._bounds import rounded_down
+from glid_nb._bounds import rounded_down, rounded_up
+from glid_nb.certificate import Certificate
 from glid_nb.compare import MeshMap, MethodError
+from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.edit_state import EditState, Solution
 from glid_nb.session.live_solver import Frame
+from glid_nb.session.moment import Moment
 from glid_nb.solvers import Status
 
 Level = Literal["idle", "working", "good", "blocked", "error"]
@@ -25,50 +29,57 @@ class StatusLine:
     text: str
 
 
-def describe(
-    state: EditState, solution: Solution | None, busy: bool, paused: bool, frame: Frame | None
-) -> StatusLine:
-    """The status of an editor in this state, which was solved by ``solution`` if by any."""
-    current = state.current
-    if paused:
-        return StatusLine("idle", "Paused" + _bound(frame))
-    if busy:
+def describe(moment: Moment, certificate_of: Callable[[HarmonicMap], Certificate]) -> StatusLine:
+    """The status of an editor.
+
+    While the solver works the line has the solver's own bound on sigma_2, at rest that of the
+    map's certificate, which is asked for only then.
+    """
+    if moment.error is not None:
+        return _describe_error(moment.error)
+    state, frame, solution = moment.state, moment.frame, moment.solution
+    if moment.busy and not moment.paused:
         if frame is None:
             return StatusLine("working", "Preparing the solver…")
         return StatusLine("working", "Working" + _iterations(frame) + _bound(frame))
-    if not len(current.pose):
+
+    def proof() -> str:
+        if moment.comparison is not None:
+            return f" · {uncertified(moment.comparison)}"
+        return f" · {_proof(certificate_of(moment.map))}"
+
+    if moment.paused:
+        return StatusLine("idle", "Paused" + (_bound(frame) if moment.busy else proof()))
+    if not len(state.pose):
         return StatusLine("idle", "Click the shape to add a handle, then drag it")
     if solution is None:
-        return StatusLine("idle", "Stopped" + _bound(frame) if frame else "Not solved yet")
+        return StatusLine("idle", "Stopped" + proof() if frame else "Not solved yet")
     if frame is not None and frame.mesh is not None:
-        return _describe_comparison(solution, frame)
+        return _describe_comparison(solution, frame, proof())
     status = solution.status
     if status is Status.BLOCKED:
-        miss = _miss(state)
-        return StatusLine(
-            "blocked",
-            f"Blocked: the shape follows as far as it is proved not to fold{miss}" + _bound(frame),
-        )
+        text = f"Blocked: the shape follows as far as it is proved not to fold{_miss(state)}"
+        return StatusLine("blocked", text + proof())
     if status in (Status.MAX_ITERATIONS, Status.INDEFINITE):
-        return StatusLine("blocked", solution.message + _bound(frame))
+        return StatusLine("blocked", solution.message + proof())
     if status is Status.STOPPED:
-        return StatusLine("idle", "Stopped" + _bound(frame))
-    return StatusLine("good", "Converged" + _miss(state) + _bound(frame))
+        return StatusLine("idle", "Stopped" + proof())
+    return StatusLine("good", "Converged" + _miss(state) + proof())
 
 
-def _describe_comparison(solution: Solution, frame: Frame) -> StatusLine:
+def _describe_comparison(solution: Solution, frame: Frame, proof: str) -> StatusLine:
     """The status of a pose whose method on a mesh has ended."""
     title = frame.task.pose.method.method.title
     status = solution.status
     if status is Status.STOPPED:
-        return StatusLine("idle", f"{title} stopped" + _bound(frame))
+        return StatusLine("idle", f"{title} stopped" + proof)
     if status.ok:
         ended = "done" if len(frame.history) == 1 else f"done after {len(frame.history)} iterations"
-        return StatusLine("idle", f"{title}: {ended}" + _bound(frame))
-    return StatusLine("blocked", f"{title}: {solution.message}" + _bound(frame))
+        return StatusLine("idle", f"{title}: {ended}" + proof)
+    return StatusLine("blocked", f"{title}: {solution.message}" + proof)
 
 
-def describe_error(error: Exception) -> StatusLine:
+def _describe_error(error: Exception) -> StatusLine:
     """The status after the solver's thread met an exception."""
     if isinstance(error, MethodError):
         return StatusLine("blocked", str(error))
@@ -81,11 +92,21 @@ def _iterations(frame: Frame) -> str:
 
 
 def _bound(frame: Frame | None) -> str:
+    """What the solver has proved so far."""
     if frame is None:
         return ""
     if frame.mesh is not None:
-        return " · " + uncertified(frame.mesh)
+        return f" · {uncertified(frame.mesh)}"
     return f" · certified σ₂ ≥ {rounded_down(frame.bound)}" if math.isfinite(frame.bound) else ""
+
+
+def _proof(certificate: Certificate) -> str:
+    if not certificate.certified:
+        return "not certified"
+    return (
+        f"certified σ₂ ≥ {rounded_down(certificate.sigma2_lower)}, "
+        f"σ₁ ≤ {rounded_up(certificate.sigma1_upper)}, k ≤ {rounded_up(certificate.k_upper)}"
+    )
 
 
 def uncertified(mesh: MeshMap) -> str:

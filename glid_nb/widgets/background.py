@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 import time
 import weakref
@@ -11,6 +12,8 @@ from typing import Any
 
 class Background:
     """Calls a method in a thread after it was asked to, at most once per interval.
+
+    An exception goes to :func:`threading.excepthook`; what is asked for after it is done again.
 
     Parameters
     ----------
@@ -85,6 +88,9 @@ class _Worker:
                 if work is None:
                     return
                 work()
+            except Exception:  # reported as any thread's, and this one goes on
+                arguments = (*sys.exc_info(), threading.current_thread())
+                threading.excepthook(threading.ExceptHookArgs(arguments))
             finally:
                 del work
                 last = time.monotonic()

@@ -26,7 +26,7 @@ from glid_nb.widgets.subshells import answer_during_cells
 
 Array = NDArray[Any]
 
-_PANELS_INTERVAL = 0.2  # seconds: panels are drawn anew no more often
+_PANELS_INTERVAL = 0.2  # seconds: panels and ranges are made anew no more often
 _SOURCE_SHARE = 0.4  # of the width
 
 
@@ -118,7 +118,7 @@ class DeformCanvas(ipywidgets.HBox):
         self._closed = False  # guarded by the lock: a frame may arrive while the canvas closes
         self._receiving = threading.Lock()
         self._when_drawn: list[Callable[[], None]] = []
-        self._panels_at = 0.0
+        self._panels_at = self._range_at = 0.0
         super().__init__([self.pane], **kwargs)
         # A box that may scroll would shrink to nothing inside another one.
         self.layout.overflow, self.layout.flex = "visible", "0 0 auto"
@@ -200,6 +200,7 @@ class DeformCanvas(ipywidgets.HBox):
             if self.deformation.solved:
                 with self._drawing:
                     if not self._closed:
+                        self.pane.fit_range(widen_only=bool(self.deformation.dragged))
                         self._place_legend()
         if what in ("frame", "status"):
             self._release()
@@ -215,11 +216,19 @@ class DeformCanvas(ipywidgets.HBox):
             images = shown(pose.handles) if len(pose) else np.empty((0, 2))
             self.pane.show(map_, pose.targets, images, self.deformation.selection)
             self.pane.show_comparison(comparison)
+            self._fit_range()
             if self.overlay == "energy":
                 self.pane.show_overlay(self.overlay, state.current.energy)
             if self.source is not None:
                 empty = np.empty((0, 2))
                 self.source.show(state.identity, empty, pose.handles, ())
+
+    def _fit_range(self) -> None:
+        """Colours stay comparable during a drag: a range then only grows."""
+        moving, now = self.deformation.busy or bool(self.deformation.dragged), time.monotonic()
+        if not moving or now - self._range_at > _PANELS_INTERVAL:
+            self._range_at = now
+            self.pane.fit_range(widen_only=moving)
 
     def _release(self) -> None:
         """Acknowledge: the frame that the events led to is on its way, or none will come."""
@@ -264,7 +273,8 @@ class DeformCanvas(ipywidgets.HBox):
 
     def _place_legend(self) -> None:
         """Not during a drag, where it would jump."""
-        if self.pane.stage.legend and not self.deformation.dragged:
+        stage = self.pane.stage
+        if (stage.legend or stage.panel_legend) and not self.deformation.dragged:
             self.pane.place_legend(self.deformation.shown, self.deformation.pose.targets)
 
     def _show_lines(self, _: Any = None) -> None:

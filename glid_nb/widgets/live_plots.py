@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
 
 import numpy as np
@@ -79,12 +79,18 @@ class LivePlots:
         history: Sequence[IterationRecord],
         certificate: Certificate | None,
         map: HarmonicMap | None = None,
+        starts: Collection[int] = (),
     ) -> bytes:
         """The plots of these iterations and this certificate as PNG; without one nothing is proved.
 
-        With the map its sampled sigma_2 is drawn over the certified bound.
+        With the map its sampled sigma_2 is drawn over the certified bound. ``starts`` are the
+        iterations that began with moved targets.
         """
-        changed = [plot.update(history) for plot in (self._energy, self._step, self._time)]
+        changed = [
+            self._energy.update(history, starts=starts),
+            self._step.update(history, starts),
+            self._time.update(history),
+        ]
         if certificate is None:
             self._certificate.clear()
         else:

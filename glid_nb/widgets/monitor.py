@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 import ipywidgets
 import numpy as np
 
-from glid_nb._bounds import rounded_down, rounded_up
 from glid_nb.certificate import Certificate
 from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.geometry.panels import Panels
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.live_solver import Frame
-from glid_nb.session.status_line import StatusLine
+from glid_nb.session.moment import Moment
+from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.widgets.background import Background
 from glid_nb.widgets.plots_frame import placeholder
 
@@ -81,7 +81,8 @@ class SolverMonitor(ipywidgets.VBox):
     @property
     def text(self) -> str:
         """The status line without its looks."""
-        return self._words(self.deformation.status)
+        moment = self.deformation.moment
+        return self._words(moment, self._status(moment))
 
     def refresh(self, timeout: float | None = None) -> bool:
         """Draw what is still to be drawn; whether that was done within ``timeout`` seconds."""
@@ -102,32 +103,29 @@ class SolverMonitor(ipywidgets.VBox):
 
     def _update(self) -> None:
         """In the background: the line, and the plots if there is something new."""
-        status = self.deformation.status
+        moment = self.deformation.moment
+        status = self._status(moment)
         self.line.value = (
             f'<div style="display:flex;align-items:center;gap:8px;line-height:1.4">'
             f'<span style="flex:none;width:10px;height:10px;border-radius:5px;'
             f'background:{_TONES[status.level]}"></span>'
-            f"<span>{html.escape(self._words(status))}</span></div>"
+            f"<span>{html.escape(self._words(moment, status))}</span></div>"
         )
+        # The solver comes to rest after it has told of its last frame.
+        if moment.busy:
+            self._background.ask()
         # Matplotlib's figures take their time, which the first canvas should have.
         if self._with_plots and self.deformation.begun:
-            self._draw()
-        if self.deformation.busy:
-            self._background.ask()
+            self._draw(moment)
 
-    def _words(self, status: StatusLine) -> str:
-        words = status.text
-        if status.level == "good":
-            proof = self.deformation.certificate
-            words = (
-                f"{words.split(' · ')[0]} · certified σ₂ ≥ {rounded_down(proof.sigma2_lower)}, "
-                f"σ₁ ≤ {rounded_up(proof.sigma1_upper)}, k ≤ {rounded_up(proof.k_upper)}"
-            )
-        if not self.deformation.solved and self.deformation.busy:
-            rate = self._rate()
-            if rate:
-                words += f" · {rate} {'frame' if rate == 1 else 'frames'}/s"
-        return words
+    def _words(self, moment: Moment, status: StatusLine) -> str:
+        solution = moment.solution
+        solved = solution is not None and solution.ended
+        rate = self._rate() if moment.busy and not solved else 0
+        return status.text + (f" · {rate} {'frame' if rate == 1 else 'frames'}/s" if rate else "")
+
+    def _status(self, moment: Moment) -> StatusLine:
+        return describe(moment, self.deformation.certificate_of)
 
     def _rate(self) -> int:
         now = time.monotonic()
@@ -135,29 +133,34 @@ class SolverMonitor(ipywidgets.VBox):
             self._frames.popleft()
         return len(self._frames)
 
-    def _draw(self) -> None:
-        model = self.deformation
-        state, frame = model.state, model.frame
-        if (state.map, frame) == self._drawn:
+    def _draw(self, moment: Moment) -> None:
+        frame, solution = moment.frame, moment.solution
+        new = (moment.map, frame, solution, moment.busy)
+        if new == self._drawn:
             return
-        if self._plots is None or self._plots.cage is not state.domain.cage:
+        cage = moment.state.domain.cage
+        if self._plots is None or self._plots.cage is not cage:
             from glid_nb.widgets.live_plots import LivePlots  # noqa: PLC0415
 
-            self._plots = LivePlots(state.domain.cage, *self._size)
-        solution = model.solution
-        history = solution.history if solution is not None else ()
-        if frame is not None and frame.solution is None:
-            history = frame.history
-        if model.comparison is not None:
+            self._plots = LivePlots(cage, *self._size)
+        # Also while the present targets have no solution yet: the frame's map is still shown.
+        latest = frame if frame is not None else solution
+        history, starts = (latest.history, latest.starts) if latest is not None else ((), ())
+        if moment.comparison is not None:
             proof, map_ = None, None
-        elif frame is not None and frame.solution is None and frame.panels is not None:
+        elif (
+            moment.busy
+            and frame is not None
+            and frame.panels is not None
+            and len(frame.sigma2_lower)
+        ):
             proof, map_ = _live_certificate(frame, frame.panels), None
         else:
-            proof, map_ = model.certificate, state.map
-        picture = self._plots.draw(history, proof, map_)
+            proof, map_ = self.deformation.certificate_of(moment.map), moment.map
+        picture = self._plots.draw(history, proof, map_, starts)
         with self.image.hold_sync():  # the page must not take the one for the other
             self.image.format, self.image.value = "png", picture
-        self._drawn = (state.map, frame)
+        self._drawn = new
 
 
 def _live_certificate(frame: Frame, panels: Panels) -> Certificate:

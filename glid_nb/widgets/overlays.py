@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import jax.numpy as jnp
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,11 +27,28 @@ _COLORS = (
     "#57157e",
     "#331067",
 )
+# Of the certificate: from green through orange to vermilion, all of them seen on white and on black
+# and beside the colours above.
+_MARGIN_COLORS = (
+    "#009e73",
+    "#339e59",
+    "#669e40",
+    "#999f26",
+    "#cc9f0d",
+    "#e49800",
+    "#e08a00",
+    "#dd7b00",
+    "#d96c00",
+    "#d55e00",
+)
 N_COLORS = len(_COLORS)
 """Stops of the colour map in the shader."""
 
 FULL_MARGIN = 0.5
-"""A certified sigma_2 from which on a panel of the boundary has the palest colour."""
+"""A certified sigma_2 from which on a panel of the boundary has the best colour."""
+
+# So much of the boundary, where distortion is largest, is within the ends of a colour map.
+_SHARE = 0.98
 
 # The kinds that picture.frag knows.
 _KINDS: dict[type[Energy], int] = {
@@ -67,33 +86,80 @@ def energy_kind(energy: Energy) -> tuple[float, float] | None:
     return None if kind is None else (float(kind), float(getattr(energy, "s", 1.0)))
 
 
-def color_range(name: str, energy: Energy) -> tuple[float, float]:
+def color_range(
+    name: str,
+    energy: Energy,
+    fz: NDArray[Any] | None = None,
+    fzb: NDArray[Any] | None = None,
+    least: tuple[float, float] | None = None,
+) -> tuple[float, float]:
     """The values at the pale and at the dark end of the colour map.
 
-    Fixed, so that colours mean the same from frame to frame and from picture to picture.
+    In a few round steps, so that colours mean the same from frame to frame: the narrowest range
+    that nearly all of a map with these Wirtinger derivatives is in, and not less than ``least``.
     """
+    start, ends = _steps(name, energy)
+    if fz is None or fzb is None:
+        wanted = start
+    else:
+        away = np.abs(_values(name, energy, np.abs(fz), np.abs(fzb)) - start)
+        wanted = float(np.quantile(away, _SHARE))
+        wanted = max(wanted, abs(least[1] - start)) if least is not None else wanted
+        wanted = start + np.copysign(wanted, ends[0] - start)
+    # A range that is kept is one of the steps, but for rounding.
+    return start, next((e for e in ends if abs(e - start) >= abs(wanted - start) - 1e-9), ends[-1])
+
+
+def _steps(name: str, energy: Energy) -> tuple[float, tuple[float, ...]]:
+    """What isometry has, and where the colour map may end, the narrowest range first."""
     if name == "sigma1":
-        return 1.0, 3.0
+        return 1.0, (1.25, 1.5, 2.0, 3.0, 5.0, 10.0)
     if name == "sigma2":
-        return 1.0, 0.0
+        return 1.0, (0.8, 0.5, 0.0)
     if name == "k":
-        return 0.0, 1.0
+        return 0.0, (0.1, 0.2, 0.5, 1.0)
     if name == "energy":
         least = isometry_energy(energy)
-        return least, least + 4.0 * max(least, 1.0)
-    return 0.0, 1.0
+        unit = max(least, 1.0)
+        return least, tuple(least + unit * e for e in (0.1, 0.25, 0.5, 1, 2, 4, 10, 50, 200))
+    return 0.0, (1.0,)
+
+
+def _values(
+    name: str, energy: Energy, r: NDArray[np.float64], g: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """What an overlay shows where ``|f_z|`` is ``r`` and ``|f_zbar|`` is ``g``."""
+    start, _ = _steps(name, energy)
+    if name == "sigma1":
+        return np.maximum(r + g, start)
+    if name == "sigma2":
+        return np.minimum(r - g, start)
+    if name == "k":
+        return g / np.maximum(r, 1e-6)
+    if name == "energy" and energy_kind(energy) is not None:
+        return np.asarray(energy.density(jnp.asarray(r**2), jnp.asarray(g**2)))
+    return np.full(len(r), start)
 
 
 def color_stops() -> NDArray[np.float64]:
     """(n, 3) colours, evenly spaced, from isometric to distorted."""
-    return np.array([[int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)] for color in _COLORS])
+    return _rgb(_COLORS)
 
 
-def legend(name: str, energy: Energy) -> dict[str, Any]:
+def margin_stops() -> NDArray[np.float64]:
+    """(n, 3) colours of the certificate, evenly spaced, from a wide margin to none."""
+    return _rgb(_MARGIN_COLORS)
+
+
+def _rgb(colors: Sequence[str]) -> NDArray[np.float64]:
+    return np.array([[int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)] for color in colors])
+
+
+def legend(name: str, energy: Energy, range_: tuple[float, float]) -> dict[str, Any]:
     """The colour bar as the page draws it; empty where there is nothing to explain."""
     if OVERLAYS[name].number < 2 or (name == "energy" and energy_kind(energy) is None):
         return {}
-    low, high = color_range(name, energy)
+    low, high = range_
     ticks = np.linspace(low, high, 5 if name == "energy" else 3)
     return {
         "title": OVERLAYS[name].label,
@@ -106,6 +172,6 @@ def panel_legend() -> dict[str, Any]:
     """The colour bar of the boundary's panels, as the page draws it."""
     return {
         "title": "Certified σ₂ on the boundary",
-        "colors": list(_COLORS),
+        "colors": list(_MARGIN_COLORS),
         "ticks": [f"≥ {FULL_MARGIN:g}", f"{FULL_MARGIN / 2:g}", "0"],
     }

@@ -129,7 +129,9 @@ class Pane(ipywidgets.GridBox):
         width, height = self.stage.width, self.stage.height
         seen = np.concatenate([outline, np.reshape(points, (-1, 2))])
         pixels = (seen - [x, y]) / unit + [width / 2, height / 2]
-        self.stage.legend_corner = emptiest_corner(pixels, width, height)
+        self.stage.legend_corner = emptiest_corner(
+            pixels, width, height, bool(self.stage.legend) + bool(self.stage.panel_legend)
+        )
 
     def show_lines(self, cage: bool, offset_cage: bool) -> None:
         """Whether the two cages are drawn."""
@@ -172,15 +174,21 @@ class Pane(ipywidgets.GridBox):
         self._scene = self._new_scene(map, None if vectors == 0 else vectors)
         self._scene.show_overlay(self._overlay, self._energy)
         self._scene.show_lines(*self._lines)
+        self._show_legend()
         self._update_children()
         old.close()
 
+    def fit_range(self, *, widen_only: bool) -> None:
+        """Fit the ends of the overlay's colour map to the map that is shown."""
+        if self._scene.fit_range(widen_only=widen_only):
+            self._show_legend()
+
     def _show_legend(self) -> None:
-        """The overlay's colour bar; without one, that of the panels if they are drawn."""
-        bar = legend(self._overlay, self._energy)
-        if not bar and self._with_panels and self._scene.comparison is None:
-            bar = panel_legend()
-        self.stage.legend = bar
+        """The colour bars of the overlay and of the panels, where they are drawn."""
+        panels = self._with_panels and self._scene.comparison is None
+        with self.stage.hold_sync():
+            self.stage.legend = legend(self._overlay, self._energy, self._scene.color_range)
+            self.stage.panel_legend = panel_legend() if panels else {}
 
     def _update_children(self) -> None:
         self._renderer.scene.children = self._scene.meshes

@@ -6,10 +6,12 @@ from typing import NamedTuple
 
 from glid_nb.imaging.style import FAINT, GREY
 
-# CSS pixels. Above a plot is its legend, below it are ticks and the axis's name.
+# CSS pixels. Above a plot is its legend, in the upper row below a line of text; below it are ticks
+# and the axis's name.
 _LEFT, _RIGHT, _ABOVE, _BELOW = 44, 8, 20, 32
+_ABOVE_UPPER = 31
 _BETWEEN = 46  # room for the right plot's ticks
-_TIME_GAP = 13
+_TIME_GAP = 17
 _UPPER_SHARE, _TIME_SHARE = 0.56, 0.28
 _TEXT = 11
 
@@ -34,17 +36,17 @@ class Boxes(NamedTuple):
 
 def plot_boxes(width: int, height: int) -> Boxes:
     """Where each plot is in a picture of this size in CSS pixels."""
-    inside = height - 2 * (_ABOVE + _BELOW)
+    inside = height - _ABOVE_UPPER - _ABOVE - 2 * _BELOW
     upper = _UPPER_SHARE * inside
     column = (width - _LEFT - _RIGHT - _BETWEEN) / 2
     right = _LEFT + column + _BETWEEN
     times = _TIME_SHARE * upper
     steps = upper - times - _TIME_GAP
-    lower = _ABOVE + upper + _BELOW + _ABOVE
+    lower = _ABOVE_UPPER + upper + _BELOW + _ABOVE
     return Boxes(
-        Box(_LEFT, _ABOVE, column, upper),
-        Box(right, _ABOVE, column, steps),
-        Box(right, _ABOVE + steps + _TIME_GAP, column, times),
+        Box(_LEFT, _ABOVE_UPPER, column, upper),
+        Box(right, _ABOVE_UPPER, column, steps),
+        Box(right, _ABOVE_UPPER + steps + _TIME_GAP, column, times),
         Box(_LEFT, lower, width - _LEFT - _RIGHT, height - _BELOW - lower),
     )
 

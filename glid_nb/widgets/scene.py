@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from glid_nb.compare import MeshMap
 from glid_nb.energies import Energy
-from glid_nb.geometry import Triangulation, triangulate
+from glid_nb.geometry import Triangulation, triangulate, uniform_boundary_samples
 from glid_nb.geometry.panels import Panels
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
@@ -26,6 +26,7 @@ from glid_nb.widgets.overlays import (
     color_range,
     color_stops,
     energy_kind,
+    margin_stops,
 )
 from glid_nb.widgets.picture_texture import picture_texture
 from glid_nb.widgets.ribbons import (
@@ -43,6 +44,7 @@ EvaluatedIn = Literal["shader", "kernel"]
 N_VERTICES = 10_000
 """Vertices of the picture's mesh, by default."""
 
+_RANGE_SAMPLES = 256  # of the boundary, where distortion is largest
 _GRID_LINES = 40  # along the longer side
 _COLUMN = 8.0  # of triangles that are drawn after one another: width in rows' heights
 _CAGE_WIDTH, _OFFSET_WIDTH, _PANEL_WIDTH = 0.9, 0.6, 2.8  # half, in pixels
@@ -180,6 +182,8 @@ class Scene:
             evaluated_in = "shader" if fits else "kernel"
         self.evaluated_in: EvaluatedIn = evaluated_in
         self._energy, self._overlay = energy, "texture"
+        self.color_range = color_range("texture", energy)
+        """The values at the ends of the overlay's colour map."""
         self.map = map
         height, width = image.shape[:2]
         self.frame = PixelFrame(width, height)
@@ -256,10 +260,32 @@ class Scene:
         """Another way to colour the shape."""
         if (name, energy) != (self._overlay, self._energy):
             self._overlay, self._energy = name, energy
-            changes = {k: u["value"] for k, u in self._picture_uniforms().items()}
-            self.picture.set_uniforms(changes)
-            if self.comparison is not None:
-                self.comparison.set_uniforms(changes)
+            self.color_range = self._fitted_range()
+            self._set_overlay()
+
+    def fit_range(self, *, widen_only: bool) -> bool:
+        """Fit the ends of the colour map to the map; whether they changed."""
+        if OVERLAYS[self._overlay].number < 2:
+            return False
+        fitted = self._fitted_range(self.color_range if widen_only else None)
+        if fitted == self.color_range:
+            return False
+        self.color_range = fitted
+        self._set_overlay()
+        return True
+
+    def _fitted_range(self, least: tuple[float, float] | None = None) -> tuple[float, float]:
+        if OVERLAYS[self._overlay].number < 2:
+            return color_range(self._overlay, self._energy)
+        points = uniform_boundary_samples(self.domain.cage, _RANGE_SAMPLES).points
+        fz, fzb = self.map.wirtinger(points)
+        return color_range(self._overlay, self._energy, fz, fzb, least)
+
+    def _set_overlay(self) -> None:
+        changes = {k: u["value"] for k, u in self._picture_uniforms().items()}
+        self.picture.set_uniforms(changes)
+        if self.comparison is not None:
+            self.comparison.set_uniforms(changes)
 
     def show_lines(self, cage: bool, offset_cage: bool) -> bool:
         """Whether the cage and the offset cage are drawn; whether there is another layer now."""
@@ -338,7 +364,7 @@ class Scene:
                 "half_width": {"value": half_width},
                 "line_color": {"value": [*rgb, opacity]},
                 "by_margin": {"value": by_margin},
-                "colors": {"value": color_stops().ravel().tolist()},
+                "colors": {"value": margin_stops().ravel().tolist()},
             },
         )
 
@@ -352,7 +378,7 @@ class Scene:
             "frame": {"value": [xmin, ymin, xmax - xmin, ymax - ymin]},
             "overlay": {"value": float(number)},
             "energy": {"value": list(kind or (0.0, 1.0))},
-            "color_range": {"value": list(color_range(self._overlay, self._energy))},
+            "color_range": {"value": list(self.color_range)},
             "colors": {"value": color_stops().ravel().tolist()},
             "pixel": {"value": 0.02},
             "grid_spacing": {"value": self.domain.cage.longer_side / _GRID_LINES},

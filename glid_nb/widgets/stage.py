@@ -50,10 +50,13 @@ class Stage(anywidget.AnyWidget):
     """Where the keyboard's cursor is, [x, y]; None while it is not used."""
 
     legend = traitlets.Dict({}).tag(sync=True)
-    """The colour bar: ``title``, ``colors`` and ``ticks``; empty for none."""
+    """The overlay's colour bar: ``title``, ``colors`` and ``ticks``; empty for none."""
+
+    panel_legend = traitlets.Dict({}).tag(sync=True)
+    """The certificate's colour bar, below the overlay's."""
 
     legend_corner = traitlets.Enum(CORNERS, CORNERS[0]).tag(sync=True)
-    """Where the colour bar is."""
+    """Where the colour bars are."""
 
     notice = traitlets.Unicode("").tag(sync=True)
     """Why the last thing that was tried is not possible; empty for nothing."""
@@ -81,7 +84,7 @@ class Stage(anywidget.AnyWidget):
         self.send({"view": view, "ack": number})
 
 
-def emptiest_corner(points: Any, width: int, height: int) -> str:
+def emptiest_corner(points: Any, width: int, height: int, bars: int = 1) -> str:
     """The corner of :data:`CORNERS` where a colour bar hides the fewest points.
 
     Parameters
@@ -90,10 +93,13 @@ def emptiest_corner(points: Any, width: int, height: int) -> str:
         In CSS pixels from the lower left.
     width, height : int
         Of the pad.
+    bars : int
+        How many colour bars there are, one below the other.
     """
     x, y = np.asarray(points, dtype=float).T
     beside = {"left": x < _LEGEND_SIZE[0], "right": x > width - _LEGEND_SIZE[0]}
-    level = {"bottom": y < _LEGEND_SIZE[1], "top": y > height - _LEGEND_SIZE[1]}
+    tall = bars * _LEGEND_SIZE[1]
+    level = {"bottom": y < tall, "top": y > height - tall}
 
     def hidden(corner: str) -> int:
         vertical, horizontal = corner.split()

@@ -213,7 +213,7 @@ def test_the_energy_plot_is_logarithmic_where_that_helps():
     # The targets' part falls out of the plot, the total stays in it.
     assert low < 2.0 < 1.3e3 < high
     assert low > 1e-2
-    _, iso, total, text = plot.artists
+    _, iso, total, _, text = plot.artists
     np.testing.assert_allclose(total.get_ydata(), [r.energy for r in HISTORY])  # type: ignore[attr-defined]
     np.testing.assert_allclose(iso.get_xdata(), range(1, 7))  # type: ignore[attr-defined]
     assert text.get_text() == "E = 2.2"  # type: ignore[attr-defined]
@@ -249,6 +249,7 @@ def test_one_iteration_is_seen(kind: Any):
     low, high = plot.axes.get_xlim()
     assert low < 0.5 < 1.5 < high
     lines = [artist for artist in plot.artists if hasattr(artist, "get_marker")]
+    lines = [line for line in lines if line.get_linestyle() != "None"]
     assert {line.get_marker() for line in lines} == {"o"}
     plot.update([Record(i, 2.0, 1.0) for i in range(1, 200)])
     assert {line.get_marker() for line in lines} == {""}
@@ -267,10 +268,26 @@ def test_the_time_of_each_iteration_is_a_bar():
     assert 20 < plot.axes.get_ylim()[1] < 100
 
 
+@pytest.mark.parametrize("kind", [EnergyPlot, StepPlot])
+def test_during_a_drag_lines_join_the_ends_of_the_solves(kind: Any):
+    """Each target that moves makes a saw-tooth of iterations, which are faint dots."""
+    records = [Record(i, 2.0 + 10.0 ** (2 - 2 * (i % 3)), 2.0) for i in range(12)]
+    plot = kind(new_axes())
+    plot.update(records, starts=(3, 6, 9))
+    line, within = plot.artists[-3 if kind is EnergyPlot else 0], plot._within
+    np.testing.assert_array_equal(line.get_xdata(), [2, 5, 8, 11])
+    np.testing.assert_array_equal(within.get_xdata(), [0, 1, 3, 4, 6, 7, 9, 10])
+    if kind is EnergyPlot:
+        assert plot.axes.get_ylim()[1] < 10
+    plot.update(records, starts=(0,))  # one solve
+    assert len(line.get_xdata()) == 12
+    assert len(within.get_xdata()) == 0
+
+
 def test_the_step_plot_leaves_out_what_a_logarithm_cannot_show():
     plot = StepPlot(new_axes())
     plot.update([*HISTORY, replace(HISTORY[-1], iteration=7, step=0.0, decrement=float("nan"))])
-    decrement, step = plot.artists
+    decrement, step, _ = plot.artists
     for line, name in ((decrement, "decrement"), (step, "step")):
         values = line.get_ydata()  # type: ignore[attr-defined]
         np.testing.assert_allclose(values[:-1], [getattr(r, name) for r in HISTORY])

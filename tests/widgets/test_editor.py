@@ -29,7 +29,7 @@ from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
 from glid_nb.widgets.background import Background
 from glid_nb.widgets.exporting import ExportError
 from glid_nb.widgets.open_panel import OpenPanel
-from glid_nb.widgets.overlays import N_COLORS, OVERLAYS, color_stops
+from glid_nb.widgets.overlays import N_COLORS, OVERLAYS, color_range, color_stops
 from glid_nb.widgets.stage import emptiest_corner
 
 from ..domains import domain
@@ -193,14 +193,26 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     assert stage.legend == {}
     canvas.show_panels = True
     assert canvas.pane.scene.panels is not None
-    assert stage.legend["title"] == "Certified σ₂ on the boundary"
-    assert stage.legend["ticks"] == ["≥ 0.5", "0.25", "0"]
+    assert stage.panel_legend["title"] == "Certified σ₂ on the boundary"
+    assert stage.panel_legend["ticks"] == ["≥ 0.5", "0.25", "0"]
     canvas.overlay = "k"  # has a bar of its own
     assert stage.legend["title"] == "Dilatation k"
+    assert stage.panel_legend
+    assert stage.legend["colors"] != stage.panel_legend["colors"]
+    assert canvas.pane.scene.color_range[1] < 1  # a bend is seen, and the bar says so
+    assert stage.legend["ticks"][-1] == f"{canvas.pane.scene.color_range[1]:g}"
+    range_ = canvas.pane.scene.picture.material.uniforms["color_range"]["value"]
+    assert range_ == list(canvas.pane.scene.color_range)
+    model.drag(0, to=(4.5, 1.5))
+    assert model.solve(TIMEOUT)
+    bar = stage.legend["ticks"]
+    model.set_domain(domain("twin"))  # at rest there: another scene, with its own range
+    assert canvas.pane.scene.color_range == (0.0, 0.1)
+    assert stage.legend["ticks"][-1] == "0.1" != bar[-1]
+    model.undo()
     canvas.overlay = "texture"
-    assert stage.legend["title"] == "Certified σ₂ on the boundary"
     canvas.show_panels = False
-    assert stage.legend == {}
+    assert stage.legend == stage.panel_legend == {}
     canvas.show_panels = True
     assert len(stage.materials) == 2
     canvas.show_cage = canvas.show_offset_cage = True
@@ -486,6 +498,22 @@ def test_a_comparison_is_drawn_in_place_of_the_map(editor: Editor) -> None:
     editor.set_method("newton")
     assert scene.comparison is None
     assert canvas.pane.stage.materials == [layer.material for layer in scene.layers]
+
+
+def test_colour_ranges_fit_the_map_in_round_steps() -> None:
+    energy = glid.energies.SymmetricDirichlet()
+    one = np.ones(100)
+
+    def end(name: str, stretch: float, **least: tuple[float, float]) -> float:
+        """Where the colours of a map end that stretches one direction."""
+        fz, fzb = one * (stretch + 1) / 2, one * (stretch - 1) / 2
+        return color_range(name, energy, fz, fzb, **least)[1]
+
+    assert [end("sigma1", s) for s in (1, 1.2, 1.4, 2.4, 90)] == [1.25, 1.25, 1.5, 3, 10]
+    assert [end("sigma2", s) for s in (1, 0.9, 0.7, 0.1)] == [0.8, 0.8, 0.5, 0]
+    assert [end("k", s) for s in (1, 1.3, 2)] == [0.1, 0.2, 0.5]
+    np.testing.assert_allclose([end("energy", s) for s in (1, 1.5, 2)], [2.2, 2.5, 4.0])
+    assert end("sigma1", 1.2, least=(1.0, 2.0)) == 2  # it only widens
 
 
 def test_background_work_is_rare_but_always_done() -> None:

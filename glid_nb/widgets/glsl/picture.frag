@@ -54,7 +54,7 @@ void main() {
     return;
   }
   if (overlay < 1.5) {
-    gl_FragColor = mix(texel, vec4(vec3(0.12), 1.0) * 0.9, 0.7 * grid_cover());
+    gl_FragColor = mix(texel, vec4(vec3(0.12), 1.0) * (0.9 * texel.a), 0.7 * grid_cover());
     return;
   }
   float r = length(v_fz), g = length(v_fzb_conj);
@@ -64,7 +64,6 @@ void main() {
   if (overlay > 4.5) value = energy_density(r * r, g * g);
   vec3 color = color_at((value - color_range.x) / (color_range.y - color_range.x));
   // The picture shines through, so that one still sees what is where.
-  float shade = dot(texel.rgb, vec3(0.299, 0.587, 0.114)) + (1.0 - texel.a) * 0.75;
-  float cover = mix(0.35, 1.0, texel.a);
-  gl_FragColor = vec4(color * mix(0.72, 1.12, shade), 1.0) * cover;
+  float shade = dot(texel.rgb, vec3(0.299, 0.587, 0.114)) / max(texel.a, 1e-3);
+  gl_FragColor = vec4(color * mix(0.72, 1.12, shade), 1.0) * texel.a;
 }

@@ -34,10 +34,13 @@ class State {
   }
 }
 
-function legend(box, content) {
+function legend(box, contents) {
   box.replaceChildren();
-  box.hidden = !content.title;
-  if (box.hidden) return;
+  box.hidden = !contents.length;
+  for (const content of contents) colorBar(element(box, "div", "legend-part"), content);
+}
+
+function colorBar(box, content) {
   element(box, "div", "legend-title", content.title);
   element(box, "div", "legend-bar").style.background =
     `linear-gradient(to right, ${content.colors.join(", ")})`;
@@ -118,14 +121,14 @@ function render({ model, el }) {
   };
   const frame = () => shapes.refresh();
   const showLegend = () => {
-    legend(bar, model.get("legend"));
+    legend(bar, [model.get("legend"), model.get("panel_legend")].filter((bar) => bar.title));
     bar.dataset.corner = model.get("legend_corner");
   };
   const listeners = [
     ["change:width change:height", fit],
     ["change:coefficients", frame],
     ["change:marks change:cursor", soon],
-    ["change:legend change:legend_corner", showLegend],
+    ["change:legend change:panel_legend change:legend_corner", showLegend],
     ["change:notice", tell],
   ];
   for (const [names, listener] of listeners) model.on(names, listener);

@@ -1,0 +1,47 @@
+"""What an editor's model and its solver are at one moment, as one value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from glid_nb.compare import MeshMap
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.session.edit_state import EditState, Solution
+from glid_nb.session.live_solver import Frame
+
+
+@dataclass(frozen=True, eq=False)
+class Moment:
+    """Everything that a view of a deformation needs, and that belongs together.
+
+    A thread that asks the model for one after the other may get a domain and the certificate of
+    another one.
+    """
+
+    state: EditState
+    frame: Frame | None
+    """What the solver published last for the state's map; None if that is older."""
+    busy: bool
+    """Whether the solver has work."""
+    paused: bool
+    error: Exception | None = None
+    """What the solver's thread met, if that was the last thing it did."""
+
+    @property
+    def map(self) -> HarmonicMap:
+        """The certified map."""
+        return self.state.map
+
+    @property
+    def comparison(self) -> MeshMap | None:
+        """What a method on a mesh has come to, uncertified."""
+        return None if self.frame is None else self.frame.mesh
+
+    @property
+    def solution(self) -> Solution | None:
+        """How the pose was solved; None while it is not."""
+        current, frame = self.state.current, self.frame
+        if current.method.method.family == "harmonic":
+            return current.solution
+        latest = frame is not None and frame.task.pose.asks_the_same(current)
+        return frame.solution if frame is not None and latest else None

@@ -1,0 +1,221 @@
+"""The monitor: what it draws belongs together, and at rest it is the final certificate."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+import time
+from collections.abc import Iterator
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from glid_nb.certificate import certify
+from glid_nb.geometry import Cage, Domain
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.session.deformation import Deformation
+from glid_nb.session.status_line import rounded_down
+from glid_nb.widgets import SolverMonitor
+from glid_nb.widgets.background import Background
+from glid_nb.widgets.live_plots import LivePlots
+
+from ..domains import domain
+
+TIMEOUT = 120.0
+
+
+@pytest.fixture
+def model() -> Iterator[Deformation]:
+    with Deformation(domain("ring")) as model:
+        yield model
+
+
+@pytest.fixture
+def monitor(model: Deformation) -> Iterator[SolverMonitor]:
+    monitor = SolverMonitor(model, 400, 300)
+    yield monitor
+    monitor.close()
+
+
+def bent(model: Deformation) -> None:
+    model.add_handles([(2, 0), (-2, 0)])
+    model.drag(0, to=(3.0, 1.0))
+    assert model.solve(TIMEOUT)
+
+
+def shown_bound(monitor: SolverMonitor) -> str:
+    """What the plot of the certificate says."""
+    plots = monitor._plots
+    assert plots is not None
+    text: str = plots._certificate._text.get_text()
+    return text.split(",", maxsplit=1)[0]
+
+
+@pytest.mark.slow
+def test_what_is_drawn_belongs_together(
+    model: Deformation, monitor: SolverMonitor, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Holes come and go in one thread while the monitor draws in another."""
+    square = Cage([[-6, -6], [6, -6], [6, 6], [-6, 6]])
+    holes = [[[x, y], [x, y + 1], [x + 1, y + 1], [x + 1, y]] for x in (-3, 2) for y in (-3, 2)]
+    without, with_holes = (Domain.from_cage(Cage(square.exterior, h)) for h in ([], holes))
+    caught: list[Any] = []
+    monkeypatch.setattr(threading, "excepthook", caught.append)
+    monitor._background.close()  # only one thread may draw
+    model.paused = True
+    model.begin()
+    for domain_ in (with_holes, without):  # compiled before the time counts
+        model.set_domain(domain_)
+        monitor._update()
+    drawing = [True]
+
+    def draw() -> None:
+        while drawing:
+            monitor._update()
+
+    other = threading.Thread(target=draw)
+    other.start()
+    end = time.monotonic() + 4.0
+    while time.monotonic() < end and other.is_alive():
+        model.set_domain(with_holes)
+        time.sleep(0.03)
+        model.undo()
+        time.sleep(0.03)
+    drawing.clear()
+    other.join()
+    assert not caught
+
+
+def test_background_work_goes_on_after_an_exception(monkeypatch: pytest.MonkeyPatch) -> None:
+    caught: list[Any] = []
+    monkeypatch.setattr(threading, "excepthook", caught.append)
+
+    class Failing:
+        count = 0
+
+        def work(self) -> None:
+            self.count += 1
+            if self.count == 1:
+                raise RuntimeError("no more magic smoke")
+
+    failing = Failing()
+    background = Background(failing.work, 0.01)
+    for expected in (1, 2):
+        background.ask()
+        assert background.wait(10)
+        assert failing.count == expected
+    (report,) = caught
+    assert "magic smoke" in str(report.exc_value)
+    assert report.thread is background._worker._thread
+    background.close()
+
+
+def test_at_rest_all_say_what_the_final_certificate_proves(
+    model: Deformation, monitor: SolverMonitor
+) -> None:
+    bent(model)
+    lower = rounded_down(certify(model.map).sigma2_lower)
+    words = f"Converged · certified σ₂ ≥ {lower}, σ₁ ≤ "
+    assert model.status.text.startswith(words)
+    assert monitor.text == model.status.text
+    assert monitor.refresh(TIMEOUT)
+    assert monitor.text in monitor.line.value
+    assert shown_bound(monitor) == f"σ₂ ≥ {lower}"
+    # Also without a frame of the solver.
+    model.drag(1, to=(-3.0, 1.0))
+    assert model.solve(TIMEOUT)
+    model.undo()
+    assert model.frame is None
+    assert model.solve(TIMEOUT)
+    assert model.status.text.startswith(words)
+    assert monitor.refresh(TIMEOUT)
+    assert shown_bound(monitor) == f"σ₂ ≥ {lower}"
+
+
+def test_the_last_drawing_is_that_at_rest(
+    model: Deformation, monitor: SolverMonitor, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The solver comes to rest after it told of its last frame, and tells nobody."""
+    bent(model)
+    assert monitor.refresh(TIMEOUT)
+    model.drag(0, to=(3.5, 1.0))
+    assert model.solve(TIMEOUT)
+    rest = model.moment
+    working = type(rest)(rest.state, rest.frame, True, False)
+    moments = [working, rest, rest]
+    monkeypatch.setattr(Deformation, "moment", property(lambda _: moments.pop(0)))
+    monitor._drawn = None
+    monitor._background.ask()
+    assert monitor._background.wait(TIMEOUT)
+    assert len(moments) == 1
+    assert "Converged" in monitor.line.value
+    assert (
+        shown_bound(monitor) == f"σ₂ ≥ {rounded_down(model.certificate_of(rest.map).sigma2_lower)}"
+    )
+
+
+def test_the_history_stays_while_the_next_targets_are_not_solved(
+    model: Deformation, monitor: SolverMonitor
+) -> None:
+    bent(model)
+    model.paused = True
+    model.drag(0, to=(3.5, 1.0))
+    assert monitor.refresh(TIMEOUT)
+    assert monitor._plots is not None
+    assert len(monitor._plots._energy._total.get_xdata())
+
+
+def _legend_texts(axes: Any) -> list[Any]:
+    legend = axes.get_legend()
+    return [] if legend is None else legend.get_texts()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("width", [500, 320])
+@pytest.mark.parametrize("n_holes", [0, 1, 8])
+def test_no_text_lies_over_data_or_other_text(n_holes: int, width: int):
+    holes = [[[x, 2], [x, 3], [x + 0.5, 3], [x + 0.5, 2]] for x in range(1, n_holes + 1)]
+    cage = Cage([[0, 0], [12, 0], [12, 6], [0, 6]], holes)
+    map_ = HarmonicMap.identity(Domain.from_cage(cage))
+    plots = LivePlots(cage, width, 370)
+    records = [
+        SimpleNamespace(
+            iteration=i,
+            energy=2.1,
+            energy_iso=2.0,
+            energy_p2p=0.1,
+            step=1.0,
+            decrement=0.1,
+            time=0.02,
+        )
+        for i in range(1, 60)
+    ]
+    plots.draw(records, certify(map_))
+    for plot in plots._plots:
+        axes = plot.axes
+        texts: list[Any] = [*axes.texts, axes.xaxis.label, *_legend_texts(axes)]
+        boxes = [t.get_window_extent() for t in texts if t.get_text() and t.get_visible()]
+        inside = axes.get_window_extent()
+        assert not any(box.overlaps(inside) for box in boxes)
+        assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
+        assert all(b.y0 >= 0 and b.y1 <= axes.figure.bbox.y1 for b in boxes)
+
+
+def test_a_frame_says_where_its_solves_began(model: Deformation) -> None:
+    model.add_handles([(2, 0), (-2, 0)])
+    assert model.solve(TIMEOUT)
+    model.begin_drag([0])
+    for x in (2.5, 3.0, 3.5):
+        model.drag_to([(x, 1.0)])
+        assert model.solve(TIMEOUT)
+    model.end_drag()
+    frame, solution = model.frame, model.solution
+    assert frame is not None
+    assert solution is not None
+    assert solution.starts == frame.starts
+    energies = {i.iteration: i.energy for i in frame.history}
+    assert set(frame.starts) <= set(energies)
+    moved = [i for i in frame.starts if i - 1 in energies]
+    assert len(moved) >= 2
+    assert all(energies[i] > energies[i - 1] for i in moved)
