@@ -117,11 +117,13 @@ class EnergyPlot:
         history: Sequence[IterationRecord],
         start_energy: float | None = None,
         starts: Collection[int] = (),
+        solving: bool = False,
     ) -> bool:
         """Show these iterations; True when the limits or the scale of the axes changed.
 
         ``start_energy`` is the total before the first of them, drawn at iteration 0. ``starts`` are
-        the iterations that began with moved targets: the lines join what they ended with.
+        the iterations that began with moved targets: the lines join what they ended with, but for
+        the last one while the solver is still at it.
         """
         before = _view(self.axes)
         x = np.array([0, *(record.iteration for record in history)], dtype=float)
@@ -133,7 +135,7 @@ class EnergyPlot:
         }
         if start_energy is None:
             x, series = x[1:], {line: values[1:] for line, values in series.items()}
-        ends = _ends(x, starts)
+        ends = _ends(x, starts, solving)
         for line, values in series.items():
             _show(line, x[ends], values[ends])
         within = ~ends
@@ -173,15 +175,19 @@ class StepPlot:
         """What ``update`` changes."""
         return self._decrement, self._step, self._within
 
-    def update(self, history: Sequence[IterationRecord], starts: Collection[int] = ()) -> bool:
+    def update(
+        self,
+        history: Sequence[IterationRecord],
+        starts: Collection[int] = (),
+        solving: bool = False,
+    ) -> bool:
         """Show these iterations; True when the limits of the axes changed.
 
-        ``starts`` are the iterations that began with moved targets: the lines join what they ended
-        with.
+        ``starts`` and ``solving`` as in :meth:`EnergyPlot.update`.
         """
         before = _view(self.axes)
         x = np.array([record.iteration for record in history], dtype=float)
-        ends = _ends(x, starts)
+        ends = _ends(x, starts, solving)
         steps, decrements = (
             np.array([getattr(record, name) for record in history], dtype=float)
             for name in ("step", "decrement")
@@ -370,13 +376,13 @@ def _dots(axes: Axes, animated: bool, color: str) -> Line2D:
     return _line(axes, animated, color=color, alpha=0.35, zorder=1.5, **style)
 
 
-def _ends(x: NDArray[np.float64], starts: Collection[int]) -> NDArray[np.bool_]:
+def _ends(x: NDArray[np.float64], starts: Collection[int], solving: bool) -> NDArray[np.bool_]:
     """Which of the iterations ``x`` were the last before one of ``starts``, or of all.
 
-    Where only one solve is seen, all of them.
+    The last of all ends nothing yet while the solver is at it. Where only one solve is seen, all.
     """
     begins = np.isin(x[1:], np.fromiter(starts, dtype=float))
-    return np.append(begins, True)[: len(x)] if begins.any() else np.ones(len(x), dtype=bool)
+    return np.append(begins, not solving)[: len(x)] if begins.any() else np.ones(len(x), dtype=bool)
 
 
 def _show(line: Line2D, x: NDArray[np.float64], values: NDArray[np.float64]) -> None:

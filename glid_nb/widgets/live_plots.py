@@ -80,15 +80,16 @@ class LivePlots:
         certificate: Certificate | None,
         map: HarmonicMap | None = None,
         starts: Collection[int] = (),
+        solving: bool = False,
     ) -> bytes:
         """The plots of these iterations and this certificate as PNG; without one nothing is proved.
 
         With the map its sampled sigma_2 is drawn over the certified bound. ``starts`` are the
-        iterations that began with moved targets.
+        iterations that began with moved targets, ``solving`` whether the last of them goes on.
         """
         changed = [
-            self._energy.update(history, starts=starts),
-            self._step.update(history, starts),
+            self._energy.update(history, starts=starts, solving=solving),
+            self._step.update(history, starts, solving),
             self._time.update(history),
         ]
         if certificate is None:

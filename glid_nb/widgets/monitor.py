@@ -157,7 +157,7 @@ class SolverMonitor(ipywidgets.VBox):
             proof, map_ = _live_certificate(frame, frame.panels), None
         else:
             proof, map_ = self.deformation.certificate_of(moment.map), moment.map
-        picture = self._plots.draw(history, proof, map_, starts)
+        picture = self._plots.draw(history, proof, map_, starts, moment.busy)
         with self.image.hold_sync():  # the page must not take the one for the other
             self.image.format, self.image.value = "png", picture
         self._drawn = new

@@ -279,6 +279,8 @@ def test_during_a_drag_lines_join_the_ends_of_the_solves(kind: Any):
     np.testing.assert_array_equal(within.get_xdata(), [0, 1, 3, 4, 6, 7, 9, 10])
     if kind is EnergyPlot:
         assert plot.axes.get_ylim()[1] < 10
+    plot.update(records, starts=(3, 6, 9), solving=True)  # the last has not ended yet
+    np.testing.assert_array_equal(line.get_xdata(), [2, 5, 8])
     plot.update(records, starts=(0,))  # one solve
     assert len(line.get_xdata()) == 12
     assert len(within.get_xdata()) == 0
