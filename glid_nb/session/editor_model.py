@@ -174,12 +174,12 @@ class EditorModel:
 
     @property
     def unsaved(self) -> bool:
-        """Whether there are handles that would be lost with this session, for no file has them."""
+        """Whether there are handles, of any picture, that are in no file."""
         session = self._session
         if session is None or self._autosave is not None:
             return False
-        poses = session.deformation.poses
-        return any(len(pose.pose) for pose in poses) and _work_of(poses) != self._saved_work
+        sessions = (session, *(shelved for shelved, _ in self._shelf))
+        return any(map(self._is_unsaved, sessions))
 
     def on_replaced(self, callback: Callable[[], None]) -> None:
         """Call ``callback`` when ``deformation`` or ``tracing`` is another object."""
@@ -297,6 +297,10 @@ class EditorModel:
                 warnings.warn(text, RuntimeWarning, stacklevel=2)
         if self._session is not None:
             self._session.deformation.close()
+
+    def _is_unsaved(self, session: _Session) -> bool:
+        poses = session.deformation.poses
+        return any(len(pose.pose) for pose in poses) and _work_of(poses) != self._saved_work
 
     def _traced(self, deformation: Deformation) -> _Session:
         """The session of what is traced now."""

@@ -161,6 +161,10 @@ def test_what_is_in_no_file_is_unsaved(tmp_path: Path) -> None:
     assert model.unsaved
     model.load(tmp_path / "c.glid")
     assert not model.unsaved
+    model.deformation.drag(0, to=(-5, 1))
+    model.tracing.open(picture(60))
+    model.apply_tracing()
+    assert model.unsaved  # what undo would bring back
     model.close()
 
 
