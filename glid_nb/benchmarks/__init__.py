@@ -16,14 +16,7 @@ from glid_nb.benchmarks.measurements import BenchmarkError, Measurements
 from glid_nb.benchmarks.page import page
 from glid_nb.benchmarks.scaling import SERIES, measure_scaling
 from glid_nb.benchmarks.shapes import flower, ring_of_handles
-from glid_nb.benchmarks.solving import (
-    ALIGNED,
-    DEFAULT,
-    PAPER,
-    measure_drag,
-    measure_solve,
-    same_minimum,
-)
+from glid_nb.benchmarks.solving import DEFAULT, measure_drag, measure_solves
 from glid_nb.benchmarks.starting import measure_start
 from glid_nb.comparisons.cases import Case, reference_cases, sample_case
 from glid_nb.samples import names
@@ -92,13 +85,6 @@ def bench_all(
         detail(name)
         return store.get(name, f"{of}, {settings}" if of else settings, measure)
 
-    def solved(case: Case, mode: str) -> dict[str, Any]:
-        return measured(
-            results.solve_name(case.name, mode),
-            case.digest,
-            lambda: measure_solve(case, mode, repeats),
-        )
-
     plan = {
         "cases": [case.name for case in cases],
         "reference": reference is not None,
@@ -110,12 +96,18 @@ def bench_all(
     measured(results.MACHINE, "", lambda: {**store.here, "rates": rates()})
     if "solves" in chosen:
         for case in cases:
-            paper, default = solved(case, PAPER), solved(case, DEFAULT)
-            if not same_minimum(paper["energy"], default["energy"]):
-                solved(case, ALIGNED)
+            measured(
+                results.solves_name(case.name),
+                case.digest,
+                lambda c=case: measure_solves(c, repeats),
+            )
         if not quick:
             cage = _cage()
-            measured(results.CAGE, cage.digest, lambda: measure_solve(cage, DEFAULT, repeats))
+            measured(
+                results.CAGE,
+                cage.digest,
+                lambda: measure_solves(cage, repeats, [DEFAULT])[DEFAULT],
+            )
     if "drags" in chosen:
         for case in cases:
             measured(

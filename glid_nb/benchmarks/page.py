@@ -135,7 +135,9 @@ def _solves(results: Results, figures: str) -> list[str]:
         "discrete energy. A time is that of a whole call of `solve`, the making of the matrices "
         "left out, which a shape needs once and which has a column of its own; per iteration is "
         "that time shared evenly. An iteration of `default` can contain up to "
-        f"{Options().corrections} corrections, further steps by the same Hessian.",
+        f"{Options().corrections} corrections, further steps by the same Hessian. The modes are "
+        "timed in turn, a call of each after the other: a machine that is slow for a while is so "
+        "for both.",
         "",
         *table(
             [

@@ -21,9 +21,9 @@ RUN, MACHINE, CAGE, START, COMPILATIONS, BATCHES = (
 """Names of measurements; those of shapes and series are made of their parts."""
 
 
-def solve_name(case: str, mode: str) -> str:
-    """The name of the measurement of a shape's solve."""
-    return f"{case}-{mode}"
+def solves_name(case: str) -> str:
+    """The name of the measurement of a shape's solves, which has one of each mode."""
+    return f"{case}-solves"
 
 
 def drag_name(case: str) -> str:
@@ -98,10 +98,8 @@ def read(folder: Path) -> Results:
         return result
 
     cases = run["cases"]
-    solves = {
-        mode: {name: s for name in cases if (s := get(solve_name(name, mode))) is not None}
-        for mode in MODES
-    }
+    by_case = {name: s for name in cases if (s := get(solves_name(name))) is not None}
+    solves = {mode: {name: s[mode] for name, s in by_case.items() if mode in s} for mode in MODES}
     drags = [d for name in cases if (d := get(drag_name(name))) is not None]
     series = {name: get(series_name(name)) for name in SERIES}
     cage, start, compilations, batches = (

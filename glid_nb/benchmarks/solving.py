@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from glid_nb.benchmarks.machine import floor
 from glid_nb.benchmarks.stages import measure_stages
-from glid_nb.benchmarks.timing import Timing, scaled, timed
+from glid_nb.benchmarks.timing import Timing, scaled, timed, timed_in_turn
 from glid_nb.comparisons.cases import Case
 from glid_nb.harmonic.basis import build_basis
 from glid_nb.solvers import Options, Pose, Result, solve
@@ -44,27 +45,50 @@ def same_minimum(one: float, other: float) -> bool:
     return abs(one - other) <= SAME_ENERGY * min(one, other)
 
 
-def measure_solve(case: Case, mode: str, repeats: int) -> dict[str, Any]:
-    """From the identity until the energy is within :data:`GAP` of its minimum.
+def measure_solves(
+    case: Case, repeats: int, modes: Sequence[str] = (PAPER, DEFAULT)
+) -> dict[str, dict[str, Any]]:
+    """From the identity until the energy is within :data:`GAP` of its minimum, by mode.
 
-    ``to_gap`` is the time of a whole call of ``solve`` for so many iterations, with the domain's
-    matrices at hand; ``per_iteration`` is that time shared evenly. ``making`` is that of making the
-    matrices, ``before`` that of a call that takes no iteration, ``stages`` the stages' by
-    themselves. The gap is to the minimum of this mode's own discrete energy.
+    The modes are timed in turn; where the first two end at different minima :data:`ALIGNED` joins
+    them. ``to_gap`` is the time of a whole call of ``solve`` for so many iterations, with the
+    domain's matrices at hand; ``per_iteration`` is that time shared evenly. ``making`` is that of
+    making the matrices, ``before`` that of a call that takes no iteration, ``stages`` the stages'
+    by themselves. The gap is to the minimum of each mode's own discrete energy.
     """
-    domain, pose, options = case.problem.domain, case.problem.pose, MODES[mode]
-    whole = solve(domain, pose, None, options)
-    count = iterations_to(whole, GAP)
+    domain, pose = case.problem.domain, case.problem.pose
+    whole = {mode: solve(domain, pose, None, MODES[mode]) for mode in modes}
+    if len(modes) > 1 and not same_minimum(*(whole[mode].energy for mode in modes[:2])):
+        whole[ALIGNED] = solve(domain, pose, None, MODES[ALIGNED])
+    counts = {mode: iterations_to(result, GAP) for mode, result in whole.items()}
 
-    def limited(most: int) -> Timing:
-        taken = replace(options, max_iterations=most)
-        return timed(lambda: solve(domain, pose, None, taken), repeats)
+    def limited(most: dict[str, int]) -> dict[str, Timing]:
+        def call(mode: str) -> Callable[[], Any]:
+            options = replace(MODES[mode], max_iterations=most[mode])
+            return lambda: solve(domain, pose, None, options)
+
+        return timed_in_turn({mode: call(mode) for mode in whole}, repeats)
+
+    to_gap, before = limited(counts), limited(dict.fromkeys(whole, 0))
+    return {
+        mode: {
+            "to_gap": to_gap[mode],
+            "per_iteration": scaled(to_gap[mode], 1 / counts[mode]),
+            "before": before[mode],
+            **_about(case, mode, result, counts[mode], repeats),
+        }
+        for mode, result in whole.items()
+    }
+
+
+def _about(case: Case, mode: str, whole: Result, count: int, repeats: int) -> dict[str, Any]:
+    """What there is to say about one mode's solve of ``count`` iterations, beside its times."""
+    domain, options, history = case.problem.domain, MODES[mode], whole.history[:count]
 
     def make() -> None:
         build_basis(domain)
         discretise.__wrapped__(domain, options.sampling, options.certificate)
 
-    timing, history = limited(count), whole.history[:count]
     return {
         "name": case.name,
         "mode": mode,
@@ -76,9 +100,6 @@ def measure_solve(case: Case, mode: str, repeats: int) -> dict[str, Any]:
         "corrections": sum(entry.corrections for entry in history),
         "energy": whole.energy,
         "certified": whole.certificate.certified,
-        "to_gap": timing,
-        "per_iteration": scaled(timing, 1 / count),
-        "before": limited(0),
         "making": timed(make, min(repeats, _MAKING_REPEATS)),
         "floor": floor(whole.discretisation.matrices, whole.n_unknowns),
         "stages": measure_stages(whole, 3 * repeats),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -33,6 +33,23 @@ def timed(
         function()
         seconds.append(time.perf_counter() - began)
     return summary(seconds)
+
+
+def timed_in_turn(
+    functions: Mapping[str, Callable[[], Any]], repeats: int, warm_up: int = 1
+) -> dict[str, Timing]:
+    """Wall time of each function's calls, one of each after the other again and again.
+
+    A machine that is slow for a while is so for all of them: their ratios keep.
+    """
+    seconds: dict[str, list[float]] = {name: [] for name in functions}
+    for turn in range(warm_up + repeats):
+        for name, function in functions.items():
+            began = time.perf_counter()
+            function()
+            if turn >= warm_up:
+                seconds[name].append(time.perf_counter() - began)
+    return {name: summary(taken) for name, taken in seconds.items()}
 
 
 def summary(seconds: list[float]) -> Timing:

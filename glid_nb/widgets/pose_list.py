@@ -15,7 +15,7 @@ from glid_nb.widgets.edit_controls import EditControls
 class PoseList(EditControls):
     """The poses of a deformation: jump to one, name it, keep, copy and delete.
 
-    Edits belong to the pose that is selected; "Save" keeps it as it is and goes on with a copy.
+    Edits belong to the pose that is selected; "Keep pose" keeps it as it is and goes on with a copy.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ class PoseList(EditControls):
         )
         model = deformation
         self.save = self._button(
-            "Save", "bookmark", "Keep this pose, go on with a copy", model.save_pose
+            "Keep pose", "bookmark", "Keep this pose, go on with a copy", model.save_pose
         )
         self.duplicate = self._button(
             "", "copy", "Duplicate", lambda: model.duplicate_pose(model.state.active)
