@@ -14,13 +14,12 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from glid_nb._runtime import double_precision, single_blas_thread
+from glid_nb._runtime import double_precision
 from glid_nb.benchmarks.timing import timed
-from glid_nb.solvers import cholesky
 from glid_nb.solvers.discretisation import Matrices
 
 _PRODUCTS = (512, 1024)  # sizes of the matrix products whose best rate counts
-_TIMED = ("geometry", "harmonic", "energies", "certificate", "solvers")  # packages
+_TIMED = ("_runtime.py", "geometry", "harmonic", "energies", "certificate", "solvers")
 _LIBRARIES = ("jax", "jaxlib", "numpy", "scipy", "glid-nb")
 
 
@@ -41,7 +40,8 @@ def _sources() -> str:
     """A digest of the code that is timed: two states of it can have one version."""
     digest, package = hashlib.sha256(), Path(__file__).parent.parent
     for name in _TIMED:
-        for path in sorted((package / name).rglob("*.py")):
+        place = package / name
+        for path in [place] if place.is_file() else sorted(place.rglob("*.py")):
             digest.update(path.read_bytes())
     return digest.hexdigest()[:12]
 
@@ -92,34 +92,28 @@ def rates() -> dict[str, float]:
 
 
 @double_precision
-def floor(matrices: Matrices, n_unknowns: int) -> dict[str, float]:
+def floor(matrices: Matrices, n_unknowns: int, lines: float) -> dict[str, float]:
     """Seconds that one iteration takes at least on this machine, by part.
 
-    ``products``: the basis matrices are read once for the direction and, at the energy's nodes,
-    once more for the gradient, and the certificate reads its remainders. ``hessian``: twelve real
-    products of (c, h) by (h, c), in the precision of the stored basis. ``factor``: Cholesky factor
-    and two triangular solves, timed at this size.
+    ``products``: for each of its ``lines`` (a step and its corrections) the basis matrices are read
+    once for the direction and, at the energy's nodes, once more for the gradient; the Hessian reads
+    its own and the certificate its remainders once. ``hessian``: twelve real products of (c, h) by
+    (h, c), in the precision of the stored basis. ``factor``: Cholesky factor of so many unknowns at
+    the best rate of products, and for each line two triangular solves, which read it.
     """
     rate = rates()
     columns, h = matrices.whitened.shape[0] // 2, matrices.whitened.shape[1]
     flops = 12 * 2 * h * columns**2
-    read = 8 * (2 * matrices.nodes.size + matrices.slopes.size + matrices.remainder.size)
+    line = 8 * (2 * matrices.nodes.size + matrices.slopes.size)
+    once = 8 * matrices.remainder.size + matrices.whitened.nbytes
+    solves = lines * 2 * 8 * n_unknowns**2 / 2
     return {
-        "products": (read + matrices.whitened.nbytes) / rate["bytes"],
+        "products": (lines * line + once) / rate["bytes"],
         "hessian": flops / rate[str(matrices.whitened.dtype)],
-        "factor": _factor(n_unknowns),
+        "factor": n_unknowns**3 / 3 / rate["float64"] + solves / rate["bytes"],
     }
 
 
-@functools.cache
-def _factor(n: int) -> float:
-    rng = np.random.default_rng(0)
-    square = rng.normal(size=(n, n))
-    h = jnp.asarray(square @ square.T + n * np.eye(n))
-
-    @jax.jit
-    def solve(matrix: Any) -> Any:
-        return cholesky.solve(cholesky.factorise(matrix), matrix[0])
-
-    with single_blas_thread():
-        return timed(lambda: solve(h).block_until_ready(), 20)["least"]
+def factor_flops(n: int) -> float:
+    """Of a Cholesky factorisation and two triangular solves."""
+    return n**3 / 3 + 2 * n**2

@@ -7,7 +7,13 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from glid_nb.benchmarks import goals
-from glid_nb.benchmarks.breakdown import Measurement, floor_of, in_words, over_floor
+from glid_nb.benchmarks.breakdown import (
+    Measurement,
+    floor_of,
+    in_words,
+    over_floor,
+    shares,
+)
 from glid_nb.benchmarks.results import Results
 from glid_nb.benchmarks.solving import DEFAULT, DRAG, DRAG_GAP, GAP, PAPER
 
@@ -179,13 +185,11 @@ def _ratio_limit(results: Results) -> str:
     cheaper = statistics.median(
         p["per_iteration"]["median"] / d["per_iteration"]["median"] for p, d in pairs
     )
-    factor = statistics.median(
-        d["floor"]["factor"] / d["per_iteration"]["median"] for _, d in pairs
-    )
+    factor = statistics.median(shares(d)["factor"] / d["per_iteration"]["median"] for _, d in pairs)
     return (
-        f"in the median {fewer:.1f} times fewer iterations, each {cheaper:.1f} times cheaper; the "
-        f"factorisation, {factor:.0%} of an iteration of `default` at its floor, is the same for "
-        "both"
+        f"in the median {fewer:.1f} times fewer iterations, each {cheaper:.1f} times cheaper: in "
+        "both modes a Hessian of equal size is factored, which takes "
+        f"{factor:.0%} of an iteration of `default`"
     )
 
 
@@ -193,8 +197,9 @@ def _least_limit(paper: dict, default: dict) -> str:
     times = [1e3 * s["per_iteration"]["median"] for s in (paper, default)]
     return (
         f"{default['name']}: {paper['iterations']} iterations of {times[0]:.1f} ms against "
-        f"{default['iterations']} of {times[1]:.1f} ms, of which factor and solves take "
-        f"{1e3 * default['floor']['factor']:.1f} ms at least in both modes"
+        f"{default['iterations']} of {times[1]:.1f} ms; {in_words(default)}; the floor of the "
+        f"Hessian's products is {1e3 * default['floor']['hessian']:.1f} ms with its "
+        f"{default['panels']} panels against {1e3 * paper['floor']['hessian']:.1f}"
     )
 
 

@@ -123,7 +123,7 @@ def _solves(results: Results, figures: str) -> list[str]:
         return []
     ratios = [ratio(*pair) for pair in pairs]
     lines = [
-        f"## From the identity to a relative energy gap of {GAP:g}, certified",
+        f"## To a relative energy gap of {GAP:g}, certified",
         "",
         f"![time per iteration beside the machine's floor, by shape]({figures}/{SOLVES})",
         "",
@@ -131,10 +131,12 @@ def _solves(results: Results, figures: str) -> list[str]:
         "",
         "`paper`: uniform samples (|G| = 10^4, |H| = 10^3), Lipschitz certificate, projected "
         "Hessian, from the identity, in our own code. `default`: ours, from the rigid motion that "
-        "brings the handles closest to their targets. The gap is to the minimum of each mode's own "
-        "discrete energy. A time is that of a whole call of `solve`, the making of the matrices "
-        "left out, which a shape needs once and which has a column of its own; per iteration is "
-        "that time shared evenly. An iteration of `default` can contain up to "
+        "brings the handles closest to their targets, and without the other ways to a minimum that "
+        "`solve` tries after a poor end (`restarts=0`; so it is all over this page but for the "
+        "first solve of a process). Both end converged, to 1e-10; the gap is to the minimum of "
+        "each mode's own discrete energy. A time is that of a whole call of `solve`, the making of "
+        "the matrices left out, which a shape needs once and which has a column of its own; per "
+        "iteration is that time shared evenly. An iteration of `default` can contain up to "
         f"{Options().corrections} corrections, further steps by the same Hessian. The modes are "
         "timed in turn, a call of each after the other: a machine that is slow for a while is so "
         "for both.",
@@ -143,6 +145,7 @@ def _solves(results: Results, figures: str) -> list[str]:
             [
                 "shape",
                 "unknowns",
+                "panels",
                 "iterations paper / default (with corrections)",
                 "energy paper / default",
                 "paper, ms",
@@ -157,6 +160,7 @@ def _solves(results: Results, figures: str) -> list[str]:
                 [
                     p["name"],
                     str(p["unknowns"]),
+                    str(d["panels"]),
                     f"{p['iterations']} / {d['iterations']} ({d['corrections']})",
                     f"{p['energy']:.4f} / {d['energy']:.4f}{_mark(p, d)}",
                     ms(p["to_gap"]),
@@ -175,7 +179,9 @@ def _solves(results: Results, figures: str) -> list[str]:
         f"{min(ratios):.1f} times at least.",
     ]
     if len(same) < len(pairs):
-        lines += ["", *_other_minima(results)]
+        lines += ["", _other_minima(results)]
+    if results.aligned:
+        lines += ["", *_aligned(results)]
     if results.cage is not None:
         cage = results.cage
         lines += [
@@ -190,7 +196,11 @@ def _solves(results: Results, figures: str) -> list[str]:
         for s in by_shape.values()
         if not s["certified"]
     ]
-    certified = "Every map was certified." if not failed else f"Not certified: {joined(failed)}."
+    certified = (
+        f"Not certified: {joined(failed)}."
+        if failed
+        else "Every map was certified at its end, and by construction at each step."
+    )
     return [*lines, "", certified]
 
 
@@ -198,48 +208,53 @@ def _mark(paper: Measurement, default: Measurement) -> str:
     return "" if same_minimum(paper["energy"], default["energy"]) else " (other minimum)"
 
 
-def _other_minima(results: Results) -> list[str]:
+def _other_minima(results: Results) -> str:
     pairs, same = results.pairs, results.like_for_like
     others = [p["name"] for p, d in pairs if (p, d) not in same]
-    lines = [
+    text = (
         f"On {joined(others)} the two end at minima whose energies differ by more than "
         f"{SAME_ENERGY:.0%}: `paper` begins at the identity itself."
-    ]
+    )
     if same:
         ratios = [ratio(*pair) for pair in same]
-        lines[0] += (
+        text += (
             f" Over the shapes on which they end at the same one `default` is "
             f"{statistics.median(ratios):.1f} times faster in the median, {min(ratios):.1f} times "
             "at least."
         )
-    if results.aligned:
-        lines += [
-            "",
-            f"Like for like there, with the rigid motion for both (`{ALIGNED}`):",
-            "",
-            *table(
+    return text
+
+
+def _aligned(results: Results) -> list[str]:
+    """What the method gains where both begin with the rigid motion."""
+    ratios = [ratio(*pair) for pair in results.aligned]
+    return [
+        f"What the rigid motion alone gains: `{ALIGNED}` is `paper` that begins with it as "
+        f"`default` does. Over it `default` is {statistics.median(ratios):.1f} times faster in the "
+        f"median, {min(ratios):.1f} times at least.",
+        "",
+        *table(
+            [
+                "shape",
+                "iterations",
+                "energy paper-aligned / default",
+                "paper-aligned, ms",
+                "default, ms",
+                "ratio",
+            ],
+            [
                 [
-                    "shape",
-                    "iterations",
-                    "energy paper-aligned / default",
-                    "paper-aligned, ms",
-                    "default, ms",
-                    "ratio",
-                ],
-                [
-                    [
-                        p["name"],
-                        f"{p['iterations']} / {d['iterations']}",
-                        f"{p['energy']:.4f} / {d['energy']:.4f}{_mark(p, d)}",
-                        ms(p["to_gap"]),
-                        ms(d["to_gap"]),
-                        f"{ratio(p, d):.1f}",
-                    ]
-                    for p, d in results.aligned
-                ],
-            ),
-        ]
-    return lines
+                    p["name"],
+                    f"{p['iterations']} / {d['iterations']}",
+                    f"{p['energy']:.4f} / {d['energy']:.4f}{_mark(p, d)}",
+                    ms(p["to_gap"]),
+                    ms(d["to_gap"]),
+                    f"{ratio(p, d):.1f}",
+                ]
+                for p, d in results.aligned
+            ],
+        ),
+    ]
 
 
 def _breakdown(results: Results) -> list[str]:
@@ -251,6 +266,7 @@ def _breakdown(results: Results) -> list[str]:
     product = [product_rate(s) for s in solves]
     factor = [factor_rate(s) / 1e9 for s in solves]
     before = [1e3 * s["before"]["median"] for s in solves]
+    rest = [shares(s)["rest"] / s["per_iteration"]["median"] for s in solves]
 
     def row(s: Measurement) -> list[str]:
         parts, floor = {k: 1e3 * v for k, v in shares(s).items()}, s["floor"]
@@ -271,13 +287,15 @@ def _breakdown(results: Results) -> list[str]:
     return [
         "## Where the time of an iteration goes, ms",
         "",
-        "The floor: reading the basis matrices from memory, the Hessian's matrix products at the "
-        "best rate seen, and factor and solve as timed for so many unknowns. Beside it each stage, "
-        "run by itself on the solver's padded matrices, as often as an iteration runs it in the "
-        "mean: an exact Hessian that is not positive definite is factored twice, and corrections "
-        "have products and a line search of their own. The call's part is that of a call without "
-        "iterations, shared by those of a solve. The rest is what remains of the measured time; "
-        "below zero a stage runs faster within the loop, on data in the caches.",
+        "The floor of a step and its corrections: reading the basis matrices from memory, the "
+        "matrix products of the Hessian's three blocks and the Cholesky factorisation (a third of "
+        "the unknowns cubed) at the best rate of products seen, and reading the factor for the "
+        "triangular solves. Beside it each stage, run by itself on the solver's padded matrices, "
+        "as often as an iteration runs it in the mean: an exact Hessian that is not positive "
+        "definite is factored once more with its positive part K+, and corrections have products, "
+        "a line search and a certificate of their own. The call's part is that of a call without "
+        "iterations, its result made and all, shared by the iterations of a solve. The rest is "
+        "what the stages do not add up to.",
         "",
         *table(
             [
@@ -300,10 +318,13 @@ def _breakdown(results: Results) -> list[str]:
         f"Assembling the Hessian reaches {min(product):.0%} to {max(product):.0%} of the best "
         f"product rate, in the median {statistics.median(product):.0%}: its operands must be "
         "rotated and weighted first, and the products are small. The factorisation is one call of "
-        f"LAPACK's potrf, with one thread: {min(factor):.0f} to {max(factor):.0f} Gflop/s at these "
-        f"sizes. A call takes {min(before):.1f} to {max(before):.1f} ms before its first "
-        f"iteration. The rest is mostly some {_OPERATIONS} small operations of an iteration that "
-        "XLA starts one by one (counted on a Xeon with two cores), and masks.",
+        f"LAPACK's Cholesky, with one thread: {min(factor):.0f} to {max(factor):.0f} Gflop/s at "
+        f"these sizes, two solves included. A call without iterations takes {min(before):.1f} to "
+        f"{max(before):.1f} ms. The rest is {min(rest):.0%} to {max(rest):.0%} of the time: not "
+        "among the stages are the masking of the Hessian and the targets' part of it, the changes "
+        f"of coordinates, the assembly of K+ and the start of some {_OPERATIONS} operations of an "
+        "iteration (counted on a Xeon with two cores); and stages run at another moment than the "
+        "solves, with other data in the caches.",
     ]
 
 
@@ -313,8 +334,10 @@ def _drags(results: Results) -> list[str]:
     return [
         f"## A drag step: one target moved by {DRAG:.0%} of the shape, to a gap of {DRAG_GAP:g}",
         "",
-        "From the converged result of the pose before, whose Hessian's factor serves the first "
-        "iteration.",
+        "The first handle's target moves along x, by a part of the bounding box's diagonal. "
+        "From the converged result of the pose before, whose Hessian's factor serves the "
+        "first iteration; one that has not converged passes on none, so that a chain of steps each "
+        "stopped at this gap would be slower.",
         "",
         *table(
             ["shape", "iterations (with corrections)", "ms"],
@@ -408,8 +431,12 @@ def _batches(batches: Measurement | None) -> list[str]:
         f"the median {hard['easy_iterations']}): the batch takes {ms(hard['with'])} ms instead of "
         f"{ms(hard['without'])} ms, {1e3 * added:.0f} ms more; alone the hard pose takes "
         f"{ms(hard['alone'])} ms. A batch goes round by round of {Options().iterations_per_call} "
-        "iterations, and what has ended leaves it: the easy ones were done after "
-        f"{1e3 * hard['easy_done']:.0f} ms. They are returned together with the last.",
+        "iterations, and what has ended leaves it: by their shares of the calls' time the easy "
+        f"ones were done after {1e3 * hard['easy_done']:.0f} ms. The caller waits for all of them.",
+        "",
+        "Each pose is certified on its own and solved until it has converged, to 1e-10. Under "
+        "`jax.distributed` each host passes its own share of the poses and gets their results; "
+        "tested with two processes on one machine.",
     ]
     return lines
 
@@ -429,12 +456,13 @@ def _gpu(results: Results) -> list[str]:
         else "No GPU was in reach of this run: nothing on this page was measured on one, and the "
         f"goal of {1e3 * goals.GPU_ITERATION:.1f} ms per iteration is open.",
         "",
-        "One command measures everything above on a machine with a GPU; the code path is the same, "
-        "and JAX chooses the GPU by itself:",
+        "One command measures everything above on a machine with a GPU, which JAX chooses by "
+        "itself. The code is the same but for two places: the factorisation is JAX's own instead "
+        "of a direct call of LAPACK, and the poses of a batch are vectorised.",
         "",
         "```sh",
         'pip install "jax[cuda12]"',
-        "glid-nb bench --out DIR",
+        "glid-nb bench --reference PROBLEMS --out DIR",
         "```",
         "",
         "What is expected to bound an iteration there, in this order: the start of its small "

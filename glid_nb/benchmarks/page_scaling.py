@@ -34,30 +34,35 @@ _SERIES = {
         "The Hessian's products grow with the vertices squared times the panels, the factorisation "
         "and the change to whitened coordinates with their cube: 3 is where the exponent goes. "
         "Small cages stay below it, for there the operations' start and the work on the panels "
-        "weigh more.",
+        "weigh more. Where a cage has so many vertices that half its panels give fewer than 2.25 "
+        "nodes for each column, the Hessian takes every panel or every node of the energy: a step "
+        "in the nodes, not in the panels.",
     ),
     "holes": _Series(
         "Holes, three vertices each, in a cage with 40",
         "unknowns",
         "the unknowns",
         "Holes add vertices, and panels faster than vertices, because the boundary near a small "
-        "hole is cut finely; numbers of holes are padded to powers of two, so that programs are "
-        "shared.",
+        "hole is cut finely. The matrix that is factored has room for a power of two of holes, so "
+        "that programs are shared, and keeps masked rows for what is no unknown: with many holes "
+        "it is more than twice as large as the unknowns are many. That is the price of masking "
+        "them instead of eliminating them in the basis.",
     ),
     "panels": _Series(
         "Panels, of one basis (edges of a cage with 100 vertices cut in pieces)",
         "panels",
         "the panels",
         "All products with the basis and the Hessian's assembly are linear in the panels, the "
-        "factorisation does not know of them: the exponent goes from near 0 to 1.",
+        "factorisation does not know of them: the more panels, the closer the exponent should be "
+        "to 1.",
     ),
     "handles": _Series(
         "Handles, in a cage with 100 vertices",
         "handles",
         "the handles",
         "An iteration reads one row per handle; their part of the Hessian, handles times unknowns "
-        "squared, is made once in a call, which is why the call grows and the iteration hardly "
-        "does.",
+        "squared, is made once in a call. Every tenth handle is moved, so that more handles are "
+        "also a harder pose.",
     ),
 }
 
@@ -184,7 +189,8 @@ def _statements(
         )
     else:
         found.append(
-            f"There is no cliff: no exponent is more than {_CLIFF:g} above that of the work."
+            f"There is no cliff in the sense that no exponent is more than {_CLIFF:g} above that "
+            "of the fastest growing part of the work."
         )
     return found
 

@@ -3,7 +3,8 @@
 The poses are split over the devices and run through :func:`glid_nb.solvers.newton.iterations`, on
 CPUs one after the other, elsewhere vectorised, in lockstep. After every call those that have ended
 leave the batch, and those that need the host, because a panel must be split for one, are set aside,
-so that no pose waits for another for longer than one call; they are finished one by one.
+so that no device works at a pose longer than that takes; they are finished one by one. The caller
+gets all results together, with the last.
 """
 
 from __future__ import annotations
@@ -181,12 +182,12 @@ class _Batch:
     def _call(self, chosen: list[int], size: int) -> list[int]:
         """One call for the chosen poses; returns those that go on."""
         options = self.options
-        index = np.array(chosen + chosen[:1] * (size - len(chosen)))
+        rows = dealt(len(chosen), len(self.devices), size // len(self.devices))
         # What only fills the batch up stays where it is.
-        limits = np.zeros(size, dtype=int)
-        for row, i in enumerate(chosen):
-            left = options.max_iterations - len(self.histories[i])
-            limits[row] = min(options.iterations_per_call, left)
+        index, limits = np.full(size, chosen[0]), np.zeros(size, dtype=int)
+        index[rows] = chosen
+        left = [options.max_iterations - len(self.histories[i]) for i in chosen]
+        limits[rows] = np.minimum(options.iterations_per_call, left)
         settings = newton.Settings(
             np.asarray(options.tolerance),
             np.asarray(0),
@@ -220,7 +221,7 @@ class _Batch:
         self.compile_time += compiling
         return [
             i
-            for row, i in enumerate(chosen)
+            for row, i in zip(rows, chosen, strict=True)
             if self._record(i, jax.tree.map(lambda a, row=row: a[row], state), seconds)
         ]
 
@@ -276,6 +277,12 @@ class _Batch:
                 start_energy=first.start_energy,
             )
         return improve(first, alone, None)
+
+
+def dealt(count: int, devices: int, per_device: int) -> Array:
+    """The rows of ``count`` poses, dealt out to the devices, each of which has ``per_device``."""
+    turn = np.arange(count)
+    return turn % devices * per_device + turn // devices
 
 
 @functools.cache

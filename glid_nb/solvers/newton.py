@@ -261,7 +261,11 @@ def iterations(
         def go_on(place: _Place) -> tuple:
             gain = total - (place.energy_iso + place.energy_p2p)
             further, count, minimal, last = corrected(place, gain, factor)
-            proof = bounds(further.samples, further.coefficients, further.largest)
+            proof = lax.cond(
+                count > 0,
+                lambda: bounds(further.samples, further.coefficients, further.largest),
+                lambda: panel,
+            )
             zeros = jnp.abs(jnp.sum(jnp.where(matrices.real, proof.turning, 0))) > 1
             proved = jnp.all(proof.injective | ~matrices.real) & ~zeros & (count > 0)
             return (

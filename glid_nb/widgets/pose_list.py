@@ -15,7 +15,7 @@ from glid_nb.widgets.edit_controls import EditControls
 class PoseList(EditControls):
     """The poses of a deformation: jump to one, name it, keep, copy and delete.
 
-    Edits belong to the pose that is selected; "Keep pose" keeps it as it is and goes on with a copy.
+    Edits belong to the pose that is selected; "Keep pose" keeps it and goes on with a copy.
 
     Parameters
     ----------

@@ -18,6 +18,8 @@ def solve(mode: str, seconds: float, iterations: int) -> dict[str, Any]:
         "name": "rex",
         "mode": mode,
         "unknowns": 384,
+        "padded": 416,
+        "panels": 700,
         "iterations": iterations,
         "corrections": 0,
         "energy": 2.0,

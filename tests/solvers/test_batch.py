@@ -14,6 +14,7 @@ import pytest
 
 from glid_nb.geometry import Domain
 from glid_nb.solvers import Options, Pose, PoseError, Status, solve, solve_batch
+from glid_nb.solvers.batch import dealt
 
 from ..domains import domain
 from .checks import check_certified
@@ -76,6 +77,17 @@ def test_the_iteration_limit_holds_for_each_pose() -> None:
 def test_bad_targets_are_refused(change: Callable[[np.ndarray], np.ndarray], message: str) -> None:
     with pytest.raises(PoseError, match=message):
         solve_batch(domain("ell"), HANDLES, change(targets(2)))
+
+
+@pytest.mark.parametrize(
+    ("count", "devices", "each"), [(5, 2, 4), (16, 2, 16), (7, 3, 4), (8, 2, 4)]
+)
+def test_poses_are_dealt_out_evenly(count: int, devices: int, each: int) -> None:
+    rows = dealt(count, devices, each)
+    assert len(set(rows)) == count
+    shares = np.bincount(rows // each, minlength=devices)
+    assert len(shares) == devices
+    assert shares.max() - shares.min() <= 1
 
 
 _ON_TWO_DEVICES = """

@@ -1,6 +1,7 @@
 """What going on from a result and splitting panels compile: nothing."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -37,9 +38,11 @@ def test_moved_targets_compile_nothing(first: Result) -> None:
 
 
 def test_panels_split_within_a_bucket_compile_nothing(first: Result) -> None:
-    disc = first.discretisation
-    chosen = np.zeros(len(disc.panels), dtype=bool)
-    chosen[:2] = True
-    finer = disc.refined(chosen)
-    assert finer.matrices.nodes.shape == disc.matrices.nodes.shape
-    assert finer.matrices.whitened.shape == disc.matrices.whitened.shape
+    def split(place: int) -> Result:
+        disc = first.discretisation
+        chosen = np.zeros(len(disc.panels), dtype=bool)
+        chosen[place : place + 2] = True
+        return replace(first, discretisation=disc.refined(chosen), factor=None)
+
+    split(0)  # what cuts panels is compiled once
+    assert compiled_by(lambda: solve(domain("ell"), bent(0.13), None, OPTIONS, split(4))) == 0
