@@ -20,11 +20,12 @@ import pytest
 from PIL import Image
 
 import glid_nb as glid
+from glid_nb.certificate import certify
 from glid_nb.imaging.style import distortion_colors
 from glid_nb.session.autosave import flush
 from glid_nb.session.document import DocumentError, load_document
-from glid_nb.session.edit_state import EditError
-from glid_nb.session.status_line import StatusLine
+from glid_nb.session.edit_state import EditError, EditState
+from glid_nb.session.moment import Moment
 from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
 from glid_nb.widgets.background import Background
 from glid_nb.widgets.exporting import ExportError
@@ -459,16 +460,16 @@ def test_frames_are_counted_in_words() -> None:
         observers.append(observer)
         return observers.clear
 
-    working = StatusLine("working", "Working")
+    working = Moment(EditState.initial(domain("ell")), None, busy=True, paused=False)
     model: Any = SimpleNamespace(
-        observe=observe, status=working, solved=False, busy=True, begun=False
+        observe=observe, moment=working, begun=False, certificate_of=certify
     )
     monitor = SolverMonitor(model, plots=False)
-    assert monitor.text == "Working"
+    assert monitor.text == "Preparing the solver…"
     observers[0]("frame")
-    assert monitor.text == "Working · 1 frame/s"
+    assert monitor.text == "Preparing the solver… · 1 frame/s"
     observers[0]("frame")
-    assert monitor.text == "Working · 2 frames/s"
+    assert monitor.text == "Preparing the solver… · 2 frames/s"
     monitor.close()
 
 
