@@ -129,8 +129,9 @@ def _solves(results: Results, figures: str) -> list[str]:
         "",
         f"![how many times faster, by shape]({figures}/{SPEEDUPS})",
         "",
-        "`paper`: uniform samples (|G| = 10^4, |H| = 10^3), Lipschitz certificate, projected "
-        "Hessian, from the identity, in our own code. `default`: ours, from the rigid motion that "
+        "`paper`: uniform samples (10^4 for the energy, |G| in the paper, and 10^3 for the "
+        "Hessian, |H|), Lipschitz certificate, projected Hessian K+, from the identity, in our own "
+        "code. `default`: ours, from the rigid motion that "
         "brings the handles closest to their targets, and without the other ways to a minimum that "
         "`solve` tries after a poor end (`restarts=0`; so it is all over this page but for the "
         "first solve of a process). Both end converged, to 1e-10; the gap is to the minimum of "
@@ -359,7 +360,13 @@ def _start(start: Measurement | None) -> list[str]:
         f"{start['cold'][PARTS[0]]['runs']} process(es) of each kind.",
         "",
         *table(
-            ["", "import and trace", "first solve", "of it compiling", "second solve"],
+            [
+                "",
+                "import and outline of the picture",
+                "first solve",
+                "of it tracing, compiling or loading programs",
+                "second solve",
+            ],
             [
                 [name, *(spread(start[name][part], digits=2) for part in PARTS)]
                 for name in ("cold", "warm")
@@ -482,9 +489,11 @@ def _rounding(results: Results) -> list[str]:
         "## Rounding in the certificate",
         "",
         "The bounds are evaluated in double precision. Each panel's remainder is enlarged by "
-        "`(n + 64) u s max_j |phi_j|`, a running error bound for sums of `n` terms whose moduli "
-        "add up to at most `s max_j |phi_j|`: `n` roundings for the sum and 64 for its terms, `u` "
-        "being the unit roundoff, and by "
+        "`(n + 64) u s max_j |phi_j|`, a running error bound of first order in the unit roundoff "
+        "`u` for sums of `n` terms whose moduli add up to at most `s max_j |phi_j|`: `n` roundings "
+        "for the sum and an allowance of 64 for the basis functions, the control points and the "
+        "Bernstein coefficients (the terms of second order, `n u` times smaller, 1e-14 of it, are "
+        "within that allowance), and by "
         f"{carried_slack_factor(1) / slack_factor(1):.0f} times as much for values that a solve "
         f"carries along through up to {CARRIED_STEPS} steps (`glid_nb/certificate/rounding.py`).",
     ]
