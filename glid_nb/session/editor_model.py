@@ -124,6 +124,7 @@ class EditorModel:
         # What a domain was traced by; undo of the deformation goes back to it.
         self._sources: weakref.WeakKeyDictionary[Domain, TracingState]
         self._sources = weakref.WeakKeyDictionary()
+        # The file that somebody named for the autosave; others are called after it.
         self._named_path: Path | None = None
         self._saved_work: tuple[Any, ...] = ()
         if document is None:
@@ -266,7 +267,7 @@ class EditorModel:
         with self._lock:
             if self._autosave is not None:
                 self._save_to(Path(path))
-            self._named_path = Path(path)
+                self._named_path = Path(path)
             self.own_files.note_session(path)
             self._take(document)
             self._saved_work = _work_of(self.deformation.poses)
@@ -322,13 +323,13 @@ class EditorModel:
         """Begin with another picture, or go on with one that was there before."""
         shelved = next((s for s in self._shelf if s[0].image is image), None)
         if shelved is None:
-            if self._autosave is not None and self._session is not None:
-                self._save_to(free_sibling(self._named_path or self._autosave.path))
+            if self._named_path is not None and self._session is not None:
+                self._save_to(free_sibling(self._named_path))
             self._replace(Deformation(domain, begin=False))
             return
         self._shelf.remove(shelved)
         session, path = shelved
-        if path is not None and self._autosave is not None:
+        if path is not None:
             self._save_to(path)
         deformation = Deformation.from_history(session.deformation.history, begin=False)
         self._replace(deformation)

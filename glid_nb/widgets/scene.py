@@ -5,6 +5,7 @@ Only this module, `comparison_layer` and `picture_texture` know pythreejs.
 
 from __future__ import annotations
 
+import functools
 from typing import Any, Literal
 
 import numpy as np
@@ -277,9 +278,12 @@ class Scene:
     def _fitted_range(self, least: tuple[float, float] | None = None) -> tuple[float, float]:
         if OVERLAYS[self._overlay].number < 2:
             return color_range(self._overlay, self._energy)
-        points = uniform_boundary_samples(self.domain.cage, _RANGE_SAMPLES).points
-        fz, fzb = self.map.wirtinger(points)
+        fz, fzb = self.map.wirtinger(self._range_points)
         return color_range(self._overlay, self._energy, fz, fzb, least)
+
+    @functools.cached_property
+    def _range_points(self) -> NDArray[Any]:
+        return uniform_boundary_samples(self.domain.cage, _RANGE_SAMPLES).points
 
     def _set_overlay(self) -> None:
         changes = {k: u["value"] for k, u in self._picture_uniforms().items()}

@@ -129,7 +129,19 @@ def test_an_opened_session_and_another_picture_are_seen(open_notebook: OpenNoteb
     book.value("None", setup="before = editor.canvas; editor.model.tracing.open(other)")
     page.get_by_role("tab", name="Deform").click()
     book.wait_for("editor.canvas is not before")
+    page.get_by_text("comes back with Undo in the Trace tab").wait_for()
     Hand(book, canvas="editor.canvas").click((1.0, 0.0))
     book.wait_for("len(editor.pose) == 1")
     assert selected.all_inner_texts() == ["Deform"]
     book.screenshot("editor-another-picture")
+    # Undo brings the picture before back, and what was done with it.
+    page.get_by_role("tab", name="Trace").click()
+    page.locator(".glid-tracer").get_by_role("button", name="Undo (Ctrl+Z)").click()
+    book.wait_for("editor.tracer.image.shape == picture.shape")
+    book.value("None", setup="before = editor.canvas")
+    page.get_by_role("tab", name="Deform").click()
+    book.wait_for("editor.canvas is not before")
+    back = Hand(book, canvas="editor.canvas")
+    back.wait_until_drawn()
+    assert back.handles == handles
+    book.screenshot("editor-picture-back")
