@@ -36,7 +36,8 @@ def measure(given: dict[str, Any]) -> dict[str, Any]:
     ``modified`` counts those in which it was not. Panels that must be split on the way are split
     before; ``split`` of them, which takes ``splitting`` seconds in a solve.
 
-    ``columns`` of the basis and ``nodes`` of the Hessian are padded, as the work on them is.
+    ``columns`` of the basis, ``coordinates`` (those with unknowns) and ``nodes`` of the Hessian are
+    padded, as the work on them is.
     The time of an iteration is the difference between calls with and without ``STEPS``
     iterations, taken in turn, divided by their number.
     """
@@ -73,6 +74,7 @@ def measure(given: dict[str, Any]) -> dict[str, Any]:
         "unknowns": result.n_unknowns,
         "panels": result.n_panels,
         "columns": result.discretisation.basis.n_columns,
+        "coordinates": len(result.discretisation.basis.unknown_columns),
         "nodes": len(result.discretisation.matrices.hessian_weights),
         "iterations": result.iterations,
         "modified": sum(entry.hessian_modified for entry in result.history),

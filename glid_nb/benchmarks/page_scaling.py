@@ -43,10 +43,8 @@ _SERIES = {
         "unknowns",
         "the unknowns",
         "Holes add vertices, and panels faster than vertices, because the boundary near a small "
-        "hole is cut finely. The matrix that is factored has room for a power of two of holes, so "
-        "that programs are shared, and keeps masked rows for what is no unknown: with many holes "
-        "it is more than twice as large as the unknowns are many. That is the price of masking "
-        "them instead of eliminating them in the basis.",
+        "hole is cut finely. A hole's first two coefficients are no unknowns and have no place in "
+        "the Hessian, which has room for a power of two of holes, so that programs are shared.",
     ),
     "panels": _Series(
         "Panels, of one basis (edges of a cage with 100 vertices cut in pieces)",
@@ -145,8 +143,8 @@ def _power(value: float) -> str:
 def _work_exponents(rows: Rows, x: list[float]) -> list[float]:
     """Local exponents of the part of an iteration's work that grows fastest."""
     parts = (
-        [row["columns"] ** 2 * row["nodes"] for row in rows],
-        [row["columns"] ** 3 for row in rows],
+        [row["coordinates"] ** 2 * row["nodes"] for row in rows],
+        [row["coordinates"] ** 3 for row in rows],
         [row["columns"] * row["panels"] for row in rows],
         [row["columns"] * row["handles"] for row in rows],
     )

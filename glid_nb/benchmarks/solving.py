@@ -92,7 +92,7 @@ def _about(case: Case, mode: str, whole: Result, count: int, repeats: int) -> di
         "mode": mode,
         "unknowns": whole.n_unknowns,
         "vertices": len(np.concatenate(domain.cage.loops)),
-        "padded": 4 * whole.discretisation.basis.n_columns,
+        "padded": 4 * len(whole.discretisation.basis.unknown_columns),
         "panels": whole.n_panels,
         "status": whole.status.value,
         "split": whole.panels_split,

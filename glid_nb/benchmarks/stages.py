@@ -16,7 +16,7 @@ from glid_nb.solvers.discretisation import Matrices
 from glid_nb.solvers.evaluation import Samples
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
 from glid_nb.solvers.solve import real_coefficients
-from glid_nb.solvers.unknowns import restrict_hessian, unknowns_of
+from glid_nb.solvers.unknowns import reduced_unknowns, restrict_hessian
 
 STAGES = ("hessian", "factor", "products", "certificate", "search")
 """Assembly; factor and solves; products for gradient and direction; bounds; the line search."""
@@ -34,7 +34,7 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
     The matrices have the padded sizes that the solver runs on.
     """
     disc, options = result.discretisation, result.options
-    matrices, unknowns = disc.matrices, unknowns_of(disc.basis, options.conformal)
+    matrices, unknowns = disc.matrices, reduced_unknowns(disc.basis, options.conformal)
     y = jnp.asarray(real_coefficients(disc.basis, result.map))
     samples = _program(evaluation.products)(matrices, y)
     change = Samples(*(_SMALL * part for part in samples))
@@ -76,7 +76,7 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
     h = _program(restrict)(_program(hessian)(matrices, samples), unknowns)
     stages: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
         "hessian": (hessian, (matrices, samples)),
-        "factor": (factor, (h, y)),
+        "factor": (factor, (h, jnp.ones(len(h)))),
         "products": (products, (matrices, samples, y)),
         "certificate": (certificate, (matrices, disc.basis.singularities, samples, y)),
         "search": (search, (matrices, samples, change)),

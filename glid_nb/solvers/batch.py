@@ -51,7 +51,7 @@ from glid_nb.solvers.solve import (
     ridge_of,
 )
 from glid_nb.solvers.status import Status
-from glid_nb.solvers.unknowns import unknowns_of
+from glid_nb.solvers.unknowns import reduced_unknowns
 
 Array = NDArray[Any]
 
@@ -152,7 +152,7 @@ class _Batch:
         )
         basis = self.discretisation.basis
         self.constraints = constraints_of(domain, poses[0], options.p2p_weight)
-        self.unknowns = unknowns_of(basis, options.conformal)
+        self.unknowns = reduced_unknowns(basis, options.conformal)
         identity = HarmonicMap.identity(domain)
         images = identity(poses[0].handles) if options.align else None
         starts = [aligned(identity, p, images) if options.align else identity for p in poses]
@@ -168,8 +168,7 @@ class _Batch:
 
     def run(self) -> None:
         """Bring every pose to its end, or to where it needs a solve of its own."""
-        size = self.constraints.handles.shape[1] // 2
-        room = _MOST_BYTES // (_COPIES * 8 * (4 * size) ** 2)
+        room = _MOST_BYTES // (_COPIES * 8 * len(self.unknowns.free) ** 2)
         sizes = [n for n in _SIZES if n <= max(room, 1)]
         running = list(range(len(self.poses)))
         while running:
@@ -313,7 +312,7 @@ def _program(devices: tuple[Any, ...], hessian: Any, certificate: Any, capacity:
                 constraints._replace(targets=goals),
                 energy,
                 y,
-                jnp.zeros((len(y), len(y))),
+                jnp.zeros((len(unknowns.free),) * 2),
                 settings._replace(iterations=limit),
                 hessian=hessian,
                 certificate=certificate,

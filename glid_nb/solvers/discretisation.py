@@ -50,9 +50,10 @@ _MOST_PANELS = 20_000
 class Matrices(NamedTuple):
     """What one Newton iteration reads; a JAX pytree, padded to buckets.
 
-    ``c`` padded columns, ``p`` padded panels, ``q`` midpoints (``p``, or 0 for the uniform
-    sampling), ``h`` Hessian nodes. Padding panels have zero weight and are never refused. Basis
-    matrices are stored transposed, one row a coefficient: all products with them are fastest so.
+    ``c`` padded columns, ``u`` of them with unknowns, padded, ``p`` padded panels, ``q`` midpoints
+    (``p``, or 0 for the uniform sampling), ``h`` Hessian nodes. Padding panels have zero weight and
+    are never refused. Basis matrices are stored transposed, one row a coefficient: all products
+    with them are fastest so.
     """
 
     nodes: Float[Array, "2c p+q"]
@@ -61,9 +62,9 @@ class Matrices(NamedTuple):
     """``D'`` at the panels' starts."""
     hessian_index: Int[Array, " h"]
     """Which nodes are those of the Hessian's quadrature."""
-    whitened: Float[Array, "2c h"]
+    whitened: Float[Array, "2u h"]
     """``D T`` there; single precision serves on graded panels (see `solvers.whitening`)."""
-    whitening: Float[Array, "2 c c"]
+    whitening: Float[Array, "2 c u"]
     """``T`` as (Re, Im)."""
     weights: Float[Array, " p+q"]
     """Quadrature weights of the energy at the nodes; their sum is 1."""

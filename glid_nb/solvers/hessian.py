@@ -107,12 +107,12 @@ def _in_pieces(assembled: Callable[..., Array]) -> Callable[..., Array]:
 
 @_in_pieces
 def assemble(
-    nodes: Float[Array, "2c h"],
+    nodes: Float[Array, "2u h"],
     weights: Samples,
     f: tuple[Samples, Samples],
     g: tuple[Samples, Samples],
     k: LocalHessian,
-) -> Float[Array, "4c 4c"]:
+) -> Float[Array, "4u 4u"]:
     """Upper triangle of ``sum_i w_i B_i^T K_i B_i`` over ``[Re phi, Im phi, Re psi, Im psi]``.
 
     Below the diagonal blocks it is zero: a Cholesky factorisation reads no more.
@@ -125,7 +125,7 @@ def assemble(
 
     Parameters
     ----------
-    nodes : (2c, h)
+    nodes : (2u, h)
         ``D`` at the nodes as ``[Re D, -Im D]``, transposed.
     weights : (h,)
     f, g : pairs of (h,)
@@ -152,8 +152,8 @@ def assemble(
 
 @_in_pieces
 def assemble_across_f(
-    nodes: Float[Array, "2c h"], weights: Samples, f: tuple[Samples, Samples], across: Samples
-) -> Float[Array, "2c 2c"]:
+    nodes: Float[Array, "2u h"], weights: Samples, f: tuple[Samples, Samples], across: Samples
+) -> Float[Array, "2u 2u"]:
     """The part of :func:`assemble` that ``across_f`` alone contributes, the block of ``phi``."""
     columns = nodes.shape[0] // 2
     u, v = _rotated(nodes[:columns], -nodes[columns:], f)
@@ -164,16 +164,16 @@ def assemble_across_f(
 
 
 def _rotated(
-    re: Float[Array, "c h"], im: Float[Array, "c h"], direction: tuple[Samples, Samples]
-) -> tuple[Float[Array, "c h"], Float[Array, "c h"]]:
+    re: Float[Array, "u h"], im: Float[Array, "u h"], direction: tuple[Samples, Samples]
+) -> tuple[Float[Array, "u h"], Float[Array, "u h"]]:
     """``conj(direction) D`` as real and imaginary part."""
     c, s = direction
     return c * re + s * im, c * im - s * re
 
 
 def _hermitian_products(
-    re: Float[Array, "c h"], im: Float[Array, "c h"], weights: Float[Array, "2 h"]
-) -> tuple[Float[Array, "2 c c"], Float[Array, "2 c c"]]:
+    re: Float[Array, "u h"], im: Float[Array, "u h"], weights: Float[Array, "2 h"]
+) -> tuple[Float[Array, "2 u u"], Float[Array, "2 u u"]]:
     """``(re + im) w (re + im)^T`` and ``re w im^T`` for two sets of weights.
 
     ``re w re^T + im w im^T``, the real part of ``(re + i im)^H w (re + i im)``, is the first less
@@ -181,7 +181,7 @@ def _hermitian_products(
     """
     columns = re.shape[0]
 
-    def against(left: Float[Array, "c h"], right: Float[Array, "c h"]) -> Float[Array, "2 c c"]:
+    def against(left: Float[Array, "u h"], right: Float[Array, "u h"]) -> Float[Array, "2 u u"]:
         product = left @ jnp.concatenate([weights[0] * right, weights[1] * right]).T
         return jnp.stack([product[:, :columns], product[:, columns:]])
 
@@ -189,8 +189,8 @@ def _hermitian_products(
 
 
 def _symmetric_product(
-    u: Float[Array, "c h"], v: Float[Array, "c h"], weights: Samples
-) -> tuple[Float[Array, "c c"], Float[Array, "c c"]]:
+    u: Float[Array, "u h"], v: Float[Array, "u h"], weights: Samples
+) -> tuple[Float[Array, "u u"], Float[Array, "u u"]]:
     """Real and imaginary part of ``(u + iv) diag(weights) (u + iv)^T`` by two real products."""
     # (u - v) w (u + v)^T differs from u w u^T - v w v^T by an antisymmetric matrix.
     real = (u - v) @ (weights * (u + v)).T
@@ -199,11 +199,11 @@ def _symmetric_product(
 
 
 def _embedded(
-    hermitian_re: Float[Array, "c c"],
-    hermitian_im: Float[Array, "c c"],
-    symmetric_re: Float[Array, "c c"],
-    symmetric_im: Float[Array, "c c"],
-) -> Float[Array, "2c 2c"]:
+    hermitian_re: Float[Array, "u u"],
+    hermitian_im: Float[Array, "u u"],
+    symmetric_re: Float[Array, "u u"],
+    symmetric_im: Float[Array, "u u"],
+) -> Float[Array, "2u 2u"]:
     """The real quadratic form ``Re(z^H A z + z^T S z)`` over ``[Re z, Im z]``."""
     return jnp.block(
         [

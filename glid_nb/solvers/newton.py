@@ -73,7 +73,7 @@ class State(NamedTuple):
     """Panels that refused the last preferred step and may allow it once they are split."""
     sigma2_lower: Float[Array, " p"]
     """Certified bound per panel at ``coefficients``, once a step was taken."""
-    factor: Float[Array, "4c 4c"]
+    factor: Float[Array, "4u 4u"]
     """Cholesky factor of the last Hessian, in whitened coordinates."""
     largest: Float[Array, ""]
     """Largest modulus of a coefficient in this call, through which ``samples`` were carried."""
@@ -101,7 +101,7 @@ def iterations(
     constraints: Constraints,
     energy: Energy,
     coefficients: Float[Array, " 4c"],
-    factor: Float[Array, "4c 4c"],
+    factor: Float[Array, "4u 4u"],
     settings: Settings,
     *,
     hessian: HessianKind,
@@ -130,8 +130,8 @@ def iterations(
         )
 
     def factorise(
-        samples: Samples, given: Float[Array, "4c 4c"], wanted: Bool[Array, ""]
-    ) -> tuple[Float[Array, "4c 4c"], Bool[Array, ""]]:
+        samples: Samples, given: Float[Array, "4u 4u"], wanted: Bool[Array, ""]
+    ) -> tuple[Float[Array, "4u 4u"], Bool[Array, ""]]:
         """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected.
 
         ``given`` where no other is wanted. A loop, for its turns write into the same memory.
@@ -145,15 +145,15 @@ def iterations(
             lambda a: a.astype(dtype), (matrices.hessian_weights, *evaluation.directions(nodes))
         )
 
-        def assembled(k: LocalHessian) -> Float[Array, "4c 4c"]:
+        def assembled(k: LocalHessian) -> Float[Array, "4u 4u"]:
             k = LocalHessian(*(part.astype(dtype) for part in k))
             return assemble(matrices.whitened, weights, f, g, k)
 
-        def factored(h: Float[Array, "4c 4c"]) -> Float[Array, "4c 4c"]:
+        def factored(h: Float[Array, "4u 4u"]) -> Float[Array, "4u 4u"]:
             whole = restrict_hessian(h, unknowns, p2p_hessian, settings.ridge)
             return cholesky.factorise(whole)
 
-        def project(h: Float[Array, "4c 4c"]) -> Float[Array, "4c 4c"]:
+        def project(h: Float[Array, "4u 4u"]) -> Float[Array, "4u 4u"]:
             if not energy.indefinite_across_f_only:
                 return assembled(projected)
             # The Hessian that was not definite lacks this block alone.

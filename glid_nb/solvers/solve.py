@@ -29,7 +29,7 @@ from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Iteration, Result
 from glid_nb.solvers.start import StartError, check_belongs, check_proved
 from glid_nb.solvers.status import Status
-from glid_nb.solvers.unknowns import canonical, unknowns_of
+from glid_nb.solvers.unknowns import canonical, reduced_unknowns
 
 Array = NDArray[Any]
 
@@ -177,7 +177,7 @@ class _Loop:
         map_, self.discretisation = _starting_point(domain, options, start)
         self.matrices = self.discretisation.matrices
         basis = self.discretisation.basis
-        self.unknowns = unknowns_of(basis, options.conformal)
+        self.unknowns = reduced_unknowns(basis, options.conformal)
         self.constraints = constraints_of(domain, pose, options.p2p_weight)
         self.ridge = ridge_of(pose)
         if options.align:
@@ -188,7 +188,7 @@ class _Loop:
         self.just_split = 0
         self.full_since: int | None = None
         self.start_energy = np.nan
-        size = len(self.coefficients)
+        size = len(self.unknowns.free)
         self.factor: Any = jnp.zeros((size, size))
         self.reuse = False
         if isinstance(start, Result) and options.corrections and self._fits(start):

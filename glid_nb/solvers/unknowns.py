@@ -1,9 +1,10 @@
 """Which coefficients are unknowns, and the tie of the logarithms (paper Section 5).
 
-A solve works on the real vector ``[Re phi, Im phi, Re psi, Im psi]`` of all padded columns. The
-redundant ones are not cut out but masked: their rows and columns of the Hessian become those of
-the identity and their gradient 0, which keeps shapes fixed. The hole coefficients obey
-``psi_j = conj(phi_j)``; their ``psi`` parts are folded onto the ``phi`` parts.
+Real vectors ``[Re phi, Im phi, Re psi, Im psi]`` hold all padded columns, or only those that have
+unknowns (:attr:`~glid_nb.harmonic.basis.Basis.unknown_columns`), padded to a bucket. What is no
+unknown among them is masked: its rows and columns of the Hessian become those of the identity and
+its gradient 0, which keeps shapes fixed. The hole coefficients obey ``psi_j = conj(phi_j)``; their
+``psi`` parts are folded onto the ``phi`` parts.
 """
 
 from __future__ import annotations
@@ -18,21 +19,30 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.basis import Basis
 
 if TYPE_CHECKING:
-    from jaxtyping import Array, Float
+    from jaxtyping import Array, Float, Int
 
 
 class Unknowns(NamedTuple):
     """The unknowns of one domain, as data for compiled programs."""
 
-    free: Float[AnyArray, " 4c"]
-    """1 for an unknown, 0 for a fixed or tied one."""
+    free: Float[AnyArray, " 4u"]
+    """1 for an unknown, 0 for padding and what is fixed or tied."""
     holes: Float[AnyArray, " N"]
     """One entry per padded hole column (its length is what matters)."""
 
 
 def unknowns_of(basis: Basis, conformal: bool) -> Unknowns:
-    """The unknowns on a basis; ``conformal`` drops all of ``psi`` and the logarithms."""
-    phi, psi = basis.phi_free.copy(), basis.psi_free.copy()
+    """The unknowns among all columns; ``conformal`` drops all of ``psi`` and the logarithms."""
+    return _unknowns(basis, conformal, np.arange(basis.n_columns))
+
+
+def reduced_unknowns(basis: Basis, conformal: bool) -> Unknowns:
+    """The unknowns among the columns that have any, as :func:`unknowns_of`."""
+    return _unknowns(basis, conformal, basis.unknown_columns)
+
+
+def _unknowns(basis: Basis, conformal: bool, columns: Int[AnyArray, " u"]) -> Unknowns:
+    phi, psi = (free[columns] & (columns >= 0) for free in (basis.phi_free, basis.psi_free))
     n_holes = basis.n_hole_columns
     if conformal:
         psi[:] = False
@@ -40,7 +50,7 @@ def unknowns_of(basis: Basis, conformal: bool) -> Unknowns:
     return Unknowns(np.concatenate([phi, phi, psi, psi]).astype(float), np.ones(n_holes))
 
 
-def restrict_gradient(g: Float[Array, " 4c"], unknowns: Unknowns) -> Float[Array, " 4c"]:
+def restrict_gradient(g: Float[Array, " 4u"], unknowns: Unknowns) -> Float[Array, " 4u"]:
     """Gradient with respect to the unknowns, 0 elsewhere."""
     phi, psi, sign = _hole_slices(g.shape[0], unknowns)
     if phi is not None:
@@ -49,11 +59,11 @@ def restrict_gradient(g: Float[Array, " 4c"], unknowns: Unknowns) -> Float[Array
 
 
 def restrict_hessian(
-    h: Float[Array, "4c 4c"],
+    h: Float[Array, "4u 4u"],
     unknowns: Unknowns,
-    other: Float[Array, "4c 4c"] | None = None,
+    other: Float[Array, "4u 4u"] | None = None,
     ridge: Float[AnyArray, ""] | float = 0.0,
-) -> Float[Array, "4c 4c"]:
+) -> Float[Array, "4u 4u"]:
     """Hessian with respect to the unknowns, the identity elsewhere.
 
     Of ``h`` the columns of ``psi`` and the block of ``phi`` are read, not the block below the
@@ -61,9 +71,9 @@ def restrict_hessian(
 
     Parameters
     ----------
-    h : (4c, 4c)
+    h : (4u, 4u)
     unknowns : Unknowns
-    other : (4c, 4c), optional
+    other : (4u, 4u), optional
         Another Hessian to add, restricted already.
     ridge : float
         The diagonal is raised by so many times its mean.
@@ -85,7 +95,7 @@ def restrict_hessian(
     return jnp.where(index[:, None] == index, diagonal, masked)
 
 
-def expand(step: Float[Array, " 4c"], unknowns: Unknowns) -> Float[Array, " 4c"]:
+def expand(step: Float[Array, " 4u"], unknowns: Unknowns) -> Float[Array, " 4u"]:
     """A change of the unknowns as a change of all coefficients."""
     phi, psi, sign = _hole_slices(step.shape[0], unknowns)
     step = step * unknowns.free

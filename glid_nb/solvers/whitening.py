@@ -6,12 +6,14 @@ resolves. New coordinates ``x`` with ``phi = T x``, in which the derivatives ``D
 along the boundary, leave it with the condition of ``K`` alone. Newton's direction is the same in
 any coordinates.
 
-``T`` keeps the unknowns where they are, so that the masks and the tie of
-:mod:`glid_nb.solvers.unknowns` serve in both: the exterior's first coordinate becomes the
-translation, of which no derivative knows, and a logarithm's coordinate is its coefficient, scaled.
-All others vanish at one point of the boundary. So none moves a handle by more than its length along
-the boundary; pinned at the first coefficient instead, what oscillates along a fine cage would move
-all of them by many times the shape's size, and the positional energy would swamp the other.
+Coefficients that are no unknowns have no coordinate, so that nothing is computed for them: ``T``
+has a row for each column and a column for each of those with unknowns. Those stay in their order,
+so that the masks and the tie of :mod:`glid_nb.solvers.unknowns` serve in both: the exterior's first
+coordinate becomes the translation, of which no derivative knows, and a logarithm's coordinate is
+its coefficient, scaled. All others vanish at one point of the boundary. So none moves a handle by
+more than its length along the boundary; pinned at the first coefficient instead, what oscillates
+along a fine cage would move all of them by many times the shape's size, and the positional energy
+would swamp the other.
 """
 
 from __future__ import annotations
@@ -37,8 +39,8 @@ def whitening(
     weights: Float[np.ndarray, " s"],
     anchor: Float[np.ndarray, " 2c"],
     basis: Basis,
-) -> Float[np.ndarray, "2 c c"]:
-    """``T`` as (Re, Im).
+) -> Float[np.ndarray, "2 c u"]:
+    """``T`` as (Re, Im), with zeros for the coordinates that are padding.
 
     Parameters
     ----------
@@ -62,35 +64,38 @@ def whitening(
     lower = scipy.linalg.cholesky(gram, lower=True)
     inverse = scipy.linalg.solve_triangular(lower, np.eye(len(gram)), lower=True)
 
-    t = np.zeros((c, c), dtype=complex)
+    columns_of = basis.unknown_columns
+    place = np.full(c, -1)
+    place[columns_of[columns_of >= 0]] = np.flatnonzero(columns_of >= 0)
+    t = np.zeros((c, len(columns_of)), dtype=complex)
     t[: basis.n_exterior, 0] = 1
-    t[np.ix_(single_valued, single_valued)] = inverse.conj().T
+    t[np.ix_(single_valued, place[single_valued])] = inverse.conj().T
     for j in logarithms:
         along = inverse.conj().T @ (inverse @ (columns.conj().T @ scaled[:, j]))
         rest = np.linalg.norm(scaled[:, j] - columns @ along)
-        t[single_valued, j], t[j, j] = -along / rest, 1 / rest
+        t[single_valued, place[j]], t[j, place[j]] = -along / rest, 1 / rest
     value = anchor[:c] - 1j * anchor[c:]
     t[: basis.n_exterior, 1:] -= value @ t[:, 1:]
     return np.stack([np.real(t), np.imag(t)])
 
 
-def whitened(nodes: Float[AnyArray, "2c s"], t: Float[AnyArray, "2 c c"]) -> Float[Array, "2c s"]:
+def whitened(nodes: Float[AnyArray, "2c s"], t: Float[AnyArray, "2 c u"]) -> Float[Array, "2u s"]:
     """``D T`` from ``D``, both as ``[Re, -Im]``, transposed."""
     c = t.shape[1]
     re, im = nodes[:c], -nodes[c:]
     return jnp.concatenate([t[0].T @ re - t[1].T @ im, -(t[0].T @ im + t[1].T @ re)])
 
 
-def coefficients(x: Float[Array, " 4c"], t: Float[Array, "2 c c"]) -> Float[Array, " 4c"]:
+def coefficients(x: Float[Array, " 4u"], t: Float[Array, "2 c u"]) -> Float[Array, " 4c"]:
     """``[Re phi, Im phi, Re psi, Im psi]`` of coordinates laid out alike."""
     x = x.reshape(2, 2, -1)
     re, im = x[:, 0], x[:, 1]
     return jnp.stack([re @ t[0].T - im @ t[1].T, re @ t[1].T + im @ t[0].T], axis=1).ravel()
 
 
-def pulled_back(rows: Float[Array, "*r 4c"], t: Float[Array, "2 c c"]) -> Float[Array, "*r 4c"]:
+def pulled_back(rows: Float[Array, "*r 4c"], t: Float[Array, "2 c u"]) -> Float[Array, "*r 4u"]:
     """Derivatives with respect to coordinates from those with respect to coefficients."""
     parts = rows.reshape(*rows.shape[:-1], 2, 2, -1)
     re, im = parts[..., 0, :], parts[..., 1, :]
     pulled = jnp.stack([re @ t[0] + im @ t[1], im @ t[0] - re @ t[1]], axis=-2)
-    return pulled.reshape(rows.shape)
+    return pulled.reshape(*rows.shape[:-1], -1)

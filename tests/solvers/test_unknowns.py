@@ -12,6 +12,7 @@ from glid_nb.harmonic import HarmonicMap, basis_of
 from glid_nb.solvers.unknowns import (
     canonical,
     expand,
+    reduced_unknowns,
     restrict_gradient,
     restrict_hessian,
     unknowns_of,
@@ -59,6 +60,25 @@ def test_restriction_and_expansion_are_those_of_the_dense_matrix(
     rest = np.delete(np.eye(size), free, axis=0)
     np.testing.assert_array_equal(np.delete(h, free, axis=0), rest)
     np.testing.assert_array_equal(np.delete(g, free), 0)
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("conformal", [False, True])
+def test_the_reduced_unknowns_are_all_unknowns(name: str, conformal: bool) -> None:
+    basis = basis_of(domain(name))
+    columns = basis.unknown_columns
+    every, reduced = unknowns_of(basis, conformal), reduced_unknowns(basis, conformal)
+    assert len(columns) <= basis.n_columns
+    assert len(columns) % 8 == 0
+    places = np.concatenate(
+        [np.where(columns >= 0, k * basis.n_columns + columns, -1) for k in range(4)]
+    )
+    assert sorted(places[reduced.free > 0]) == list(np.flatnonzero(every.free))
+    # The tie of the logarithms counts from the end.
+    n_holes = basis.n_hole_columns
+    own = columns[len(columns) - n_holes :]
+    expected = np.arange(basis.n_columns - n_holes, basis.n_columns)
+    np.testing.assert_array_equal(own, np.where(basis.phi_free[expected], expected, -1))
 
 
 @pytest.mark.parametrize("name", NAMES)
