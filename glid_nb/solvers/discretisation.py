@@ -63,7 +63,7 @@ class Matrices(NamedTuple):
     hessian_index: Int[Array, " h"]
     """Which nodes are those of the Hessian's quadrature."""
     whitened: Float[Array, "2u h"]
-    """``D T`` there; single precision serves on graded panels (see `solvers.whitening`)."""
+    """``D T`` there; single precision serves (see `solvers.whitening`)."""
     whitening: Float[Array, "2 c u"]
     """``T`` as (Re, Im)."""
     weights: Float[Array, " p+q"]
@@ -108,12 +108,14 @@ class Discretisation:
     @property
     @double_precision
     def full_matrices(self) -> Matrices:
-        """:attr:`matrices`, anew, with the Hessian's quadrature on every node of the energy's.
+        """:attr:`matrices`, anew, with the Hessian in double precision and on all its nodes.
 
-        The Hessian is then exactly that of the discrete energy, in double precision, at twice the
-        number of nodes.
+        On graded panels these are the energy's, at least twice as many: the Hessian is then exactly
+        that of the discrete energy. The uniform sampling keeps its own (33).
         """
         m = self.matrices
+        if self.sampling == "uniform":
+            return m._replace(whitened=whitened(m.nodes[:, m.hessian_index], m.whitening))
         return m._replace(
             hessian_index=jnp.arange(len(m.weights)),
             hessian_weights=m.weights,
@@ -282,7 +284,7 @@ def _uniform(
         weights=jnp.asarray(padded(np.full(count, 1 / count), p, 0.0)),
         hessian_index=index,
         hessian_weights=jnp.asarray(padded(weights, h, 0.0)),
-        whitened=whitened(nodes[:, index], t),
+        whitened=whitened(nodes[:, index], t).astype(jnp.float32),
         whitening=t,
         **_panel_arrays(panels, rows, p, basis, certificate),
     )

@@ -223,17 +223,18 @@ class _Loop:
             if taken:
                 rounds = total_rounds = 0
                 self._relax_ridge()
-                if self._is_slow():
+                if self._is_slow() and self._has_coarse_hessian():
                     self._take_full_hessian()
                 if callback is not None and callback(self._progress(state)):
                     return Status.STOPPED
             if end == outcome.CONVERGED:
                 return Status.CONVERGED
             if end == outcome.INDEFINITE:
+                # Rounding or the nodes may have made it so.
+                if self._take_full_hessian():
+                    continue
                 if self.options.hessian == "exact":
                     return Status.INDEFINITE
-                if self._take_full_hessian():  # in double precision
-                    continue
                 # Singular to rounding (two handles in one place, say): a larger epsilon helps.
                 self.ridge = max(_RIDGE_FACTOR * self.ridge, _RIDGE)
                 if self.ridge > _LARGEST_RIDGE:
@@ -299,14 +300,16 @@ class _Loop:
         return Progress(tuple(self.history), bounds, self.discretisation, self.coefficients)
 
     def _take_full_hessian(self) -> bool:
-        """From now on put the Hessian on all nodes; False when it is there or may not be."""
-        if self.full_since is not None or not self.discretisation.can_refine:
-            return False
-        if self.options.hessian == "projected":
+        """From now on the Hessian in double precision on all nodes; False when it is so already."""
+        if self.full_since is not None:
             return False
         self.full_since = len(self.history)
         self.matrices = self.discretisation.full_matrices
         return True
+
+    def _has_coarse_hessian(self) -> bool:
+        """Whether other nodes may make fewer iterations: not those of K+, which are slow anyway."""
+        return self.discretisation.can_refine and self.options.hessian != "projected"
 
     def _relax_ridge(self) -> None:
         """Lower an epsilon that one place needed: close to the minimum it would make steps short.

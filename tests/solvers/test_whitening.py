@@ -54,14 +54,22 @@ def test_derivatives_of_the_new_basis_are_orthonormal(name: str, sampling: str) 
     np.testing.assert_allclose(d[:, 0], 0, atol=1e-9)
 
 
+@pytest.mark.parametrize("sampling", ["graded", "uniform"])
 @pytest.mark.parametrize("name", SHAPES)
-def test_the_stored_basis_is_the_whitened_one_to_its_precision(name: str) -> None:
-    m = discretise(domain(name)).matrices
+def test_the_stored_basis_is_the_whitened_one_to_its_precision(name: str, sampling: str) -> None:
+    disc = discretise(domain(name), sampling)  # type: ignore[arg-type]
+    m = disc.matrices
     with jax.enable_x64(True):
         exact = np.asarray(whitened(m.nodes[:, m.hessian_index], m.whitening))
     assert m.whitened.dtype == np.float32
     np.testing.assert_allclose(np.asarray(m.whitened), exact, atol=1e-6 * np.abs(exact).max())
-    assert discretise(domain(name)).full_matrices.whitened.dtype == np.float64
+    full = disc.full_matrices
+    assert full.whitened.dtype == np.float64
+    with jax.enable_x64(True):
+        exact = np.asarray(whitened(full.nodes[:, full.hessian_index], full.whitening))
+    np.testing.assert_array_equal(np.asarray(full.whitened), exact)
+    if sampling == "uniform":
+        assert full.hessian_index is m.hessian_index
 
 
 @pytest.mark.parametrize("name", SHAPES)
