@@ -333,6 +333,8 @@ def _breakdown(results: Results) -> list[str]:
 def _drags(results: Results) -> list[str]:
     if not results.drags:
         return []
+    failed = [d["name"] for d in results.drags if not d["certified"]]
+    certified = f"Not certified: {joined(failed)}." if failed else "Every step's map was certified."
     return [
         f"## A drag step: one target moved by {DRAG:.0%} of the shape, to a gap of {DRAG_GAP:g}",
         "",
@@ -348,6 +350,8 @@ def _drags(results: Results) -> list[str]:
                 for d in results.drags
             ],
         ),
+        "",
+        certified,
     ]
 
 

@@ -176,7 +176,7 @@ def _statements(
     found += [
         f"At {row[about.by]} the solve must split {row['split']} panels first, which takes "
         f"{1e3 * row['splitting']:.0f} ms beside its iterations: the matrices of the finer "
-        "boundary are made anew."
+        "boundary are made anew, and the direction is searched once more."
         for row in rows
         if row["split"]
     ]

@@ -326,10 +326,13 @@ def iterations(
         evaluation.largest_modulus(coefficients),
     )
     end = lax.while_loop(keep_going, iterate, start)
-    helps = evaluation.tightened_by_splitting(
-        matrices, singularities, end.coefficients, end.largest
-    )
-    return end._replace(refused=end.refused & helps)
+
+    def helped() -> Bool[Array, " p"]:
+        return end.refused & evaluation.tightened_by_splitting(
+            matrices, singularities, end.coefficients, end.largest
+        )
+
+    return end._replace(refused=lax.cond(jnp.any(end.refused), helped, lambda: end.refused))
 
 
 class _Place(NamedTuple):
