@@ -111,7 +111,7 @@ def test_any_strokes_after_any_others_give_what_they_give_alone(seed: int):
 def test_a_field_is_enlarged_as_pillow_does_it(shape: tuple[int, int]):
     field = np.random.default_rng(0).random((187, 214), dtype=np.float32)
     size = shape[1], shape[0]
-    expected = Image.fromarray(field).resize(size, Image.Resampling.BILINEAR)
+    expected = np.asarray(Image.fromarray(field).resize(size, Image.Resampling.BILINEAR))
     np.testing.assert_allclose(enlarged(field, shape), expected, atol=1e-6)
 
 
