@@ -108,6 +108,8 @@ def main() -> None:
     shape = str(Path(chosen.shape).resolve()) if chosen.shape.endswith(".json") else chosen.shape
     processor = platform.processor() or platform.machine()
     print(f"{chosen.shape}; {processor}, {os.cpu_count()} CPUs, {platform.platform()}")
+    # An installed package has its bytecode; without, each kernel would compile every module.
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     with tempfile.TemporaryDirectory() as folder, launched_chromium() as browser:
         print(f"Chromium {browser.version}, {RATE} moves a second wanted, plots on")
         server = JupyterServer(Path(folder) / "jupyter")

@@ -14,8 +14,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
-import jax
 from threadpoolctl import OpenBLASController, ThreadpoolController
+
+from glid_nb._jax import jax
 
 P = ParamSpec("P")
 R = TypeVar("R")

@@ -5,11 +5,10 @@ from __future__ import annotations
 import functools
 from typing import Any, NamedTuple
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._jax import jit, jnp
 from glid_nb._runtime import COMPILER_OPTIONS
 from glid_nb.certificate import rounding
 from glid_nb.certificate.bounds import derivative_bound_weights, modulus
@@ -128,7 +127,7 @@ class JetEvaluator:
         return Jets(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
 
 
-@functools.partial(jax.jit, compiler_options=COMPILER_OPTIONS)
+@functools.partial(jit, compiler_options=COMPILER_OPTIONS)
 def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularities) -> Any:
     columns = (cauchy.cauchy_coordinates, cauchy.first_derivatives, cauchy.second_derivatives)
     values, slopes, curvatures = (c(start, singularities) @ coefficients.T for c in columns)

@@ -12,10 +12,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 
+from glid_nb._jax import jax, jnp
 from glid_nb.certificate.bounds import distances, modulus
 from glid_nb.certificate.lipschitz import bounds_from_variation as panel_bounds
 from glid_nb.harmonic.cauchy import Singularities

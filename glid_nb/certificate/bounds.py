@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-import jax.numpy as jnp
-
+from glid_nb._jax import jnp
 from glid_nb.harmonic.cauchy import Singularities
 
 if TYPE_CHECKING:

@@ -6,11 +6,10 @@ import functools
 from dataclasses import dataclass
 from typing import Any, Literal
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._jax import jit, jnp
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision
 from glid_nb.certificate import bdhm, hermite, lipschitz, rounding
 from glid_nb.certificate.bounds import EndValues, derivative_bound_weights, modulus
@@ -236,7 +235,7 @@ def _evaluate(
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
-@functools.partial(jax.jit, static_argnames="method", compiler_options=COMPILER_OPTIONS)
+@functools.partial(jit, static_argnames="method", compiler_options=COMPILER_OPTIONS)
 def _kernel(start: Any, end: Any, coefficients: Any, singularities: Any, method: Method) -> Any:
     chord = end - start
     values = [cauchy.first_derivatives(z, singularities) @ coefficients.T for z in (start, end)]

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import jax.numpy as jnp
-
+from glid_nb._jax import jnp
 from glid_nb.certificate.bounds import EndValues, PanelBounds, modulus, turning
 
 if TYPE_CHECKING:

@@ -15,8 +15,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import jax.numpy as jnp
-
+from glid_nb._jax import jnp
 from glid_nb.certificate.bounds import UNIT_ROUNDOFF
 from glid_nb.harmonic.cauchy import Singularities, rounding_scale
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-import jax.numpy as jnp
-
+from glid_nb._jax import jnp
 from glid_nb.energies.energy import Differentials, Energy, register_energy
 from glid_nb.energies.parameters import checked_sharpness
 

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import functools
 import weakref
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 
+from glid_nb._jax import jax, jnp, once_loaded
 from glid_nb.energies.energy import Differentials, Energy, EnergyError
 
 if TYPE_CHECKING:
@@ -21,7 +19,6 @@ if TYPE_CHECKING:
 _checked: weakref.WeakSet[Callable[..., Any]] = weakref.WeakSet()
 
 
-@functools.partial(jax.tree_util.register_dataclass, data_fields=[], meta_fields=["function"])
 @dataclass(frozen=True)
 class CustomEnergy(Energy):
     """An energy given as one function ``E(x, y)`` of scalars, written with ``jax.numpy``.
@@ -76,6 +73,11 @@ class CustomEnergy(Energy):
             return Differentials(alpha1, alpha2, beta1, beta2, beta3)
 
         return Differentials(*jnp.vectorize(at_one_sample)(x, y))
+
+
+once_loaded(
+    lambda: jax.tree_util.register_dataclass(CustomEnergy, data_fields=[], meta_fields=["function"])
+)
 
 
 def _check_isometry(energy: CustomEnergy) -> None:

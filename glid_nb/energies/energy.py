@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import fields
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self, TypeVar
 
-import jax
+from glid_nb._jax import jax, once_loaded, settle
 
 if TYPE_CHECKING:
     from jaxtyping import Array, Float
@@ -45,6 +45,10 @@ class Energy(ABC):
     """Whether, of the eigenvalues of ``K`` (23), ``lambda_1 = 2 alpha_1`` alone can be negative: a
     Hessian is then projected by a correction at a fifth of its own cost."""
 
+    def __new__(cls, *_: Any, **__: Any) -> Self:
+        settle()  # for who has imported JAX after this package
+        return super().__new__(cls)
+
     @abstractmethod
     def density(self, x: Scalars, y: Scalars) -> Scalars:
         """``E(x, y)`` at each sample."""
@@ -72,5 +76,5 @@ def register_energy(cls: type[E]) -> type[E]:
     def unflatten(known: type[E], leaves: Any) -> E:
         return known(*leaves)
 
-    jax.tree_util.register_pytree_node(cls, flatten, unflatten)
+    once_loaded(lambda: jax.tree_util.register_pytree_node(cls, flatten, unflatten))
     return cls

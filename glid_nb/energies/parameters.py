@@ -6,8 +6,7 @@ import math
 import numbers
 from typing import Any
 
-import jax
-
+from glid_nb._jax import jax
 from glid_nb.energies.energy import EnergyError
 
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-import jax.numpy as jnp
 import numpy as np
 
 from glid_nb._arrays import AnyArray
+from glid_nb._jax import jnp
 
 if TYPE_CHECKING:
     from jaxtyping import Array, Complex, Float, Int

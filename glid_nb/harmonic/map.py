@@ -9,12 +9,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._files import write_text_atomically
+from glid_nb._jax import jax, jnp
 from glid_nb._numbers import real_array
 from glid_nb._runtime import double_precision
 from glid_nb.geometry import Cage, Domain, GeometryError

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 import shapely
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import dijkstra
 
 from glid_nb.geometry import Cage, triangulate
 from glid_nb.harmonic import HarmonicMap
@@ -129,13 +128,15 @@ def sheet_heights(cage: Cage, vertices: Floats, triangles: Ints) -> Floats:
     edges, _ = _edges(triangles)
     length = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
     n = len(vertices)
-    graph = csr_array((length, (edges[:, 0], edges[:, 1])), shape=(n, n))
+    graph = scipy.sparse.csr_array((length, (edges[:, 0], edges[:, 1])), shape=(n, n))
     candidates = np.arange(0, n, max(1, n // _CANDIDATES))
     outline = shapely.boundary(cage.polygon)
     depth = shapely.distance(outline, shapely.points(vertices[candidates]))
-    inner = dijkstra(graph, directed=False, indices=candidates[np.argmax(depth)])
+    inner = scipy.sparse.csgraph.dijkstra(
+        graph, directed=False, indices=candidates[np.argmax(depth)]
+    )
     opposite = int(np.argmax(np.where(np.isfinite(inner), inner, -1)))
-    along = dijkstra(graph, directed=False, indices=opposite)
+    along = scipy.sparse.csgraph.dijkstra(graph, directed=False, indices=opposite)
     return np.nan_to_num(inner + 0.35 * along, posinf=0.0) + 0.35 * vertices[:, 0]
 
 

@@ -7,11 +7,10 @@ import itertools
 from dataclasses import dataclass, field
 from typing import Any
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._jax import jax, jnp
 from glid_nb.imaging.read import as_rgba
 
 # Look-ups are computed in pieces of this many samples: one compiled program, bounded memory.

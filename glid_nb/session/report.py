@@ -11,9 +11,9 @@ from collections.abc import Mapping
 from importlib.metadata import version
 from typing import Any
 
-import jax
 import numpy as np
 
+from glid_nb._jax import jax
 from glid_nb.certificate import global_injectivity
 from glid_nb.solvers import Result
 

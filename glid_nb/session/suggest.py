@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy
 import shapely
 from numpy.typing import NDArray
-from scipy.sparse import coo_array, csr_array
-from scipy.sparse.csgraph import dijkstra
 
 from glid_nb.geometry import Domain, Triangulation, triangulate
 from glid_nb.solvers import Pose
@@ -44,7 +43,7 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
 
     chosen = _spread_out(graph, clearance, max_handles)
     handles = mesh.vertices[chosen]
-    paths = np.asarray(dijkstra(graph, indices=chosen))
+    paths = np.asarray(scipy.sparse.csgraph.dijkstra(graph, indices=chosen))
     between = paths[:, chosen]
     first = int(np.argmax(between[0]))
     moved = [first]
@@ -57,17 +56,19 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
     return Pose(handles, targets)
 
 
-def _spread_out(graph: csr_array, clearance: NDArray[np.float64], count: int) -> list[int]:
+def _spread_out(
+    graph: scipy.sparse.csr_array, clearance: NDArray[np.float64], count: int
+) -> list[int]:
     """At most ``count`` vertices: the one deepest inside, and those at the ends of limbs."""
     middle = int(np.argmax(clearance))
-    nearest = np.asarray(dijkstra(graph, indices=middle))
+    nearest = np.asarray(scipy.sparse.csgraph.dijkstra(graph, indices=middle))
     reach = float(nearest.max())
     chosen = [middle]
     while len(chosen) < count and nearest.max() > 0:
         end = int(np.argmax(nearest))
         if nearest[end] < _LEAST_SPACING * reach and len(chosen) > 2:
             break
-        from_end = np.asarray(dijkstra(graph, indices=end))
+        from_end = np.asarray(scipy.sparse.csgraph.dijkstra(graph, indices=end))
         vicinity = np.flatnonzero(from_end <= _PULL_IN * reach)
         handle = int(vicinity[np.argmax(clearance[vicinity])])
         if handle not in chosen and clearance[handle] > 0:
@@ -76,7 +77,7 @@ def _spread_out(graph: csr_array, clearance: NDArray[np.float64], count: int) ->
     return chosen
 
 
-def _edge_lengths(mesh: Triangulation) -> csr_array:
+def _edge_lengths(mesh: Triangulation) -> scipy.sparse.csr_array:
     """The mesh as a graph whose edges weigh their lengths."""
     a = mesh.triangles.ravel()
     b = np.roll(mesh.triangles, -1, axis=1).ravel()
@@ -84,7 +85,7 @@ def _edge_lengths(mesh: Triangulation) -> csr_array:
     lengths = np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1)
     n = len(mesh.vertices)
     rows, columns = np.concatenate([edges, edges[:, ::-1]]).T
-    return coo_array((np.tile(lengths, 2), (rows, columns)), shape=(n, n)).tocsr()
+    return scipy.sparse.coo_array((np.tile(lengths, 2), (rows, columns)), shape=(n, n)).tocsr()
 
 
 def _swung(

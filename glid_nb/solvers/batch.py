@@ -15,13 +15,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-import jax
-import jax.numpy as jnp
 import numpy as np
-from jax import lax
-from jax.sharding import Mesh, PartitionSpec
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._jax import jax, jnp, lax
 from glid_nb._runtime import (
     COMPILER_OPTIONS,
     compilation_clock,
@@ -287,11 +284,11 @@ def dealt(count: int, devices: int, per_device: int) -> Array:
 @functools.cache
 def _program(devices: tuple[Any, ...], hessian: Any, certificate: Any, capacity: int) -> Any:
     """The compiled program for poses on these devices; each device loops on its own."""
-    mesh = Mesh(np.array(devices), ("poses",))
+    mesh = jax.sharding.Mesh(np.array(devices), ("poses",))
     # A CPU gains nothing from lockstep, in which every pose takes every branch; and the thread pool
     # of XLA 0.10 was seen to lose tasks of such programs and to wait for them for ever.
     in_turn = all(device.platform == "cpu" for device in devices)
-    each, shared = PartitionSpec("poses"), PartitionSpec()
+    each, shared = jax.P("poses"), jax.P()
 
     def together(
         matrices: Any,

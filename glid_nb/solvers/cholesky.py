@@ -12,10 +12,9 @@ from __future__ import annotations
 import functools
 from typing import TYPE_CHECKING
 
-import jax
-import jax.numpy as jnp
 import numpy as np
-from jax import lax
+
+from glid_nb._jax import jax, jnp, lax
 
 if TYPE_CHECKING:
     from jaxtyping import Array, Float

@@ -10,10 +10,9 @@ import functools
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 
+from glid_nb._jax import jax, jnp
 from glid_nb._runtime import double_precision
 from glid_nb.certificate import Method as CertificateKind
 from glid_nb.certificate import bdhm, derivative_bound_weights, hermite, lipschitz, rounding

@@ -7,10 +7,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-import jax.numpy as jnp
-from jax import lax
-
 from glid_nb._arrays import AnyArray
+from glid_nb._jax import jnp, lax
 from glid_nb.certificate import METHODS, EndValues, PanelBounds, bdhm
 from glid_nb.energies import Differentials
 from glid_nb.harmonic.cauchy import Singularities, slope_jumps

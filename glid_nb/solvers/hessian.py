@@ -13,10 +13,7 @@ import functools
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import jax
-import jax.numpy as jnp
-from jax import lax
-
+from glid_nb._jax import jax, jnp, lax
 from glid_nb.energies import Differentials
 
 if TYPE_CHECKING:

@@ -9,10 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
-import jax.numpy as jnp
-from jax import lax
-
 from glid_nb._arrays import AnyArray
+from glid_nb._jax import jnp, lax
 from glid_nb.certificate import PanelBounds
 from glid_nb.energies import Energy
 from glid_nb.solvers.outcome import BLOCKED, NO_DECREASE, PENDING, REFUSED, RUNNING

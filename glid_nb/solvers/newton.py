@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import jax
-import jax.numpy as jnp
-from jax import lax
-
 from glid_nb._arrays import AnyArray
+from glid_nb._jax import jax, jit, jnp, lax
 from glid_nb._runtime import COMPILER_OPTIONS
 from glid_nb.certificate import PanelBounds
 from glid_nb.energies import Energy
@@ -369,7 +366,7 @@ def _where(condition: Bool[Array, ""], one: Any, other: Any) -> Any:
     return jax.tree.map(lambda a, b: jnp.where(condition, a, b), one, other)
 
 
-run = jax.jit(
+run = jit(
     iterations,
     static_argnames=("hessian", "certificate", "capacity"),
     donate_argnames=("factor",),

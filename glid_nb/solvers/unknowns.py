@@ -11,10 +11,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-import jax.numpy as jnp
 import numpy as np
 
 from glid_nb._arrays import AnyArray
+from glid_nb._jax import jnp
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.basis import Basis
 

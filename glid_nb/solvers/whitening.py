@@ -20,11 +20,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import jax.numpy as jnp
 import numpy as np
-import scipy.linalg
+import scipy
 
 from glid_nb._arrays import AnyArray
+from glid_nb._jax import jnp
 from glid_nb.harmonic.basis import Basis
 
 if TYPE_CHECKING:

@@ -11,6 +11,7 @@ import ipywidgets
 import numpy as np
 from numpy.typing import ArrayLike
 
+from glid_nb._jax import once_loaded
 from glid_nb._runtime import enable_compilation_cache
 from glid_nb.certificate import Certificate
 from glid_nb.compare import MeshMap
@@ -124,7 +125,7 @@ class Editor(ipywidgets.VBox):
             check_count("height", height, _LEAST_SIZE, "pixels"),
         )
         self._n_vertices = check_vertices(n_vertices)
-        enable_compilation_cache()
+        once_loaded(enable_compilation_cache)
         document = None if path is None else find_document(path)
         if (
             document is not None

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import jax.numpy as jnp
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._jax import jnp
 from glid_nb.energies import AMIPS, ARAP, Energy, ExponentialSymmetricDirichlet, SymmetricDirichlet
 from glid_nb.solvers.restarts import isometry_energy
 

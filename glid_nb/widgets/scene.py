@@ -16,7 +16,7 @@ from glid_nb.compare import MeshMap
 from glid_nb.energies import Energy
 from glid_nb.geometry import Triangulation, triangulate, uniform_boundary_samples
 from glid_nb.geometry.panels import Panels
-from glid_nb.harmonic import HarmonicMap
+from glid_nb.harmonic import FixedPoints, HarmonicMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.style import BLUE, GREY
 from glid_nb.widgets.comparison_layer import ComparisonLayer
@@ -80,6 +80,7 @@ class Layer:
         evaluated_in: EvaluatedIn,
     ) -> None:
         self._points, self._in_kernel = points, evaluated_in == "kernel"
+        self._fixed_points = FixedPoints(map.domain, points)
         self._evaluated_map: HarmonicMap | None = None
         flat = np.concatenate([points, np.zeros((len(points), 1))], axis=1).astype(np.float32)
         arrays = {
@@ -142,9 +143,7 @@ class Layer:
 
     def _evaluated(self, map: HarmonicMap) -> tuple[Array, Array]:
         self._evaluated_map = map
-        fz, fzb = map.wirtinger(self._points)
-        derivatives = np.stack([np.real(fz), np.imag(fz), np.real(fzb), -np.imag(fzb)], axis=1)
-        return map(self._points).astype(np.float32), derivatives.astype(np.float32)
+        return self._fixed_points(map)
 
 
 class Scene:

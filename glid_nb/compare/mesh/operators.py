@@ -5,12 +5,11 @@ from __future__ import annotations
 import functools
 from typing import Any
 
-import jax
 import numpy as np
-import scipy.sparse
-import scipy.sparse.linalg
+import scipy
 from numpy.typing import NDArray
 
+from glid_nb._jax import jit
 from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy
 from glid_nb.geometry import Triangulation
@@ -86,7 +85,9 @@ class Pinned:
         self.held = held
         k = operators.laplacian
         self._coupling = k[self.free][:, held]
-        self._factor = scipy.sparse.linalg.splu(
+        from scipy.sparse.linalg import splu  # noqa: PLC0415 - slow to import
+
+        self._factor = splu(
             k[self.free][:, self.free].tocsc(),
             permc_spec="MMD_AT_PLUS_A",
             diag_pivot_thresh=0.0,
@@ -126,12 +127,12 @@ def largest_step(fz: Array, fzb: Array, dfz: Array, dfzb: Array) -> float:
     return float(np.min(2 * c[hits] / denominator[hits], initial=np.inf))
 
 
-@jax.jit
+@jit
 def _density(energy: Energy, x: Any, y: Any) -> Any:
     return energy.density(x, y)
 
 
-@jax.jit
+@jit
 def _alphas(energy: Energy, x: Any, y: Any) -> Any:
     d = energy.differentials(x, y)
     return d.alpha1, d.alpha2

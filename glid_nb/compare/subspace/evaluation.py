@@ -9,10 +9,8 @@ from __future__ import annotations
 import functools
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-import jax
-import jax.numpy as jnp
-
 from glid_nb._arrays import AnyArray
+from glid_nb._jax import jit, jnp
 from glid_nb._runtime import COMPILER_OPTIONS
 from glid_nb.certificate import PanelBounds
 from glid_nb.energies import Energy
@@ -60,13 +58,13 @@ class Move(NamedTuple):
     refused: Bool[AnyArray, " p"]
 
 
-@functools.partial(jax.jit, compiler_options=COMPILER_OPTIONS)
+@functools.partial(jit, compiler_options=COMPILER_OPTIONS)
 def evaluate(setting: Setting, coefficients: Float[Array, " 4c"]) -> Point:
     """Energies and gradient of a map."""
     return _point(setting, coefficients, evaluation.products(setting.matrices, coefficients))
 
 
-@functools.partial(jax.jit, static_argnames="curvature", compiler_options=COMPILER_OPTIONS)
+@functools.partial(jit, static_argnames="curvature", compiler_options=COMPILER_OPTIONS)
 def hessian(setting: Setting, point: Point, *, curvature: Curvature) -> Float[Array, "4c 4c"]:
     """Hessian of the isometric energy alone with respect to the unknowns (33).
 
@@ -94,7 +92,7 @@ def hessian(setting: Setting, point: Point, *, curvature: Curvature) -> Float[Ar
     return upper + jnp.triu(upper, 1).T
 
 
-@functools.partial(jax.jit, static_argnames="certificate", compiler_options=COMPILER_OPTIONS)
+@functools.partial(jit, static_argnames="certificate", compiler_options=COMPILER_OPTIONS)
 def advance(
     setting: Setting,
     point: Point,

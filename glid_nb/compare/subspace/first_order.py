@@ -6,7 +6,7 @@ from collections import deque
 from typing import Any, ClassVar, Literal
 
 import numpy as np
-import scipy.linalg
+import scipy
 from numpy.typing import NDArray
 
 from glid_nb.compare.subspace.descent import View

@@ -8,11 +8,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._jax import jax, jnp
 from glid_nb._runtime import compilation_clock, double_precision
 from glid_nb.compare.subspace import evaluation
 from glid_nb.compare.subspace.evaluation import Curvature, Move, Point, Setting

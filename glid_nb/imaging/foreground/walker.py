@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,11 +21,33 @@ _PIXELS = 40_000  # solved directly in a tenth of a second; the outline is smoot
 # pictures; with it the outline of a photograph runs midway between the strokes, off the edges.
 _BETA = 1000.0
 _LEAST_WEIGHT = 1e-10  # so that every pixel is reached
+# A new factor takes as long as twenty steps with one that is known. Whether these will do shows
+# early: what is off by more than this after so many of them is off for long.
+_MOST_STEPS, _EARLY_STEPS, _FAR = 10, 3, 0.1
+_TOLERANCE = 1e-4  # of a probability
 
 
 @dataclass(frozen=True, eq=False)
+class _Factor:
+    """Of the equations of the pixels that are ``free``."""
+
+    free: NDArray[np.bool_]
+    lu: Any
+
+    def solve(self, right: NDArray[np.float64], free: NDArray[np.bool_]) -> NDArray[np.float64]:
+        """For another right side, which is 0 elsewhere; at fewer pixels."""
+        result = np.zeros(right.shape)
+        result[self.free] = self.lu.solve(right[self.free])
+        result *= free
+        return result
+
+
+@dataclass(eq=False)
 class Walker:
     """How readily a walker steps from a pixel to the next, on a picture scaled down.
+
+    It remembers what it was asked last: strokes that are added are dealt with in a fraction of the
+    time that the first ones take. Not for use by several threads at once.
 
     Attributes
     ----------
@@ -35,6 +59,14 @@ class Walker:
 
     across: NDArray[np.float64]
     down: NDArray[np.float64]
+    _factor: _Factor | None = field(default=None, init=False)
+    _last: NDArray[np.float64] | None = field(default=None, init=False)
+
+    def __post_init__(self) -> None:
+        self._total = np.zeros(self.shape)
+        for weight, one, other in self._steps():
+            self._total[one] += weight
+            self._total[other] += weight
 
     @classmethod
     def of(cls, image: NDArray[np.unsignedinteger]) -> Walker:
@@ -64,39 +96,71 @@ class Walker:
 
     def probability(self, labels: NDArray[np.integer]) -> NDArray[np.float64]:
         """(h, w) probability that a walk from the pixel meets the foreground first."""
+        fixed, free = (labels == FOREGROUND).astype(np.float64), labels == 0
+        result = self._stepwise(fixed, free)
+        if result is None:
+            result = self._direct(fixed, free)
+        self._last = result
+        return np.clip(result, 0, 1)
+
+    def _stepwise(
+        self, fixed: NDArray[np.float64], free: NDArray[np.bool_]
+    ) -> NDArray[np.float64] | None:
+        """By conjugate gradients from the last result, with the known factor; None if it is far.
+
+        Labels that are added take equations away. The factor is of all of them, so that after as
+        many steps as labels were added the result is exact; mostly it is close after a few.
+        """
+        factor, last = self._factor, self._last
+        if factor is None or last is None or (free & ~factor.free).any():
+            return None
+        result = np.where(free, last, fixed)
+        residual = -self._laplacian(result) * free
+        direction, slope = np.zeros(self.shape), 1.0
+        for k in range(_MOST_STEPS):
+            step = factor.solve(residual, free)
+            error = np.abs(step).max()  # nearly
+            if error <= _TOLERANCE:
+                # A walk that may end at more pixels visits each one less: this bounds every error.
+                error = factor.solve(np.abs(residual), free).max()
+                if error <= _TOLERANCE:
+                    return result
+            if k >= _EARLY_STEPS and error > _FAR:
+                return None
+            before, slope = slope, float(np.vdot(residual, step))
+            direction = step + slope / before * direction
+            change = self._laplacian(direction) * free
+            length = slope / float(np.vdot(direction, change))
+            result += length * direction
+            residual -= length * change
+        return None
+
+    def _direct(self, fixed: NDArray[np.float64], free: NDArray[np.bool_]) -> NDArray[np.float64]:
+        """By a factor of its own, which is kept."""
         from scipy.sparse.linalg import splu  # noqa: PLC0415 - slow to import, and seldom needed
 
-        result = (labels == FOREGROUND).astype(np.float64)
-        free = labels == 0
+        result = fixed.copy()
         count = np.count_nonzero(free)
         if not count:
             return result
-        number = np.full(labels.shape, -1, dtype=np.int32)
+        number = np.full(free.shape, -1, dtype=np.int32)
         number[free] = np.arange(count)
-        total, met = np.zeros(labels.shape), np.zeros(labels.shape)
         pairs = []
-        for weight, one, other in (
-            (self.across, np.s_[:, :-1], np.s_[:, 1:]),
-            (self.down, np.s_[:-1], np.s_[1:]),
-        ):
-            total[one] += weight
-            total[other] += weight
-            met[one] += weight * result[other]
-            met[other] += weight * result[one]
+        for weight, one, other in self._steps():
             both = free[one] & free[other]
             pairs.append((number[one][both], number[other][both], -weight[both]))
         a, b, steps = (np.concatenate(parts) for parts in zip(*pairs, strict=True))
         diagonal = np.arange(count, dtype=np.int32)
         matrix = coo_array(
             (
-                np.concatenate([steps, steps, total[free]]),
+                np.concatenate([steps, steps, self._total[free]]),
                 (np.concatenate([a, b, diagonal]), np.concatenate([b, a, diagonal])),
             ),
             shape=(count, count),
         ).tocsc()
         # Symmetric and diagonally dominant, so no pivots are looked for. Columns one by one: with
         # SuperLU's usual panels a grid's narrow supernodes take twice as long.
-        factor = splu(
+        lu = splu(
             matrix,
             permc_spec="MMD_AT_PLUS_A",
             diag_pivot_thresh=0.0,
@@ -104,5 +168,19 @@ class Walker:
             panel_size=1,
             options={"SymmetricMode": True, "Equil": False},
         )
-        result[free] = factor.solve(met[free])
-        return np.clip(result, 0, 1, out=result)
+        self._factor = _Factor(free, lu)
+        result[free] = lu.solve(-self._laplacian(fixed)[free])
+        return result
+
+    def _laplacian(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """What each pixel has more than its neighbours, weighted by the steps to them."""
+        result = self._total * values
+        for weight, one, other in self._steps():
+            result[one] -= weight * values[other]
+            result[other] -= weight * values[one]
+        return result
+
+    def _steps(self) -> Iterator[tuple[NDArray[np.float64], Any, Any]]:
+        """The weights, and the pixels on either side."""
+        yield self.across, np.s_[:, :-1], np.s_[:, 1:]
+        yield self.down, np.s_[:-1], np.s_[1:]

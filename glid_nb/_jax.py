@@ -1,0 +1,89 @@
+"""JAX, imported when something is first computed.
+
+Importing JAX takes longer than all else that an editor does before its canvas is seen, which needs
+nothing computed. So the package's modules take ``jax``, ``jnp`` and ``lax`` from here; the modules
+that these stand for are imported when they are first asked for something. At a module's own level
+use :func:`jit` in place of ``jax.jit``, and :func:`once_loaded` for anything else.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import sys
+import threading
+from collections.abc import Callable
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+_lock = threading.RLock()
+_waiting: list[Callable[[], Any]] = []
+_settling = False
+
+
+def once_loaded(action: Callable[[], Any]) -> None:
+    """Call ``action`` before the package computes anything: now if JAX is imported already."""
+    with _lock:
+        _waiting.append(action)
+    settle()
+
+
+def settle() -> None:
+    """Do what waits for JAX if that is imported by now, be it by somebody else."""
+    global _settling
+    if not _waiting or "jax" not in sys.modules:
+        return
+    with _lock:
+        if _settling:  # asked by what is being done
+            return
+        _settling = True
+        try:
+            while _waiting:
+                _waiting[0]()
+                del _waiting[0]  # not before: other threads must wait until it is done
+        finally:
+            _settling = False
+
+
+if TYPE_CHECKING:
+    import jax
+    import jax.numpy as jnp
+    from jax import jit, lax
+else:
+
+    class _Module:
+        """Stands for a module that may not be imported yet."""
+
+        def __init__(self, name: str) -> None:
+            self._name = name
+            self._module: ModuleType | None = None
+
+        def __getattr__(self, name: str) -> Any:
+            if self._module is None:
+                self._module = importlib.import_module(self._name)
+            settle()
+            return getattr(self._module, name)
+
+    class _Compiled:
+        """``jax.jit(function, **options)``, made when it is first needed."""
+
+        def __init__(self, function: Callable[..., Any], options: dict[str, Any]) -> None:
+            functools.update_wrapper(self, function)
+            self._options = options
+
+        @functools.cached_property
+        def _program(self) -> Any:
+            return jax.jit(self.__wrapped__, **self._options)
+
+        def __call__(self, *args: Any, **kwargs: Any) -> Any:
+            return self._program(*args, **kwargs)
+
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith("__"):  # doctest and the like ask for what a function may have
+                raise AttributeError(name)
+            return getattr(self._program, name)
+
+    def jit(function: Callable[..., Any], **options: Any) -> Callable[..., Any]:
+        return _Compiled(function, options)
+
+    jax, jnp, lax = _Module("jax"), _Module("jax.numpy"), _Module("jax.lax")

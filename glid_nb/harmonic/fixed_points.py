@@ -1,0 +1,97 @@
+"""Many maps of one domain at the same points, for the eye."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from glid_nb.harmonic.map import as_complex
+
+if TYPE_CHECKING:
+    from glid_nb.geometry import Domain
+    from glid_nb.harmonic.map import HarmonicMap
+
+Array = NDArray[Any]
+
+_CHUNK = 1 << 21  # numbers at a time
+_MOST_KEPT = 1 << 26  # numbers, of 8 bytes each
+
+
+class FixedPoints:
+    """Images and derivatives of the same points under one map after the other.
+
+    What is costly in a map is a logarithm for each point and edge of the offset cage, whatever the
+    coefficients are. These are computed for the first map and kept, in single precision; beyond
+    half a gigabyte they are computed for each map. By the edges e of the offset cage (D.1) reads
+
+        F  = 1/(2 pi i) sum_e (phi_e + (z - z_e) s_e) L_e
+        F' = 1/(2 pi i) sum_e s_e L_e
+
+    with the slope s_e of phi along the edge from z_e, so that a map is a product of one matrix.
+
+    Parameters
+    ----------
+    domain : Domain
+        The domain of all maps.
+    points : (k, 2) array_like
+        Where they are evaluated.
+    """
+
+    def __init__(self, domain: Domain, points: ArrayLike) -> None:
+        self._domain, self._z = domain, as_complex(points)
+        loops = domain.offset_loops_complex
+        starts = np.cumsum([0, *map(len, loops)])
+        self._next = np.concatenate(
+            [np.roll(np.arange(start, end), -1) for start, end in pairwise(starts)]
+        )
+        self._vertices = np.concatenate(loops)
+        self._kept: dict[int, Array] = {}
+
+    def __call__(self, map: HarmonicMap) -> tuple[Array, Array]:
+        """(k, 2) images and (k, 4) f_z and conj(f_zbar), each as two numbers; float32."""
+        columns = np.stack([map.phi, map.psi], axis=1)
+        m = len(self._vertices)
+        values, holes = columns[:m] / (2j * np.pi), columns[m:]
+        edges = self._vertices[self._next] - self._vertices
+        slopes = (values[self._next] - values) / edges[:, None]
+        nothing = np.zeros_like(holes)
+        factors = np.block(
+            [
+                [values - slopes * self._vertices[:, None], slopes, np.zeros_like(values)],
+                [holes, nothing, nothing],
+                [nothing, nothing, holes],
+            ]
+        ).astype(np.complex64)
+        size = max(1, _CHUNK // len(factors))
+        images, derivatives = [], []
+        for start in range(0, len(self._z), size):
+            z = self._z[start : start + size, None]
+            fixed, by_edges, by_holes = np.split(self._matrix(start, z) @ factors, 3, axis=1)
+            value = fixed + z * by_edges
+            images.append(value[:, 0] + np.conj(value[:, 1]))
+            derivatives.append(by_edges + by_holes)
+        image = np.concatenate(images).astype(np.complex64).view(np.float32).reshape(-1, 2)
+        return image, np.concatenate(derivatives).view(np.float32)
+
+    def _matrix(self, start: int, z: Array) -> Array:
+        """What belongs to the points from the ``start``-th on, whatever the map.
+
+        Columns are logarithms ``L_e = Log(B_{e+1} / B_e)`` of the edges, then ``ln|z - rho|`` and
+        ``1 / (z - rho)`` of the holes.
+        """
+        known = self._kept.get(start)
+        if known is not None:
+            return known
+        b = self._vertices - z
+        # Rounded after the division: a ratio near 1 keeps the absolute accuracy of its logarithm.
+        ratio = (b[:, self._next] / b).astype(np.complex64)
+        logarithms = np.log(np.abs(ratio)) + 1j * np.arctan2(ratio.imag, ratio.real)
+        away = z - self._domain.hole_points_complex
+        parts = [logarithms, np.log(np.abs(away)), 1 / away]
+        result = np.concatenate([part.astype(np.complex64) for part in parts], axis=1)
+        if start * result.shape[1] + result.size <= _MOST_KEPT:
+            self._kept[start] = result
+        return result

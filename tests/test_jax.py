@@ -1,0 +1,64 @@
+"""JAX is imported when something is computed, and then by everything alike."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+
+def run_python(source: str) -> list[str]:
+    done = subprocess.run(
+        [sys.executable, "-c", source], capture_output=True, text=True, check=True, timeout=120
+    )
+    return done.stdout.splitlines()
+
+
+def test_an_editor_is_made_without_jax_and_computes_with_it() -> None:
+    source = """
+import sys, glid_nb
+editor = glid_nb.Editor(glid_nb.samples.image("bar"), n_vertices=300)
+print(sorted({"jax", "scipy.linalg", "matplotlib"} & set(sys.modules)))
+print(editor.map([[1.0, 0.5]]).round(6).tolist(), "jax" in sys.modules)
+import jax
+print(jax.config.jax_compilation_cache_dir is not None)
+editor.close()
+"""
+    assert run_python(source) == ["[]", "[[1.0, 0.5]] True", "True"]
+
+
+@pytest.mark.parametrize("imported", ["before", "after"])
+def test_an_energy_goes_through_a_users_own_compiled_function(imported: str) -> None:
+    lines = ["import jax", "import glid_nb; Energy = glid_nb.AMIPS"]
+    source = "\n".join(lines if imported == "before" else reversed(lines))
+    source += "\nprint(jax.jit(lambda e: e.s + 1)(Energy(s=2.0)))"
+    assert run_python(source) == ["3.0"]
+
+
+def test_what_waits_is_done_once_and_before_anything_is_computed() -> None:
+    source = """
+from glid_nb import _jax
+done = []
+_jax.once_loaded(lambda: done.append(float(_jax.jnp.ones(()))))
+print(done)
+double = _jax.jit(lambda x: 2 * x)
+print(double(3.0), done)
+_jax.once_loaded(lambda: done.append("at once"))
+print(done)
+"""
+    assert run_python(source) == ["[]", "6.0 [1.0]", "[1.0, 'at once']"]
+
+
+def test_what_is_compiled_later_is_still_a_function_of_its_own_name() -> None:
+    source = '''
+import sys
+from glid_nb import _jax
+@_jax.jit
+def double(x):
+    """Twice."""
+    return 2 * x
+print(double.__name__, double.__doc__, "jax" in sys.modules)
+print(double.lower(1.0).compile()(1.0))
+'''
+    assert run_python(source) == ["double Twice. False", "2.0"]
