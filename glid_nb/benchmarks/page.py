@@ -131,7 +131,8 @@ def _solves(results: Results, figures: str) -> list[str]:
         "",
         "`paper`: uniform samples (10^4 for the energy, |G| in the paper, and 10^3 for the "
         "Hessian, |H|), Lipschitz certificate, projected Hessian K+, from the identity, in our own "
-        "code. `default`: ours, from the rigid motion that "
+        "code and so with the Hessian in whitened coordinates and single precision, as `default` "
+        "has it. `default`: ours, from the rigid motion that "
         "brings the handles closest to their targets, and without the other ways to a minimum that "
         "`solve` tries after a poor end (`restarts=0`; so it is all over this page but for the "
         "first solve of a process). The gap is to the minimum of "
