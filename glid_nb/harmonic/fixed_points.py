@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb.harmonic.map import as_complex
+from glid_nb.harmonic.map import as_complex, basis_of
 
 if TYPE_CHECKING:
     from glid_nb.geometry import Domain
@@ -42,12 +41,9 @@ class FixedPoints:
 
     def __init__(self, domain: Domain, points: ArrayLike) -> None:
         self._domain, self._z = domain, as_complex(points)
-        loops = domain.offset_loops_complex
-        starts = np.cumsum([0, *map(len, loops)])
-        self._next = np.concatenate(
-            [np.roll(np.arange(start, end), -1) for start, end in pairwise(starts)]
-        )
-        self._vertices = np.concatenate(loops)
+        vertices, following, *_ = basis_of(domain).singularities
+        own = slice(domain.n_coefficients - domain.n_holes)  # without what pads the basis
+        self._vertices, self._next = np.asarray(vertices)[own], np.asarray(following)[own]
         self._kept: dict[int, Array] = {}
 
     def __call__(self, map: HarmonicMap) -> tuple[Array, Array]:
