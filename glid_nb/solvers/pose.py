@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -67,9 +68,8 @@ class Pose:
 
     def check_inside(self, domain: Domain) -> None:
         """Raise :class:`PoseError` naming the first handle that lies outside the domain."""
-        outside = np.flatnonzero(~domain.cage.contains(self.handles))
-        if outside.size:
-            i = int(outside[0])
+        i = _first_outside(domain, self.handles.tobytes())
+        if i is not None:
             raise PoseError(
                 f"handle {i} at {_text(self.handles[i])} lies outside the domain; "
                 "move it inside the cage and out of its holes, or remove it"
@@ -92,6 +92,13 @@ class Pose:
             if key not in data:
                 raise PoseError(f'the pose lacks the key "{key}"')
         return cls(data["handles"], data["targets"])
+
+
+@functools.lru_cache(maxsize=32)
+def _first_outside(domain: Domain, handles: bytes) -> int | None:
+    """The first handle outside the domain; kept, for a drag asks again for the same handles."""
+    inside = domain.cage.contains(np.frombuffer(handles).reshape(-1, 2))
+    return None if inside.all() else int(np.argmin(inside))
 
 
 def _checked_points(points: Any, name: str) -> Array:

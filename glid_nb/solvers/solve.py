@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._jax import jnp
+from glid_nb._jax import jit, jnp
 from glid_nb._runtime import compilation_clock, double_precision, single_blas_thread
 from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Domain
@@ -182,14 +182,13 @@ class _Loop:
         self.ridge = ridge_of(pose)
         if options.align:
             map_ = aligned(map_, pose, handle_images(self.constraints, basis, map_)[: len(pose)])
-        self.coefficients: Any = jnp.asarray(real_coefficients(basis, map_))
+        self.coefficients: Any = real_coefficients(basis, map_)
         self.history: list[Iteration] = []
         self.energy_iso = self.energy_p2p = np.nan
         self.just_split = 0
         self.full_since: int | None = None
         self.start_energy = np.nan
-        size = len(self.unknowns.free)
-        self.factor: Any = jnp.zeros((size, size))
+        self.factor: Any = _no_factor(len(self.unknowns.free))
         self.reuse = False
         if isinstance(start, Result) and options.corrections and self._fits(start):
             # The result keeps its own.
@@ -407,6 +406,14 @@ def constraints_of(domain: Domain, pose: Pose, weight: float) -> Constraints:
 def _rows_at(domain: Domain, points: bytes) -> Array:
     """``C`` at complex points, kept for the next targets of the same handles."""
     return basis_rows(cauchy.cauchy_coordinates, np.frombuffer(points, complex), basis_of(domain))
+
+
+def _zeros(size: int) -> Any:
+    return jnp.zeros((size, size))
+
+
+_no_factor = jit(_zeros, static_argnames="size")
+"""What a call without a factor is given: compiled, for JAX's own zeros take ten times as long."""
 
 
 def capacity_for(iterations: int) -> int:
