@@ -48,14 +48,17 @@ class Application:
         So many handles, of all poses, do not lie in the new outline; undo brings them back.
     replaced
         Whether another picture's session took the place of this one's, which comes back when the
-        tracing's undo brings its picture back.
+        tracing's undo, or redo, brings its picture back.
     replaced_path
         The file that the replaced session was kept up to date in.
+    back_by_redo
+        Whether it is redo that brings it back, since undo has taken its picture away.
     """
 
     lost_handles: int = 0
     replaced: bool = False
     replaced_path: Path | None = None
+    back_by_redo: bool = False
 
 
 def open_document(path: str | Path) -> Document:
@@ -214,7 +217,8 @@ class EditorModel:
             done = Application()
             if session is not None:
                 self._shelf.append((session, self.autosave_path))
-                done = Application(0, True, self.autosave_path)
+                by_redo = self.tracing.redo_reaches(session.image)
+                done = Application(0, True, self.autosave_path, by_redo)
             self._change_picture(domain, image)
         self._tell()
         return done

@@ -274,6 +274,10 @@ class TracingModel:
         """Whether a state was undone."""
         return bool(self._future)
 
+    def redo_reaches(self, image: NDArray[np.uint8] | None) -> bool:
+        """Whether a picture, this very array, is among what redo brings back."""
+        return any(state.image is image for state in self._future)
+
     def on_change(self, callback: Callable[[], None]) -> Callable[[], None]:
         """Call ``callback`` after every change; the result ends that."""
         self._callbacks.append(callback)

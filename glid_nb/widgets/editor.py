@@ -47,7 +47,8 @@ _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced
 
 _LOST = "{} outside the new outline and went with the old one; undo brings it all back."
 _REPLACED = (
-    "Another picture, another session. The one before{place} comes back with Undo in the Trace tab."
+    "Another picture, another session. The one before{place} comes back with {step} in the Trace "
+    "tab."
 )
 _NOT_VALID = "The outline in the Trace tab is not valid yet: this is the last one that was."
 _LEFT = (
@@ -425,7 +426,8 @@ def _applied_in_words(done: Application, problems: tuple[TracingProblem, ...]) -
         return _NOT_VALID
     if done.replaced:
         place = "" if done.replaced_path is None else f" (in {done.replaced_path.name})"
-        return _REPLACED.format(place=place)
+        step = "Redo" if done.back_by_redo else "Undo"
+        return _REPLACED.format(place=place, step=step)
     if done.lost_handles:
         many = done.lost_handles > 1
         return _LOST.format(f"{done.lost_handles} handles were" if many else "A handle was")

@@ -107,7 +107,9 @@ def test_undo_brings_a_picture_back_with_its_poses(tmp_path: Path, kept: bool) -
         _pin(model, (4, 0))
     for _ in range(2):
         model.tracing.undo()
-    assert model.apply_tracing() == Application(0, True, tmp_path / "a-3.glid" if kept else None)
+    assert model.apply_tracing() == Application(
+        0, True, tmp_path / "a-3.glid" if kept else None, back_by_redo=True
+    )
     assert model.image is image
     assert model.deformation.state.poses == poses
     assert model.autosave_path == path

@@ -23,7 +23,7 @@ picture[..., 2] = 255 - x
 """
 
 EDITOR = """
-editor = glid.Editor(picture, n_vertices=1500, width=560, height=400)
+editor = glid.Editor(picture, n_vertices=600, width=560, height=400)
 canvas, model = editor.canvas, editor.deformation
 editor
 """

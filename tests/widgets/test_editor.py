@@ -601,9 +601,14 @@ def test_what_becomes_of_the_tracing_is_told(editor: Editor) -> None:
     assert editor.canvas is not None
     assert "not valid yet" in editor.canvas.pane.stage.notice
     editor.tabs.selected_index = 0
+    tracing.undo()
     tracing.open(glid.samples.image("bar")[::-1])
     editor.tabs.selected_index = 1
     assert "comes back with Undo in the Trace tab" in editor.canvas.pane.stage.notice
+    editor.tabs.selected_index = 0
+    tracing.undo()
+    editor.tabs.selected_index = 1
+    assert "comes back with Redo in the Trace tab" in editor.canvas.pane.stage.notice
 
 
 def test_a_closed_editor_refuses() -> None:

@@ -144,4 +144,5 @@ def test_an_opened_session_and_another_picture_are_seen(open_notebook: OpenNoteb
     back = Hand(book, canvas="editor.canvas")
     back.wait_until_drawn()
     assert back.handles == handles
+    page.get_by_text("comes back with Redo in the Trace tab").wait_for()
     book.screenshot("editor-picture-back")
