@@ -188,11 +188,12 @@ class _Loop:
         self.just_split = 0
         self.full_since: int | None = None
         self.start_energy = np.nan
-        self.factor: Any = _no_factor(len(self.unknowns.free))
-        self.reuse = False
+        self.factor: Any
         if isinstance(start, Result) and options.corrections and self._fits(start):
             # The result keeps its own.
             self.factor, self.reuse = jnp.array(start.factor, copy=True), True
+        else:
+            self.factor, self.reuse = _no_factor(len(self.unknowns.free)), False
 
     def _fits(self, start: Result) -> bool:
         """Whether the last Hessian of an earlier solve is one of this problem's."""
@@ -413,7 +414,7 @@ def _zeros(size: int) -> Any:
 
 
 _no_factor = jit(_zeros, static_argnames="size")
-"""What a call without a factor is given: compiled, for JAX's own zeros take ten times as long."""
+"""What a call without a factor is given: compiled, for JAX's own zeros take four times as long."""
 
 
 def capacity_for(iterations: int) -> int:
