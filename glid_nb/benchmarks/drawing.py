@@ -79,10 +79,11 @@ def _draw_ratios(results: Results, path: Path) -> None:
         axes.axhline(goal, color=VERMILION, lw=0.8, ls="--", zorder=0)
         axes.annotate(
             f"goal, {name}: {goal:g}",
-            (len(pairs) + 0.55, goal),
+            (len(pairs) + 0.55, goal + 0.1),
             fontsize=SMALL,
             ha="right",
             va="bottom",
+            bbox=plain,
         )
     middle = float(np.median(values))
     axes.axhline(middle, color=INK, lw=0.8, ls=":", zorder=0, label=f"median: {middle:.1f}")
