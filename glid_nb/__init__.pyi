@@ -58,15 +58,15 @@ from .solvers import solve_batch as solve_batch
 from ._runtime import enable_compilation_cache as enable_compilation_cache
 
 # Other methods on the same problems
-from .compare import MeshMap as MeshMap
-from .compare import Method as Method
-from .compare import MethodChoice as MethodChoice
-from .compare import MethodError as MethodError
-from .compare import MethodProgress as MethodProgress
-from .compare import MethodResult as MethodResult
-from .compare import Step as Step
-from .compare import methods as methods
-from .compare import run_method as run_method
+from .methods import MeshMap as MeshMap
+from .methods import Method as Method
+from .methods import MethodChoice as MethodChoice
+from .methods import MethodError as MethodError
+from .methods import MethodProgress as MethodProgress
+from .methods import MethodResult as MethodResult
+from .methods import Step as Step
+from . import methods as methods
+from .methods import run_method as run_method
 
 # Files and reports
 from .session import Document as Document

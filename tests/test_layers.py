@@ -19,7 +19,7 @@ LAYERS = (
     ("energies",),
     ("certificate",),
     ("solvers",),
-    ("imaging", "compare"),
+    ("imaging", "methods"),
     ("samples", "export"),
     ("session",),
     ("comparisons",),

@@ -14,8 +14,6 @@ from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
 from glid_nb.certificate import certify
-from glid_nb.compare import MeshMap, methods
-from glid_nb.compare.linear.cauchy import cauchy_point_to_point
 from glid_nb.comparisons import drawing
 from glid_nb.comparisons.cases import Case
 from glid_nb.comparisons.runs import MESH_VERTICES, P2P_WEIGHT, run
@@ -24,6 +22,8 @@ from glid_nb.comparisons.units import percent
 from glid_nb.geometry import Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.style import CYAN, HAIRLINE, INK, SKY, SMALL, VERMILION
+from glid_nb.methods import MeshMap, methods
+from glid_nb.methods.linear.cauchy import cauchy_point_to_point
 
 Array = NDArray[Any]
 

@@ -7,12 +7,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from glid_nb.compare import methods
 from glid_nb.comparisons.cases import Case
 from glid_nb.comparisons.runs import MESH_VERTICES, run
 from glid_nb.comparisons.store import Measurement
 from glid_nb.energies import ARAP, Energy
 from glid_nb.geometry import triangulate
+from glid_nb.methods import methods
 
 _PAPER = {"sampling": "uniform", "certificate": "lipschitz"}
 _RUNS = 3

@@ -11,7 +11,6 @@ from matplotlib.ticker import NullFormatter
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from glid_nb.compare import MeshMap, methods
 from glid_nb.comparisons import drawing
 from glid_nb.comparisons.cases import Case
 from glid_nb.comparisons.curvature import contraction, negative_eigenvalues
@@ -39,6 +38,7 @@ from glid_nb.energies import SymmetricDirichlet
 from glid_nb.geometry import Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.style import LINE, SMALL
+from glid_nb.methods import MeshMap, methods
 from glid_nb.solvers import Pose
 
 Array = NDArray[Any]

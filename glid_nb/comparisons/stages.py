@@ -13,12 +13,12 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 from glid_nb._runtime import double_precision, single_blas_thread
-from glid_nb.compare.subspace import SubspaceProblem
 from glid_nb.comparisons import drawing
 from glid_nb.comparisons.cases import Case
 from glid_nb.comparisons.store import Measurement
 from glid_nb.energies import SymmetricDirichlet
 from glid_nb.imaging.style import BLUE, GREEN, ORANGE, SKY, SMALL
+from glid_nb.methods.subspace import SubspaceProblem
 from glid_nb.solvers import Options
 
 Array = NDArray[Any]

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb.compare import MethodResult
 from glid_nb.comparisons import drawing
 from glid_nb.comparisons.cases import Case
 from glid_nb.comparisons.distortion import density_at
@@ -18,6 +17,7 @@ from glid_nb.comparisons.store import Measurement
 from glid_nb.energies import Energy
 from glid_nb.geometry import Triangulation, uniform_boundary_samples
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import MethodResult
 
 Array = NDArray[Any]
 

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from glid_nb.compare import MeshMap, run_method
 from glid_nb.comparisons import (
     ComparisonError,
     compare_all,
@@ -26,9 +25,10 @@ from glid_nb.comparisons.page import page
 from glid_nb.comparisons.runs import VISIBLE
 from glid_nb.geometry import uniform_boundary_samples
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import MeshMap, run_method
 from glid_nb.session import InputFileError, Problem
 
-from ..compare.problems import problem
+from ..methods.problems import problem
 from ..reference_map import ReferenceMap
 
 

@@ -11,7 +11,7 @@ from glid_nb.comparisons.runs import run
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session import Problem
 
-from ..compare.problems import problem
+from ..methods.problems import problem
 
 
 def case(name: str) -> Case:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from glid_nb.compare import run_method
 from glid_nb.comparisons.distortion import (
     area_mean,
     densities,
@@ -15,8 +14,9 @@ from glid_nb.comparisons.distortion import (
 )
 from glid_nb.geometry import triangulate
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import run_method
 
-from ..compare.problems import problem
+from ..methods.problems import problem
 
 DOMAIN, POSE = problem("ell")
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from glid_nb.comparisons import drawing
 from glid_nb.geometry import triangulate
 
-from ..compare.problems import problem
+from ..methods.problems import problem
 
 MESH = triangulate(problem("ell")[0].cage, 60)
 

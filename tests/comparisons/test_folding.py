@@ -15,7 +15,7 @@ from glid_nb.geometry import Cage, Domain, triangulate
 from glid_nb.session import Problem
 from glid_nb.solvers import Pose
 
-from ..compare.problems import problem
+from ..methods.problems import problem
 
 
 def test_triangles_that_share_a_vertex_are_one_fold() -> None:

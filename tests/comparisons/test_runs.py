@@ -7,14 +7,14 @@ import itertools
 import numpy as np
 import pytest
 
-from glid_nb.compare import MeshMap, MethodProgress, Step, run_method
 from glid_nb.comparisons.cases import Case
 from glid_nb.comparisons.progress import ended_by
 from glid_nb.comparisons.runs import VISIBLE, Watcher, outcome, reached, run, thumbnails
 from glid_nb.geometry import triangulate
+from glid_nb.methods import MeshMap, MethodProgress, Step, run_method
 from glid_nb.session import Problem
 
-from ..compare.problems import problem
+from ..methods.problems import problem
 
 MESH = triangulate(problem("ell")[0].cage, 20)
 

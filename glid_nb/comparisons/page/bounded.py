@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from glid_nb.compare.bdhm.samples import MARGIN
 from glid_nb.comparisons import paper
 from glid_nb.comparisons.bounded import BOUNDS, WITHIN
 from glid_nb.comparisons.page.words import ended, joined, name_of, numbers, table, verdict
 from glid_nb.comparisons.store import Measurement
 from glid_nb.comparisons.units import seconds
+from glid_nb.methods.bdhm.samples import MARGIN
 
 _NAMES = ("k", "sigma_1", "sigma_2")
 _TITLES = {"bdhm": "BDHM, the paper's bounds", "tight": "BDHM, tighter bounds"}
