@@ -20,6 +20,7 @@ LAYERS = (
     ("certificate",),
     ("solvers",),
     ("imaging", "compare"),
+    ("figures",),
     ("samples", "export"),
     ("session",),
     ("comparisons",),
