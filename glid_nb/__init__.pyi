@@ -10,6 +10,8 @@ from .geometry import offset_cage as offset_cage
 from .geometry import triangulate as triangulate
 
 # Pictures
+from .figures.overview import figure_png as figure_png
+from .figures.overview import overview as overview
 from .imaging import PixelFrame as PixelFrame
 from .imaging import RenderError as RenderError
 from .imaging import Scribbles as Scribbles
@@ -19,8 +21,6 @@ from .imaging import Tracer as Tracer
 from .imaging import Tracing as Tracing
 from .imaging import read_image as read_image
 from .imaging import trace as trace
-from .imaging.overview import figure_png as figure_png
-from .imaging.overview import overview as overview
 from .imaging.render import render as render
 from .imaging.render import rendering as rendering
 

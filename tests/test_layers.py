@@ -20,6 +20,7 @@ LAYERS = (
     ("certificate",),
     ("solvers",),
     ("imaging", "methods"),
+    ("figures",),
     ("samples", "export"),
     ("session",),
     ("comparisons",),

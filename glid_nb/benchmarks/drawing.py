@@ -16,7 +16,7 @@ from glid_nb.benchmarks.outcomes import ratio
 from glid_nb.benchmarks.results import Results
 from glid_nb.benchmarks.solving import same_minimum
 from glid_nb.comparisons import drawing
-from glid_nb.imaging.style import BLUE, FAINT, GREY, INK, ORANGE, SKY, SMALL, VERMILION
+from glid_nb.figures.style import BLUE, FAINT, GREY, INK, ORANGE, SKY, SMALL, VERMILION
 
 SOLVES, SPEEDUPS, SCALING = "solves.png", "speedups.png", "scaling.png"
 """File names."""

@@ -11,7 +11,7 @@ from glid_nb.comparisons import drawing, paper
 from glid_nb.comparisons.cases import Case
 from glid_nb.comparisons.store import Measurement
 from glid_nb.comparisons.two_maps import Setting, draw_one, measure_maps
-from glid_nb.imaging.style import BLUE, LINE, ORANGE, SMALL, VERMILION
+from glid_nb.figures.style import BLUE, LINE, ORANGE, SMALL, VERMILION
 from glid_nb.methods.bdhm.methods import TOLERANCE
 
 BOUNDS = {"bdhm": paper.FIGURE_2["asked"], "tight": (0.25, 1.9, 0.45)}

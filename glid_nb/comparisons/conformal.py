@@ -10,7 +10,7 @@ from glid_nb.comparisons.cases import Case
 from glid_nb.comparisons.store import Measurement
 from glid_nb.comparisons.two_maps import Setting, draw_one, measure_maps
 from glid_nb.energies import AMIPS
-from glid_nb.imaging.style import SMALL
+from glid_nb.figures.style import SMALL
 
 _MOST, _MOST_K = 4.0, 0.5
 _TITLES = {"amips": "Advanced MIPS", "conformal": "conformal, least isometric distortion"}

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from glid_nb._files import write_bytes_atomically
 from glid_nb.comparisons.distortion import densities
-from glid_nb.imaging.style import (
+from glid_nb.figures.style import (
     BLUE,
     CYAN,
     FAINT,

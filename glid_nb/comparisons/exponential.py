@@ -10,7 +10,7 @@ from glid_nb.comparisons.cases import Case
 from glid_nb.comparisons.store import Measurement
 from glid_nb.comparisons.two_maps import Setting, draw_one, measure_maps
 from glid_nb.energies import ExponentialSymmetricDirichlet
-from glid_nb.imaging.style import SMALL
+from glid_nb.figures.style import SMALL
 
 _MOST = 12.0
 

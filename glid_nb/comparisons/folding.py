@@ -19,9 +19,9 @@ from glid_nb.comparisons.cases import Case
 from glid_nb.comparisons.runs import MESH_VERTICES, P2P_WEIGHT, run
 from glid_nb.comparisons.store import Measurement
 from glid_nb.comparisons.units import percent
+from glid_nb.figures.style import CYAN, HAIRLINE, INK, SKY, SMALL, VERMILION
 from glid_nb.geometry import Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.style import CYAN, HAIRLINE, INK, SKY, SMALL, VERMILION
 from glid_nb.methods import MeshMap, methods
 from glid_nb.methods.linear.cauchy import cauchy_point_to_point
 

@@ -12,8 +12,8 @@ from glid_nb.comparisons.cases import Case
 from glid_nb.comparisons.curvature import contraction
 from glid_nb.comparisons.runs import last_of, outcome, run
 from glid_nb.comparisons.store import Measurement
+from glid_nb.figures.style import BLUE, GREEN, GREY, INK, LINE, ORANGE, SKY, SMALL
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.style import BLUE, GREEN, GREY, INK, LINE, ORANGE, SKY, SMALL
 
 SAMPLES = (50, 100, 200, 400, 700, 1_000, 10_000)
 _COLORS = (ORANGE, SKY, GREEN, "#cc79a7", GREY, BLUE, INK)

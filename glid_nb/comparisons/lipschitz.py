@@ -16,9 +16,9 @@ from glid_nb.comparisons import drawing, paper
 from glid_nb.comparisons.cases import Case
 from glid_nb.comparisons.runs import outcome, run
 from glid_nb.comparisons.store import Measurement
+from glid_nb.figures.style import BLUE, LINE, ORANGE, SMALL
 from glid_nb.geometry import panels_between, uniform_boundary_samples
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
-from glid_nb.imaging.style import BLUE, LINE, ORANGE, SMALL
 from glid_nb.solvers.discretisation import UNIFORM_SAMPLES
 
 Array = NDArray[Any]

@@ -35,9 +35,9 @@ from glid_nb.comparisons.runs import (
 from glid_nb.comparisons.store import Measurement
 from glid_nb.comparisons.units import seconds
 from glid_nb.energies import SymmetricDirichlet
+from glid_nb.figures.style import LINE, SMALL
 from glid_nb.geometry import Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.style import LINE, SMALL
 from glid_nb.methods import MeshMap, methods
 from glid_nb.solvers import Pose
 

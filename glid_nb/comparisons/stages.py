@@ -17,7 +17,7 @@ from glid_nb.comparisons import drawing
 from glid_nb.comparisons.cases import Case
 from glid_nb.comparisons.store import Measurement
 from glid_nb.energies import SymmetricDirichlet
-from glid_nb.imaging.style import BLUE, GREEN, ORANGE, SKY, SMALL
+from glid_nb.figures.style import BLUE, GREEN, ORANGE, SKY, SMALL
 from glid_nb.methods.subspace import SubspaceProblem
 from glid_nb.solvers import Options
 

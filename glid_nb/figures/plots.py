@@ -21,9 +21,7 @@ from numpy.typing import NDArray
 
 from glid_nb._bounds import rounded_down
 from glid_nb.certificate import Certificate
-from glid_nb.geometry import Cage
-from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.style import (
+from glid_nb.figures.style import (
     BLUE,
     FAINT,
     GREEN,
@@ -35,6 +33,8 @@ from glid_nb.imaging.style import (
     VERMILION,
     tidy,
 )
+from glid_nb.geometry import Cage
+from glid_nb.harmonic import HarmonicMap
 
 # Points from the axis down to its name.
 _AXIS_NAME = 12.0

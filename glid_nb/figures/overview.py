@@ -18,14 +18,8 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb.geometry import Cage
-from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.frame import PixelFrame
-from glid_nb.imaging.mesh import DeformedMesh, deformed_mesh
-from glid_nb.imaging.plots import CertificatePlot, EnergyPlot, StepPlot
-from glid_nb.imaging.rasterise import render_mesh
-from glid_nb.imaging.render import OutputFrame
-from glid_nb.imaging.style import (
+from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot
+from glid_nb.figures.style import (
     BLUE,
     CYAN,
     FONT_SIZE,
@@ -36,6 +30,12 @@ from glid_nb.imaging.style import (
     VERMILION,
     distortion_colors,
 )
+from glid_nb.geometry import Cage
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging.frame import PixelFrame
+from glid_nb.imaging.mesh import DeformedMesh, deformed_mesh
+from glid_nb.imaging.rasterise import render_mesh
+from glid_nb.imaging.render import OutputFrame
 from glid_nb.imaging.texture import Texture
 
 if TYPE_CHECKING:

@@ -21,11 +21,11 @@ from PIL import Image
 from skimage.color import rgb2lab
 
 from glid_nb.certificate import Certificate, certify
+from glid_nb.figures.overview import figure_png, overview
+from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot, TimePlot
+from glid_nb.figures.style import CYAN, distortion_colors
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.overview import figure_png, overview
-from glid_nb.imaging.plots import CertificatePlot, EnergyPlot, StepPlot, TimePlot
-from glid_nb.imaging.style import CYAN, distortion_colors
 from glid_nb.solvers import Pose
 
 
