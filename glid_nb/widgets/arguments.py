@@ -1,9 +1,15 @@
-"""Sizes that were given to a widget, refused by name before anything is made."""
+"""What was given to a widget, refused by name before anything is made."""
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Iterable
 from numbers import Integral
 from typing import Any
+
+from ipywidgets import Widget
+
+from glid_nb._errors import did_you_mean
 
 LEAST_CANVAS = 100
 """Least width and height of a canvas, CSS pixels."""
@@ -35,3 +41,19 @@ def check_vertices(n_vertices: Any) -> int | None:
         As `check_count`.
     """
     return None if n_vertices is None else check_count("n_vertices", n_vertices, 3, "vertices")
+
+
+def check_keywords(widget: type[Widget], given: Iterable[str]) -> None:
+    """Refuse keywords that a widget does not have, neither itself nor from ipywidgets.
+
+    Raises
+    ------
+    TypeError
+        For the first of them; the message has the name that was probably meant.
+    """
+    traits = [name for name in widget.class_trait_names() if not name.startswith("_")]
+    own = [name for name in inspect.signature(widget).parameters if name != "kwargs"]
+    for name in given:
+        if name not in traits:
+            hint = did_you_mean(name, [*own, *traits])
+            raise TypeError(f"{widget.__name__} takes no argument {name!r}{hint}")

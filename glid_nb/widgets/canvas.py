@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import ipywidgets
@@ -17,12 +16,12 @@ from glid_nb.geometry import Domain
 from glid_nb.geometry.panels import Panels
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session.deformation import Deformation
-from glid_nb.widgets.arguments import LEAST_CANVAS, check_count, check_vertices
-from glid_nb.widgets.gestures import Gestures
+from glid_nb.session.moment import Moment
+from glid_nb.widgets.arguments import LEAST_CANVAS, check_count, check_keywords, check_vertices
+from glid_nb.widgets.gestures import Event, PinGestures
 from glid_nb.widgets.overlays import OVERLAYS
 from glid_nb.widgets.pane import Pane
 from glid_nb.widgets.scene import EvaluatedIn
-from glid_nb.widgets.subshells import answer_during_cells
 
 Array = NDArray[Any]
 
@@ -92,6 +91,7 @@ class DeformCanvas(ipywidgets.HBox):
         evaluated_in: EvaluatedIn | None = None,
         **kwargs: Any,
     ) -> None:
+        check_keywords(type(self), kwargs)
         size = (
             check_count("width", width, LEAST_CANVAS, "pixels"),
             check_count("height", height, LEAST_CANVAS, "pixels"),
@@ -107,16 +107,8 @@ class DeformCanvas(ipywidgets.HBox):
         self._evaluated_in: EvaluatedIn | None = evaluated_in
         self.pane = self._pane(size, interactive=True)
         self.source: Pane | None = None
-        self.gestures = Gestures(self.deformation, self.fit)
-        # The page's events that wait for the frame they led to; guarded by their own lock, in
-        # which nothing else is locked.
-        self._waiting: dict[str, int] = {}
-        self._waiting_lock = threading.Lock()
-        # Frames come from the solver's thread, selections and the like from the page's. The model
-        # may be locked when this is taken, and is not locked while it is held.
-        self._drawing = threading.RLock()
-        self._closed = False  # guarded by the lock: a frame may arrive while the canvas closes
-        self._receiving = threading.Lock()
+        self.gestures = PinGestures(self.deformation, self.fit)
+        self._closed = False  # a frame may arrive while the canvas closes
         self._when_drawn: list[Callable[[], None]] = []
         self._panels_at = self._range_at = 0.0
         super().__init__([self.pane], **kwargs)
@@ -125,22 +117,26 @@ class DeformCanvas(ipywidgets.HBox):
         self.layout.align_items = "flex-start"
         self._resize()
         self.pane.stage.observe(self._resize, ["height"])
-        self._stop = self.deformation.observe(self._on_model)
-        self.pane.stage.on_msg(self._receive)
-        answer_during_cells(self.pane.stage)
+        # Frames come from the solver's thread, events from the page's: both hold the model's lock.
+        # The solver sets the pace: while it works, its next frame acknowledges events.
+        model = self.deformation
+        self.pane.stage.serve(model, self, busy=lambda: model.busy)
+        self.pane.stage.observe(self._on_drawn, ["drawn"])
+        self._stop = model.observe(self._on_model)
         self.observe(self._show_overlay, ["overlay"])
         self.observe(self._show_lines, ["show_cage", "show_offset_cage"])
         self.observe(self._on_show_panels, ["show_panels"])
         self.observe(self._show_source, ["show_source"])
-        self._draw()
-        if len(self.deformation.pose):
-            self.fit()
-        self._complete = True
-        # Overlays that were given as arguments.
-        self._show_overlay()
-        self._show_lines()
-        self._show_panels()
-        self._show_source()
+        with self.deformation.locked():
+            self._draw(self.deformation.moment)
+            if len(self.deformation.pose):
+                self.fit()
+            self._complete = True
+            # Overlays that were given as arguments.
+            self._show_overlay()
+            self._show_lines()
+            self._show_panels(self.deformation.moment)
+            self._show_source()
 
     def fit(self) -> None:
         """Make the whole shape and all targets visible."""
@@ -155,7 +151,7 @@ class DeformCanvas(ipywidgets.HBox):
         if not self._complete:
             return
         self._stop()
-        with self._drawing:
+        with self.deformation.locked():
             self._closed = True
             for pane in (self.pane, self.source):
                 if pane is not None:
@@ -181,10 +177,11 @@ class DeformCanvas(ipywidgets.HBox):
         return pane
 
     def _adapt(self, pane: Pane) -> None:
-        with self._drawing:
+        with self.deformation.locked():
             if not self._closed and pane.adapt():
-                self._draw()
-                self._show_panels()
+                moment = self.deformation.moment
+                self._draw(moment)
+                self._show_panels(moment)
 
     def _resize(self, _: Any = None) -> None:
         self.layout.height = f"{self.pane.stage.height}px"
@@ -193,119 +190,96 @@ class DeformCanvas(ipywidgets.HBox):
 
     def _on_model(self, what: str) -> None:
         """A change of the model, told in whichever thread made it."""
-        if what in ("state", "frame", "selection"):
-            self._draw()
-        if what == "frame":
-            self._show_panels()
-            if self.deformation.solved:
-                with self._drawing:
-                    if not self._closed:
-                        self.pane.fit_range(widen_only=bool(self.deformation.dragged))
-                        self._place_legend()
-        if what in ("frame", "status"):
-            self._release()
-
-    def _draw(self) -> None:
-        with self._drawing:
+        model = self.deformation
+        with model.locked():
             if self._closed:
                 return
-            state = self.deformation.state
-            comparison = self.deformation.comparison
-            pose, map_ = state.pose, state.map
-            shown = map_ if comparison is None else comparison
-            images = shown(pose.handles) if len(pose) else np.empty((0, 2))
-            self.pane.show(map_, pose.targets, images, self.deformation.selection)
-            self.pane.show_comparison(comparison)
-            self._fit_range()
-            if self.overlay == "energy":
-                self.pane.show_overlay(self.overlay, state.current.energy)
-            if self.source is not None:
-                empty = np.empty((0, 2))
-                self.source.show(state.identity, empty, pose.handles, ())
+            moment = model.moment
+            if what in ("state", "frame", "selection"):
+                self._draw(moment)
+            if what == "frame":
+                self._show_panels(moment)
+                if moment.solved:
+                    self.pane.fit_range(widen_only=bool(moment.dragged))
+                    self._place_legend(moment)
+            if what in ("frame", "status"):
+                self.pane.stage.acknowledge()
 
-    def _fit_range(self) -> None:
-        """Colours stay comparable during a drag: a range then only grows."""
-        moving, now = self.deformation.busy or bool(self.deformation.dragged), time.monotonic()
+    def _draw(self, moment: Moment) -> None:
+        state, shown = moment.state, moment.shown
+        handles = state.pose.handles
+        images = shown(handles) if len(handles) else np.empty((0, 2))
+        self.pane.show(moment.map, state.pose.targets, images, moment.selection)
+        self.pane.show_comparison(moment.comparison)
+        # Colours stay comparable during a drag: a range then only grows.
+        moving, now = moment.busy or bool(moment.dragged), time.monotonic()
         if not moving or now - self._range_at > _PANELS_INTERVAL:
             self._range_at = now
             self.pane.fit_range(widen_only=moving)
-
-    def _release(self) -> None:
-        """Acknowledge: the frame that the events led to is on its way, or none will come."""
-        with self._waiting_lock:
-            waiting, self._waiting = self._waiting, {}
-        for view, number in waiting.items():
-            self.pane.stage.acknowledge(view, number)
+        if self.overlay == "energy":
+            self.pane.show_overlay(self.overlay, state.current.energy)
+        if self.source is not None:
+            self.source.show(state.identity, np.empty((0, 2)), handles, ())
 
     # From the page
 
-    def _receive(self, _: Any, message: dict[str, Any], __: Any) -> None:
-        if "drawn" in message:
-            self.deformation.begin()
-            waiting, self._when_drawn = self._when_drawn, []
-            for callback in waiting:
-                callback()
-            return
-        events = message["events"]
+    def handle(self, events: Sequence[Event]) -> str | None:
+        """Act on what the hand does, and show why something was refused."""
         stage = self.pane.stage
         try:
-            with self._receiving:
-                notice = self.gestures.handle(events)
-        except Exception as error:
-            stage.notice = f"{type(error).__name__}: {error}"  # shown, and logged by the kernel
-            raise
-        else:
-            stage.notice = notice
+            stage.notice = self.gestures.handle(events) or ""
             stage.set_trait("cursor", self.gestures.cursor)
-        finally:
-            with self._waiting_lock:
-                self._waiting[message["view"]] = events[-1]["seq"]
-            # The solver paces the hand: while it works, its next frame acknowledges.
-            if not self.deformation.busy:
-                self._release()
+        except Exception as error:
+            stage.notice = f"{type(error).__name__}: {error}"
+            raise
+        return stage.notice or None
+
+    def _on_drawn(self, _: Any) -> None:
+        self.deformation.begin()
+        waiting, self._when_drawn = self._when_drawn, []
+        for callback in waiting:
+            callback()
 
     # From code and menus
 
     def _show_overlay(self, _: Any = None) -> None:
-        with self._drawing:
-            self.pane.show_overlay(self.overlay, self.deformation.state.current.energy)
-            self._place_legend()
+        with self.deformation.locked():
+            moment = self.deformation.moment
+            self.pane.show_overlay(self.overlay, moment.state.current.energy)
+            self._place_legend(moment)
 
-    def _place_legend(self) -> None:
+    def _place_legend(self, moment: Moment) -> None:
         """Not during a drag, where it would jump."""
         stage = self.pane.stage
-        if (stage.legend or stage.panel_legend) and not self.deformation.dragged:
-            self.pane.place_legend(self.deformation.shown, self.deformation.pose.targets)
+        if (stage.legend or stage.panel_legend) and not moment.dragged:
+            self.pane.place_legend(moment.shown, moment.state.pose.targets)
 
     def _show_lines(self, _: Any = None) -> None:
-        with self._drawing:
+        with self.deformation.locked():
             for pane in (self.pane, self.source):
                 if pane is not None:
                     pane.show_lines(self.show_cage, self.show_offset_cage)
 
     def _on_show_panels(self, _: Any) -> None:
-        with self._drawing:
-            self._show_panels()
-            self._place_legend()
+        with self.deformation.locked():
+            moment = self.deformation.moment
+            self._show_panels(moment)
+            self._place_legend(moment)
 
-    def _show_panels(self) -> None:
-        with self._drawing:
-            if self._closed:
-                return
-            frame = self.deformation.frame
-            if not self.show_panels:
-                self.pane.show_panels(None, np.empty(0))
-                return
-            now = time.monotonic()
-            if frame is None or frame.panels is None or not len(frame.sigma2_lower):
-                panels = self.deformation.certificate.panels
-                self.pane.show_panels(_as_panels(panels), panels.sigma2_lower)
-            elif frame.solution is not None or now - self._panels_at > _PANELS_INTERVAL:
-                self._panels_at = now
-                self.pane.show_panels(frame.panels, frame.sigma2_lower)
+    def _show_panels(self, moment: Moment) -> None:
+        if not self.show_panels:
+            self.pane.show_panels(None, np.empty(0))
+            return
+        frame, now = moment.frame, time.monotonic()
+        if frame is None or frame.panels is None or not len(frame.sigma2_lower):
+            proof = self.deformation.certificate_of(moment.map).panels
+            self.pane.show_panels(_as_panels(proof), proof.sigma2_lower)
+        elif frame.solution is not None or now - self._panels_at > _PANELS_INTERVAL:
+            self._panels_at = now
+            self.pane.show_panels(frame.panels, frame.sigma2_lower)
 
     def _show_source(self, _: Any = None) -> None:
-        with self._drawing:
+        with self.deformation.locked():
             if self.show_source and self.source is None:
                 self._open_source()
             elif not self.show_source and self.source is not None:
@@ -318,7 +292,7 @@ class DeformCanvas(ipywidgets.HBox):
         self.source = self._pane((width, stage.height), interactive=False)
         self.source.show_lines(self.show_cage, self.show_offset_cage)
         self.children = [self.source, self.pane]
-        self._draw()
+        self._draw(self.deformation.moment)
         self.fit()
 
     def _close_source(self, closing: Pane) -> None:

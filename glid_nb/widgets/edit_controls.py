@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 import ipywidgets
 
 from glid_nb.session.deformation import Deformation
+from glid_nb.widgets.arguments import check_keywords
 
 
 class EditControls(ipywidgets.VBox):
@@ -26,6 +27,7 @@ class EditControls(ipywidgets.VBox):
     def __init__(
         self, deformation: Deformation, children: Sequence[ipywidgets.Widget], **kwargs: Any
     ) -> None:
+        check_keywords(type(self), kwargs)
         self.deformation = deformation
         """The model that this is a view of."""
         self.refusal = ipywidgets.HTML()
