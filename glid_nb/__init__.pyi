@@ -10,6 +10,8 @@ from .geometry import offset_cage as offset_cage
 from .geometry import triangulate as triangulate
 
 # Pictures
+from .figures.overview import figure_png as figure_png
+from .figures.overview import overview as overview
 from .imaging import PixelFrame as PixelFrame
 from .imaging import RenderError as RenderError
 from .imaging import Scribbles as Scribbles
@@ -19,8 +21,6 @@ from .imaging import Tracer as Tracer
 from .imaging import Tracing as Tracing
 from .imaging import read_image as read_image
 from .imaging import trace as trace
-from .imaging.overview import figure_png as figure_png
-from .imaging.overview import overview as overview
 from .imaging.render import render as render
 from .imaging.render import rendering as rendering
 
@@ -58,15 +58,15 @@ from .solvers import solve_batch as solve_batch
 from ._runtime import enable_compilation_cache as enable_compilation_cache
 
 # Other methods on the same problems
-from .compare import MeshMap as MeshMap
-from .compare import Method as Method
-from .compare import MethodChoice as MethodChoice
-from .compare import MethodError as MethodError
-from .compare import MethodProgress as MethodProgress
-from .compare import MethodResult as MethodResult
-from .compare import Step as Step
-from .compare import methods as methods
-from .compare import run_method as run_method
+from .methods import MeshMap as MeshMap
+from .methods import Method as Method
+from .methods import MethodChoice as MethodChoice
+from .methods import MethodError as MethodError
+from .methods import MethodProgress as MethodProgress
+from .methods import MethodResult as MethodResult
+from .methods import Step as Step
+from . import methods as methods
+from .methods import run_method as run_method
 
 # Files and reports
 from .session import Document as Document

@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.certificate import Certificate, certify
-from glid_nb.compare import MethodChoice
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap, MapError
 from glid_nb.harmonic.map import complex_from_pairs, complex_to_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE
+from glid_nb.methods import MethodChoice
 from glid_nb.session import document_parts as parts
 from glid_nb.session.archive import read_archive, write_archive
 from glid_nb.session.json_file import InputFileError, check_points, require_keys

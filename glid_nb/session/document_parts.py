@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from glid_nb.compare import MethodChoice, MethodError
 from glid_nb.energies import CustomEnergy, Energy, EnergyError, energy_by_name
 from glid_nb.geometry import Domain, GeometryError
 from glid_nb.imaging import Scribbles, TraceError, TraceOptions
+from glid_nb.methods import MethodChoice, MethodError
 from glid_nb.session.json_file import InputFileError, check_loops, require_keys
 from glid_nb.solvers import OptionError, Options
 

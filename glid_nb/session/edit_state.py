@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
-from glid_nb.compare import MethodChoice, MethodResult, Step
 from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import MethodChoice, MethodResult, Step
 from glid_nb.session.document import NamedPose
 from glid_nb.solvers import Iteration, Options, Pose, Result, Status
 

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
 
-from glid_nb.imaging.style import BLUE, FAINT, GREY, INK, ORANGE, SKY, SMALL, VERMILION
+from glid_nb.figures.style import BLUE, FAINT, GREY, INK, ORANGE, SKY, SMALL, VERMILION
 from studies.benchmarks import goals
 from studies.benchmarks.breakdown import floor_of
 from studies.benchmarks.outcomes import ratio

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from glid_nb.compare.bdhm.methods import TOLERANCE
-from glid_nb.imaging.style import BLUE, LINE, ORANGE, SMALL, VERMILION
+from glid_nb.figures.style import BLUE, LINE, ORANGE, SMALL, VERMILION
+from glid_nb.methods.bdhm.methods import TOLERANCE
 from studies.comparisons import drawing, paper
 from studies.comparisons.cases import Case
 from studies.comparisons.store import Measurement

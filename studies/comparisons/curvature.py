@@ -9,10 +9,10 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 from glid_nb._runtime import double_precision
-from glid_nb.compare import MethodProgress
-from glid_nb.compare.subspace import SubspaceProblem
 from glid_nb.energies import SymmetricDirichlet
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import MethodProgress
+from glid_nb.methods.subspace import SubspaceProblem
 from glid_nb.solvers import Options
 from glid_nb.solvers.solve import real_coefficients
 from studies.comparisons.cases import Case

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from glid_nb._files import write_bytes_atomically
-from glid_nb.imaging.style import (
+from glid_nb.figures.style import (
     BLUE,
     CYAN,
     FAINT,

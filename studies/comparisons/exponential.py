@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from glid_nb.energies import ExponentialSymmetricDirichlet
-from glid_nb.imaging.style import SMALL
+from glid_nb.figures.style import SMALL
 from studies.comparisons import drawing
 from studies.comparisons.cases import Case
 from studies.comparisons.store import Measurement

@@ -14,11 +14,11 @@ from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
 from glid_nb.certificate import certify
-from glid_nb.compare import MeshMap, methods
-from glid_nb.compare.linear.cauchy import cauchy_point_to_point
+from glid_nb.figures.style import CYAN, HAIRLINE, INK, SKY, SMALL, VERMILION
 from glid_nb.geometry import Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.style import CYAN, HAIRLINE, INK, SKY, SMALL, VERMILION
+from glid_nb.methods import MeshMap, methods
+from glid_nb.methods.linear.cauchy import cauchy_point_to_point
 from studies.comparisons import drawing
 from studies.comparisons.cases import Case
 from studies.comparisons.runs import MESH_VERTICES, P2P_WEIGHT, run

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from glid_nb.figures.style import BLUE, GREEN, GREY, INK, LINE, ORANGE, SKY, SMALL
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.style import BLUE, GREEN, GREY, INK, LINE, ORANGE, SKY, SMALL
 from studies.comparisons import drawing
 from studies.comparisons.cases import Case
 from studies.comparisons.curvature import contraction

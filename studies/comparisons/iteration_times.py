@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from glid_nb.compare import methods
 from glid_nb.energies import ARAP, Energy
 from glid_nb.geometry import triangulate
+from glid_nb.methods import methods
 from studies.comparisons.cases import Case
 from studies.comparisons.runs import MESH_VERTICES, run
 from studies.comparisons.store import Measurement

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from glid_nb._runtime import double_precision
 from glid_nb.certificate import bdhm, certify, derivative_bound_weights
+from glid_nb.figures.style import BLUE, LINE, ORANGE, SMALL
 from glid_nb.geometry import panels_between, uniform_boundary_samples
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
-from glid_nb.imaging.style import BLUE, LINE, ORANGE, SMALL
 from glid_nb.solvers.discretisation import UNIFORM_SAMPLES
 from studies.comparisons import drawing, paper
 from studies.comparisons.cases import Case

@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from glid_nb._runtime import double_precision
-from glid_nb.compare import MeshMap
-from glid_nb.compare.mesh.operators import MeshOperators, largest_step
 from glid_nb.energies import Energy
+from glid_nb.methods import MeshMap
+from glid_nb.methods.mesh.operators import MeshOperators, largest_step
 from glid_nb.solvers import Pose
 from glid_nb.solvers.hessian import LocalHessian, local_hessian, positive_part
 

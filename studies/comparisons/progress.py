@@ -11,11 +11,11 @@ from matplotlib.ticker import NullFormatter
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from glid_nb.compare import MeshMap, methods
 from glid_nb.energies import SymmetricDirichlet
+from glid_nb.figures.style import LINE, SMALL
 from glid_nb.geometry import Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.style import LINE, SMALL
+from glid_nb.methods import MeshMap, methods
 from glid_nb.solvers import Pose
 from studies.comparisons import drawing
 from studies.comparisons.cases import Case

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb.compare import MeshMap, MethodProgress, MethodResult, run_method
 from glid_nb.energies import Energy
 from glid_nb.geometry import Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import MeshMap, MethodProgress, MethodResult, run_method
 from studies.comparisons.cases import Case
 
 Array = NDArray[Any]

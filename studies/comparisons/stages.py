@@ -13,9 +13,9 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 from glid_nb._runtime import double_precision, single_blas_thread
-from glid_nb.compare.subspace import SubspaceProblem
 from glid_nb.energies import SymmetricDirichlet
-from glid_nb.imaging.style import BLUE, GREEN, ORANGE, SKY, SMALL
+from glid_nb.figures.style import BLUE, GREEN, ORANGE, SKY, SMALL
+from glid_nb.methods.subspace import SubspaceProblem
 from glid_nb.solvers import Options
 from studies.comparisons import drawing
 from studies.comparisons.cases import Case

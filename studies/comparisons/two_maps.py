@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb.compare import MethodResult
 from glid_nb.energies import Energy
 from glid_nb.geometry import Triangulation, uniform_boundary_samples
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import MethodResult
 from studies.comparisons import drawing
 from studies.comparisons.cases import Case
 from studies.comparisons.distortion import density_at

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from glid_nb.compare.bdhm.samples import MARGIN
+from glid_nb.methods.bdhm.samples import MARGIN
 from studies.comparisons import paper
 from studies.comparisons.bounded import BOUNDS, WITHIN
 from studies.comparisons.page.words import ended, joined, name_of, numbers, table, verdict

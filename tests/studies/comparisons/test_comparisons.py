@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from glid_nb.compare import MeshMap, run_method
 from glid_nb.geometry import uniform_boundary_samples
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import MeshMap, run_method
 from glid_nb.session import InputFileError, Problem
 from studies.comparisons import (
     ComparisonError,
@@ -28,7 +28,7 @@ from studies.comparisons.minimum import NoMinimumError
 from studies.comparisons.page import page
 from studies.comparisons.runs import VISIBLE
 
-from ...compare.problems import problem
+from ...methods.problems import problem
 from ...reference_map import ReferenceMap
 
 

@@ -11,7 +11,7 @@ from studies.comparisons.cases import Case
 from studies.comparisons.curvature import contraction, negative_eigenvalues
 from studies.comparisons.runs import run
 
-from ...compare.problems import problem
+from ...methods.problems import problem
 
 
 def case(name: str) -> Case:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from glid_nb.compare import run_method
 from glid_nb.geometry import triangulate
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import run_method
 from studies.comparisons.distortion import (
     area_mean,
     densities,
@@ -16,7 +16,7 @@ from studies.comparisons.distortion import (
     mesh_area_mean,
 )
 
-from ...compare.problems import problem
+from ...methods.problems import problem
 
 DOMAIN, POSE = problem("ell")
 

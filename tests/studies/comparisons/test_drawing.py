@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from glid_nb.geometry import triangulate
 from studies.comparisons import drawing
 
-from ...compare.problems import problem
+from ...methods.problems import problem
 
 MESH = triangulate(problem("ell")[0].cage, 60)
 

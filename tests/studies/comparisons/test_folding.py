@@ -15,7 +15,7 @@ from studies.comparisons import folding
 from studies.comparisons.cases import Case
 from studies.comparisons.page import page
 
-from ...compare.problems import problem
+from ...methods.problems import problem
 
 
 def test_triangles_that_share_a_vertex_are_one_fold() -> None:

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from scipy.spatial import KDTree
 
-from glid_nb.compare import MeshMap, MethodResult, run_method
 from glid_nb.energies import SymmetricDirichlet
+from glid_nb.methods import MeshMap, MethodResult, run_method
 from studies.comparisons import minimum
 from studies.comparisons.minimum import Constraints, NoMinimumError, mesh_minimum
 
-from ...compare.problems import problem
+from ...methods.problems import problem
 
 COARSE = 250
 _, POSE = problem("ell")

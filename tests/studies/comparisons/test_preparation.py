@@ -10,7 +10,7 @@ from glid_nb.session import Problem
 from studies.comparisons import preparation
 from studies.comparisons.cases import Case
 
-from ...compare.problems import problem
+from ...methods.problems import problem
 
 
 @pytest.mark.parametrize(("method", "on_mesh"), [("newton", False), ("aqp", True)])

@@ -7,14 +7,14 @@ import itertools
 import numpy as np
 import pytest
 
-from glid_nb.compare import MeshMap, MethodProgress, Step, run_method
 from glid_nb.geometry import triangulate
+from glid_nb.methods import MeshMap, MethodProgress, Step, run_method
 from glid_nb.session import Problem
 from studies.comparisons.cases import Case
 from studies.comparisons.progress import ended_by
 from studies.comparisons.runs import VISIBLE, Watcher, outcome, reached, run, thumbnails
 
-from ...compare.problems import problem
+from ...methods.problems import problem
 
 MESH = triangulate(problem("ell")[0].cage, 20)
 

@@ -1,0 +1,1 @@
+"""Plots of a solve and the overview figure of a result."""
