@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._errors import InputError
 from glid_nb._files import write_text_atomically
 from glid_nb._jax import jax, jnp
 from glid_nb._numbers import real_array
@@ -31,7 +32,7 @@ _CHUNK_ELEMENTS = 1 << 19
 _SMALL_CHUNK = 64
 
 
-class MapError(ValueError):
+class MapError(InputError):
     """A harmonic map's coefficients, or a file that should hold one, are not valid."""
 
 

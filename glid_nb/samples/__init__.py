@@ -24,13 +24,15 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from glid_nb._errors import InputError
+
 PoseKind: TypeAlias = Literal["gentle", "extreme"]
 
 _NAMES = ("gecko", "teapot", "frog", "monstera", "gingerbread", "bar")
 _PICTURES = Path(__file__).parent / "pictures"
 
 
-class SampleError(ValueError):
+class SampleError(InputError):
     """There is no such sample or no such pose of it."""
 
 

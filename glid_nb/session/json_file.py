@@ -8,9 +8,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-
-class InputFileError(ValueError):
-    """A file does not hold what it should; the message names the file and the key."""
+from glid_nb._errors import InputFileError
 
 
 def read_json_object(path: str | Path) -> dict[str, Any]:

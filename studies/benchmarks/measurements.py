@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from glid_nb._errors import InputError
 from glid_nb._files import write_text_atomically
 
 Measurement = dict[str, Any]
@@ -15,7 +16,7 @@ Measurement = dict[str, Any]
 _TAKEN, _OF = "taken", "of"
 
 
-class BenchmarkError(ValueError):
+class BenchmarkError(InputError):
     """A measurement is missing, or could not be taken."""
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from glid_nb._errors import InputError
 from glid_nb._files import write_text_atomically
 from studies.comparisons.experiments import NAMES, Shapes, draw_all, measure_all
 from studies.comparisons.page import page
@@ -13,7 +14,7 @@ from studies.comparisons.store import Store
 __all__ = ["NAMES", "ComparisonError", "compare_all"]
 
 
-class ComparisonError(ValueError):
+class ComparisonError(InputError):
     """There is no such experiment."""
 
 
