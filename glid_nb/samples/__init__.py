@@ -12,7 +12,7 @@ name            holes  shows
 ==============  =====  ====================================================
 
 The pictures are RGBA with a transparent ground, their longer side 20 world units like that of any
-picture. ``python -m glid_nb.samples.draw`` draws them anew from `glid_nb.samples.drawings`.
+picture. In a checkout ``python -m studies.samples.draw`` draws them anew.
 """
 
 from __future__ import annotations
