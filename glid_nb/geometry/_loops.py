@@ -9,8 +9,10 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._errors import InputError
 
-class GeometryError(ValueError):
+
+class GeometryError(InputError):
     """A polygon, offset or domain that cannot be used; the message says where and what to do.
 
     Attributes
