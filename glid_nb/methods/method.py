@@ -13,6 +13,7 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
 
+from glid_nb._errors import InputError
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain, Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
@@ -26,7 +27,7 @@ _DISTRIBUTIONS = {"igl": "libigl"}
 """Names under which packages are installed, where they are imported under another."""
 
 
-class MethodError(ValueError):
+class MethodError(InputError):
     """A method is unknown, cannot minimise the energy, lacks its package or a setting is wrong."""
 
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
+from glid_nb._errors import InputError
 from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
@@ -24,7 +25,7 @@ MOST_ITERATIONS = 200
 """So many of a gesture's iterations are kept, the latest ones."""
 
 
-class EditError(ValueError):
+class EditError(InputError):
     """An action that the editor refuses; the message says why and what to do."""
 
 
