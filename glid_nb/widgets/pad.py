@@ -30,9 +30,7 @@ class Pad(anywidget.AnyWidget):
     :class:`~glid_nb.widgets.gestures.Gestures` reads; where it is ``buffered``, its ``data``.
     """
 
-    def serve(
-        self, model: Observed, hand: Hand, busy: Callable[[], bool] = lambda: False
-    ) -> None:
+    def serve(self, model: Observed, hand: Hand, busy: Callable[[], bool] = lambda: False) -> None:
         """Have a hand act on what the page sends.
 
         Parameters

@@ -23,7 +23,7 @@ _MOST_POINTS = 200  # of a hole's outline, and of a stroke
 
 
 def described(gestures: TraceGestures) -> dict[str, Any]:
-    """The state of a tracing and of the hand. Points are in pixels of the picture, rounded to hundredths."""
+    """The state of a tracing and of the hand; points in pixels, rounded to hundredths."""
     model = gestures.model
     frame, outcome = model.frame, model.outcome
     tracing = outcome.tracing

@@ -33,7 +33,9 @@ def test_imports_name_what_is_exported() -> None:
         for names, other in re.findall(r'^import \{ ([^}]*) \} from "([^"]+)";', text, re.M):
             exported = (module.parent / other).read_text()
             for name in names.split(", "):
-                assert re.search(rf"^export (class|const|function) {name}\b", exported, re.M)
+                assert re.search(
+                    rf"^export (?:async )?(class|const|function) {name}\b", exported, re.M
+                )
                 assert len(re.findall(rf"\b{name}\b", text)) > 1, f"{module.name}: {name} unused"
 
 
