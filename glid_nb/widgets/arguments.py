@@ -52,7 +52,7 @@ def check_keywords(widget: type[Widget], given: Iterable[str]) -> None:
         For the first of them; the message has the name that was probably meant.
     """
     traits = [name for name in widget.class_trait_names() if not name.startswith("_")]
-    own = [name for name in inspect.signature(widget).parameters if name != "kwargs"]
+    own = [name for name in inspect.signature(widget.__init__).parameters if name != "self"]
     for name in given:
         if name not in traits:
             hint = did_you_mean(name, [*own, *traits])

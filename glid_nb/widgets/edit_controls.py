@@ -11,7 +11,6 @@ from typing import Any, ClassVar
 import ipywidgets
 
 from glid_nb.session.deformation import Deformation
-from glid_nb.widgets.arguments import check_keywords
 
 
 class EditControls(ipywidgets.VBox):
@@ -27,7 +26,6 @@ class EditControls(ipywidgets.VBox):
     def __init__(
         self, deformation: Deformation, children: Sequence[ipywidgets.Widget], **kwargs: Any
     ) -> None:
-        check_keywords(type(self), kwargs)
         self.deformation = deformation
         """The model that this is a view of."""
         self.refusal = ipywidgets.HTML()

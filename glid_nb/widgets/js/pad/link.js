@@ -51,6 +51,7 @@ export class Link {
   }
 
   answered({ ack, refusal }) {
+    if (ack === this.awaited) clearTimeout(this.overdue);
     this.acknowledged = Math.max(this.acknowledged, ack);
     this.report({ busy: false, refusal });
     const due = this.answers.filter(({ seq }) => seq <= ack);
