@@ -39,7 +39,7 @@ def _widgets() -> set[str]:
 @pytest.mark.parametrize("name", MAKERS)
 def test_an_unknown_keyword_is_refused_and_leaves_nothing(name: str) -> None:
     before = _widgets()
-    with pytest.raises(TypeError, match=f"{name} takes no argument 'colour'"):
+    with pytest.raises(TypeError, match=f"{name} has no argument 'colour'"):
         MAKERS[name](colour="red")
     assert _widgets() == before
 
