@@ -17,12 +17,14 @@ from glid_nb.geometry import Domain
 from glid_nb.geometry.panels import Panels
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session.deformation import Deformation
+from glid_nb.session.live_solver import Frame
 from glid_nb.session.moment import Moment
 from glid_nb.widgets.arguments import LEAST_CANVAS, check_keywords, check_vertices
 from glid_nb.widgets.gestures import Event, PinGestures
+from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import OVERLAYS
 from glid_nb.widgets.pane import Pane
-from glid_nb.widgets.scene import EvaluatedIn
+from glid_nb.widgets.scene import Drawing, Range
 
 Array = NDArray[Any]
 
@@ -112,6 +114,8 @@ class DeformCanvas(ipywidgets.HBox):
         self._closed = False  # a frame may arrive while the canvas closes
         self._when_drawn: list[Callable[[], None]] = []
         self._panels_at = self._range_at = 0.0
+        # What the panels that are drawn were taken from, and these.
+        self._panels: tuple[PanelCertificate | Frame, tuple[Panels, Array]] | None = None
         super().__init__([self.pane], **kwargs)
         # A box that may scroll would shrink to nothing inside another one.
         self.layout.overflow, self.layout.flex = "visible", "0 0 auto"
@@ -121,23 +125,19 @@ class DeformCanvas(ipywidgets.HBox):
         # Frames come from the solver's thread, events from the page's: both hold the model's lock.
         # The solver sets the pace: while it works, its next frame acknowledges events.
         model = self.deformation
-        self.pane.stage.serve(model, self, busy=lambda: model.busy)
-        self.pane.stage.observe(self._on_drawn, ["drawn"])
-        self._stop = model.observe(self._on_model)
-        self.observe(self._show_overlay, ["overlay"])
-        self.observe(self._show_lines, ["show_cage", "show_offset_cage"])
-        self.observe(self._on_show_panels, ["show_panels"])
-        self.observe(self._show_source, ["show_source"])
-        with self.deformation.locked():
-            self._draw(self.deformation.moment)
-            if len(self.deformation.pose):
+        with model.locked():
+            self._draw()
+            if len(model.pose):
                 self.fit()
             self._complete = True
-            # Overlays that were given as arguments.
-            self._show_overlay()
-            self._show_lines()
-            self._show_panels(self.deformation.moment)
-            self._show_source()
+            self._show_source()  # and what else was given as arguments
+            self._draw(place_legend=True)
+            self.pane.stage.serve(model, self, busy=lambda: model.busy)
+            self._stop = model.observe(self._on_model)
+        self.pane.stage.observe(self._on_drawn, ["drawn"])
+        self.observe(lambda _: self._redraw(), ["show_cage", "show_offset_cage"])
+        self.observe(lambda _: self._redraw(place_legend=True), ["overlay", "show_panels"])
+        self.observe(self._show_source, ["show_source"])
 
     def fit(self) -> None:
         """Make the whole shape and all targets visible."""
@@ -163,12 +163,10 @@ class DeformCanvas(ipywidgets.HBox):
         super().close()
 
     def _pane(self, size: tuple[int, int], interactive: bool) -> Pane:
-        model = self.deformation
-        map_ = model.map if interactive else model.state.identity
+        state = self.deformation.state
         pane = Pane(
             self.image,
-            map_,
-            model.state.current.energy,
+            state.map if interactive else state.identity,
             size,
             interactive=interactive,
             n_vertices=self._n_vertices,
@@ -179,48 +177,79 @@ class DeformCanvas(ipywidgets.HBox):
 
     def _adapt(self, pane: Pane) -> None:
         with self.deformation.locked():
-            if not self._closed and pane.adapt():
-                moment = self.deformation.moment
-                self._draw(moment)
-                self._show_panels(moment)
+            if not self._closed:
+                pane.adapt()
 
     def _resize(self, _: Any = None) -> None:
         self.layout.height = f"{self.pane.stage.height}px"
 
-    # From the model
+    # Drawing; the model is locked
 
     def _on_model(self, what: str) -> None:
         """A change of the model, told in whichever thread made it."""
-        model = self.deformation
-        with model.locked():
+        with self.deformation.locked():
             if self._closed:
                 return
-            moment = model.moment
             if what in ("state", "frame", "selection"):
-                self._draw(moment)
-            if what == "frame":
-                self._show_panels(moment)
-                if moment.solved:
-                    self.pane.fit_range(widen_only=bool(moment.dragged))
-                    self._place_legend(moment)
+                self._draw(place_legend=what == "frame" and self.deformation.solved)
             if what in ("frame", "status"):
                 self.pane.stage.acknowledge()
 
-    def _draw(self, moment: Moment) -> None:
-        state, shown = moment.state, moment.shown
-        handles = state.pose.handles
-        images = shown(handles) if len(handles) else np.empty((0, 2))
-        self.pane.show(moment.map, state.pose.targets, images, moment.selection)
-        self.pane.show_comparison(moment.comparison)
-        # Colours stay comparable during a drag: a range then only grows.
-        moving, now = moment.busy or bool(moment.dragged), time.monotonic()
-        if not moving or now - self._range_at > _PANELS_INTERVAL:
-            self._range_at = now
-            self.pane.fit_range(widen_only=moving)
-        if self.overlay == "energy":
-            self.pane.show_overlay(self.overlay, state.current.energy)
+    def _redraw(self, *, place_legend: bool = False) -> None:
+        """Draw what is seen in another way."""
+        with self.deformation.locked():
+            if not self._closed:
+                self._draw(place_legend=place_legend)
+
+    def _draw(self, *, place_legend: bool = False) -> None:
+        """Draw what the model is at this moment."""
+        moment = self.deformation.moment
+        state, pose = moment.state, moment.state.pose
+        images = moment.shown(pose.handles) if len(pose) else pose.handles
+        lines = {"cage": self.show_cage, "offset_cage": self.show_offset_cage}
+        drawing = Drawing(
+            moment.map,
+            moment.comparison,
+            pose.targets,
+            images,
+            moment.selection,
+            self.overlay,
+            state.current.energy,
+            self._color_range(moment),
+            panels=self._panels_of(moment) if self.show_panels else None,
+            **lines,
+        )
+        self.pane.show(drawing)
         if self.source is not None:
-            self.source.show(state.identity, np.empty((0, 2)), handles, ())
+            self.source.show(Drawing(state.identity, images=pose.handles, **lines))
+        if place_legend and not moment.dragged:  # where it would jump
+            self.pane.place_legend()
+
+    def _color_range(self, moment: Moment) -> Range:
+        """Colours stay comparable during a drag: a range then only grows."""
+        moving, now = moment.busy or bool(moment.dragged), time.monotonic()
+        if moving and not moment.solved and now - self._range_at <= _PANELS_INTERVAL:
+            return "keep"
+        self._range_at = now
+        return "widen" if (moment.dragged if moment.solved else moving) else "fit"
+
+    def _panels_of(self, moment: Moment) -> tuple[Panels, Array]:
+        """The boundary's panels; while the solver works those of not long ago."""
+        frame, now = moment.frame, time.monotonic()
+        if frame is None or frame.panels is None or not len(frame.sigma2_lower):
+            proof = self.deformation.certificate_of(moment.map).panels
+            if self._panels is None or self._panels[0] is not proof:
+                self._panels = (proof, (_as_panels(proof), proof.sigma2_lower))
+        elif (
+            self._panels is None
+            or not isinstance(before := self._panels[0], Frame)
+            or before.map.domain is not frame.map.domain
+            or frame.solution is not None
+            or now - self._panels_at > _PANELS_INTERVAL
+        ):
+            self._panels_at = now
+            self._panels = (frame, (frame.panels, frame.sigma2_lower))
+        return self._panels[1]
 
     # From the page
 
@@ -241,44 +270,6 @@ class DeformCanvas(ipywidgets.HBox):
         for callback in waiting:
             callback()
 
-    # From code and menus
-
-    def _show_overlay(self, _: Any = None) -> None:
-        with self.deformation.locked():
-            moment = self.deformation.moment
-            self.pane.show_overlay(self.overlay, moment.state.current.energy)
-            self._place_legend(moment)
-
-    def _place_legend(self, moment: Moment) -> None:
-        """Not during a drag, where it would jump."""
-        stage = self.pane.stage
-        if (stage.legend or stage.panel_legend) and not moment.dragged:
-            self.pane.place_legend(moment.shown, moment.state.pose.targets)
-
-    def _show_lines(self, _: Any = None) -> None:
-        with self.deformation.locked():
-            for pane in (self.pane, self.source):
-                if pane is not None:
-                    pane.show_lines(self.show_cage, self.show_offset_cage)
-
-    def _on_show_panels(self, _: Any) -> None:
-        with self.deformation.locked():
-            moment = self.deformation.moment
-            self._show_panels(moment)
-            self._place_legend(moment)
-
-    def _show_panels(self, moment: Moment) -> None:
-        if not self.show_panels:
-            self.pane.show_panels(None, np.empty(0))
-            return
-        frame, now = moment.frame, time.monotonic()
-        if frame is None or frame.panels is None or not len(frame.sigma2_lower):
-            proof = self.deformation.certificate_of(moment.map).panels
-            self.pane.show_panels(_as_panels(proof), proof.sigma2_lower)
-        elif frame.solution is not None or now - self._panels_at > _PANELS_INTERVAL:
-            self._panels_at = now
-            self.pane.show_panels(frame.panels, frame.sigma2_lower)
-
     def _show_source(self, _: Any = None) -> None:
         with self.deformation.locked():
             if self.show_source and self.source is None:
@@ -291,9 +282,8 @@ class DeformCanvas(ipywidgets.HBox):
         stage, width = self.pane.stage, round(_SOURCE_SHARE * self.pane.stage.width)
         stage.width -= width
         self.source = self._pane((width, stage.height), interactive=False)
-        self.source.show_lines(self.show_cage, self.show_offset_cage)
         self.children = [self.source, self.pane]
-        self._draw(self.deformation.moment)
+        self._draw()
         self.fit()
 
     def _close_source(self, closing: Pane) -> None:

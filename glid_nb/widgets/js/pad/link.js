@@ -7,10 +7,10 @@ const BUSY_AFTER = 250; // ms without an answer, from when on the page says that
 const ACKNOWLEDGE_TIMEOUT = 2000;
 
 export class Link {
-  // report({busy, refusal}): an answer came, or is overdue.
-  constructor(model, report = () => {}) {
-    this.model = model;
-    this.report = report;
+  // report({busy, refusal}): an answer came, or is overdue. idle(flag): whether everything that was
+  // sent has been answered.
+  constructor(model, report = () => {}, idle = () => {}) {
+    Object.assign(this, { model, report, showIdle: idle });
     this.view = Math.random().toString(36).slice(2);
     this.queue = [];
     this.buffers = [];
@@ -23,7 +23,6 @@ export class Link {
     model.on("msg:custom", this.receive);
   }
 
-  // Whether everything that was sent has been answered.
   get idle() {
     return this.acknowledged === this.number;
   }
@@ -36,6 +35,7 @@ export class Link {
     if (last?.replaces && last.replaces === event.replaces) this.queue.pop();
     this.queue.push({ ...event, seq });
     this.buffers.push(...buffers);
+    this.showIdle(false);
     this.flush();
     return new Promise((resolve) => this.answers.push({ seq, resolve }));
   }
@@ -57,6 +57,7 @@ export class Link {
     const due = this.answers.filter(({ seq }) => seq <= ack);
     this.answers = this.answers.filter(({ seq }) => seq > ack);
     for (const { resolve } of due) resolve(refusal);
+    this.showIdle(this.idle);
     if (ack < this.awaited) return;
     // The frame came before this: it is drawn when the page draws next.
     if (document.hidden) this.release();

@@ -23,17 +23,14 @@ function render({ model, el }) {
     busy = report.busy;
     if (report.refusal || !busy) refusal = report.refusal;
     showStatus();
-    showIdle();
-    if (link.idle) showTool(model.get("shown").tool);
+  }, (idle) => {
+    root.dataset.idle = idle;
+    if (idle) showTool(model.get("shown").tool);
   });
-  const showIdle = () => (root.dataset.idle = link.idle);
+  root.dataset.idle = true;
 
   // Has the kernel do something, after all that was asked before.
-  const act = (type, content = {}, buffers = []) => {
-    const answer = link.put({ type, ...content }, buffers);
-    showIdle();
-    return answer;
-  };
+  const act = (type, content = {}, buffers = []) => link.put({ type, ...content }, buffers);
 
   async function upload(file) {
     const name = file.name || "the picture";
@@ -149,7 +146,6 @@ function render({ model, el }) {
   setHeight();
   showState();
   showPicture();
-  showIdle();
 
   return () => {
     for (const [name, listener] of Object.entries(listeners)) model.off(name, listener);
