@@ -314,6 +314,8 @@ class EditorModel(Observed):
         shelved = next((s for s in self._shelf if s[0].image is image), None)
         if shelved is None:
             if self._named_path is not None and self._session is not None:
+                if self._autosave is not None:
+                    self._autosave.flush()  # its name is not free
                 self._save_to(free_sibling(self._named_path))
             self._replace(Deformation(domain, begin=False))
             return

@@ -50,6 +50,9 @@ class SolverMonitor(ipywidgets.VBox):
         Whether there are plots at all.
     """
 
+    # ipywidgets closes also what was refused while it was made.
+    _complete = False
+
     def __init__(
         self,
         deformation: Deformation,
@@ -80,6 +83,7 @@ class SolverMonitor(ipywidgets.VBox):
         self.image.add_class("glid-plots")
         self.image.layout.width, self.image.layout.height = f"{width}px", f"{height}px"
         self._stop = deformation.observe(self._on_model)
+        self._complete = True
         self._worker.submit(None)
 
     @property
@@ -95,6 +99,8 @@ class SolverMonitor(ipywidgets.VBox):
 
     def close(self) -> None:
         """Stop watching; the model lives on."""
+        if not self._complete:
+            return
         self._stop()
         self._worker.close()
         super().close()
