@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb.certificate import Certificate, certify
-from glid_nb.compare import DeformationMap, MeshMap
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import DeformationMap, MeshMap
 from glid_nb.session import actions
 from glid_nb.session.edit_state import EditedPose, EditError, EditState, Solution
 from glid_nb.session.history import History

@@ -195,7 +195,6 @@ class _Batch:
         program = _program(
             self.devices,
             options.hessian,
-            options.certificate,
             capacity_for(options.iterations_per_call),
         )
         clock = compilation_clock()
@@ -282,7 +281,7 @@ def dealt(count: int, devices: int, per_device: int) -> Array:
 
 
 @functools.cache
-def _program(devices: tuple[Any, ...], hessian: Any, certificate: Any, capacity: int) -> Any:
+def _program(devices: tuple[Any, ...], hessian: Any, capacity: int) -> Any:
     """The compiled program for poses on these devices; each device loops on its own."""
     mesh = jax.sharding.Mesh(np.array(devices), ("poses",))
     # A CPU gains nothing from lockstep, in which every pose takes every branch; and the thread pool
@@ -312,7 +311,6 @@ def _program(devices: tuple[Any, ...], hessian: Any, certificate: Any, capacity:
                 jnp.zeros((len(unknowns.free),) * 2),
                 settings._replace(iterations=limit),
                 hessian=hessian,
-                certificate=certificate,
                 capacity=capacity,
             )
             # A factor serves one pose at one time; it need not come back.

@@ -281,7 +281,6 @@ class _Loop:
             self.factor,
             settings,
             hessian=options.hessian,
-            certificate=options.certificate,
             capacity=capacity_for(options.iterations_per_call),
         )
 

@@ -14,10 +14,10 @@ from numpy.typing import ArrayLike
 from glid_nb._jax import once_loaded
 from glid_nb._runtime import enable_compilation_cache
 from glid_nb.certificate import Certificate
-from glid_nb.compare import MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.imaging.render import View
+from glid_nb.methods import MeshMap
 from glid_nb.session import Document
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditedPose, EditError
