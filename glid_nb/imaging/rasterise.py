@@ -281,7 +281,7 @@ def _composed(
     n_places: int,
     height_at: Callable[[Samples], Floats],
 ) -> NDArray[np.float32]:
-    """(n_places, 4) premultiplied colours: those of the samples (k, 4), the higher over the lower."""
+    """(n_places, 4) premultiplied colours of samples (k, 4), the higher ones over the lower."""
     canvas = np.zeros((n_places, 4), np.float32)
     place = samples.place
     several = np.bincount(place, minlength=n_places)[place] > 1
