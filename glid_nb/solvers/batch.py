@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import check_type
 from glid_nb._jax import jax, jnp, lax
 from glid_nb._runtime import (
     COMPILER_OPTIONS,
@@ -30,7 +31,6 @@ from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import newton, outcome
 from glid_nb.solvers.align import aligned
-from glid_nb.solvers.arguments import check_type
 from glid_nb.solvers.discretisation import Discretisation, discretise
 from glid_nb.solvers.evaluation import Constraints
 from glid_nb.solvers.history import entries
