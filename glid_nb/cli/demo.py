@@ -9,14 +9,12 @@ for any other picture handles are placed automatically and one or two of them mo
 from __future__ import annotations
 
 import argparse
-import io
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 import glid_nb
 from glid_nb._errors import InputFileError, about
@@ -33,6 +31,8 @@ from glid_nb.cli.output import check_folder, write_all
 from glid_nb.cli.progress import Progress
 from glid_nb.cli.solving import check_interrupted, run_solver
 from glid_nb.cli.trace import cage_data, size_in_words
+from glid_nb.export.picture import png
+from glid_nb.imaging.render import rendering
 
 DEFAULT_SAMPLE = "gecko"
 DEFAULT_POSE = "gentle"
@@ -84,7 +84,7 @@ def run(chosen: argparse.Namespace) -> None:
     with progress.step("rendering"):
         deformed, cropped = _deformed(image, result.map)
     with progress.step("drawing the overview"):
-        figure = glid_nb.figure_png(glid_nb.overview(image, result, pose))
+        figure = glid_nb.figures.figure_png(glid_nb.figures.overview(image, result, pose))
 
     files: dict[Path, bytes | str] = {
         out / "deformed.png": deformed,
@@ -141,12 +141,10 @@ def _deformed(
     image: NDArray[np.unsignedinteger], harmonic_map: glid_nb.HarmonicMap
 ) -> tuple[bytes, bool]:
     """The deformed picture as PNG, and whether it had to be zoomed out to show all of it."""
-    rendering = glid_nb.rendering(image, harmonic_map)
-    if rendering.outside > _CROPPED:
-        return glid_nb.picture_png(image, harmonic_map, view="fit"), True
-    buffer = io.BytesIO()
-    Image.fromarray(rendering.picture).save(buffer, format="PNG")
-    return buffer.getvalue(), False
+    in_place = rendering(image, harmonic_map)
+    if in_place.outside <= _CROPPED:
+        return png(in_place.picture), False
+    return glid_nb.picture_png(image, harmonic_map, view="fit"), True
 
 
 def _rows(
