@@ -6,10 +6,14 @@ import argparse
 from typing import TYPE_CHECKING
 
 import glid_nb
+from glid_nb.energies import ENERGIES
 
 if TYPE_CHECKING:
     from glid_nb.energies import Energy
     from glid_nb.solvers import Options
+
+
+_WITH_S = " and ".join(name for name, energy in ENERGIES.items() if "s" in energy.parameters())
 
 
 def add_solver_arguments(parser: argparse.ArgumentParser) -> None:
@@ -20,13 +24,12 @@ def add_solver_arguments(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("energy and solver")
     group.add_argument(
         "--energy",
-        metavar="{iso,exp,amips,mips,arap}",
+        metavar=f"{{{','.join(ENERGIES)}}}",
         default="iso",
-        help="symmetric Dirichlet (default), its exponential, AMIPS, MIPS (conformal distortion "
-        "only), or as rigid as possible",
+        help="; ".join(f"{name}: {energy.label}" for name, energy in ENERGIES.items()),
     )
     group.add_argument(
-        "--s", type=float, metavar="S", help="parameter of exp and amips, above 0 (default 1)"
+        "--s", type=float, metavar="S", help=f"parameter of {_WITH_S}, above 0 (default 1)"
     )
     group.add_argument(
         "--p2p-weight", type=float, metavar="L", help="weight of the targets (default 1e5)"
@@ -74,8 +77,9 @@ def energy_of(chosen: argparse.Namespace) -> Energy:
     InputError
         It is unknown, its parameter is not positive, or it has none and one is given.
     """
-    if chosen.s is not None and chosen.energy in ("iso", "arap"):
-        raise glid_nb.InputError(f"--s is the parameter of exp and amips; {chosen.energy} has none")
+    known = ENERGIES.get(chosen.energy)
+    if chosen.s is not None and known is not None and "s" not in known.parameters():
+        raise glid_nb.InputError(f"--s is the parameter of {_WITH_S}; {chosen.energy} has none")
     return glid_nb.energy_by_name(chosen.energy, chosen.s)
 
 
