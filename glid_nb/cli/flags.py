@@ -12,6 +12,9 @@ from pathlib import Path
 from typing import Any
 
 import glid_nb
+from glid_nb.energies import ENERGIES
+
+_WITH_S = " and ".join(name for name, energy in ENERGIES.items() if "s" in energy.parameters())
 
 
 def add_solver_flags(parser: argparse.ArgumentParser) -> None:
@@ -19,12 +22,11 @@ def add_solver_flags(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument_group("energy and solver").add_argument
     add(
         "--energy",
-        metavar="{iso,exp,amips,mips,arap}",
+        metavar=f"{{{','.join(ENERGIES)}}}",
         default="iso",
-        help="symmetric Dirichlet (default), its exponential, AMIPS, MIPS (conformal distortion "
-        "only), or as rigid as possible",
+        help="; ".join(f"{name}: {energy.label}" for name, energy in ENERGIES.items()),
     )
-    add("--s", type=float, metavar="S", help="parameter of exp and amips, above 0 (default 1)")
+    add("--s", type=float, metavar="S", help=f"parameter of {_WITH_S}, above 0 (default 1)")
     add("--p2p-weight", type=float, metavar="L", help="weight of the targets (default 1e5)")
     add(
         "--conformal",
@@ -118,7 +120,7 @@ def energy_of(chosen: argparse.Namespace) -> glid_nb.Energy:
     """
     energy = glid_nb.energy_by_name(chosen.energy, chosen.s)
     if chosen.s is not None and not hasattr(energy, "s"):
-        raise glid_nb.InputError(f"--s is the parameter of exp and amips; {energy.name} has none")
+        raise glid_nb.InputError(f"--s is the parameter of {_WITH_S}; {energy.name} has none")
     return energy
 
 
