@@ -17,7 +17,7 @@ from glid_nb.harmonic import FixedPoints, HarmonicMap, as_complex
 from glid_nb.methods import MeshMap
 from glid_nb.methods.mesh.operators import MeshOperators
 from glid_nb.widgets.overlays import N_COLORS, rgb
-from glid_nb.widgets.shader import ShaderMap, glsl
+from glid_nb.widgets.shader import ShaderMap, fragment_shader, glsl
 
 Array = NDArray[Any]
 Uniforms = dict[str, dict[str, Any]]
@@ -131,7 +131,7 @@ class MapLayer(Layer):
         else:
             uniforms = {**shader_map.uniforms(map), **uniforms}
             head = shader_map.defines() + glsl("harmonic.glsl")
-        vertex, fragment = head + glsl(shaders[0]), glsl(shaders[1])
+        vertex, fragment = head + glsl(shaders[0]), fragment_shader(shaders[1])
         super().__init__(points, triangles, attributes, vertex, fragment, uniforms)
 
     def show_map(self, map: HarmonicMap) -> None:
@@ -158,7 +158,7 @@ class ComparisonLayer(Layer):
         self._mean = _mean_over_neighbours(mesh.triangles, self._operators.weights)
         vertex = glsl("image_buffer.glsl") + glsl("picture.vert")
         moved = _moved(*self._evaluated(map))
-        fragment = glsl("picture.frag")
+        fragment = fragment_shader("picture.frag")
         super().__init__(mesh.vertices, map.layered, moved, vertex, fragment, uniforms)
         # Turned-over triangles are seen from their back, which is all that this material draws.
         mark: Uniforms = {

@@ -23,7 +23,6 @@ from glid_nb.widgets.overlays import (
     OVERLAYS,
     color_range,
     color_stops,
-    energy_kind,
     margin_stops,
     rgb,
 )
@@ -35,7 +34,7 @@ from glid_nb.widgets.ribbons import (
     panel_ribbon,
     panel_values,
 )
-from glid_nb.widgets.shader import UNIFORM_VECTORS, ShaderMap
+from glid_nb.widgets.shader import UNIFORM_VECTORS, ShaderMap, energy_uniform
 
 Array = NDArray[Any]
 Range = Literal["keep", "widen", "fit"]
@@ -279,14 +278,13 @@ class Scene:
 
     def _picture_uniforms(self) -> dict[str, dict[str, Any]]:
         xmin, ymin, xmax, ymax = self.frame.bounds
-        kind = energy_kind(self._energy)
         # The shader cannot know a user's own function; the picture is shown instead.
-        unknown = self._overlay == "energy" and kind is None
+        unknown = self._overlay == "energy" and self._energy.shader is None
         number = 0 if unknown else OVERLAYS[self._overlay].number
         return {
             "frame": {"value": [xmin, ymin, xmax - xmin, ymax - ymin]},
             "overlay": {"value": float(number)},
-            "energy": {"value": list(kind or (0.0, 1.0))},
+            "energy": {"value": energy_uniform(self._energy)},
             "color_range": {"value": list(self.color_range)},
             "colors": {"value": color_stops().ravel().tolist()},
             "pixel": {"value": 0.02},

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import glid_nb
-from glid_nb.cli.errors import CommandError
+from glid_nb._errors import InputError
 from glid_nb.cli.output import check_folder
 from glid_nb.cli.progress import Progress
 from studies.benchmarks import bench_all, render
@@ -58,7 +58,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if chosen.render:
         for name in ("reference", "only", "quick", "fresh"):
             if getattr(chosen, name):
-                raise CommandError(f"--render measures nothing; leave out --{name}")
+                raise InputError(f"--render measures nothing; leave out --{name}")
         print(render(chosen.out))
         return
     glid_nb.enable_compilation_cache()
