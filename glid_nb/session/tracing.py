@@ -144,21 +144,16 @@ class TracingModel(Observed):
         self, image: ImageSource | None = None, options: TraceOptions | None = None
     ) -> None:
         chosen = options if options is not None else TraceOptions()
-        state = TracingState(
-            None if image is None else _pixels(image),
-            replace(chosen, scribbles=_NO_SCRIBBLES if chosen.method == "scribbles" else None),
-            chosen.scribbles,
-        )
-        self._begin(state)
+        pixels = None if image is None else _pixels(image)
+        self._begin(TracingState(pixels, _without_strokes(chosen), chosen.scribbles))
 
     @classmethod
     def from_document(cls, document: Document) -> TracingModel:
         """A model that stands where the document's tracing did."""
         model = cls.__new__(cls)
-        options = document.trace_options
         state = TracingState(
             document.image,
-            replace(options, scribbles=_NO_SCRIBBLES if options.method == "scribbles" else None),
+            _without_strokes(document.trace_options),
             document.scribbles,
             document.cage.loops,
             document.domain,
@@ -510,6 +505,10 @@ class TracingModel(Observed):
             raise TraceError("there is no picture yet; open one first")
         x, y = loop_edits.checked_point(point)
         frame.index_at((float(x), float(y)))
+
+
+def _without_strokes(options: TraceOptions) -> TraceOptions:
+    return replace(options, scribbles=_NO_SCRIBBLES if options.method == "scribbles" else None)
 
 
 def _problem(error: TraceError | GeometryError, frame: PixelFrame) -> TracingProblem:

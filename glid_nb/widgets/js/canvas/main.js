@@ -66,6 +66,7 @@ function render({ model, el }) {
   const box = element(el, "div", "pad");
   box.setAttribute("role", "application");
   box.setAttribute("aria-label", "Deformation canvas: arrow keys move, Enter adds a handle");
+  box.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
   const paper = element(box, "canvas", "paper");
   const bars = element(box, "div", "legend");
   const notice = element(box, "div", "notice");

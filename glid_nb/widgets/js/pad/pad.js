@@ -34,7 +34,6 @@ export class Pad {
     this.found = this.rests = null; // what is below a pointer that rests, and where that is
     this.space = this.focused = false;
     element.tabIndex = 0;
-    element.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
     this.on("pointerdown", (e) => this.down(e));
     this.on("pointermove", (e) => this.move(e));
     this.on("pointerup", (e) => this.up(e, "up"));
