@@ -73,7 +73,7 @@ def around(loops: Loops, point: ArrayLike) -> int | None:
     return next((i for i, loop in holes if contains(loop, point)), None)
 
 
-def contains(loop: ArrayLike, point: ArrayLike) -> bool:
+def contains(loop: Loop, point: ArrayLike) -> bool:
     """Whether a loop goes around a point."""
     return bool(shapely.contains_xy(shapely.Polygon(loop), *checked_point(point)))
 

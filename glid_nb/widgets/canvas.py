@@ -206,7 +206,7 @@ class DeformCanvas(ipywidgets.HBox):
         moment = self.deformation.moment
         state, pose = moment.state, moment.state.pose
         images = moment.shown(pose.handles) if len(pose) else pose.handles
-        lines = {"cage": self.show_cage, "offset_cage": self.show_offset_cage}
+        cage, offset_cage = self.show_cage, self.show_offset_cage
         drawing = Drawing(
             moment.map,
             moment.comparison,
@@ -216,12 +216,16 @@ class DeformCanvas(ipywidgets.HBox):
             self.overlay,
             state.current.energy,
             self._color_range(moment),
-            panels=self._panels_of(moment) if self.show_panels else None,
-            **lines,
+            cage,
+            offset_cage,
+            self._panels_of(moment) if self.show_panels else None,
         )
         self.pane.show(drawing)
         if self.source is not None:
-            self.source.show(Drawing(state.identity, images=pose.handles, **lines))
+            at_rest = Drawing(
+                state.identity, images=pose.handles, cage=cage, offset_cage=offset_cage
+            )
+            self.source.show(at_rest)
         if place_legend and not moment.dragged:  # where it would jump
             self.pane.place_legend()
 

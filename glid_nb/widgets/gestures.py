@@ -33,7 +33,7 @@ class Gestures:
     method ``_down``, ``_move``, ... for each of the types that it takes.
     """
 
-    takes: ClassVar[frozenset[str]] = frozenset({"down", "move", "up", "cancel", "remove", "key"})
+    takes: ClassVar[frozenset[str]] = frozenset({"down", "move", "up", "cancel", "key"})
     """The types of events that mean something."""
 
     def __init__(self, model: Observed) -> None:
@@ -79,6 +79,8 @@ class PinGestures(Gestures):
     fit : callable
         Called without arguments to make everything visible.
     """
+
+    takes = Gestures.takes | {"remove"}
 
     def __init__(self, deformation: Deformation, fit: Callable[[], None]) -> None:
         super().__init__(deformation)

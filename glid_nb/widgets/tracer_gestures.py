@@ -117,7 +117,8 @@ class TraceGestures(Gestures):
             return  # the page moves the view, or leaves a path
         press.moved |= np.hypot(*(point - press.start)) > _CLICK * event["unit"]
         if press.moved:
-            self.model.move_vertex(*press.found.vertex, point + press.offset, press)
+            x, y = point + press.offset
+            self.model.move_vertex(*press.found.vertex, (x, y), press)
 
     def _up(self, event: Event) -> None:
         press, self._press = self._press, None
@@ -148,11 +149,6 @@ class TraceGestures(Gestures):
     def _cancel(self, _: Event) -> None:
         press, self._press = self._press, None
         self.model.cancel(press)
-
-    def _remove(self, event: Event) -> None:
-        vertex = self.find(place(event), event["reach"]).vertex
-        if vertex is not None:
-            self._delete(vertex)
 
     def _delete(self, *vertices: Vertex) -> None:
         self._selected = ()

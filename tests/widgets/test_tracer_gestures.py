@@ -104,14 +104,10 @@ def test_shift_selects_several_that_a_key_deletes(hand: Hand) -> None:
     assert hand.gestures.selected == ()
 
 
-def test_removing_by_button_and_by_a_long_press(hand: Hand) -> None:
+def test_the_right_button_deletes(hand: Hand) -> None:
     n = len(hand.model.loops[0])
     hand.send("down", *hand.vertex(0), button=2)
     assert len(hand.model.loops[0]) == n - 1
-    hand.send("down", *hand.vertex(1))
-    hand.send("cancel")
-    hand.send("remove", *hand.vertex(1))
-    assert len(hand.model.loops[0]) == n - 2
 
 
 def test_a_double_click_adds_a_vertex_and_two_clicks_do_not(hand: Hand) -> None:

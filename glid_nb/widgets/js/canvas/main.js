@@ -104,6 +104,7 @@ function render({ model, el }) {
   const pad = model.get("interactive") ? new Pad(box, view, link, {
     reach: REACH,
     keys: KEYS,
+    removesByLongPress: true,
     find: (point, reach) => markAt(marks(), point, reach),
     held: ({ mark }) => {
       const { selected, targets } = marks();

@@ -23,6 +23,8 @@ export class Pad {
   //   held(found): points by their marks that go with the hand
   //   pans(found), paints(): whether the left button moves the view, or leaves a path
   //   cursor(found): the pointer's shape
+  //   removesByLongPress, wheelNeedsFocus: whether a finger that rests removes what it is on, and
+  //     whether the wheel zooms only where the keys go
   //   changed(): what is drawn has changed
   constructor(element, view, link, canvas) {
     Object.assign(this, { element, view, link, canvas });
@@ -104,7 +106,7 @@ export class Pad {
     this.pans = left && this.canvas.pans(found);
     this.path = left && this.canvas.paints() ? [this.view.toWorld(place)] : [];
     this.send("down", place, e);
-    if (e.pointerType === "touch" && mark !== undefined) {
+    if (this.canvas.removesByLongPress && e.pointerType === "touch" && mark !== undefined) {
       this.longPress = setTimeout(() => this.pressedLong(e, place), LONG_PRESS);
     }
     this.shape();
