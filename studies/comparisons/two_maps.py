@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.energies import Energy
-from glid_nb.geometry import Triangulation, uniform_boundary_samples
+from glid_nb.geometry import Triangulation, uniform_panels
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import MethodResult
 from studies.comparisons import drawing
@@ -73,7 +73,7 @@ def _distortion(case: Case, result: MethodResult, display: Triangulation) -> dic
     """Mean over the boundary and maximum over the domain of the symmetric Dirichlet density."""
     map_ = result.map
     assert isinstance(map_, HarmonicMap)
-    z = uniform_boundary_samples(case.problem.domain.cage, _BOUNDARY_SAMPLES).points
+    z = uniform_panels(case.problem.domain.cage, _BOUNDARY_SAMPLES).start
     boundary, inside = np.stack([np.real(z), np.imag(z)], axis=-1), display.vertices
     density = [density_at(map_, points) for points in (boundary, inside)]
     return {
