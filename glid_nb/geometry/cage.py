@@ -154,7 +154,7 @@ class Cage:
         rest = np.flatnonzero(~inside)
         if rest.size:
             # Distances take longest; most points are outside of a wider polygon too.
-            wider = shapely.buffer(self.polygon, 2 * max(reach, 1e-3 * self.longer_side))
+            wider = shapely.buffer(self.polygon, 2 * max(reach, 1e-4 * self.longer_side))
             shapely.prepare(wider)
             rest = rest[shapely.intersects_xy(wider, flat[rest, 0], flat[rest, 1])]
             inside[rest] = shapely.dwithin(self._outline, shapely.points(flat[rest]), reach)
