@@ -56,7 +56,7 @@ _AGAINST = {
     "vertices": ("vertices", 3),
     "holes": ("unknowns", 3),
     "panels": ("panels", 1),
-    "handles": ("handles", 1),
+    "handles": ("handles", 0),
 }
 _OPTIONS = Options(restarts=0)
 _STEPS = 2  # iterations that are timed: of equal work, one Hessian each and no corrections
@@ -210,7 +210,8 @@ def _curve(axes: Axes, x: list[float], y: list[float], power: int) -> None:
     """The measured values, and a dashed line of the expected power that ends at the last one."""
     axes.loglog(x, y, "o-", color=BLUE, ms=4, lw=1.2)
     axes.margins(0.08)
-    limits = axes.get_ylim()
+    # A decade at least, so that noise does not look like growth.
+    limits = min(axes.get_ylim()[0], max(y) / 10), axes.get_ylim()[1]
     ends = np.geomspace(x[0], x[-1], 2)
     line = y[-1] * (ends / x[-1]) ** power
     axes.plot(ends, line, "--", color=GREY, lw=0.9, zorder=0, label=f"slope {power}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import jax.numpy as jnp
@@ -11,11 +10,9 @@ from numpy.typing import NDArray
 
 from glid_nb._runtime import double_precision
 from glid_nb.certificate import bdhm, certify, derivative_bound_weights
-from glid_nb.figures.style import BLUE, LINE, ORANGE, SMALL
 from glid_nb.geometry import panels_between, uniform_boundary_samples
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.solvers.discretisation import UNIFORM_SAMPLES
-from studies import figures
 from studies.cases import Case
 from studies.compare.shapes import some
 from studies.runs import outcome, run
@@ -25,8 +22,6 @@ from studies.tables import Row, percent
 
 Array = NDArray[Any]
 
-_LINES = (("bdhm", "BDHM", ORANGE, 3.0), ("ours", "paper, Section 8", BLUE, 1.0))
-"""Name, colour and width over the usual: the wide one is seen beneath the other."""
 _MOST_ITERATIONS = 100
 PAPER_SEGMENTS = 529
 """Those of Figure 7, but for edges that become whole numbers of them."""
@@ -84,30 +79,6 @@ def refused_segments(map_: HarmonicMap, constants: Any) -> int:
     return int((~(proof.panels.sigma2_lower > 0)).sum())
 
 
-def draw(cases: list[Measurement], folder: Path) -> None:
-    """The constants on all segments of the first shape, and the energies of all."""
-    figure = figures.figure(10.0, 3.0)
-    axes = figure.subplots(1, 1 + len(cases), width_ratios=(1.5, *(1,) * len(cases)))
-    for name, label, color, width in _LINES:
-        values = cases[0]["arrays"][name]
-        axes[0].semilogy(
-            values, color=color, lw=0.7 * width, label=f"{label} (mean {values.mean():.2f})"
-        )
-    figures.label_axes(axes[0], "segment", "Lipschitz constant of $f_z$", cases[0]["name"])
-    # Room for the legend above the data.
-    axes[0].set_ylim(top=8 * max(cases[0]["arrays"][name].max() for name, *_ in _LINES))
-    axes[0].legend(fontsize=SMALL, frameon=False, loc="upper right", ncols=2)
-    for ax, data in zip(axes[1:], cases, strict=True):
-        for name, label, color, width in _LINES:
-            energy = figures.values_of(data["runs"][name]["energy"])
-            ax.semilogy(energy, color=color, lw=width * LINE, label=label, marker=".", ms=3)
-            if data["runs"][name]["status"] == "blocked":
-                ax.plot(len(energy) - 1, energy[-1], "x", color=color, ms=7)
-        figures.label_axes(ax, "iteration", "energy", data["name"])
-        ax.legend(fontsize=SMALL, frameon=False)
-    figures.save(figure, folder / "lipschitz.png")
-
-
 def tables(found: list[Measurement]) -> dict[str, list[Row]]:
     """Means of the constants, and how Newton's method ends under either."""
     rows: list[Row] = []
@@ -138,5 +109,4 @@ STUDY = Study(
     "lipschitz",
     on_cases(some(("raptor", "giraffe"), "gecko-extreme"), measure),
     tables,
-    draw,
 )
