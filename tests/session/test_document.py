@@ -21,13 +21,8 @@ from glid_nb.energies import AMIPS, CustomEnergy, SymmetricDirichlet
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.methods import MethodChoice
-from glid_nb.session.document import (
-    Document,
-    DocumentError,
-    NamedPose,
-    load_document,
-    save_document,
-)
+from glid_nb.session.document import Document, DocumentError, NamedPose
+from glid_nb.session.document_file import load_document, save_document
 from glid_nb.solvers import Options, Pose
 
 from ..domains import domain, random_map
@@ -315,6 +310,7 @@ BAD: list[tuple[str, Callable[[Data], Any], str]] = [
     ("too many poses", lambda d: {**d, "poses": d["poses"] * 501}, "1002"),
     ("a pose without phi", lambda d: {**d, "poses": [without("phi")(d["poses"][0])]}, "phi"),
     ("an unknown key in a pose", in_pose(colour="red"), "unknown key 'colour'"),
+    ("a key misspelt", in_pose(methode={}), "'methode'; did you mean 'method'"),
     ("an unknown method", in_pose(method={"name": "magic", "settings": {}}), "method 'magic'"),
     ("a method as text", in_pose(method="aqp"), "method must be an object"),
     (

@@ -32,8 +32,7 @@ def run_solver(
     ):
 
         def show(state: glid_nb.Progress) -> bool:
-            last = state.history[-1]
-            detail(f"iteration {last.iteration}, energy {last.energy:.6g}")
+            detail(_in_words(state))
             return interrupted()
 
         result = glid_nb.solve(domain, pose, energy, options, start=start, callback=show)
@@ -46,6 +45,13 @@ def check_interrupted(result: glid_nb.Result) -> None:
     """Raise KeyboardInterrupt after a solve that Ctrl-C stopped, once its files are written."""
     if result.status is glid_nb.Status.STOPPED:
         raise KeyboardInterrupt
+
+
+def _in_words(state: glid_nb.Progress) -> str:
+    if not state.history:  # the first step was refused: panels are split before it is tried again
+        return "before the first iteration, splitting panels"
+    last = state.history[-1]
+    return f"iteration {last.iteration}, energy {last.energy:.6g}"
 
 
 @contextmanager
