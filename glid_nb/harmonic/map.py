@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import real_array
 from glid_nb._errors import InputError, about
 from glid_nb._jax import jax, jnp
 from glid_nb._json import parse_json, write_json
-from glid_nb._numbers import real_array
 from glid_nb._runtime import double_precision
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import cauchy

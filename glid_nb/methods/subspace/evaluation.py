@@ -16,7 +16,7 @@ from glid_nb.certificate import PanelBounds
 from glid_nb.energies import Energy
 from glid_nb.harmonic.cauchy import Singularities
 from glid_nb.solvers import evaluation, line_search
-from glid_nb.solvers.discretisation import CertificateKind, Matrices
+from glid_nb.solvers.discretisation import Matrices
 from glid_nb.solvers.evaluation import Constraints, Samples
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
 from glid_nb.solvers.unknowns import Unknowns, expand, restrict_gradient, restrict_hessian
@@ -92,14 +92,12 @@ def hessian(setting: Setting, point: Point, *, curvature: Curvature) -> Float[Ar
     return upper + jnp.triu(upper, 1).T
 
 
-@functools.partial(jit, static_argnames="certificate", compiler_options=COMPILER_OPTIONS)
+@functools.partial(jit, compiler_options=COMPILER_OPTIONS)
 def advance(
     setting: Setting,
     point: Point,
     direction: Float[Array, " 4c"],
     may_refine: Bool[AnyArray, ""],
-    *,
-    certificate: CertificateKind,
 ) -> Move:
     """The best certified step along ``direction``, a change of the unknowns."""
     matrices, constraints = setting.matrices, setting.constraints
@@ -128,7 +126,7 @@ def advance(
         both = (evaluation.largest_modulus(at) for at in (point.coefficients, y))
         largest = jnp.maximum(*both)
         singularities = setting.singularities
-        return evaluation.bounds(matrices, singularities, y, samples, largest, certificate)
+        return evaluation.bounds(matrices, singularities, y, samples, largest)
 
     turning = evaluation.turning(matrices, point.samples.nodes)
     outcome, t, panels, refused = line_search.backtrack(

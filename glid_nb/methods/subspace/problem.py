@@ -134,7 +134,6 @@ class SubspaceProblem:
             point,
             jnp.asarray(direction),
             np.asarray(may_refine and self.can_refine),
-            certificate=self.options.certificate,
         )
 
     def refine(self, refused: Array) -> bool:
