@@ -144,7 +144,7 @@ def _deformed(
     in_place = rendering(image, harmonic_map)
     if in_place.outside <= _CROPPED:
         return png(in_place.picture), False
-    return glid_nb.picture_png(image, harmonic_map, view="fit"), True
+    return glid_nb.export.picture_png(image, harmonic_map, view="fit"), True
 
 
 def _rows(

@@ -47,7 +47,7 @@ def run(chosen: argparse.Namespace) -> None:
     image = glid_nb.read_image(chosen.image)
     size = tuple(chosen.size or image.shape[1::-1])
     with about(chosen.map), Progress().step("rendering"):
-        picture = glid_nb.picture_png(image, harmonic_map, size, chosen.view)
+        picture = glid_nb.export.picture_png(image, harmonic_map, size, chosen.view)
     write_all({chosen.out: picture})
     print(f"{chosen.out}: {size[0]} x {size[1]} pixels")
 
