@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.figures.style import BLUE, GREY
-from glid_nb.geometry import Triangulation, triangulate, uniform_boundary_samples
+from glid_nb.geometry import Triangulation, triangulate, uniform_panels
 from glid_nb.geometry.panels import Panels
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
@@ -217,7 +217,7 @@ class Scene:
 
     @functools.cached_property
     def _range_points(self) -> NDArray[Any]:
-        return uniform_boundary_samples(self.domain.cage, _RANGE_SAMPLES).points
+        return uniform_panels(self.domain.cage, _RANGE_SAMPLES).start
 
     def _show_panels(self, shown: tuple[Panels, Array] | None) -> None:
         if shown is None:
