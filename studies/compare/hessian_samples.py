@@ -37,7 +37,6 @@ def measure(case: Case, plan: Plan) -> Measurement:
     return {
         "name": case.name,
         "perimeter": case.perimeter,
-        "offset": case.offset,
         "runs": runs,
     }
 

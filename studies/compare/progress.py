@@ -80,25 +80,24 @@ def measure(case: Case, plan: Plan) -> Measurement:
         "handles": len(pose),
         "runs": runs,
         "area_mean_below_ours": area_mean_below(ours, mesh, pose),
-        **_other_settings(case, mesh, runs["newton-eigen"]),
+        **_other_settings(case, mesh),
         "negative": negative_eigenvalues(case),
         "contraction": contraction(case, ours),
         "arrays": arrays,
     }
 
 
-def _other_settings(case: Case, mesh: Triangulation, eigen: dict[str, Any]) -> dict[str, Any]:
+def _other_settings(case: Case, mesh: Triangulation) -> dict[str, Any]:
     """Runs that tell why the others end as they do.
 
-    Newton's method as Newton-Eigen is run but for the modification; ours if it may align; both
-    Newton's method and L-BFGS with light targets; Newton-Eigen by modulus where it does not end.
+    Newton's method as Newton-Eigen is run but for the modification; ours if it may align; Newton's
+    method and L-BFGS with light targets.
     """
     aligned = run("newton", case, align=True)
     assert isinstance(aligned.map, HarmonicMap)
     light: dict[str, Any] = {"p2p_weight": LIGHT_WEIGHT}
-    limit: dict[str, Any] = {"max_iterations": LIMITS["newton-eigen"]}
     lbfgs = run("lbfgs", case, initial="dirichlet", max_iterations=LIMITS["lbfgs"], **light)
-    found = {
+    return {
         "projected": outcome(run("newton-staged", case, sampling="graded", certificate="hermite")),
         "aligned": {**outcome(aligned), "area_mean": harmonic_area_mean(aligned.map, mesh)},
         "light": {
@@ -106,10 +105,6 @@ def _other_settings(case: Case, mesh: Triangulation, eigen: dict[str, Any]) -> d
             "lbfgs": outcome(lbfgs),
         },
     }
-    if eigen["status"] not in ENDED:
-        found["negative_of_eigen"] = negative_eigenvalues(case, "newton-eigen", **limit)
-        found["eigen_by_modulus"] = outcome(run("newton-eigen", case, absolute=True, **limit))
-    return found
 
 
 def _harmonic(
