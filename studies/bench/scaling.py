@@ -1,4 +1,4 @@
-"""How time and memory grow with the cage, its holes, the panels and the handles.
+"""How time and memory grow with the cage, its holes and the handles.
 
 As a script it measures one size: a process of its own, whose peak memory is that size's.
 """
@@ -15,13 +15,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from glid_nb.solvers import Options, Pose, Status, solve
-from studies.bench.shapes import cut_edges, flower, ring_of_handles
+from glid_nb.solvers import Options, solve
+from studies.bench.shapes import flower, ring_of_handles
 from studies.processes import in_new_process
 from studies.store import Measurement
 from studies.study import Plan, Study, Task
 from studies.tables import Row
-from studies.timing import summary, timed_in_turn
+from studies.timing import summary, timed
 
 
 class Size(NamedTuple):
@@ -30,14 +30,11 @@ class Size(NamedTuple):
     vertices: int
     holes: int = 0
     handles: int = 4
-    pieces: int = 1
-    """Into which each edge of the cage is cut: more panels for the same basis."""
 
 
 SERIES = {
     "vertices": tuple(Size(n) for n in (50, 100, 200, 400, 700, 1000)),
     "holes": tuple(Size(40, holes=n) for n in (0, 5, 10, 20, 35, 50)),
-    "panels": tuple(Size(100, pieces=n) for n in (1, 8, 16, 32, 64)),
     "handles": tuple(Size(100, handles=n) for n in (1, 4, 16, 64, 200, 500)),
 }
 """What grows in each series, all else being equal."""
@@ -46,9 +43,7 @@ _QUICK = Size(50)
 # What the exponents are of.
 _AGAINST = {"holes": "unknowns"}
 _OPTIONS = Options(restarts=0)
-_STEPS = 2  # iterations that are timed: of equal work, one Hessian each and no corrections
-_FIRST = 4  # iterations of the default settings, to be near a minimum and for their memory
-_FURTHER = 0.25  # of the way that the targets went before
+_REPEATS = 3
 _BUDGET = 10.0  # seconds of one kind of timing, after which three are enough
 
 
@@ -71,39 +66,18 @@ def _tasks(plan: Plan) -> list[Task]:
 def measure_here(given: dict[str, Any]) -> dict[str, Any]:
     """``step`` and ``before``: one iteration, and a call that takes none; ``memory`` in bytes.
 
-    After a few iterations of the default settings the targets are moved on. From there the exact
-    Hessian is mostly definite, so that an iteration without corrections is equal work. Panels that
-    must be split on the way are split before. The time of an iteration is the difference between
-    calls with and without two iterations, taken in turn, divided by their number.
+    The iterations are those without corrections, which are equal work: one Hessian each.
     """
-    domain = flower(given["vertices"], given["holes"])
-    if given["pieces"] > 1:
-        domain = cut_edges(domain, given["pieces"])
-    pose = ring_of_handles(given["handles"])
-    first = solve(domain, pose, None, replace(_OPTIONS, max_iterations=_FIRST))
-    moved = Pose(pose.handles, pose.targets + _FURTHER * (pose.targets - pose.handles))
-    some = replace(_OPTIONS, align=False, corrections=0, max_iterations=_STEPS)
-    none = replace(some, max_iterations=0)
-    result, start = solve(domain, moved, None, some, first), first
-    while result.panels_split:
-        start = replace(start, discretisation=result.discretisation, factor=None)
-        result = solve(domain, moved, None, some, start)
-    calls = timed_in_turn(
-        {
-            "some": lambda: solve(domain, moved, None, some, start),
-            "none": lambda: solve(domain, moved, None, none, start),
-        },
-        given["repeats"],
-        budget=_BUDGET,
-    )
-    # The iteration that finds the minimum reached takes no step, but has a Hessian.
-    begun = result.iterations + (result.status is Status.CONVERGED)
-    count = min(max(begun, 1), _STEPS)
+    domain, pose = flower(given["vertices"], given["holes"]), ring_of_handles(given["handles"])
+    first = solve(domain, pose, None, _OPTIONS)  # compiles, and splits panels
+    options = replace(_OPTIONS, corrections=0)
+    results = [solve(domain, pose, None, options) for _ in range(1 + _REPEATS)][1:]
+    nothing = replace(_OPTIONS, max_iterations=0)
     return {
-        "unknowns": result.n_unknowns,
-        "panels": result.n_panels,
-        "step": summary([(calls["some"]["median"] - calls["none"]["median"]) / count]),
-        "before": calls["none"],
+        "unknowns": first.n_unknowns,
+        "panels": first.n_panels,
+        "step": summary([entry.time for result in results for entry in result.history]),
+        "before": timed(lambda: solve(domain, pose, None, nothing), given["repeats"], 1, _BUDGET),
         "memory": peak_memory(),
     }
 
