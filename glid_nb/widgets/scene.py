@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from glid_nb.energies import Energy
 from glid_nb.figures.style import BLUE, GREY
-from glid_nb.geometry import Triangulation, triangulate, uniform_boundary_samples
+from glid_nb.geometry import Triangulation, triangulate, uniform_panels
 from glid_nb.geometry.panels import Panels
 from glid_nb.harmonic import FixedPoints, HarmonicMap
 from glid_nb.imaging import PixelFrame
@@ -281,7 +281,7 @@ class Scene:
 
     @functools.cached_property
     def _range_points(self) -> NDArray[Any]:
-        return uniform_boundary_samples(self.domain.cage, _RANGE_SAMPLES).points
+        return uniform_panels(self.domain.cage, _RANGE_SAMPLES).start
 
     def _set_overlay(self) -> None:
         changes = {k: u["value"] for k, u in self._picture_uniforms().items()}
