@@ -8,24 +8,15 @@ from typing import Any
 
 import ipywidgets
 
-from glid_nb.energies import ENERGY_NAMES, CustomEnergy, energy_by_name
+from glid_nb.energies import ENERGIES, CustomEnergy, energy_by_name
 from glid_nb.methods import MethodChoice, methods
 from glid_nb.session.deformation import Deformation
+from glid_nb.widgets.arguments import check_keywords
 from glid_nb.widgets.edit_controls import EditControls
 from glid_nb.widgets.method_settings import LABEL_WIDTH, MethodSettings
 
-ENERGY_LABELS = {
-    "iso": "Symmetric Dirichlet",
-    "exp": "Exponential sym. Dirichlet",
-    "amips": "AMIPS",
-    "mips": "MIPS (conformal)",
-    "arap": "ARAP",
-}
-"""What the menu calls the energies."""
-
 _WORKS_ON = {"harmonic": "", "mesh": " · mesh", "linear": " · linear"}
 _NOT_INSTALLED = " (not installed)"
-_WITH_PARAMETER = ("exp", "amips")
 _FULL = {"width": "auto"}
 
 
@@ -39,13 +30,14 @@ class SolverPanel(EditControls):
     """
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
+        check_keywords(type(self), kwargs)
         options = deformation.state.current.options
         self.method = _dropdown(_method_menu(), "What solves: ours, or another to compare with")
         self.about = ipywidgets.HTML()
         """What the method does."""
         self.settings = MethodSettings(self._set_settings)
         """The method's own settings."""
-        menu = [(ENERGY_LABELS[name], name) for name in ENERGY_NAMES]
+        menu = [(energy.label, name) for name, energy in ENERGIES.items()]
         self.energy = _dropdown(menu, "What is minimised")
         self.s = ipywidgets.BoundedFloatText(
             1.0, min=1e-3, max=100.0, step=0.1, layout=_FULL, tooltip="The energy's parameter s"
@@ -143,9 +135,9 @@ class SolverPanel(EditControls):
             custom = isinstance(energy, CustomEnergy)
             names = [*self.energy.options]
             if custom and names[-1][1] != "custom":
-                self.energy.options = [*names, ("Your own", "custom")]
+                self.energy.options = [*names, (energy.label, "custom")]
             self.energy.value = energy.name
-            self.s.disabled = energy.name not in _WITH_PARAMETER
+            self.s.disabled = "s" not in energy.parameters()
             if not self.s.disabled:
                 self.s.value = float(getattr(energy, "s", 1.0))
             self.weight.value = options.p2p_weight

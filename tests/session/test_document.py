@@ -310,6 +310,7 @@ BAD: list[tuple[str, Callable[[Data], Any], str]] = [
     ("too many poses", lambda d: {**d, "poses": d["poses"] * 501}, "1002"),
     ("a pose without phi", lambda d: {**d, "poses": [without("phi")(d["poses"][0])]}, "phi"),
     ("an unknown key in a pose", in_pose(colour="red"), "unknown key 'colour'"),
+    ("a key misspelt", in_pose(methode={}), "'methode'; did you mean 'method'"),
     ("an unknown method", in_pose(method={"name": "magic", "settings": {}}), "method 'magic'"),
     ("a method as text", in_pose(method="aqp"), "method must be an object"),
     (
