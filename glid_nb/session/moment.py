@@ -53,8 +53,9 @@ class Moment:
     def solution(self) -> Solution | None:
         """How the pose was solved; None while it is not."""
         current, frame = self.state.current, self.frame
-        if current.method.method.family == "harmonic":
+        if current.solution is not None:
             return current.solution
+        # A method on a mesh leaves the pose as it is.
         latest = frame is not None and frame.task.pose.asks_the_same(current)
         return frame.solution if frame is not None and latest else None
 
