@@ -79,20 +79,13 @@ def display_mesh(case: Case, count: int = _DISPLAY_VERTICES) -> Triangulation:
     return triangulate(case.problem.domain.cage, count, points=case.problem.pose.handles)
 
 
-def run(method: str, case: Case, energy: Energy | None = None, **settings: Any) -> MethodResult:
-    """One run, started at the identity unless ``align`` is set."""
-    arguments = (method, case.problem.domain, case.problem.pose, energy)
-    return run_method(*arguments, **{"align": False, "p2p_weight": P2P_WEIGHT, **settings})
-
-
-def last_of(
-    runs: int, method: str, case: Case, energy: Energy | None = None, **settings: Any
+def run(
+    method: str, case: Case, energy: Energy | None = None, *, runs: int = 1, **settings: Any
 ) -> MethodResult:
-    """The last of so many runs, none of which is watched."""
-    result = run(method, case, energy, **settings)
-    for _ in range(runs - 1):
-        result = run(method, case, energy, **settings)
-    return result
+    """The last of so many runs, started at the identity unless ``align`` is set."""
+    arguments = (method, case.problem.domain, case.problem.pose, energy)
+    settings = {"align": False, "p2p_weight": P2P_WEIGHT, **settings}
+    return [run_method(*arguments, **settings) for _ in range(runs)][-1]
 
 
 def outcome(result: MethodResult) -> dict[str, Any]:

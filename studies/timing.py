@@ -67,9 +67,3 @@ def summary(seconds: list[float]) -> Timing:
 def scaled(timing: Timing, factor: float) -> Timing:
     """The timing of a part, a fraction ``factor`` of the whole."""
     return {key: v if key == "runs" else v * factor for key, v in timing.items()}
-
-
-def rate(timing: Timing, count: float) -> Timing:
-    """So many things a second, where ``count`` of them take the given time."""
-    turned = {"low": "high", "high": "low"}
-    return {turned.get(key, key): v if key == "runs" else count / v for key, v in timing.items()}

@@ -18,7 +18,7 @@ from studies import figures
 from studies.cases import Case
 from studies.compare.shapes import some
 from studies.distortion import density_at
-from studies.runs import display_mesh, last_of, outcome, run
+from studies.runs import display_mesh, outcome, run
 from studies.store import Measurement
 from studies.study import Plan, Study, on_cases
 from studies.tables import Row, seconds
@@ -77,7 +77,7 @@ def measure_maps(case: Case, plan: Plan, settings: Mapping[str, Setting]) -> Mea
         options = {"align": True, **setting.settings}
         if setting.slow:
             run(*arguments, **{**options, "max_iterations": 2})
-        result = last_of(1 if setting.slow else _RUNS, *arguments, **options)
+        result = run(*arguments, runs=1 if setting.slow else _RUNS, **options)
         map_ = result.map
         assert isinstance(map_, HarmonicMap)
         measured[name] = {**outcome(result), **_distortion(map_, display.vertices)}

@@ -26,7 +26,6 @@ from studies.runs import (
     Watcher,
     apart,
     display_mesh,
-    last_of,
     outcome,
     reached,
     run,
@@ -111,7 +110,7 @@ def _harmonic(
     limit: dict[str, Any] = {"max_iterations": LIMITS.get(method)}
     watcher = Watcher(display.vertices)
     watched = run(method, case, callback=watcher, **limit) if method in _FOLLOWED else None
-    result = last_of(1 if method == "lbfgs" else _UNWATCHED, method, case, **limit)
+    result = run(method, case, runs=1 if method == "lbfgs" else _UNWATCHED, **limit)
     map_ = result.map
     assert isinstance(map_, HarmonicMap)
     measured, end = outcome(result), map_(display.vertices)

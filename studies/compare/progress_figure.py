@@ -63,8 +63,6 @@ def _draw_maps(figure: Any, data: Measurement, rows: list[str]) -> None:
         titles = [f"iteration {i}" for i in runs[method]["thumbnails"]]
         if runs[method].get("minimum") is not None:
             titles.append("its minimum")
-        if len(titles) < len(row):
-            titles, pictures = ["the start", *titles], np.concatenate([rest[None], pictures])
         for axes in (label, *row):
             axes.set_axis_off()
         # The last one under the last one, so that the ends of all methods stand in a column.
