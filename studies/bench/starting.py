@@ -56,16 +56,12 @@ def measure(repeats: int) -> Measurement:
 
 def tables(found: list[Measurement]) -> dict[str, list[Row]]:
     """Seconds of each part, cold and warm."""
-    return {
-        "start": [
-            {
-                "": kind,
-                **{title: f"{data[kind][part]['median']:.2f}" for part, title in PARTS.items()},
-            }
-            for data in found
-            for kind in ("cold", "warm")
-        ]
-    }
+    rows: list[Row] = []
+    for data in found:
+        for kind in ("cold", "warm"):
+            cells = {title: f"{data[kind][part]['median']:.2f}" for part, title in PARTS.items()}
+            rows.append({"": kind, **cells})
+    return {"start": rows}
 
 
 def _tasks(plan: Plan) -> list[Task]:

@@ -10,7 +10,7 @@ from glid_nb.figures.style import BLUE, GREEN, GREY, INK, LINE, ORANGE, SKY, SMA
 from studies import figures
 from studies.cases import Case
 from studies.compare.shapes import some
-from studies.runs import outcome
+from studies.runs import outcome, run
 from studies.store import Measurement
 from studies.study import Plan, Study, on_cases
 from studies.tables import Row, digits, seconds
@@ -26,13 +26,8 @@ def measure(case: Case, plan: Plan) -> Measurement:
     runs = {}
     for count in SAMPLES:
         plan.detail(f"{case.name}: {count} Hessian samples")
-        result = run(
-            "newton-staged",
-            case,
-            runs=_RUNS,
-            hessian_samples=count,
-            max_iterations=_MOST_ITERATIONS,
-        )
+        settings = {"hessian_samples": count, "max_iterations": _MOST_ITERATIONS}
+        result = run("newton-staged", case, runs=_RUNS, **settings)
         runs[str(count)] = outcome(result)
     return {
         "name": case.name,

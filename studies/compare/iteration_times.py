@@ -53,7 +53,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
     mesh = triangulate(case.problem.domain.cage, MESH_VERTICES, points=case.problem.pose.handles)
     known = methods(available=True)
     seconds: dict[str, float] = {}
-    start, spread = None, None
+    start = None
     for method, timed in TIMED.items():
         if method not in known:
             continue
@@ -66,14 +66,11 @@ def measure(case: Case, plan: Plan) -> Measurement:
             start = float(np.median([times[0] for times in steps]))
         if len(steps[0]) > 1:
             seconds[method] = float(np.median([np.mean(times[1:]) for times in steps]))
-        if method == "newton":
-            spread = [min(steps[-1][1:]), max(steps[-1][1:])]
     return {
         "name": case.name,
         "unknowns": case.unknowns,
         "seconds": seconds,
         "aqp_start": start,
-        "spread": spread,
     }
 
 
