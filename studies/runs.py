@@ -117,16 +117,9 @@ def reached(
 ) -> dict[str, int | None]:
     """For each of :data:`CRITERIA` the iteration from which on it holds, or ``None``.
 
-    Parameters
-    ----------
-    distance : dict
-        Largest distance from the map of the minimum at some iterations.
-    moved, energy : lists
-        Of each iterate: largest distance from the iterate before, and energy.
-    least : float
-        The energy of the minimum.
-    converged : bool
-        Whether the method ended by itself, so that no movement comes after the last.
+    Of the iterates ``distance`` has the largest distance from the map of the minimum, for some,
+    ``moved`` that from the iterate before, and ``energy`` the energy, of which ``least`` is the
+    minimum's. After the last of a method that has ``converged`` no movement comes.
     """
     near = {i: e <= (1 + NEAR) * least for i, e in enumerate(energy)}
     visible = np.flatnonzero(np.array(moved) > VISIBLE)

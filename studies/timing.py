@@ -1,7 +1,7 @@
 """Repeated timings within one process.
 
-pyperf was tried and not kept: it times each function in some twenty processes of its own, each of
-which would import JAX and load compiled programs first, and it cannot take two functions in turn.
+pyperf was tried and not kept: it times each function in processes of its own, twenty by default,
+each of which imports JAX and loads compiled programs first, and it cannot take functions in turn.
 """
 
 from __future__ import annotations

@@ -39,27 +39,18 @@ def measure(case: Case, plan: Plan) -> Measurement:
 def draw(found: list[Measurement], folder: Path) -> None:
     """Energy above the least against iterations and time."""
     data = found[0]
-    figure = figures.figure(9.0, 3.0)
-    axes = figure.subplots(1, 2, sharey=True)
+    figure = figures.figure(6.0, 3.0)
+    axes = figure.subplots()
     least = min(figures.values_of(run["energy"]).min() for run in data["runs"].values())
     # The first are the widest, so that of curves on one another each is seen.
     widths = np.linspace(2.5 * LINE, 0.7 * LINE, len(_COLORS))
     for (count, run_), color, width in zip(data["runs"].items(), _COLORS, widths, strict=False):
         excess = figures.values_of(run_["energy"]) / least - 1
         keep = excess > 1e-12
-        label = f"{int(count):,}"
-        axes[0].semilogy(np.flatnonzero(keep), excess[keep], color=color, lw=width, label=label)
-        axes[1].semilogy(
-            1e3 * np.array(run_["time"])[keep], excess[keep], color=color, lw=width, label=label
-        )
-    axes[1].set_xscale("log")
-    figures.label_axes(axes[0], "iteration", "energy above its minimum, relative", data["name"])
-    figures.label_axes(axes[1], "milliseconds", "")
-    handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(
-        handles, labels, loc="outside right center", fontsize=SMALL, frameon=False,
-        title="Hessian samples", title_fontsize=SMALL,
-    )  # fmt: skip
+        label = f"{int(count):,} samples"
+        axes.semilogy(np.flatnonzero(keep), excess[keep], color=color, lw=width, label=label)
+    figures.label_axes(axes, "iteration", "energy above its minimum, relative", data["name"])
+    figure.legend(loc="outside right center", fontsize=SMALL, frameon=False)
     figures.save(figure, folder / "hessian-samples.png")
 
 

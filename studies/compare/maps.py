@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from glid_nb.energies import AMIPS, Energy, ExponentialSymmetricDirichlet
 from glid_nb.figures.style import SMALL
-from glid_nb.geometry import uniform_panels
+from glid_nb.geometry import Triangulation, uniform_panels
 from glid_nb.harmonic import HarmonicMap
 from studies import figures
 from studies.cases import Case
@@ -128,8 +128,8 @@ def _draw(name: str, settings: Mapping[str, Setting], data: Measurement, folder:
     colors = None
     for ax, key, row in zip(axes, settings, rows, strict=True):
         pose = np.hstack([arrays["targets"], arrays[f"reached_{key}"]])
-        mesh = (arrays["display"], arrays["display_triangles"])
-        colors = figures.draw_map(ax, *mesh, arrays[f"images_{key}"], pose, most)
+        mesh = Triangulation(arrays["display"], arrays["display_triangles"], 0)
+        colors = figures.draw_map(ax, mesh, arrays[f"images_{key}"], pose, most)
         distortion = f"mean {row['mean of E_iso']}, maximum {row['its maximum']}"
         ax.set_title(f"{row['map']}\n{distortion}\nproved: {row['proved']}", fontsize=SMALL)
     figures.color_bar(figure, colors, axes, "symmetric Dirichlet density")
