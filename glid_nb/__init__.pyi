@@ -66,7 +66,6 @@ from .session import Problem as Problem
 from .session import build_report as build_report
 from .session import load_document as load_document
 from .session import load_pose as load_pose
-from .session import load_scribbles as load_scribbles
 from .session import python_code as python_code
 from .session import save_document as save_document
 from .session import suggest_pose as suggest_pose

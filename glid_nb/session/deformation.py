@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import check_type
 from glid_nb.certificate import Certificate, certify
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
@@ -25,7 +26,6 @@ from glid_nb.session.moment import Moment
 from glid_nb.session.point_finder import PointFinder
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.solvers import Options, Pose
-from glid_nb.solvers.arguments import check_type
 
 Array = NDArray[Any]
 Observer = Callable[[str], None]

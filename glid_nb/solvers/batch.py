@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import check_type
 from glid_nb._jax import jax, jnp, lax
 from glid_nb._runtime import (
     COMPILER_OPTIONS,
@@ -29,7 +30,6 @@ from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import outcome, step
-from glid_nb.solvers.arguments import check_type
 from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import (

@@ -8,10 +8,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from glid_nb._jax import jnp, lax
-from glid_nb.certificate import METHODS, EndValues, PanelBounds, bdhm
+from glid_nb.certificate import EndValues, PanelBounds, fz_vanishes
 from glid_nb.energies import Differentials, Energy
-from glid_nb.harmonic.cauchy import slope_jumps
-from glid_nb.solvers.discretisation import CertificateKind, Matrices
+from glid_nb.solvers.discretisation import Matrices
 from glid_nb.solvers.problem import Positional, Problem
 
 if TYPE_CHECKING:
@@ -113,7 +112,7 @@ def energy_gradient(
     return jnp.concatenate([re[0] - im[1], re[1] + im[0], re[2] - im[3], re[3] + im[2]])
 
 
-def bounds(problem: Problem, point: Point, certificate: CertificateKind) -> PanelBounds:
+def bounds(problem: Problem, point: Point) -> PanelBounds:
     """The certificate's bounds on every panel."""
     matrices, samples = problem.matrices, point.samples
     truncation = _truncation(problem, point.coefficients)
@@ -123,15 +122,14 @@ def bounds(problem: Problem, point: Point, certificate: CertificateKind) -> Pane
     f, g = _complex_rows(samples.nodes[:, :panels])
     df, dg = _complex_rows(samples.slopes)
     after = matrices.next
-    values = EndValues(
-        f, f[after], g, g[after], df * chord, df[after] * chord, dg * chord, dg[after] * chord
-    )
-    return METHODS[certificate].panel_bounds(values, remainder[0], remainder[1])
+    fz = EndValues(f, f[after], df * chord, df[after] * chord)
+    fzb_conj = EndValues(g, g[after], dg * chord, dg[after] * chord)
+    return matrices.proof.bounds(fz, fzb_conj, remainder)
 
 
 def has_zeros(matrices: Matrices, panel: PanelBounds) -> Bool[Array, ""]:
-    """Whether ``f_z`` has zeros inside: the sum of its turnings (30) is not 0."""
-    return jnp.abs(jnp.sum(jnp.where(matrices.real, panel.turning, 0))) > 1
+    """Whether ``f_z`` has zeros inside (30)."""
+    return fz_vanishes(jnp.where(matrices.real, panel.turning, 0))
 
 
 def tightened_by_splitting(problem: Problem, point: Point) -> Bool[Array, " p"]:
@@ -182,12 +180,8 @@ def directions(nodes: Float[Array, "4 s"]) -> tuple[tuple[Array, Array], tuple[A
 
 def _truncation(problem: Problem, coefficients: Float[Array, " 4c"]) -> Float[Array, "2 p"]:
     """How far the derivatives of ``phi`` and ``psi`` may be from what their ends say."""
-    matrices = problem.matrices
     pair = jnp.stack(_complex_pair(coefficients))
-    if matrices.segments is not None:
-        return jnp.hypot(*matrices.chord) * bdhm.constants(pair, matrices.segments)
-    jumps = slope_jumps(pair, problem.singularities)
-    return jnp.abs(jumps) @ matrices.remainder
+    return problem.matrices.proof.remainder(pair, problem.singularities)
 
 
 def _complex_pair(y: Float[Array, " 4c"]) -> tuple[Array, Array]:

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from glid_nb._arrays import AnyArray
 from glid_nb._jax import jnp, lax
 from glid_nb.certificate import PanelBounds
-from glid_nb.solvers.discretisation import CertificateKind
 from glid_nb.solvers.evaluation import (
     Line,
     Point,
@@ -123,7 +122,6 @@ def backtrack(
     line: Line,
     found: Search,
     may_refine: Bool[AnyArray, ""],
-    certificate: CertificateKind,
 ) -> Backtracking:
     """Go from the best candidate to shorter ones until one is certified, or ask for finer panels.
 
@@ -143,7 +141,7 @@ def backtrack(
     def attempt(carry: tuple[Array, Array, PanelBounds, Array]) -> tuple:
         _, index, _, refused = carry
         there = moved(problem, positional, point, line, found.steps[index])
-        panel = bounds(problem, there, certificate)
+        panel = bounds(problem, there)
         refuses = refusing(panel)
         fails = jnp.any(refuses)
         first = index == found.best

@@ -292,7 +292,7 @@ def settings_of(
 def variant_of(options: Options) -> step.Variant:
     """The program that these options need; its capacity a power of two, so that there are few."""
     capacity = 1 << (options.iterations_per_call - 1).bit_length()
-    return step.Variant(options.hessian, options.certificate, capacity)
+    return step.Variant(options.hessian, capacity)
 
 
 def start_of(state: step.State) -> Iteration:

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import real_array
 from glid_nb._errors import InputError
-from glid_nb._numbers import real_array
 from glid_nb.geometry import Domain
 
 Array = NDArray[Any]

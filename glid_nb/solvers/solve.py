@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from glid_nb._arguments import check_type
 from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Domain, MeshMap
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers.arguments import check_type
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.newton import Newton
 from glid_nb.solvers.options import Options

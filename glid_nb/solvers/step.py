@@ -10,7 +10,6 @@ from glid_nb._jax import jax, jit, jnp, lax
 from glid_nb._runtime import COMPILER_OPTIONS
 from glid_nb.certificate import PanelBounds
 from glid_nb.solvers import cholesky, evaluation, line_search, whitening
-from glid_nb.solvers.discretisation import CertificateKind
 from glid_nb.solvers.evaluation import Line, Point
 from glid_nb.solvers.hessian import (
     LocalHessian,
@@ -45,7 +44,6 @@ class Variant(NamedTuple):
     """What a program is compiled for, besides the sizes of its arrays."""
 
     hessian: HessianKind
-    certificate: CertificateKind
     capacity: int
     """Room in the history, at least the iterations of a call."""
 
@@ -172,9 +170,8 @@ def _iteration(call: _Call, state: State) -> State:
     decrement = jnp.sqrt(jnp.maximum(line.squared_decrement, 0))
     # Line search and certificate.
     found = line_search.search(problem, positional, point, line)
-    certificate, may_refine = call.variant.certificate, call.settings.may_refine
     outcome, step, panel, refused = line_search.backtrack(
-        problem, positional, point, line, found, may_refine, certificate
+        problem, positional, point, line, found, call.settings.may_refine
     )
     # Stop on the decrement.
     outcome = jnp.where(_is_minimal(call, point, line), CONVERGED, outcome)
@@ -303,7 +300,7 @@ def _corrected(
     point, count, minimal, decrement = _corrections(call, stepped.point, gain, factor)
     panel = lax.cond(
         count > 0,
-        lambda: evaluation.bounds(call.problem, point, call.variant.certificate),
+        lambda: evaluation.bounds(call.problem, point),
         lambda: stepped.panel,
     )
     matrices = call.problem.matrices

@@ -52,8 +52,7 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
 
     def certificate(matrices: Matrices, singularities: Any, samples: Samples, y: Any) -> Any:
         largest = evaluation.largest_modulus(y)
-        kind = options.certificate
-        return evaluation.bounds(matrices, singularities, y, samples, largest, kind)
+        return evaluation.bounds(matrices, singularities, y, samples, largest)
 
     def search(matrices: Matrices, samples: Samples, change: Samples) -> Any:
         none = jnp.zeros(2)

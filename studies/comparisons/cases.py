@@ -12,11 +12,11 @@ import numpy as np
 import shapely
 
 from glid_nb import samples
+from glid_nb._json import read_object
 from glid_nb.geometry import Domain
 from glid_nb.imaging import read_image, trace
 from glid_nb.samples import PoseKind
 from glid_nb.session import InputFileError, Problem, load_pose
-from glid_nb.session.json_file import read_json_object
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ def reference_cases(folder: Path) -> dict[str, Case]:
     """
     cases = {}
     for path in sorted(folder.glob("*.json")):
-        data = read_json_object(path)
+        data = read_object(path)
         if "handles" in data and "cage" in data:
             name = re.sub(r"[^a-z0-9]+", "-", path.stem.lower())
             cases[name] = Case(name, Problem.load(path))

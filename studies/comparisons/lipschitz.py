@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._runtime import double_precision
-from glid_nb.certificate import bdhm, certify, derivative_bound_weights
+from glid_nb.certificate import BDHM, certify
+from glid_nb.certificate.paper import derivative_bound_weights
 from glid_nb.figures.style import BLUE, LINE, ORANGE, SMALL
 from glid_nb.geometry import panels_between, uniform_boundary_samples
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
@@ -68,7 +69,7 @@ def lipschitz_constants(map_: HarmonicMap, segments: int) -> tuple[Array, Array]
     jumps = jnp.abs(cauchy.slope_jumps(phi, sing))[0]
     curvature = np.asarray(derivative_bound_weights(start, end, sing, 2) @ jumps)
     ours = (slope + slope[panels.next]) / 2 + panels.length / 2 * curvature
-    theirs = bdhm.constants(phi, bdhm.segment_weights(start, end, sing))[0]
+    theirs = BDHM.on(start, end, sing).constants(phi, sing)[0]
     return ours, np.asarray(theirs)
 
 

@@ -22,7 +22,7 @@ from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import OptionError, Options, Pose, evaluation, line_search
-from glid_nb.solvers.discretisation import CertificateKind, discretise
+from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.evaluation import Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
 from glid_nb.solvers.problem import Positional, Problem, constraints_of, real_coefficients
@@ -91,22 +91,20 @@ def hessian(problem: Problem, point: Point, *, curvature: Curvature) -> Float[Ar
     return upper + jnp.triu(upper, 1).T
 
 
-@functools.partial(jit, static_argnames="certificate", compiler_options=COMPILER_OPTIONS)
+@functools.partial(jit, compiler_options=COMPILER_OPTIONS)
 def advance(
     problem: Problem,
     point: Point,
     gradient: Float[Array, " 4c"],
     direction: Float[Array, " 4c"],
     may_refine: Bool[AnyArray, ""],
-    *,
-    certificate: CertificateKind,
 ) -> Move:
     """The best certified step along ``direction``, a change of the unknowns."""
     positional = Positional.of(problem.constraints)
     slope = jnp.dot(gradient, direction)
     line = evaluation.line_along(problem, expand(direction, problem.unknowns), slope)
     found = line_search.search(problem, positional, point, line)
-    end = line_search.backtrack(problem, positional, point, line, found, may_refine, certificate)
+    end = line_search.backtrack(problem, positional, point, line, found, may_refine)
     # Values anew from the coefficients: their rounding errors must not add up over thousands of
     # iterations, for which the certificate makes no allowance.
     after = _evaluated(problem, positional, point.coefficients + end.step * line.direction)
@@ -234,7 +232,6 @@ class SubspaceProblem:
             jnp.asarray(gradient),
             jnp.asarray(direction),
             np.asarray(may_refine and self.discretisation.can_refine),
-            certificate=self.options.certificate,
         )
 
     def split(self, refused: NDArray[Any]) -> int:
