@@ -104,11 +104,15 @@ def overview(
     ------
     ValueError
         The figure would be too narrow for its text, or the picture is none.
+    TypeError
+        The result's map is one of a mesh.
     """
     if not width >= _NARROWEST:
         raise ValueError(f"width is {width} inches; the text needs at least {_NARROWEST}")
     texture = image if isinstance(image, Texture) else Texture.from_image(image)
-    map = result.map
+    map, certificate = result.map, result.certificate
+    if certificate is None or not isinstance(map, HarmonicMap):
+        raise TypeError("the overview shows a certified map; the result's is one of a mesh")
     pose = result.pose if pose is None else pose
     cage, outer = map.domain.cage, map.domain.offset_cage
     source = _Extent.around(outer.exterior)
@@ -139,12 +143,12 @@ def overview(
     _result_key(page, lefts[1], top - row, column)
 
     below = _MARGIN + _AXIS_BELOW
-    energy, steps, certificate = (
+    energy, steps, bounds = (
         page.axes(left + _AXIS_LEFT, below, column - _AXIS_LEFT, _PLOT) for left in lefts
     )
     EnergyPlot(energy).update(result.history, result.start_energy)
     StepPlot(steps).update(result.history)
-    CertificatePlot(certificate, cage).update(result.certificate, map)
+    CertificatePlot(bounds, cage).update(certificate, map)
 
     for i, name in enumerate(_NAMES):
         y = height - _MARGIN if i < 3 else below + _PLOT + _PLOT_TITLE - 0.02

@@ -15,9 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb._arguments import check_type
 from glid_nb.certificate import Certificate, certify
 from glid_nb.energies import Energy
-from glid_nb.geometry import Domain
+from glid_nb.geometry import Domain, MeshMap
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import DeformationMap, MeshMap
 from glid_nb.session import actions
 from glid_nb.session.edit_state import EditedPose, EditError, EditState, Solution
 from glid_nb.session.history import History
@@ -25,7 +24,7 @@ from glid_nb.session.live_solver import Frame, LiveSolver, Task
 from glid_nb.session.moment import Moment
 from glid_nb.session.point_finder import PointFinder
 from glid_nb.session.status_line import StatusLine, describe
-from glid_nb.solvers import Options, Pose
+from glid_nb.solvers import DeformationMap, Method, Options, Pose
 
 Array = NDArray[Any]
 Observer = Callable[[str], None]
@@ -278,9 +277,9 @@ class Deformation:
         """Solve with other options."""
         self.apply(actions.set_options, **changes)
 
-    def set_method(self, name: str, **settings: Any) -> None:
-        """Solve by another of :func:`glid_nb.methods`."""
-        self.apply(actions.set_method, name, **settings)
+    def set_method(self, method: Method | str, **settings: Any) -> None:
+        """Solve by another of :mod:`glid_nb.methods`, or its name."""
+        self.apply(actions.set_method, method, **settings)
 
     def set_pose(self, pose: Pose) -> None:
         """Other handles and targets."""

@@ -119,7 +119,8 @@ class Options:
 
 
 def _check_number(name: str, value: Any, least: float, strict: bool) -> None:
-    valid = isinstance(value, numbers.Real) and math.isfinite(value)
+    real = isinstance(value, numbers.Real) and not isinstance(value, bool)
+    valid = real and math.isfinite(value)
     if not valid or (value <= least if strict else value < least):
         relation = "greater than" if strict else "at least"
         raise OptionError(f"{name} must be a finite number {relation} {least:g}, got {value!r}")

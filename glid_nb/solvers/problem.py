@@ -50,7 +50,7 @@ class Positional(NamedTuple):
 
     matrix: Float[Array, "2h 4c"]
     """First all rows for the real parts, then those for the imaginary."""
-    aims: Float[Array, " 2h"]
+    aims: Float[AnyArray, " 2h"]
     weights: Float[Array, " 2h"]
 
     @classmethod

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.energies import Energy
+from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import DeformationMap, MeshMap
+from glid_nb.solvers import DeformationMap
 from glid_nb.widgets.closing import close_with_parts
 from glid_nb.widgets.overlays import legend, panel_legend
 from glid_nb.widgets.scene import N_VERTICES, EvaluatedIn, Scene, renderer

@@ -107,8 +107,9 @@ def advance(
     end = line_search.backtrack(problem, positional, point, line, found, may_refine)
     # Values anew from the coefficients: their rounding errors must not add up over thousands of
     # iterations, for which the certificate makes no allowance.
-    after = _evaluated(problem, positional, point.coefficients + end.step * line.direction)
-    return Move(end.outcome, *after, end.step, end.panel.sigma2_lower, end.refused)
+    y = point.coefficients + end.step * line.direction
+    after, gradient = _evaluated(problem, positional, y)
+    return Move(end.outcome, after, gradient, end.step, end.panel.sigma2_lower, end.refused)
 
 
 @dataclass
