@@ -9,8 +9,6 @@ from .geometry import offset_cage as offset_cage
 from .geometry import triangulate as triangulate
 
 # Pictures
-from .figures.overview import figure_png as figure_png
-from .figures.overview import overview as overview
 from .imaging import PixelFrame as PixelFrame
 from .imaging import Scribbles as Scribbles
 from .imaging import TraceOptions as TraceOptions
@@ -19,7 +17,6 @@ from .imaging import Tracing as Tracing
 from .imaging import read_image as read_image
 from .imaging import trace as trace
 from .imaging.render import render as render
-from .imaging.render import rendering as rendering
 
 # Energies
 from .energies import AMIPS as AMIPS
@@ -64,14 +61,9 @@ from .session import python_code as python_code
 from .session import save_document as save_document
 from .session import suggest_pose as suggest_pose
 
-# Results for other programs
-from .export import animation_bytes as animation_bytes
-from .export import cage_svg as cage_svg
-from .export import mesh_glb as mesh_glb
-from .export import mesh_obj as mesh_obj
-from .export import page_html as page_html
-from .export import picture_png as picture_png
-from .export import textured_mesh as textured_mesh
+# Figures, and results for other programs
+from . import export as export
+from . import figures as figures
 
 # In the notebook
 from .session import TracingModel as TracingModel

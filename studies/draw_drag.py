@@ -33,7 +33,7 @@ def main() -> None:
         result = glid_nb.solve(domain, pose, start=maps[-1] if maps else None)
         maps.append(result.map)
         poses.append(pose)
-    data = glid_nb.animation_bytes(
+    data = glid_nb.export.animation_bytes(
         image, maps, poses, size=chosen.size, frames_per_second=14, there_and_back=True
     )
     path = Path(__file__).parent.parent / "docs" / "drag.gif"

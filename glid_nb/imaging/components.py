@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import find_objects, generate_binary_structure, label
+from scipy.ndimage import find_objects, label
 
 from glid_nb.imaging.errors import TraceError
 from glid_nb.imaging.frame import PixelFrame
@@ -44,17 +44,10 @@ class Components:
     """All components of a foreground, the largest first.
 
     Pixels that share a side or a corner are connected.
-
-    Attributes
-    ----------
-    labels
-        (h, w) read-only uint16: 0 in the background, 1 + rank in a component.
-    areas
-        (n,) areas in pixels, descending.
     """
 
-    labels: NDArray[np.uint16]
-    areas: NDArray[np.intp]
+    labels: NDArray[np.uint16]  # (h, w) read-only: 0 in the background, 1 + rank in a component
+    areas: NDArray[np.intp]  # (n,) in pixels, descending
 
     @property
     def n_components(self) -> int:
@@ -64,11 +57,7 @@ class Components:
     @cached_property
     def largest(self) -> tuple[Component, ...]:
         """The fifty largest, or all if there are fewer."""
-        count = min(self.n_components, _LISTED)
-        if count == 1:  # the usual picture, and faster than find_objects
-            return (self._described(0, *bounding_slices(self.labels == 1)),)
-        slices = (where for where in find_objects(self.labels, count) if where is not None)
-        return tuple(self._described(rank, *where) for rank, where in enumerate(slices))
+        return tuple(map(self._described, range(min(self.n_components, _LISTED))))
 
     def component(self, rank: int) -> Component:
         """The component of a rank.
@@ -86,18 +75,19 @@ class Components:
                 f"The component that was chosen is gone, {self.n_components} "
                 f"{'is' if self.n_components == 1 else 'are'} left; choose another",
             )
-        if rank < _LISTED:
-            return self.largest[rank]
-        return self._described(rank, *bounding_slices(self.labels == rank + 1))
+        return self.largest[rank] if rank < _LISTED else self._described(rank)
 
-    def _described(self, rank: int, rows: slice, columns: slice) -> Component:
-        column = columns.start + int(np.argmax(self.labels[rows.start, columns] == rank + 1))
-        return Component(
-            rank,
-            int(self.areas[rank]),
-            (columns.start, rows.start, columns.stop, rows.stop),
-            (column + 0.5, rows.start + 0.5),
-        )
+    def _described(self, rank: int) -> Component:
+        rows, columns = self._slices[rank]
+        left = columns.start + int(np.argmax(self.labels[rows.start, columns] == rank + 1))
+        bounds = columns.start, rows.start, columns.stop, rows.stop
+        return Component(rank, int(self.areas[rank]), bounds, (left + 0.5, rows.start + 0.5))
+
+    @cached_property
+    def _slices(self) -> list[tuple[slice, slice]]:
+        if self.n_components == 1:  # the usual picture, and faster than find_objects
+            return [_bounding_slices(self.labels == 1)]
+        return find_objects(self.labels)
 
     def rank_at(self, point: Point) -> int:
         """Rank of the component around a point (x, y) in pixel coordinates.
@@ -119,25 +109,17 @@ class Components:
         return rank
 
 
-def bounding_slices(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
+def _bounding_slices(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
     """The rows and columns that hold all of a mask that is not empty."""
     rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
     return slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
 
 
-def labelled(mask: NDArray[np.bool_], corners: bool) -> tuple[NDArray[np.int32], int]:
-    """Number the components of a mask from 1; pixels may be connected by `corners` too."""
-    found = np.zeros(mask.shape, dtype=np.int32)
-    count = label(mask, generate_binary_structure(2, 2 if corners else 1), output=found)
-    assert isinstance(count, int)
-    return found, count
-
-
 def find_components(mask: NDArray[np.bool_]) -> Components:
     """Label the components of an (h, w) mask that is not empty."""
-    crop = bounding_slices(mask)
-    found, count = labelled(mask[crop], corners=True)
-    areas = np.bincount(found.ravel(), minlength=count + 1)[1:]
+    crop = _bounding_slices(mask)
+    found, count = label(mask[crop], np.ones((3, 3)))
+    areas = np.bincount(found.ravel())[1:]
     order = np.argsort(-areas, kind="stable")
     new = np.zeros(count + 1, dtype=np.uint16)
     new[1 + order] = np.minimum(np.arange(1, count + 1), _MOST + 1)

@@ -25,7 +25,6 @@ from glid_nb.widgets.overlays import (
     OVERLAYS,
     color_range,
     color_stops,
-    energy_kind,
     margin_stops,
 )
 from glid_nb.widgets.picture_texture import picture_texture
@@ -36,7 +35,7 @@ from glid_nb.widgets.ribbons import (
     panel_ribbon,
     panel_values,
 )
-from glid_nb.widgets.shader import UNIFORM_VECTORS, ShaderMap, glsl
+from glid_nb.widgets.shader import UNIFORM_VECTORS, ShaderMap, energy_uniform, fragment_shader, glsl
 
 Array = NDArray[Any]
 EvaluatedIn = Literal["shader", "kernel"]
@@ -100,7 +99,7 @@ class Layer:
         self._uniforms = uniforms
         self.material = three.ShaderMaterial(
             vertexShader=head + glsl(shaders[0]),
-            fragmentShader=colors + glsl(shaders[1]),
+            fragmentShader=colors + fragment_shader(shaders[1]),
             uniforms=uniforms,
             side="DoubleSide",
             transparent=True,
@@ -372,14 +371,13 @@ class Scene:
 
     def _picture_uniforms(self) -> dict[str, dict[str, Any]]:
         xmin, ymin, xmax, ymax = self.frame.bounds
-        kind = energy_kind(self._energy)
         # The shader cannot know a user's own function; the picture is shown instead.
-        unknown = self._overlay == "energy" and kind is None
+        unknown = self._overlay == "energy" and self._energy.shader is None
         number = 0 if unknown else OVERLAYS[self._overlay].number
         return {
             "frame": {"value": [xmin, ymin, xmax - xmin, ymax - ymin]},
             "overlay": {"value": float(number)},
-            "energy": {"value": list(kind or (0.0, 1.0))},
+            "energy": {"value": energy_uniform(self._energy)},
             "color_range": {"value": list(self.color_range)},
             "colors": {"value": color_stops().ravel().tolist()},
             "pixel": {"value": 0.02},

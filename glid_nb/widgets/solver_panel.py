@@ -8,25 +8,15 @@ from typing import Any
 
 import ipywidgets
 
-from glid_nb.energies import ENERGY_NAMES, CustomEnergy, energy_by_name
+from glid_nb.energies import ENERGIES, CustomEnergy, energy_by_name
 from glid_nb.methods import METHODS
 from glid_nb.session.deformation import Deformation
 from glid_nb.solvers import Method
 from glid_nb.widgets.edit_controls import EditControls
 from glid_nb.widgets.method_settings import LABEL_WIDTH, MethodSettings
 
-ENERGY_LABELS = {
-    "iso": "Symmetric Dirichlet",
-    "exp": "Exponential sym. Dirichlet",
-    "amips": "AMIPS",
-    "mips": "MIPS (conformal)",
-    "arap": "ARAP",
-}
-"""What the menu calls the energies."""
-
 _WORKS_ON = {"harmonic": "", "mesh": " · mesh", "linear": " · linear"}
 _NOT_INSTALLED = " (not installed)"
-_WITH_PARAMETER = ("exp", "amips")
 _FULL = {"width": "auto"}
 
 
@@ -46,7 +36,7 @@ class SolverPanel(EditControls):
         """What the method does."""
         self.settings = MethodSettings(self._set_settings)
         """The method's own settings."""
-        menu = [(ENERGY_LABELS[name], name) for name in ENERGY_NAMES]
+        menu = [(energy.label, name) for name, energy in ENERGIES.items()]
         self.energy = _dropdown(menu, "What is minimised")
         self.s = ipywidgets.BoundedFloatText(
             1.0, min=1e-3, max=100.0, step=0.1, layout=_FULL, tooltip="The energy's parameter s"
@@ -144,9 +134,9 @@ class SolverPanel(EditControls):
             custom = isinstance(energy, CustomEnergy)
             names = [*self.energy.options]
             if custom and names[-1][1] != "custom":
-                self.energy.options = [*names, ("Your own", "custom")]
+                self.energy.options = [*names, (energy.label, "custom")]
             self.energy.value = energy.name
-            self.s.disabled = energy.name not in _WITH_PARAMETER
+            self.s.disabled = "s" not in energy.parameters()
             if not self.s.disabled:
                 self.s.value = float(getattr(energy, "s", 1.0))
             self.weight.value = options.p2p_weight

@@ -21,7 +21,7 @@ from PIL import Image
 from skimage.color import rgb2lab
 
 from glid_nb.certificate import Certificate, certify
-from glid_nb.figures.overview import figure_png, overview
+from glid_nb.figures import figure_png, overview
 from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot, TimePlot
 from glid_nb.figures.style import CYAN, distortion_colors
 from glid_nb.geometry import Cage, Domain
