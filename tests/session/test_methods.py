@@ -207,14 +207,14 @@ def test_a_call_without_an_iteration_is_no_frame(
     real: Any = live_solver.solve
     calls = []
 
-    def refusing(*problem: Any) -> object:
+    def refusing(*problem: Any, **method: Any) -> object:
         callback = problem[-1]
 
         def twice(progress: Any) -> bool:
             calls.append(progress)
             return bool(callback(progress) or callback(progress))
 
-        return real(*problem[:5], twice)
+        return real(*problem[:5], twice, **method)
 
     frames: list[int] = []
 
