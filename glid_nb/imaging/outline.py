@@ -90,7 +90,8 @@ def _fill_specks(inside: NDArray[np.bool_], least: float) -> int:
     """
     if _steps(inside) < _NOISY:
         return 0
-    background, _ = label(~inside)
+    background = np.zeros(inside.shape, dtype=np.int32)
+    label(~inside, output=background)
     fill = np.bincount(background.ravel()) < least
     fill[0] = False
     inside |= fill[background]
