@@ -31,8 +31,6 @@ from glid_nb.cli.output import check_folder, write_all
 from glid_nb.cli.progress import Progress
 from glid_nb.cli.solving import check_interrupted, run_solver
 from glid_nb.cli.trace import cage_data, size_in_words
-from glid_nb.export.picture import png
-from glid_nb.imaging.render import rendering
 
 DEFAULT_SAMPLE = "gecko"
 DEFAULT_POSE = "gentle"
@@ -141,6 +139,10 @@ def _deformed(
     image: NDArray[np.unsignedinteger], harmonic_map: glid_nb.HarmonicMap
 ) -> tuple[bytes, bool]:
     """The deformed picture as PNG, and whether it had to be zoomed out to show all of it."""
+    # Slow to import, and not needed by --help.
+    from glid_nb.export.picture import png  # noqa: PLC0415
+    from glid_nb.imaging.render import rendering  # noqa: PLC0415
+
     in_place = rendering(image, harmonic_map)
     if in_place.outside <= _CROPPED:
         return png(in_place.picture), False

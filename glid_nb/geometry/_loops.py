@@ -63,6 +63,15 @@ def edge_lengths(loop: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.hypot(*(np.roll(loop, -1, axis=0) - loop).T)
 
 
+def subdivided(loop: NDArray[np.complex128], counts: NDArray[np.integer]) -> NDArray[np.complex128]:
+    """Cut edge i of a complex loop into `counts[i]` equal parts; the parts' start points."""
+    edge = np.repeat(np.arange(len(loop)), counts)
+    first = np.cumsum(counts) - counts
+    share = (np.arange(len(edge)) - first[edge]) / counts[edge]
+    start, end = loop[edge], np.roll(loop, -1)[edge]
+    return start + (end - start) * share
+
+
 def segments(loop: NDArray[np.float64]) -> NDArray[np.object_]:
     """(n,) shapely line strings, the edges of an (n, 2) loop."""
     ends = np.stack([loop, np.roll(loop, -1, axis=0)], axis=1)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb.geometry._loops import GeometryError, edge_lengths, subdivided
+
 if TYPE_CHECKING:
+    from glid_nb.geometry.cage import Cage
     from glid_nb.geometry.domain import Domain
 
 Array = NDArray[Any]
@@ -135,17 +139,38 @@ def paired(panels: Panels, domain: Domain, ratio: float) -> Array:
 
 def edge_panels(domain: Domain) -> Panels:
     """One panel per edge of the cage."""
-    loops = domain.cage_loops_complex
+    return panels_along(domain.cage.loops_complex)
+
+
+def uniform_panels(cage: Cage, n: int = 10_000) -> Panels:
+    """The segments between about `n` even samples of the boundary (the set G of section 9).
+
+    A loop of length P_l gets n_l = ceil(P_l / P * n) samples, P the whole perimeter; an edge of it
+    gets c = ceil(length / P_l * n_l), at a + (b - a) k / c for k = 0, ..., c - 1. Rounding up makes
+    the total slightly larger than `n`.
+
+    Raises
+    ------
+    GeometryError
+        `n` is less than 1.
+    """
+    if n < 1:
+        raise GeometryError(f"the number of boundary samples must be at least 1, not {n}")
+    lengths = [edge_lengths(loop) for loop in cage.loops]
+    per_loop = [float(edges.sum()) for edges in lengths]
+    perimeter = sum(per_loop)
+    points = []
+    for loop, edges, length in zip(cage.loops_complex, lengths, per_loop, strict=True):
+        n_loop = np.ceil(length / perimeter * n)
+        points.append(subdivided(loop, np.ceil(edges / length * n_loop).astype(int)))
+    return panels_along(points)
+
+
+def panels_along(loops: Sequence[Array]) -> Panels:
+    """Panels from each vertex of closed complex loops to the next."""
     start = np.concatenate(loops)
-    end = np.concatenate([np.roll(loop, -1) for loop in loops])
-    loop = np.repeat(np.arange(len(loops)), [len(loop) for loop in loops])
-    return _linked(start, end, loop, np.zeros(len(start), dtype=int))
-
-
-def panels_between(points: Array, loop: Array) -> Panels:
-    """Panels between consecutive sample points of closed loops (the paper's segments)."""
-    depth = np.zeros(len(points), dtype=int)
-    return _linked(points, points[_next_index(loop)], loop, depth)
+    loop = np.repeat(np.arange(len(loops)), [len(points) for points in loops])
+    return _linked(start, start[_next_index(loop)], loop, np.zeros(len(start), dtype=int))
 
 
 def distance_to_segments(points: Array, start: Array, end: Array) -> Array:
@@ -159,7 +184,7 @@ def distance_to_segments(points: Array, start: Array, end: Array) -> Array:
 
 
 def _singularities(domain: Domain) -> Array:
-    return np.concatenate([*domain.offset_loops_complex, domain.hole_points @ [1, 1j]])
+    return np.concatenate([*domain.offset_loops_complex, domain.hole_points_complex])
 
 
 def _linked(start: Array, end: Array, loop: Array, depth: Array) -> Panels:

@@ -73,6 +73,11 @@ def move_targets(state: EditState, indices: Iterable[int], targets: ArrayLike) -
     return _with_pose(state, state.pose.with_targets(moved))
 
 
+def move_target(state: EditState, handle: int, to: ArrayLike) -> EditState:
+    """Put one target elsewhere."""
+    return move_targets(state, [handle], to)
+
+
 def nudge(state: EditState, indices: Iterable[int], delta: ArrayLike) -> EditState:
     """Shift the targets of some handles by ``delta`` (2,)."""
     chosen = _checked_indices(state, indices)

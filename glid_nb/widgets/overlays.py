@@ -129,15 +129,16 @@ def _values(
 
 def color_stops() -> NDArray[np.float64]:
     """(n, 3) colours, evenly spaced, from isometric to distorted."""
-    return _rgb(_COLORS)
+    return rgb(_COLORS)
 
 
 def margin_stops() -> NDArray[np.float64]:
     """(n, 3) colours of the certificate, evenly spaced, from a wide margin to none."""
-    return _rgb(_MARGIN_COLORS)
+    return rgb(_MARGIN_COLORS)
 
 
-def _rgb(colors: Sequence[str]) -> NDArray[np.float64]:
+def rgb(colors: Sequence[str]) -> NDArray[np.float64]:
+    """(n, 3) colours of ``#rrggbb`` texts."""
     return np.array([[int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)] for color in colors])
 
 

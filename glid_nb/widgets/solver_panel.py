@@ -11,6 +11,7 @@ import ipywidgets
 from glid_nb.energies import ENERGIES, CustomEnergy, energy_by_name
 from glid_nb.methods import MethodChoice, methods
 from glid_nb.session.deformation import Deformation
+from glid_nb.widgets.arguments import check_keywords
 from glid_nb.widgets.edit_controls import EditControls
 from glid_nb.widgets.method_settings import LABEL_WIDTH, MethodSettings
 
@@ -29,6 +30,7 @@ class SolverPanel(EditControls):
     """
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
+        check_keywords(type(self), kwargs)
         options = deformation.state.current.options
         self.method = _dropdown(_method_menu(), "What solves: ours, or another to compare with")
         self.about = ipywidgets.HTML()

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from glid_nb._runtime import double_precision
 from glid_nb.certificate import BDHM, certify
 from glid_nb.certificate.paper import derivative_bound_weights
-from glid_nb.geometry import panels_between, uniform_boundary_samples
+from glid_nb.geometry import uniform_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.solvers.discretisation import UNIFORM_SAMPLES
 from studies.cases import Case
@@ -59,8 +59,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
 @double_precision
 def lipschitz_constants(map_: HarmonicMap, segments: int) -> tuple[Array, Array]:
     """Constants of ``f_z`` on about that many segments: the paper's (Section 8), and BDHM's."""
-    samples = uniform_boundary_samples(map_.domain.cage, segments)
-    panels = panels_between(samples.points, samples.loop)
+    panels = uniform_panels(map_.domain.cage, segments)
     basis = basis_of(map_.domain)
     sing, start, end = basis.singularities, jnp.asarray(panels.start), jnp.asarray(panels.end)
     phi = jnp.asarray(basis.pad(map_.phi))[None]
@@ -74,8 +73,7 @@ def lipschitz_constants(map_: HarmonicMap, segments: int) -> tuple[Array, Array]
 
 def refused_segments(map_: HarmonicMap, constants: Any) -> int:
     """On how many of the solver's fixed segments a map is not proved locally injective."""
-    samples = uniform_boundary_samples(map_.domain.cage, UNIFORM_SAMPLES)
-    panels = panels_between(samples.points, samples.loop)
+    panels = uniform_panels(map_.domain.cage, UNIFORM_SAMPLES)
     proof = certify(map_, constants, panels, refine=False)
     return int((~(proof.panels.sigma2_lower > 0)).sum())
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from glid_nb.energies import AMIPS, Energy, ExponentialSymmetricDirichlet
 from glid_nb.figures.style import SMALL
-from glid_nb.geometry import uniform_boundary_samples
+from glid_nb.geometry import uniform_panels
 from glid_nb.harmonic import HarmonicMap
 from studies import figures
 from studies.cases import Case
@@ -88,7 +88,7 @@ def measure_maps(case: Case, plan: Plan, settings: Mapping[str, Setting]) -> Mea
 
 def _distortion(map_: HarmonicMap, inside: Array) -> dict[str, float]:
     """Mean over the boundary and maximum over the domain of the symmetric Dirichlet density."""
-    z = uniform_boundary_samples(map_.domain.cage, _BOUNDARY_SAMPLES).points
+    z = uniform_panels(map_.domain.cage, _BOUNDARY_SAMPLES).start
     boundary = np.stack([np.real(z), np.imag(z)], axis=-1)
     density = [density_at(map_, points) for points in (boundary, inside)]
     return {"mean": float(density[0].mean()), "most": float(max(d.max() for d in density))}

@@ -109,6 +109,15 @@ def test_a_bad_problem_is_refused_by_name(write: Write, data: Any, message: str)
     assert str(caught.value).startswith(str(path))
 
 
+def test_a_file_called_like_the_first_word_of_a_message_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("the").write_text("{}")
+    with pytest.raises(InputFileError, match=r"^the: the keys"):
+        Problem.load("the")
+
+
 def test_a_binary_file_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "picture.png"
     path.write_bytes(b"\x89PNG\r\n\x1a\n\xff\xfe")

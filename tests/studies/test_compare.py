@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from glid_nb.geometry import uniform_boundary_samples
+from glid_nb.geometry import uniform_panels
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import MeshMap, methods, run_method
 from glid_nb.session import InputFileError, Problem
@@ -40,8 +40,8 @@ def test_lipschitz_constants_bound_the_derivative() -> None:
     reference = ReferenceMap(
         domain.offset_loops_complex, domain.hole_points_complex, map_.phi, map_.psi
     )
-    samples = uniform_boundary_samples(domain.cage, 100)
-    start, end = samples.points, samples.points[samples.next]
+    samples = uniform_panels(domain.cage, 100)
+    start, end = samples.start, samples.end
     for t, u in ((0.0, 0.1), (0.3, 0.5), (0.6, 1.0)):
         a, b = (reference.fz(start + v * (end - start)) for v in (t, u))
         quotient = np.abs(b - a) / ((u - t) * np.abs(end - start))

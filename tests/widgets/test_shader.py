@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page
 
-from glid_nb.energies import ENERGIES, SymmetricDirichlet
+from glid_nb.energies import ENERGIES
 from glid_nb.geometry import triangulate
-from glid_nb.widgets.scene import Scene, drawing_order
+from glid_nb.widgets.scene import Drawing, Scene, drawing_order
 from glid_nb.widgets.shader import ShaderMap, energy_defines, energy_uniform, glsl
 
 from ..domains import NAMES, domain, random_map
@@ -157,7 +157,6 @@ def test_a_frame_is_small_at_any_resolution(n_vertices: int, sent: list[Any]) ->
     pane = Pane(
         PICTURE,
         map_,
-        SymmetricDirichlet(),
         (300, 300),
         interactive=True,
         n_vertices=n_vertices,
@@ -167,27 +166,27 @@ def test_a_frame_is_small_at_any_resolution(n_vertices: int, sent: list[Any]) ->
     sent.clear()
     moved = random_map("annulus", 0.01, seed=3)
     handles = np.zeros((8, 2)) + np.arange(8)[:, None]
-    pane.show(moved, handles, handles, (1,))
+    pane.show(Drawing(moved, targets=handles, images=handles, selected=(1,)))
     assert 0 < _wire_size(sent) < 4_000
     pane.close()
 
 
 def test_the_kernel_evaluates_what_a_shader_cannot_hold(sent: list[Any]) -> None:
     map_ = random_map("annulus", 0.01, seed=2)
-    scene = Scene(PICTURE, map_, SymmetricDirichlet(), 500, uniform_vectors=100)
+    scene = Scene(PICTURE, map_, 500, uniform_vectors=100)
     assert scene.evaluated_in == "kernel"
     image = scene.picture.attributes["image"].array
     points = scene.picture.attributes["position"].array[:, :2]
     np.testing.assert_allclose(image, map_(points), atol=1e-5)
     moved = random_map("annulus", 0.01, seed=3)
     sent.clear()
-    scene.show_map(moved)
+    scene.show(Drawing(moved))
     image = scene.picture.attributes["image"].array
     np.testing.assert_allclose(image, moved(points), atol=1e-5)
     assert _wire_size(sent) > 24 * len(points)
     # A pointer's move before the next frame is solved moves marks, not vertices.
     sent.clear()
-    scene.show_map(moved)
+    scene.show(Drawing(moved))
     assert _wire_size(sent) == 0
     scene.close()
 
