@@ -13,10 +13,8 @@ from PIL import Image, ImageDraw
 
 from glid_nb.figures.style import CYAN, INK
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging import PixelFrame
-from glid_nb.imaging.mesh import DeformedMesh, deformed_mesh
-from glid_nb.imaging.rasterise import render_mesh
-from glid_nb.imaging.render import OutputFrame, outline_points
+from glid_nb.imaging.mesh import deformed_mesh
+from glid_nb.imaging.render import OutputFrame, draw_mesh, outline_points
 from glid_nb.imaging.texture import Texture
 from glid_nb.solvers import Pose
 
@@ -76,7 +74,7 @@ def animation_bytes(
     pictures = []
     for i, map in enumerate(maps):
         mesh = deformed_mesh(map, _VERTICES, tolerance)
-        picture = _on_background(_drawn(texture, mesh, frame), background)
+        picture = _on_background(draw_mesh(texture, mesh, frame), background)
         if poses is not None:
             picture = _with_marks(picture, poses[i], map, frame)
         pictures.append(picture)
@@ -117,18 +115,6 @@ def _common_frame(maps: list[HarmonicMap], size: int) -> OutputFrame:
     width, height = (max(1, math.ceil(side * scale)) for side in extent)
     x, y = (low + high) / 2
     return OutputFrame((width, height), scale, (float(x), float(y)))
-
-
-def _drawn(texture: Texture, mesh: DeformedMesh, frame: OutputFrame) -> NDArray[np.uint8]:
-    source = PixelFrame(texture.width, texture.height)
-    return render_mesh(
-        texture,
-        source.to_pixel(mesh.vertices),
-        frame.to_pixel(mesh.images),
-        mesh.triangles,
-        frame.size,
-        mesh.heights,
-    )
 
 
 def _on_background(pixels: NDArray[np.uint8], background: tuple[int, int, int]) -> Image.Image:

@@ -210,8 +210,7 @@ def _energy_to_dict(energy: Energy, where: str) -> dict[str, Any]:
             f"{where}: its energy is a Python function, which cannot be saved; choose a named "
             "energy"
         )
-    s = getattr(energy, "s", None)
-    return {"name": energy.name} if s is None else {"name": energy.name, "s": s}
+    return {"name": energy.name, **{name: getattr(energy, name) for name in energy.parameters()}}
 
 
 def _energy_from_dict(data: Any) -> Energy:
