@@ -108,11 +108,11 @@ class _Known(NamedTuple):
     """Bounds on each panel, and the distortion that is seen at its start."""
 
     bounds: PanelBounds
-    sigma2_seen: Array
-    sigma1_seen: Array
-    k_seen: Array
-    fz_seen: Array
-    slack: Array
+    sigma2_seen: Any
+    sigma1_seen: Any
+    k_seen: Any
+    fz_seen: Any
+    slack: Any
     """What rounding may have changed."""
 
     @property
@@ -205,7 +205,7 @@ def _conclude(
     turns = np.bincount(panels.loop, weights=bounds.turning, minlength=n_loops) / (2 * np.pi)
     windings = tuple(int(w) for w in np.round(np.nan_to_num(turns)))
     reason = _failure(panels, known, sum(windings))
-    per_panel = (bounds.sigma2_lower, bounds.sigma1_upper, bounds.k_upper)
+    per_panel = [np.asarray(a) for a in (bounds.sigma2_lower, bounds.sigma1_upper, bounds.k_upper)]
     for values in per_panel:
         values.flags.writeable = False
     return Certificate(

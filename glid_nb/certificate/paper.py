@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def bounds_from_variation(
-    fz: EndValues, fzb_conj: EndValues, variation: Float[Array, "2 p"]
+    fz: EndValues, fzb_conj: EndValues, variation: Float[Array, "2 p"] | list[Array]
 ) -> PanelBounds:
     """Bounds on each segment by (26) and (27), ``variation`` being ``L_fz l`` and ``L_fzbar l``.
 

@@ -10,7 +10,14 @@ import pythoncdt
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb.geometry._loops import GeometryError, as_points, edge_lengths, place, subdivided
+from glid_nb.geometry._loops import (
+    GeometryError,
+    as_points,
+    edge_lengths,
+    next_index,
+    place,
+    subdivided,
+)
 from glid_nb.geometry.cage import Cage
 
 # Lattice points keep this share of the spacing from the boundary: closer ones make flat triangles.
@@ -146,7 +153,7 @@ def _spacing(cage: Cage, n_vertices: int) -> float:
     return spacing
 
 
-def _lattice(cage: Cage, spacing: float) -> NDArray[np.float64]:
+def _lattice(cage: Cage, spacing: float) -> NDArray[Any]:
     """(p, 2) points of the hexagonal lattice inside the cage and away from its boundary."""
     inner = shapely.buffer(cage.polygon, -_MARGIN * spacing, quad_segs=4)
     if inner.is_empty:
@@ -166,12 +173,10 @@ def _constrained_delaunay(
     vertices: NDArray[np.float64], loops: list[NDArray[np.complex128]]
 ) -> NDArray[np.int32]:
     """Triangles of the region bounded by the loops, whose points are the first vertices."""
-    ends = np.cumsum([len(loop) for loop in loops])
-    following = np.arange(1, ends[-1] + 1)
-    following[ends - 1] = np.concatenate([[0], ends[:-1]])
+    following = next_index(np.repeat(np.arange(len(loops)), [len(loop) for loop in loops]))
     # Any: numpy's stubs call an array a buffer from Python 3.12 on only.
     points: Any = np.ascontiguousarray(vertices)
-    edges: Any = np.stack([np.arange(ends[-1]), following], axis=1).astype(np.uintc)
+    edges: Any = np.stack([np.arange(len(following)), following], axis=1).astype(np.uintc)
     delaunay = pythoncdt.Triangulation(
         pythoncdt.VertexInsertionOrder.AUTO,
         pythoncdt.IntersectingConstraintEdges.NOT_ALLOWED,

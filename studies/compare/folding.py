@@ -11,9 +11,9 @@ from matplotlib.collections import PolyCollection
 from numpy.typing import NDArray
 
 from glid_nb.figures.style import CYAN, HAIRLINE, INK, SKY, SMALL, VERMILION
-from glid_nb.geometry import Triangulation, triangulate
+from glid_nb.geometry import MeshMap, Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import MeshMap, methods
+from glid_nb.methods import available
 from studies import figures
 from studies.cases import Case
 from studies.compare.shapes import all_shapes
@@ -41,7 +41,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
     problem = case.problem
     mesh = triangulate(problem.domain.cage, MESH_VERTICES, points=problem.pose.handles)
     rest = MeshMap(mesh, mesh.vertices).areas
-    known = methods(available=True)
+    known = available()
     measured: dict[str, Any] = {}
     arrays = {
         "mesh": mesh.vertices,
@@ -52,7 +52,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
         if method not in known:
             continue
         plan.detail(f"{case.name}: {title}")
-        result = run(method, case, triangulation=mesh, **settings)
+        result = run(method, case, mesh=mesh, **settings)
         map_ = on_mesh(result.map, mesh)
         measured[name] = {
             "flips": int(map_.flipped.sum()),
