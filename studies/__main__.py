@@ -53,7 +53,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         "--render", action="store_true", help="measure nothing: tables and figures from OUT/data"
     )
     chosen = parser.parse_args(arguments)
-    out = check_folder(chosen.out or Path(f"glid-nb-{chosen.what}"))
+    out = chosen.out or Path(f"glid-nb-{chosen.what}")
+    check_folder(out)
     studies = importlib.import_module(f"studies.{chosen.what}").STUDIES
     cases = {} if chosen.reference is None else reference_cases(chosen.reference)
     glid_nb.enable_compilation_cache()

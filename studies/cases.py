@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import shapely
@@ -44,19 +44,10 @@ class Case:
     @property
     def perimeter(self) -> float:
         """Length of the boundary, world units."""
-        return self._boundary.length
-
-    @property
-    def offset(self) -> float:
-        """Median distance of the basis' singularities from the boundary, world units."""
-        vertices = np.concatenate(self.problem.domain.offset_cage.loops)
-        return float(np.median(shapely.distance(self._boundary, shapely.points(vertices))))
-
-    @property
-    def _boundary(self) -> Any:
-        return shapely.union_all([shapely.LinearRing(p) for p in self.problem.domain.cage.loops])
+        return sum(shapely.LinearRing(loop).length for loop in self.problem.domain.cage.loops)
 
 
+@functools.cache
 def sample_case(name: str, kind: PoseKind) -> Case:
     """A bundled picture, traced, with one of its poses."""
     domain = Domain.from_cage(trace(read_image(samples.path(name))).cage)

@@ -24,8 +24,7 @@ def main() -> None:
     domain = glid_nb.Domain.from_cage(glid_nb.trace(image).cage)
     end = glid_nb.load_pose(glid_nb.samples.pose_path(chosen.sample, "extreme"))
 
-    maps: list[glid_nb.HarmonicMap] = []
-    poses: list[glid_nb.Pose] = []
+    maps, poses = [], []
     # Slow at both ends, as a hand is.
     for share in 0.5 - 0.5 * np.cos(np.linspace(0, np.pi, chosen.frames)):
         pose = end.with_targets(end.handles + share * (end.targets - end.handles))

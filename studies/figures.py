@@ -44,7 +44,6 @@ def draw_map(
     images: Array,
     pose: Array | None = None,
     most: float = MOST_DISTORTED,
-    values: Array | None = None,
 ) -> Any:
     """A map's image coloured by its distortion, folded triangles in black.
 
@@ -56,12 +55,11 @@ def draw_map(
     triangles = triangles[order]
     density = densities(rest, triangles, images)
     folded = ~np.isfinite(density)
-    shown = density if values is None else values[order]
     colors = PolyCollection(
         list(images[triangles[~folded]]),
-        array=shown[~folded],
+        array=density[~folded],
         cmap=distortion_colors(),
-        clim=(0.0 if values is not None else 2.0, most),
+        clim=(2.0, most),
         edgecolors="face",
         linewidths=0.2,
     )

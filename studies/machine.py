@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import os
 import platform
 from importlib.metadata import version
@@ -10,11 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import jax
-import jax.numpy as jnp
-import numpy as np
-
-from glid_nb._runtime import double_precision
-from studies.timing import timed
 
 _PRODUCTS = (512, 1024)  # sizes of the matrix products whose best rate counts
 _READING = 1 << 25  # numbers, more than any cache holds
@@ -47,31 +41,3 @@ def _processor() -> str:
             if line.startswith("model name"):
                 return line.partition(":")[2].strip()
     return platform.processor() or platform.machine()
-
-
-@functools.cache
-@double_precision
-def rates() -> dict[str, float]:
-    """Best seen: flops per second of large matrix products, bytes per second of reading.
-
-    ``float64`` and ``float32`` are flops by precision, ``bytes`` is the reading.
-    """
-    rng = np.random.default_rng(0)
-    product = jax.jit(jnp.matmul)
-
-    def flops(dtype: Any) -> float:
-        best = 0.0
-        for n in _PRODUCTS:
-            x, y = (jnp.asarray(rng.normal(size=(n, n)), dtype) for _ in range(2))
-            multiply = timed(lambda x=x, y=y: product(x, y).block_until_ready(), 20)
-            best = max(best, 2 * n**3 / multiply["least"])
-        return best
-
-    data = jnp.asarray(rng.normal(size=_READING))
-    total = jax.jit(jnp.sum)
-    read = timed(lambda: total(data).block_until_ready(), 10)
-    return {
-        "float64": flops(jnp.float64),
-        "float32": flops(jnp.float32),
-        "bytes": data.nbytes / read["least"],
-    }

@@ -27,16 +27,13 @@ class Plan:
     """Small sizes only, to see that everything runs."""
     detail: Detail = lambda _: None
     """Told what is being done."""
-    _traced: dict[str, Case] = field(default_factory=dict)
 
     def case(self, name: str) -> Case:
         """The problem of a name, or of a sample's name and pose such as ``gecko-extreme``."""
         if name in self.references:
             return self.references[name]
-        if name not in self._traced:
-            sample, _, kind = name.rpartition("-")
-            self._traced[name] = sample_case(sample, "extreme" if kind == "extreme" else "gentle")
-        return self._traced[name]
+        sample, _, kind = name.rpartition("-")
+        return sample_case(sample, "extreme" if kind == "extreme" else "gentle")
 
 
 class Task(NamedTuple):
@@ -91,23 +88,9 @@ def run_studies(
     Measurements are kept in ``out/data``. What is there already is not measured again, unless the
     problem, the settings or the machine differ.
 
-    Parameters
-    ----------
-    studies : sequence of Study
-    out : Path
-    plan : Plan
-    only : sequence of str, optional
-        Names of the studies to measure; by default all. Tables and figures are made of all
-        measurements that there are.
-    fresh : bool
-        Measure again what is there already.
-    measuring : bool
-        False to make tables and figures only.
-
-    Returns
-    -------
-    Path
-        The page.
+    ``only`` names the studies to measure, by default all; tables and figures are made of all
+    measurements that there are. ``fresh`` measures again what is there already, and without
+    ``measuring`` only tables and figures are made. Returns the page.
 
     Raises
     ------

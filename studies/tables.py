@@ -35,8 +35,8 @@ def write_csv(path: Path, rows: Sequence[Row]) -> None:
 def update_page(page: Path, folder: Path) -> None:
     """Put the tables of a folder into the places that a page has for them.
 
-    A place whose table is not there stays as it is. Where there is no page one is made, with every
-    table and picture of the folder.
+    A place whose table is not there stays as it is. Where there is no page one is made, with all
+    tables and pictures of the folder.
     """
     if not page.exists():
         tables = [f"<!-- table: {path.stem} -->\n<!-- end -->" for path in folder.glob("*.csv")]

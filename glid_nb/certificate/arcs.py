@@ -144,7 +144,7 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularitie
 
 
 def _value_scale(z: Any, singularities: Singularities) -> Any:
-    """What ``cauchy.rounding_scale`` is for the derivatives, for ``C(z)``.
+    """The scale of the terms of ``C(z)``, as ``cauchy.rounding_scale`` for the derivatives.
 
     ``|Log(B_{j+1} / B_j)| <= |ln |B_{j+1} / B_j|| + pi``, and 4 roundoffs beside it.
     """

@@ -1,4 +1,4 @@
-"""What an isometric energy is, and the registry of those that have a name."""
+"""The interface of an isometric energy, and the registry of the energies by name."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Energy(ABC):
     Hessian is then projected by a correction at a fifth of its own cost."""
 
     def __new__(cls, *_: Any, **__: Any) -> Self:
-        settle()  # for who has imported JAX after this package
+        settle()  # JAX may have been imported by others since
         return super().__new__(cls)
 
     def __post_init__(self) -> None:
@@ -128,7 +128,7 @@ def as_energy(energy: Energy | str | None) -> Energy:
     Raises
     ------
     EnergyError
-        For an unknown name, or something that is no energy.
+        For an unknown name, or something that is not an energy.
     """
     if isinstance(energy, str | None):
         return energy_by_name(energy or "iso")

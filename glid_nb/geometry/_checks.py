@@ -1,7 +1,7 @@
-"""What a cage's loops must satisfy, checked with a message that names the culprit.
+"""The checks of a cage's loops; each message names the culprit.
 
-Loops that come from a hand are refused in plain words first, for who draws a cage and has not
-heard of its edges' numbers; these follow in parentheses.
+A message begins in plain words, for people who draw a cage and do not see vertex numbers; those
+follow in parentheses.
 """
 
 from __future__ import annotations
@@ -193,7 +193,7 @@ def _check_nesting(loops: list[NDArray[np.float64]]) -> None:
 
 
 def _refusal(plain: str, details: str, point: ArrayLike) -> GeometryError:
-    """What is wrong and what to do in plain words, then where in the data."""
+    """An error: the problem and its remedy in plain words, then the place in the data."""
     plain = _sentence(plain)
     return GeometryError(f"{plain} ({details})", point, plain)
 

@@ -20,7 +20,7 @@ class GeometryError(InputError):
     point
         The place that the message speaks of, for a picture that shows it; None if there is none.
     plain
-        The message for who sees that place in a picture: without coordinates and numbers of edges.
+        The message without coordinates and vertex numbers, for people who see the place.
     """
 
     def __init__(
@@ -70,6 +70,20 @@ def subdivided(loop: NDArray[np.complex128], counts: NDArray[np.integer]) -> NDA
     share = (np.arange(len(edge)) - first[edge]) / counts[edge]
     start, end = loop[edge], np.roll(loop, -1)[edge]
     return start + (end - start) * share
+
+
+def next_index(loop: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Index of the following element within each run of equal ``loop``, cyclically."""
+    following = np.arange(1, len(loop) + 1)
+    first = np.flatnonzero(np.diff(loop, prepend=-1))
+    last = np.append(first[1:], len(loop)) - 1
+    following[last] = first
+    return following
+
+
+def encloses(large: NDArray[np.float64], small: NDArray[np.float64]) -> bool:
+    """Whether an (n, 2) loop lies in another that it is known not to meet."""
+    return bool(shapely.contains_xy(shapely.Polygon(large), *small[0]))
 
 
 def segments(loop: NDArray[np.float64]) -> NDArray[np.object_]:

@@ -10,7 +10,14 @@ import pythoncdt
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb.geometry._loops import GeometryError, as_points, edge_lengths, place, subdivided
+from glid_nb.geometry._loops import (
+    GeometryError,
+    as_points,
+    edge_lengths,
+    next_index,
+    place,
+    subdivided,
+)
 from glid_nb.geometry.cage import Cage
 
 # Lattice points keep this share of the spacing from the boundary: closer ones make flat triangles.
@@ -166,12 +173,10 @@ def _constrained_delaunay(
     vertices: NDArray[np.float64], loops: list[NDArray[np.complex128]]
 ) -> NDArray[np.int32]:
     """Triangles of the region bounded by the loops, whose points are the first vertices."""
-    ends = np.cumsum([len(loop) for loop in loops])
-    following = np.arange(1, ends[-1] + 1)
-    following[ends - 1] = np.concatenate([[0], ends[:-1]])
+    following = next_index(np.repeat(np.arange(len(loops)), [len(loop) for loop in loops]))
     # Any: numpy's stubs call an array a buffer from Python 3.12 on only.
     points: Any = np.ascontiguousarray(vertices)
-    edges: Any = np.stack([np.arange(ends[-1]), following], axis=1).astype(np.uintc)
+    edges: Any = np.stack([np.arange(len(following)), following], axis=1).astype(np.uintc)
     delaunay = pythoncdt.Triangulation(
         pythoncdt.VertexInsertionOrder.AUTO,
         pythoncdt.IntersectingConstraintEdges.NOT_ALLOWED,

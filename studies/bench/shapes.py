@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from glid_nb.geometry import Cage, Domain
 from glid_nb.solvers import Pose
@@ -25,17 +24,6 @@ def flower(vertices: int, holes: int) -> Domain:
     return Domain.from_cage(
         Cage(exterior, [0.25 * spacing * triangle + place for place in places[:holes]])
     )
-
-
-def cut_edges(domain: Domain, pieces: int) -> Domain:
-    """The same shape and basis with every edge of the cage in so many pieces: more panels."""
-    exterior, *holes = (_cut(loop, pieces) for loop in domain.cage.loops)
-    return Domain(Cage(exterior, holes), domain.offset_cage, domain.hole_points)
-
-
-def _cut(loop: NDArray[np.float64], pieces: int) -> NDArray[np.float64]:
-    t = (np.arange(pieces) / pieces)[:, None]
-    return (loop[:, None] * (1 - t) + np.roll(loop, -1, axis=0)[:, None] * t).reshape(-1, 2)
 
 
 def ring_of_handles(count: int) -> Pose:

@@ -9,18 +9,16 @@ from typing import Any
 
 import numpy as np
 
-from glid_nb._runtime import double_precision
-from glid_nb.figures.style import BLUE, INK, ORANGE, SKY, SMALL
+from glid_nb.figures.style import BLUE, INK, SKY, SMALL
 from glid_nb.harmonic.basis import build_basis
 from glid_nb.samples import names
 from glid_nb.session import Problem
 from glid_nb.solvers import Options, Pose, Result, solve
-from glid_nb.solvers.discretisation import Matrices, discretise
+from glid_nb.solvers.discretisation import discretise
 from studies import figures
 from studies.bench.shapes import flower, ring_of_handles
 from studies.bench.stages import STAGES, measure_stages
 from studies.cases import Case
-from studies.machine import rates
 from studies.store import Measurement
 from studies.study import Plan, Study, Task, on_cases
 from studies.tables import Row, digits, percent
@@ -107,30 +105,8 @@ def _about(case: Case, mode: str, whole: Result, count: int, repeats: int) -> di
         "energy": whole.energy,
         "certified": whole.certificate.certified,
         "making": timed(make, min(repeats, _MAKING_REPEATS)),
-        "floor": floor(whole.discretisation.matrices, whole.n_unknowns, 1 + corrections / count),
         "stages": measure_stages(whole, 3 * repeats),
         "modified": float(np.mean([entry.hessian_modified for entry in history])),
-    }
-
-
-@double_precision
-def floor(matrices: Matrices, n_unknowns: int, lines: float) -> dict[str, float]:
-    """Seconds that one iteration takes at least on this machine, by part.
-
-    ``products``: for each of its ``lines`` (a step and its corrections) the basis matrices are read
-    once for the direction and, at the energy's nodes, once more for the gradient; the Hessian reads
-    its own and the certificate its remainders once. ``hessian``: twelve real products of (c, h) by
-    (h, c), in the precision of the stored basis. ``factor``: Cholesky factor of so many unknowns at
-    the best rate of products, and for each line two triangular solves, which read it.
-    """
-    rate = rates()
-    columns, h = matrices.whitened.shape[0] // 2, matrices.whitened.shape[1]
-    line = 8 * (2 * matrices.nodes.size + matrices.slopes.size)
-    once = 8 * matrices.remainder.size + matrices.whitened.nbytes
-    return {
-        "products": (lines * line + once) / rate["bytes"],
-        "hessian": 12 * 2 * h * columns**2 / rate[str(matrices.whitened.dtype)],
-        "factor": n_unknowns**3 / 3 / rate["float64"] + 8 * lines * n_unknowns**2 / rate["bytes"],
     }
 
 
@@ -165,13 +141,10 @@ def _solve_row(data: Measurement) -> Row:
 
 
 def _breakdown_row(solve: Measurement) -> Row:
-    measured, least = solve["per_iteration"]["median"], sum(solve["floor"].values())
     return {
         "shape": solve["name"],
         "settings": solve["mode"],
-        "iteration, ms": 1e3 * measured,
-        "floor, ms": 1e3 * least,
-        "ratio": digits(measured / least, 2),
+        "iteration, ms": 1e3 * solve["per_iteration"]["median"],
         **{f"{name}, ms": digits(1e3 * solve["stages"][name], 2) for name in STAGES},
         "call, ms": digits(1e3 * solve["before"]["median"], 2),
         "K+": percent(solve["modified"]),
@@ -179,7 +152,7 @@ def _breakdown_row(solve: Measurement) -> Row:
 
 
 def draw_solves(found: list[Measurement], folder: Path) -> None:
-    """Bars of the measured time per iteration, each with a line at its floor."""
+    """Bars of the measured time per iteration, with quartiles."""
     pairs = [(data[PAPER], data[DEFAULT]) for data in found if PAPER in data]
     figure = figures.figure(9.0, 3.2)
     axes: Any = figure.subplots()
@@ -189,12 +162,8 @@ def draw_solves(found: list[Measurement], folder: Path) -> None:
         timings = [pair[i]["per_iteration"] for pair in pairs]
         middle = np.array([t["median"] for t in timings])
         spread = np.abs([[t["low"], t["high"]] for t in timings] - middle[:, None]).T
-        axes.bar(x, 1e3 * middle, 0.94 * _BAR, color=color, label=f"{mode}, measured")
+        axes.bar(x, 1e3 * middle, 0.94 * _BAR, color=color, label=mode)
         axes.errorbar(x, 1e3 * middle, 1e3 * spread, fmt="none", ecolor=INK, elinewidth=0.7)
-        floors = [1e3 * sum(pair[i]["floor"].values()) for pair in pairs]
-        label = "floor of the machine" if i == 0 else None
-        half = 0.47 * _BAR
-        axes.hlines(floors, x - half, x + half, color=ORANGE, lw=2, label=label)
     axes.set_xticks(place, [f"{p['name']}\n{p['unknowns']}" for p, _ in pairs])
     figures.label_axes(axes, "shape and unknowns", "ms per iteration")
     axes.legend(fontsize=SMALL, frameon=False, ncols=3)

@@ -7,10 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import scipy.sparse
-import scipy.sparse.csgraph
 from matplotlib.collections import PolyCollection
-from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
 from glid_nb.certificate import certify
@@ -28,9 +25,6 @@ from studies.study import Plan, Study, on_cases
 from studies.tables import Row, percent
 
 Array = NDArray[Any]
-
-# Least radius of a ring around a fold, relative to the picture, and the largest relative to that.
-_RING, _LARGEST_RING = 0.03, 4
 
 METHODS: Mapping[str, tuple[str, str, Mapping[str, Any]]] = {
     "newton": ("ours", "newton", {}),
@@ -123,16 +117,9 @@ def _draw_folds(axes: Any, data: Measurement, name: str) -> None:
         PolyCollection(list(corners[~map_.flipped]), facecolors=SKY, lw=0, alpha=0.45)
     )
     if map_.flipped.any():
-        turned = corners[map_.flipped]
-        axes.add_collection(PolyCollection(list(turned), facecolors=INK, edgecolors=INK, lw=0.2))
-        # Folds can be slivers: a ring says where to look for one that would be overlooked.
-        least = _RING * float(np.ptp(images, axis=0).max())
-        group = _groups(triangles[map_.flipped])
-        for part in (turned[group == i] for i in range(group.max() + 1)):
-            middle = part.mean(axis=(0, 1))
-            radius = max(least, 1.2 * float(np.linalg.norm(part - middle, axis=-1).max()))
-            if radius < _LARGEST_RING * least:
-                axes.add_patch(Circle(middle, radius, fill=False, edgecolor=VERMILION, lw=0.9))
+        # Folds can be slivers: their edges are wide enough not to be overlooked.
+        turned = list(corners[map_.flipped])
+        axes.add_collection(PolyCollection(turned, facecolors=INK, edgecolors=VERMILION, lw=1.2))
     outline = _outline(triangles)
     axes.add_collection(
         PolyCollection(list(images[outline]), facecolors="none", edgecolors=INK, lw=HAIRLINE)
@@ -143,15 +130,6 @@ def _draw_folds(axes: Any, data: Measurement, name: str) -> None:
     axes.set_aspect("equal", adjustable="datalim")
     axes.autoscale_view()
     axes.set_axis_off()
-
-
-def _groups(triangles: Array) -> Array:
-    """(t,) which triangles hang together by shared vertices, counted from 0."""
-    used, corner = np.unique(triangles, return_inverse=True)
-    corner = corner.reshape(triangles.shape)
-    ends = (np.repeat(corner[:, 0], 2), corner[:, 1:].ravel())
-    graph = scipy.sparse.coo_matrix((np.ones(len(ends[0])), ends), (len(used), len(used)))
-    return scipy.sparse.csgraph.connected_components(graph, directed=False)[1][corner[:, 0]]
 
 
 def _outline(triangles: Array) -> Array:

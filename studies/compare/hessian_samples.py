@@ -7,12 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from glid_nb.figures.style import BLUE, GREEN, GREY, INK, LINE, ORANGE, SKY, SMALL
-from glid_nb.harmonic import HarmonicMap
 from studies import figures
 from studies.cases import Case
-from studies.compare.curvature import contraction
 from studies.compare.shapes import some
-from studies.runs import last_of, outcome, run
+from studies.runs import last_of, outcome
 from studies.store import Measurement
 from studies.study import Plan, Study, on_cases
 from studies.tables import Row, digits, seconds
@@ -25,19 +23,16 @@ _RUNS = 2
 
 def measure(case: Case, plan: Plan) -> Measurement:
     """A run for each number of samples, and how well its Hessian fits at the minimum."""
-    minimum = run("newton", case).map
-    assert isinstance(minimum, HarmonicMap)
     runs = {}
     for count in SAMPLES:
         plan.detail(f"{case.name}: {count} Hessian samples")
         result = last_of(
             _RUNS, "newton-staged", case, hessian_samples=count, max_iterations=_MOST_ITERATIONS
         )
-        runs[str(count)] = {**outcome(result), "contraction": contraction(case, minimum, count)}
+        runs[str(count)] = outcome(result)
     return {
         "name": case.name,
         "perimeter": case.perimeter,
-        "offset": case.offset,
         "runs": runs,
     }
 
@@ -81,7 +76,6 @@ def tables(found: list[Measurement]) -> dict[str, list[Row]]:
                     "spacing": digits(data["perimeter"] / int(count), 2),
                     "iterations": f"{run_['iterations']}{more}",
                     "energy": f"{run_['energy'][-1]:.8g}",
-                    "largest eigenvalue of M^-1 H": f"{run_['contraction']['most']:.3g}",
                     "time": seconds(run_["time"][-1]),
                 }
             )

@@ -45,9 +45,6 @@ def measure(case: Case, plan: Plan) -> Measurement:
         "name": case.name,
         "runs": runs,
         "fine_means": fine,
-        "perimeter": case.perimeter,
-        "offset": case.offset,
-        "segments": UNIFORM_SAMPLES,
         "refused": {
             "ours": refused_segments(map_, "lipschitz"),
             "bdhm": refused_segments(map_, "bdhm"),

@@ -8,7 +8,6 @@ one that is projected triangle by triangle (paper Section 7): the entries of ``K
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
 import jax
@@ -37,15 +36,11 @@ class NoMinimumError(RuntimeError):
     """Newton's method on a mesh did not converge."""
 
 
-@dataclass(frozen=True, eq=False)
-class Minimum:
-    """A local minimum on a mesh."""
+class Minimum(NamedTuple):
+    """A local minimum on a mesh: (v, 2) images of the vertices, and the total energy."""
 
     images: Array
-    """(v, 2) images of the vertices."""
     energy: float
-    """Total energy; with hard constraints the isometric one."""
-    iterations: int
 
 
 @double_precision
@@ -59,18 +54,8 @@ def mesh_minimum(
     """The minimum of a mesh method's own energy below one of its maps.
 
     Minimises ``E_iso + lambda / 2 sum |f(p_i) - q_i|^2`` with soft constraints, and ``E_iso`` with
-    the handles at their targets with hard ones; ``E_iso`` is the mean over the mesh's area.
-
-    Parameters
-    ----------
-    start : MeshMap
-        Without inverted triangles; the handles are among its vertices, and at their targets where
-        the constraints are hard.
-    pose : Pose
-    energy : Energy
-    constraints : "soft" or "hard"
-    p2p_weight : float
-        ``lambda``, for soft constraints.
+    the handles at their targets with hard ones; ``E_iso`` is the mean over the mesh's area. The
+    start has the handles among its vertices, at their targets where the constraints are hard.
 
     Raises
     ------
@@ -79,28 +64,38 @@ def mesh_minimum(
         energy.
     """
     problem = _Problem(start, pose, energy, constraints, p2p_weight)
-    now = problem.state(start.images @ np.array([1, 1j]))
-    if not np.isfinite(now.energy):
+    operators = problem.operators
+    w = start.images @ np.array([1, 1j])
+    fz, fzb = operators.wirtinger(w)
+    total = problem.total(w, fz, fzb)
+    if not np.isfinite(total):
         raise NoMinimumError("the start has inverted triangles")
     t, descent = 0.0, np.inf
-    for iteration in range(_ITERATIONS):
+    for _ in range(_ITERATIONS):
         # Far from the minimum the exact Hessian is hardly ever definite, and steps are cut short.
-        direction, descent = problem.newton_step(now, try_exact=t == 1)
-        if descent / 2 <= _TOLERANCE * abs(now.energy):
-            images = np.stack([np.real(now.w), np.imag(now.w)], axis=-1)
-            return Minimum(images, now.energy, iteration)
-        now, t = problem.searched(now, direction, descent)
+        direction, descent = problem.newton_step(w, fz, fzb, try_exact=t == 1)
+        if descent / 2 <= _TOLERANCE * abs(total):
+            return Minimum(np.stack([np.real(w), np.imag(w)], axis=-1), total)
+        # The longest of the steps 1, 1/2, ... that lowers the energy enough; none inverts.
+        dfz, dfzb = operators.wirtinger(direction)
+        t = min(1.0, _SAFETY * largest_step(fz, fzb, dfz, dfzb))
+        before = total
+        while True:
+            moved = w + t * direction, fz + t * dfz, fzb + t * dfzb
+            total = problem.total(*moved)
+            if total <= before - _ARMIJO * t * descent:
+                break
+            t /= 2
+            if t <= _LEAST_STEP:
+                raise NoMinimumError(
+                    f"no step of Newton's method on the mesh lowers the energy {before:.6g}, "
+                    f"whose decrement is {descent / 2:.2g}"
+                )
+        w, fz, fzb = moved
     raise NoMinimumError(
         f"Newton's method on the mesh has a decrement of {descent / 2:.2g} after {_ITERATIONS} "
         "iterations"
     )
-
-
-class _State(NamedTuple):
-    w: Array
-    fz: Array
-    fzb: Array
-    energy: float
 
 
 class _Problem:
@@ -127,43 +122,26 @@ class _Problem:
             self.weights[handles] = p2p_weight
         self.unknowns = np.flatnonzero(np.concatenate([free, free]))
 
-    def state(self, w: Array) -> _State:
-        """A map with its energy."""
-        return self._state(w, *self.operators.wirtinger(w))
-
-    def _state(self, w: Array, fz: Array, fzb: Array) -> _State:
+    def total(self, w: Array, fz: Array, fzb: Array) -> float:
+        """The energy of a map."""
         p2p = float(self.weights @ np.abs(w - self.goal) ** 2) / 2
-        return _State(w, fz, fzb, self.operators.energy(self.energy, fz, fzb) + p2p)
+        return self.operators.energy(self.energy, fz, fzb) + p2p
 
-    def newton_step(self, now: _State, try_exact: bool) -> tuple[Array, float]:
+    def newton_step(self, w: Array, fz: Array, fzb: Array, try_exact: bool) -> tuple[Array, float]:
         """The direction, and how fast the energy falls along it: twice the decrement."""
-        operators, count = self.operators, len(now.w)
-        gradient = operators.gradient(self.energy, now.fz, now.fzb)
-        gradient = gradient + self.weights * (now.w - self.goal)
+        count = len(w)
+        gradient = self.operators.gradient(self.energy, fz, fzb)
+        gradient = gradient + self.weights * (w - self.goal)
         slope = np.concatenate([gradient.real, gradient.imag])[self.unknowns]
         p2p = scipy.sparse.diags(np.concatenate([self.weights, self.weights]))
         for exact in (True, False) if try_exact else (False,):
-            hessian = _hessian(operators, self.energy, now.fz, now.fzb, exact) + p2p
+            hessian = _hessian(self.operators, self.energy, fz, fzb, exact) + p2p
             factor = _definite_factor(hessian.tocsr()[self.unknowns][:, self.unknowns])
             if factor is not None:
                 step = np.zeros(2 * count)
                 step[self.unknowns] = -factor.solve(slope)
                 return step[:count] + 1j * step[count:], -float(slope @ step[self.unknowns])
         raise NoMinimumError("the projected Hessian on the mesh is singular")
-
-    def searched(self, now: _State, direction: Array, descent: float) -> tuple[_State, float]:
-        """The longest of the steps 1, 1/2, ... that lowers the energy enough; none inverts."""
-        dfz, dfzb = self.operators.wirtinger(direction)
-        t = min(1.0, _SAFETY * largest_step(now.fz, now.fzb, dfz, dfzb))
-        while t > _LEAST_STEP:
-            moved = self._state(now.w + t * direction, now.fz + t * dfz, now.fzb + t * dfzb)
-            if moved.energy <= now.energy - _ARMIJO * t * descent:
-                return moved, t
-            t /= 2
-        raise NoMinimumError(
-            f"no step of Newton's method on the mesh lowers the energy {now.energy:.6g}, whose "
-            f"decrement is {descent / 2:.2g}"
-        )
 
 
 def _hessian(operators: MeshOperators, energy: Energy, fz: Array, fzb: Array, exact: bool) -> Any:
@@ -208,12 +186,10 @@ def _definite_factor(matrix: Any) -> Any | None:
 
     With all pivots on the diagonal it is ``L D L^T``, whose ``D`` has the matrix's signs.
     """
+    options = {"SymmetricMode": True}
     try:
         factor = scipy.sparse.linalg.splu(
-            matrix.tocsc(),
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.0,
-            options={"SymmetricMode": True},
+            matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options
         )
     except RuntimeError:  # exactly singular
         return None

@@ -13,7 +13,6 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import MeshMap, methods
 from glid_nb.solvers import Pose
 from studies.cases import Case
-from studies.compare.curvature import contraction, negative_eigenvalues
 from studies.compare.minimum import Minimum, NoMinimumError, mesh_minimum
 from studies.compare.progress_figure import HARMONIC, MESH, draw
 from studies.compare.shapes import all_shapes
@@ -75,41 +74,30 @@ def measure(case: Case, plan: Plan) -> Measurement:
             runs[method], pictures, other = _on_mesh(method, case, mesh, other, plan)
             arrays[f"images_{method}"] = pictures
     plan.detail(f"{case.name}: other settings")
+    aligned = run("newton", case, align=True)
+    assert isinstance(aligned.map, HarmonicMap)
     return {
         "name": case.name,
         "handles": len(pose),
         "runs": runs,
         "area_mean_below_ours": area_mean_below(ours, mesh, pose),
-        **_other_settings(case, mesh, runs["newton-eigen"]),
-        "negative": negative_eigenvalues(case),
-        "contraction": contraction(case, ours),
+        "area_mean_aligned": harmonic_area_mean(aligned.map, mesh),
+        "variants": _variants(case),
         "arrays": arrays,
     }
 
 
-def _other_settings(case: Case, mesh: Triangulation, eigen: dict[str, Any]) -> dict[str, Any]:
-    """Runs that tell why the others end as they do.
-
-    Newton's method as Newton-Eigen is run but for the modification; ours if it may align; both
-    Newton's method and L-BFGS with light targets; Newton-Eigen by modulus where it does not end.
-    """
-    aligned = run("newton", case, align=True)
-    assert isinstance(aligned.map, HarmonicMap)
-    light: dict[str, Any] = {"p2p_weight": LIGHT_WEIGHT}
-    limit: dict[str, Any] = {"max_iterations": LIMITS["newton-eigen"]}
-    lbfgs = run("lbfgs", case, initial="dirichlet", max_iterations=LIMITS["lbfgs"], **light)
-    found = {
-        "projected": outcome(run("newton-staged", case, sampling="graded", certificate="hermite")),
-        "aligned": {**outcome(aligned), "area_mean": harmonic_area_mean(aligned.map, mesh)},
-        "light": {
-            "newton": outcome(last_of(_UNWATCHED, "newton", case, **light)),
-            "lbfgs": outcome(lbfgs),
-        },
+def _variants(case: Case) -> dict[str, Any]:
+    """Runs that tell why the others end as they do."""
+    lbfgs = run(
+        "lbfgs", case, initial="dirichlet", max_iterations=LIMITS["lbfgs"], p2p_weight=LIGHT_WEIGHT
+    )
+    return {
+        "projected Hessian, our samples": outcome(
+            run("newton-staged", case, sampling="graded", certificate="hermite")
+        ),
+        "L-BFGS, light targets": outcome(lbfgs),
     }
-    if eigen["status"] not in ENDED:
-        found["negative_of_eigen"] = negative_eigenvalues(case, "newton-eigen", **limit)
-        found["eigen_by_modulus"] = outcome(run("newton-eigen", case, absolute=True, **limit))
-    return found
 
 
 def _harmonic(
@@ -226,10 +214,10 @@ def _with_times(found: dict[str, int | None], time: list[float]) -> dict[str, An
 
 
 def tables(found: list[Measurement]) -> dict[str, list[Row]]:
-    """Iterations, times over ours, distortion, and what decides the iterations."""
+    """Iterations, times over ours, distortion, and variants."""
     titles = {name: method.title for name, method in methods().items()}
     rows: dict[str, list[Row]] = {
-        name: [] for name in ("iterations", "speed", "distortion", "curvature")
+        name: [] for name in ("iterations", "speed", "distortion", "variants")
     }
     for data in found:
         runs, shape = data["runs"], {"shape": data["name"]}
@@ -243,23 +231,12 @@ def tables(found: list[Measurement]) -> dict[str, list[Row]]:
         rows["speed"].append({**shape, **speed})
         means = {titles[m]: runs[m].get("area_mean") for m in ("newton", *MESH) if m in runs}
         means["mesh, from ours"] = data["area_mean_below_ours"]
-        means["ours, aligned first"] = data["aligned"]["area_mean"]
+        means["ours, aligned first"] = data["area_mean_aligned"]
         shown = {name: "" if value is None else f"{value:.3f}" for name, value in means.items()}
         rows["distortion"].append({**shape, **shown})
-        rows["curvature"].append({**shape, **_curvature(data)})
+        variants = {name: _ending(run) for name, run in data["variants"].items()}
+        rows["variants"].append({**shape, "handles": data["handles"], **variants})
     return rows
-
-
-def _curvature(data: Measurement) -> Row:
-    values = data["contraction"]
-    return {
-        "handles": data["handles"],
-        "negative eigenvalues of H, iterate by iterate": ", ".join(map(str, data["negative"])),
-        "eigenvalues of M^-1 H at the minimum": f"{values['least']:.2f} to {values['most']:.2f}",
-        "their least with all samples": f"{values['least_projected']:.2f}",
-        "iterations, projected Hessian on our samples": data["projected"]["iterations"],
-        "iterations of L-BFGS, light targets": _ending(data["light"]["lbfgs"]),
-    }
 
 
 def _ending(one: dict[str, Any]) -> str:

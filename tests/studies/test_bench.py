@@ -107,7 +107,7 @@ def test_bench_measures_starts_and_batches(bench: Callable[..., None], tmp_path:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["bench", "--only", "hope"], "unknown study 'hope'; choose of machine"),
+        (["bench", "--only", "hope"], "unknown study 'hope'; choose of solves"),
         (["bench", "--repeats", "0"], "repeats is 0"),
         (["compare", "--only", "magic"], "unknown study 'magic'; choose of progress"),
         (["compare", "--reference", "nowhere"], "no JSON file there holds a cage and handles"),

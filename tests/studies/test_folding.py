@@ -18,11 +18,6 @@ from studies.study import Plan
 from ..methods.problems import problem
 
 
-def test_triangles_that_share_a_vertex_are_one_fold() -> None:
-    triangles = np.array([[0, 1, 2], [5, 6, 7], [2, 3, 4], [7, 8, 9], [20, 21, 22]])
-    np.testing.assert_array_equal(folding._groups(triangles), [0, 1, 0, 1, 2])
-
-
 def test_the_outline_is_the_boundary() -> None:
     mesh = triangulate(problem("ring")[0].cage, 120)
     edges = folding._outline(mesh.triangles)

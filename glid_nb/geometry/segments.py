@@ -16,7 +16,7 @@ def cross(a: Array, b: Array) -> Array:
 
 
 def point_distance(point: Array, start: Array, end: Array) -> Array:
-    """Distances from points to the segments of the same index."""
+    """Distances from points to the segments of the same index; shapes broadcast."""
     along = end - start
     square = np.real(along * np.conj(along))
     position = np.real((point - start) * np.conj(along)) / np.where(square > 0, square, 1)
