@@ -198,9 +198,10 @@ def _decode(data: bytes, name: str) -> RGBA:
             raise TraceError(
                 f"{name} is not in a picture format that can be read; save it as PNG or JPEG first"
             ) from error
-        if isinstance(picture, TiffImageFile) and picture.mode in ("RGB", "RGBA"):
-            if max(picture.tag_v2.get(_BITS_PER_SAMPLE, (8,))) > 8:
-                return _from_tifffile(data, name)  # Pillow would round to 8 bit
+        tags = picture.tag_v2 if isinstance(picture, TiffImageFile) else {}
+        bits = max(tags.get(_BITS_PER_SAMPLE, (8,)))
+        if picture.mode in ("RGB", "RGBA") and bits > 8:
+            return _from_tifffile(data, name)  # Pillow would round to 8 bit
         with picture:
             return _from_pillow(picture, name)
 
