@@ -8,15 +8,17 @@ in memory.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb import methods
 from glid_nb.energies import Energy
-from glid_nb.geometry import Triangulation, triangulate
+from glid_nb.geometry import MeshMap, Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import MeshMap, MethodProgress, MethodResult, run_method
+from glid_nb.solvers import Iteration, Options, Progress, Result, solve
 from studies.cases import Case
 
 Array = NDArray[Any]
@@ -37,6 +39,8 @@ LIGHT_WEIGHT = 20.0
 """``lambda`` of the published code, whose 1e5 is for a sum over 10^4 samples, without a half."""
 MESH_VERTICES = 10_000
 _DISPLAY_VERTICES = 1_500
+_DEFAULTS = {"newton-staged": {"sampling": "uniform", "certificate": "lipschitz"}}
+_COMPILED = ("newton", "newton-paper", "newton-unmodified")  # do not show their start
 _ALL_KEPT, _APART = 128, 1.01
 
 
@@ -54,8 +58,11 @@ class Watcher:
         self._last: Array | None = None
         self._taken = 0.0
 
-    def __call__(self, progress: MethodProgress) -> bool:
-        map_, step = progress.map, progress.history[-1]
+    def __call__(self, progress: Progress) -> bool:
+        step = (progress.initial, *progress.history)[-1]
+        if len(self.moved) > len(progress.history):  # panels were split, nothing moved
+            return False
+        map_ = progress.map
         images = map_.images if isinstance(map_, MeshMap) else map_(self.points)
         self.moved.append(apart(images, images if self._last is None else self._last))
         self._last = images
@@ -79,15 +86,51 @@ def display_mesh(case: Case, count: int = _DISPLAY_VERTICES) -> Triangulation:
     return triangulate(case.problem.domain.cage, count, points=case.problem.pose.handles)
 
 
-def run(method: str, case: Case, energy: Energy | None = None, **settings: Any) -> MethodResult:
-    """One run, started at the identity unless ``align`` is set."""
-    arguments = (method, case.problem.domain, case.problem.pose, energy)
-    return run_method(*arguments, **{"align": False, "p2p_weight": P2P_WEIGHT, **settings})
+def run(
+    method: str,
+    case: Case,
+    energy: Energy | None = None,
+    *,
+    mesh: Triangulation | None = None,
+    callback: Callable[[Progress], bool | None] | None = None,
+    **settings: Any,
+) -> Result:
+    """One run, started at the identity unless ``align`` is set.
+
+    ``settings`` are the method's own and the options'. ``mesh`` is what a method on a mesh works
+    on. The callback is shown the start, and then every iteration.
+    """
+    own = methods.METHODS[method].kinds()
+    value = methods.by_name(method, **{k: v for k, v in settings.items() if k in own})
+    options = {"align": False, "p2p_weight": P2P_WEIGHT, "restarts": 0, **_DEFAULTS.get(method, {})}
+    options |= {k: v for k, v in settings.items() if k not in own}
+    if callback is not None:
+        options["iterations_per_call"] = 1
+    arguments = (case.problem.domain, case.problem.pose, energy)
+    if callback is not None and method in _COMPILED:
+        still = solve(*arguments, Options(**{**options, "max_iterations": 0}), method=value)
+        callback(
+            Progress(
+                method=value,
+                history=(),
+                initial=still.initial,
+                energy_iso=still.energy_iso,
+                energy_p2p=still.energy_p2p,
+                make_map=lambda: still.map,
+            )
+        )
+    start = None if mesh is None else MeshMap(mesh, mesh.vertices)
+    return solve(*arguments, Options(**options), start, callback, method=value)
+
+
+def entries(result: Result) -> tuple[Iteration, ...]:
+    """The start, then one entry per iteration."""
+    return (result.initial, *result.history)
 
 
 def last_of(
     runs: int, method: str, case: Case, energy: Energy | None = None, **settings: Any
-) -> MethodResult:
+) -> Result:
     """The last of so many runs, none of which is watched."""
     result = run(method, case, energy, **settings)
     for _ in range(runs - 1):
@@ -95,18 +138,18 @@ def last_of(
     return result
 
 
-def outcome(result: MethodResult) -> dict[str, Any]:
+def outcome(result: Result) -> dict[str, Any]:
     """History and ending as plain values."""
     certificate = result.certificate if isinstance(result.map, HarmonicMap) else None
-    flips = [step.flips for step in result.history if step.flips is not None]
+    flips = [step.flips for step in entries(result) if step.flips is not None]
     return {
         "status": result.status.value,
         "message": result.message,
         "iterations": result.iterations,
-        "energy": [step.energy for step in result.history],
-        "step": [step.step for step in result.history],
-        "step_time": [step.time for step in result.history],
-        "time": np.cumsum([step.time for step in result.history]).tolist(),
+        "energy": [step.energy for step in entries(result)],
+        "step": [step.step for step in entries(result)],
+        "step_time": [step.time for step in entries(result)],
+        "time": np.cumsum([step.time for step in entries(result)]).tolist(),
         "most_flips": max(flips) if flips else None,
         "certified": certificate.certified if certificate else None,
         "bounds": [certificate.k_upper, certificate.sigma1_upper, certificate.sigma2_lower]

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import DeformationMap, MeshMap
 from glid_nb.session.edit_state import EditState, Solution
 from glid_nb.session.live_solver import Frame
+from glid_nb.solvers import DeformationMap
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +54,7 @@ class Moment:
     def solution(self) -> Solution | None:
         """How the pose was solved; None while it is not."""
         current, frame = self.state.current, self.frame
-        if current.method.method.family == "harmonic":
+        if current.method.certified:
             return current.solution
         latest = frame is not None and frame.task.pose.asks_the_same(current)
         return frame.solution if frame is not None and latest else None

@@ -10,11 +10,12 @@ import jax.numpy as jnp
 
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision, single_blas_thread
 from glid_nb.energies import SymmetricDirichlet
+from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Result, cholesky, evaluation, line_search
 from glid_nb.solvers.discretisation import Matrices
-from glid_nb.solvers.evaluation import Samples
+from glid_nb.solvers.evaluation import Line, Point, Samples
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
-from glid_nb.solvers.solve import real_coefficients
+from glid_nb.solvers.problem import Constraints, Positional, Problem, real_coefficients
 from glid_nb.solvers.unknowns import reduced_unknowns, restrict_hessian
 from studies.timing import timed
 
@@ -34,10 +35,18 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
     The matrices have the padded sizes that the solver runs on.
     """
     disc, options = result.discretisation, result.options
+    assert disc is not None
+    assert isinstance(result.map, HarmonicMap)
     matrices, unknowns = disc.matrices, reduced_unknowns(disc.basis, options.conformal)
     y = jnp.asarray(real_coefficients(disc.basis, result.map))
     samples = _program(evaluation.products)(matrices, y)
+    # No targets, and a line along which every step is accepted.
+    constraints = Constraints(*(jnp.zeros(n) for n in ((0, len(y) // 2), (0, 2), 0)))
+    problem = Problem(matrices, disc.basis.singularities, unknowns, constraints, _ENERGY)
+    none = jnp.array(0.0)
+    point = Point(y, samples, jnp.array(_ABOVE_ALL), none, evaluation.largest_modulus(y))
     change = Samples(*(_SMALL * part for part in samples))
+    line = Line(_SMALL * y, change, jnp.array(1.0))
 
     def hessian(matrices: Matrices, samples: Samples) -> Any:
         return _hessian(matrices, samples, options.hessian == "projected")
@@ -50,24 +59,11 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
         gradient = evaluation.energy_gradient(matrices, samples.nodes, d)
         return gradient, evaluation.products(matrices, y)
 
-    def certificate(matrices: Matrices, singularities: Any, samples: Samples, y: Any) -> Any:
-        largest = evaluation.largest_modulus(y)
-        return evaluation.bounds(matrices, singularities, y, samples, largest)
+    def certificate(problem: Problem, point: Point) -> Any:
+        return evaluation.bounds(problem, point)
 
-    def search(matrices: Matrices, samples: Samples, change: Samples) -> Any:
-        none = jnp.zeros(2)
-        above, decrement = jnp.array(_ABOVE_ALL), jnp.array(1.0)
-        return line_search.search(
-            samples.nodes,
-            change.nodes,
-            matrices.weights,
-            _ENERGY,
-            none,
-            none,
-            none,
-            above,
-            decrement,
-        )
+    def search(problem: Problem, point: Point, line: Line) -> Any:
+        return line_search.search(problem, Positional.of(problem.constraints), point, line)
 
     def restrict(h: Any, unknowns: Any) -> Any:
         return restrict_hessian(h.astype(float), unknowns, ridge=_RIDGE)
@@ -77,8 +73,8 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
         "hessian": (hessian, (matrices, samples)),
         "factor": (factor, (h, jnp.ones(len(h)))),
         "products": (products, (matrices, samples, y)),
-        "certificate": (certificate, (matrices, disc.basis.singularities, samples, y)),
-        "search": (search, (matrices, samples, change)),
+        "certificate": (certificate, (problem, point)),
+        "search": (search, (problem, point, line)),
     }
     with single_blas_thread():
         return {name: _seconds(*stage, repeats) for name, stage in stages.items()}

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from glid_nb.certificate import certify
 from glid_nb.figures.style import CYAN, HAIRLINE, INK, SKY, SMALL, VERMILION
-from glid_nb.geometry import Triangulation, triangulate
+from glid_nb.geometry import MeshMap, Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import MeshMap, methods
+from glid_nb.methods import available
 from glid_nb.methods.linear.cauchy import cauchy_point_to_point
 from studies import figures
 from studies.cases import Case
@@ -43,7 +43,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
     problem = case.problem
     mesh = triangulate(problem.domain.cage, MESH_VERTICES, points=problem.pose.handles)
     rest = MeshMap(mesh, mesh.vertices).areas
-    known = methods(available=True)
+    known = available()
     measured: dict[str, Any] = {}
     arrays = {
         "mesh": mesh.vertices,
@@ -54,7 +54,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
         if method not in known:
             continue
         plan.detail(f"{case.name}: {title}")
-        result = run(method, case, triangulation=mesh, **settings)
+        result = run(method, case, mesh=mesh, **settings)
         map_ = on_mesh(result.map, mesh)
         measured[name] = {
             "flips": int(map_.flipped.sum()),

@@ -9,10 +9,10 @@ import numpy as np
 
 from glid_nb.energies import ARAP, Energy
 from glid_nb.geometry import triangulate
-from glid_nb.methods import methods
+from glid_nb.methods import METHODS, available
 from studies.cases import Case
 from studies.compare.shapes import all_shapes
-from studies.runs import MESH_VERTICES, run
+from studies.runs import MESH_VERTICES, entries, run
 from studies.store import Measurement
 from studies.study import Plan, Study, on_cases
 from studies.tables import Row
@@ -51,17 +51,17 @@ Ours runs to its end, for its iterations are not alike: those close to the minim
 def measure(case: Case, plan: Plan) -> Measurement:
     """Mean seconds of an iteration from the identity, the median of runs that nothing watches."""
     mesh = triangulate(case.problem.domain.cage, MESH_VERTICES, points=case.problem.pose.handles)
-    known = methods(available=True)
+    known = available()
     seconds: dict[str, float] = {}
     start, spread = None, None
     for method, timed in TIMED.items():
         if method not in known:
             continue
-        plan.detail(f"{case.name}: {known[method].title}, one iteration")
+        plan.detail(f"{case.name}: {known[method].label}, one iteration")
         settings = {**timed.settings, "max_iterations": timed.iterations, "triangulation": mesh}
         # The first run waits for programs that are compiled.
         runs = [run(method, case, timed.energy, **settings) for _ in range(1 + _RUNS)][1:]
-        steps = [[step.time for step in result.history] for result in runs]
+        steps = [[step.time for step in entries(result)] for result in runs]
         if method == "aqp":
             start = float(np.median([times[0] for times in steps]))
         if len(steps[0]) > 1:
@@ -79,7 +79,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
 
 def tables(found: list[Measurement]) -> dict[str, list[Row]]:
     """Milliseconds of an iteration by shape and method."""
-    titles = {name: method.title for name, method in methods().items()}
+    titles = {name: method.label for name, method in METHODS.items()}
     rows: list[Row] = []
     for data in found:
         times = {titles[name]: f"{1e3 * value:.1f}" for name, value in data["seconds"].items()}

@@ -7,7 +7,6 @@ import pytest
 
 from glid_nb.geometry import triangulate
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import run_method
 from studies.distortion import (
     area_mean,
     densities,
@@ -16,7 +15,7 @@ from studies.distortion import (
     mesh_area_mean,
 )
 
-from ..methods.problems import problem
+from ..methods.problems import problem, run_method
 
 DOMAIN, POSE = problem("ell")
 
