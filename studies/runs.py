@@ -8,15 +8,17 @@ in memory.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb import methods
 from glid_nb.energies import Energy
-from glid_nb.geometry import Triangulation, triangulate
+from glid_nb.geometry import MeshMap, Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import MeshMap, MethodProgress, MethodResult, run_method
+from glid_nb.solvers import Iteration, Options, Progress, Result, solve
 from studies.cases import Case
 
 Array = NDArray[Any]
@@ -37,6 +39,7 @@ LIGHT_WEIGHT = 20.0
 """``lambda`` of the published code, whose 1e5 is for a sum over 10^4 samples, without a half."""
 MESH_VERTICES = 10_000
 _DISPLAY_VERTICES = 1_500
+_DEFAULTS = {"newton-staged": {"sampling": "uniform", "certificate": "lipschitz"}}
 _ALL_KEPT, _APART = 128, 1.01
 
 
@@ -48,19 +51,23 @@ class Watcher:
 
     def __init__(self, points: Array, seconds: float = math.inf) -> None:
         self.points, self.seconds = points, seconds
-        self.images: dict[int, Array] = {}
-        self.moved: list[float] = []
+        self.images: dict[int, Array] = {0: points}
+        self.moved = [0.0]
         """Largest distance of a point from where the iterate before had it."""
-        self._last: Array | None = None
+        self._last = points
         self._taken = 0.0
 
-    def __call__(self, progress: MethodProgress) -> bool:
-        map_, step = progress.map, progress.history[-1]
+    def __call__(self, progress: Progress) -> bool:
+        count = len(progress.history)
+        if 0 < count < len(self.moved):  # panels were split, nothing moved
+            return False
+        map_, step = progress.map, (progress.initial, *progress.history)[-1]
         images = map_.images if isinstance(map_, MeshMap) else map_(self.points)
-        self.moved.append(apart(images, images if self._last is None else self._last))
+        if count:
+            self.moved.append(apart(images, self._last))
+        if count < _ALL_KEPT or count >= _APART * max(self.images):
+            self.images[count] = images
         self._last = images
-        if step.iteration < _ALL_KEPT or step.iteration >= _APART * max(self.images):
-            self.images[step.iteration] = images
         self._taken += step.time
         return self._taken > self.seconds
 
@@ -79,34 +86,50 @@ def display_mesh(case: Case, count: int = _DISPLAY_VERTICES) -> Triangulation:
     return triangulate(case.problem.domain.cage, count, points=case.problem.pose.handles)
 
 
-def run(method: str, case: Case, energy: Energy | None = None, **settings: Any) -> MethodResult:
-    """One run, started at the identity unless ``align`` is set."""
-    arguments = (method, case.problem.domain, case.problem.pose, energy)
-    return run_method(*arguments, **{"align": False, "p2p_weight": P2P_WEIGHT, **settings})
+def run(
+    method: str,
+    case: Case,
+    energy: Energy | None = None,
+    *,
+    mesh: Triangulation | None = None,
+    callback: Callable[[Progress], bool | None] | None = None,
+    runs: int = 1,
+    **settings: Any,
+) -> Result:
+    """The last of so many runs, started at the identity unless ``align`` is set.
+
+    ``settings`` are the method's own and the options'. Methods on a mesh work on ``mesh``. The
+    callback is called after every iteration.
+    """
+    own = methods.METHODS[method].kinds()
+    value = methods.by_name(method, **{k: v for k, v in settings.items() if k in own})
+    options = {"align": False, "p2p_weight": P2P_WEIGHT, "restarts": 0, **_DEFAULTS.get(method, {})}
+    options |= {k: v for k, v in settings.items() if k not in own}
+    if callback is not None:
+        options["iterations_per_call"] = 1
+    on_mesh = mesh is not None and not value.certified
+    start = MeshMap(mesh, mesh.vertices) if on_mesh else None
+    arguments = (case.problem.domain, case.problem.pose, energy, Options(**options), start)
+    return [solve(*arguments, callback, method=value) for _ in range(runs)][-1]
 
 
-def last_of(
-    runs: int, method: str, case: Case, energy: Energy | None = None, **settings: Any
-) -> MethodResult:
-    """The last of so many runs, none of which is watched."""
-    result = run(method, case, energy, **settings)
-    for _ in range(runs - 1):
-        result = run(method, case, energy, **settings)
-    return result
+def entries(result: Result) -> tuple[Iteration, ...]:
+    """The start, then one entry per iteration."""
+    return (result.initial, *result.history)
 
 
-def outcome(result: MethodResult) -> dict[str, Any]:
+def outcome(result: Result) -> dict[str, Any]:
     """History and ending as plain values."""
     certificate = result.certificate if isinstance(result.map, HarmonicMap) else None
-    flips = [step.flips for step in result.history if step.flips is not None]
+    flips = [step.flips for step in entries(result) if step.flips is not None]
     return {
         "status": result.status.value,
         "message": result.message,
         "iterations": result.iterations,
-        "energy": [step.energy for step in result.history],
-        "step": [step.step for step in result.history],
-        "step_time": [step.time for step in result.history],
-        "time": np.cumsum([step.time for step in result.history]).tolist(),
+        "energy": [step.energy for step in entries(result)],
+        "step": [step.step for step in entries(result)],
+        "step_time": [step.time for step in entries(result)],
+        "time": np.cumsum([step.time for step in entries(result)]).tolist(),
         "most_flips": max(flips) if flips else None,
         "certified": certificate.certified if certificate else None,
         "bounds": [certificate.k_upper, certificate.sigma1_upper, certificate.sigma2_lower]
@@ -124,16 +147,9 @@ def reached(
 ) -> dict[str, int | None]:
     """For each of :data:`CRITERIA` the iteration from which on it holds, or ``None``.
 
-    Parameters
-    ----------
-    distance : dict
-        Largest distance from the map of the minimum at some iterations.
-    moved, energy : lists
-        Of each iterate: largest distance from the iterate before, and energy.
-    least : float
-        The energy of the minimum.
-    converged : bool
-        Whether the method ended by itself, so that no movement comes after the last.
+    Of the iterates ``distance`` has the largest distance from the map of the minimum, for some,
+    ``moved`` that from the iterate before, and ``energy`` the energy, of which ``least`` is the
+    minimum's. After the last of a method that has ``converged`` no movement comes.
     """
     near = {i: e <= (1 + NEAR) * least for i, e in enumerate(energy)}
     visible = np.flatnonzero(np.array(moved) > VISIBLE)

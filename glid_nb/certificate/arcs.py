@@ -130,7 +130,7 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularitie
     # Twice, for the two sums over phi and psi.
     slack = 2 * rounding.slack_factor(coefficients.shape[1]) * modulus(coefficients).max()
     first_scale, second_scale = cauchy.rounding_scale(start, singularities)
-    return Jets(
+    parts: tuple[Any, ...] = (
         values[:, 0] + jnp.conj(values[:, 1]),
         slopes[:, 0],
         slopes[:, 1],
@@ -141,6 +141,7 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularitie
         slack * second_scale,
         third,
     )
+    return Jets(*parts)
 
 
 def _value_scale(z: Any, singularities: Singularities) -> Any:

@@ -79,6 +79,7 @@ def run(chosen: argparse.Namespace) -> None:
     pose, origin = _pose(chosen.pose, sample, domain)
 
     result, report = run_solver(domain, pose, energy, options, progress)
+    assert isinstance(result.map, glid_nb.HarmonicMap)
     with progress.step("rendering"):
         deformed, cropped = _deformed(image, result.map)
     with progress.step("drawing the overview"):

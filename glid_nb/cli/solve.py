@@ -49,6 +49,7 @@ def run(chosen: argparse.Namespace) -> None:
             problem.domain, problem.pose, energy, options, Progress(), start
         )
     files: dict[Path, bytes | str] = {}
+    assert isinstance(result.map, glid_nb.HarmonicMap)
     if chosen.out:
         files[chosen.out] = json_text(result.map.to_dict())
     if chosen.report:

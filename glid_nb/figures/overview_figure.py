@@ -93,11 +93,15 @@ def overview(
     ------
     ValueError
         The figure would be too narrow for its text, or the picture is none.
+    TypeError
+        The result's map is one of a mesh.
     """
     if not width >= _NARROWEST:
         raise ValueError(f"width is {width} inches; the text needs at least {_NARROWEST}")
     texture = image if isinstance(image, Texture) else Texture.from_image(image)
-    map = result.map
+    map, certificate = result.map, result.certificate
+    if certificate is None or not isinstance(map, HarmonicMap):
+        raise TypeError("the overview shows a certified map; the result's is one of a mesh")
     pose = result.pose if pose is None else pose
     cage, outer = map.domain.cage, map.domain.offset_cage
     outline = [map(along_loop(loop, 8)) for loop in cage.loops]
@@ -105,13 +109,13 @@ def overview(
     target = _reaching(_box(np.concatenate(outline)), pose.targets)
     views = _common_scale(source, target)
 
-    tall = min(width / 3 * float(np.divide(*np.ptp(views[0], axis=0)[::-1])), _TALLEST)
-    figure = Figure(
-        (width, tall + _WRITTEN + _PLOTS), _DPI, facecolor="white", layout="constrained"
-    )
+    across, up = np.ptp(views[0], axis=0)
+    tall = min(width / 3 * up / across, _TALLEST)
+    figure = Figure((width, tall + _WRITTEN + _PLOTS), _DPI, facecolor="white")
+    figure.set_layout_engine("constrained", w_pad=0.08, h_pad=0.04)
     FigureCanvasAgg(figure)
-    above, below = figure.subfigures(2, 1, height_ratios=[tall + _WRITTEN, _PLOTS])
-    pictures, plots = above.subplots(1, 3), below.subplots(1, 3)
+    halves: Any = figure.subfigures(2, 1, height_ratios=[tall + _WRITTEN, _PLOTS])
+    pictures, plots = (half.subplots(1, 3) for half in halves)
     for axes in pictures:
         axes.set_axis_off()
     for axes, letter, name in zip((*pictures, *plots), "abcdef", _NAMES, strict=True):
@@ -124,7 +128,7 @@ def overview(
     strip, places = _distortion(pictures[2], map, shown)
     EnergyPlot(plots[0]).update(result.history, result.start_energy)
     StepPlot(plots[1]).update(result.history)
-    CertificatePlot(plots[2], cage).update(result.certificate, map)
+    CertificatePlot(plots[2], cage).update(certificate, map)
 
     figure.draw_without_rendering()  # lays the axes out, so that pictures can have their pixels
     figure.set_layout_engine("none")

@@ -6,6 +6,7 @@ from glid_nb.geometry._loops import place as place
 from glid_nb.geometry._loops import signed_area as signed_area
 from glid_nb.geometry.cage import Cage as Cage
 from glid_nb.geometry.domain import Domain as Domain
+from glid_nb.geometry.mesh_map import MeshMap as MeshMap
 from glid_nb.geometry.offset import Offset as Offset
 from glid_nb.geometry.offset import hole_points as hole_points
 from glid_nb.geometry.offset import offset_cage as offset_cage

@@ -139,7 +139,7 @@ def _check_crossings(loops: list[NDArray[np.float64]], resolution: float) -> Non
     common = shapely.get_coordinates(shapely.intersection(*pair))
     point = common[0] if len(common) else shapely.get_coordinates(shapely.shortest_line(*pair))[0]
     a, b = int(number[e[first]]), int(number[f[first]])
-    edge_a, edge_b = (_edge(int(index[i[first]]), sizes[number[i[first]]]) for i in (e, f))
+    edge_a, edge_b = (_edge(int(index[i[first]]), int(sizes[number[i[first]]])) for i in (e, f))
     verb = "cross" if crossing[first] else "touch"
     if a != b:
         name_a = "the exterior loop" if a == 0 else loop_name(a)

@@ -153,7 +153,7 @@ def _spacing(cage: Cage, n_vertices: int) -> float:
     return spacing
 
 
-def _lattice(cage: Cage, spacing: float) -> NDArray[np.float64]:
+def _lattice(cage: Cage, spacing: float) -> NDArray[Any]:
     """(p, 2) points of the hexagonal lattice inside the cage and away from its boundary."""
     inner = shapely.buffer(cage.polygon, -_MARGIN * spacing, quad_segs=4)
     if inner.is_empty:

@@ -85,14 +85,20 @@ def _place(hole: Hole) -> str:
     return f"({hole.pixel[0]:.0f}, {hole.pixel[1]:.0f})"
 
 
-def _grown(shape: shapely.Polygon, offset: float) -> shapely.Polygon:
-    """Everything within `offset` of the shape, with the narrow slits closed."""
-    if offset == 0:
-        return shape
+def _moved(region: shapely.Polygon, offset: float, sign: int) -> list[shapely.Polygon]:
+    """The region grown (sign 1) or shrunk (-1) by `offset`, its parts, the largest first.
+
+    Slits of the grown region, and tongues of the shrunk one, that are very narrow go.
+    """
     slit = _SLIT * offset
-    shape = thinned(shape, _ROUGH * offset)
-    parts = shapely.get_parts(shape.buffer(offset + slit).buffer(-slit))
-    return thinned(max(parts, key=lambda part: part.area), _FINE * offset)
+    region = thinned(region, _ROUGH * offset)
+    moved = region.buffer(sign * (offset + slit)).buffer(-sign * slit)
+    parts = [part for part in shapely.get_parts(moved) if not part.is_empty]
+    return sorted(parts, key=lambda part: -part.area)
+
+
+def _grown(shape: shapely.Polygon, offset: float) -> shapely.Polygon:
+    return thinned(_moved(shape, offset, 1)[0], _FINE * offset) if offset > 0 else shape
 
 
 def _shrunk(
@@ -106,12 +112,8 @@ def _shrunk(
     for used in (offset, 0.5 * offset, 0.25 * offset):
         if used == 0:
             break
-        slit = _SLIT * used
-        core = thinned(region, _ROUGH * used).buffer(-used - slit).buffer(slit)
-        parts = sorted(shapely.get_parts(core), key=lambda part: -part.area)
-        if not parts or parts[0].is_empty:
-            continue
-        parts = [part for part in parts if part is parts[0] or part.area >= min_area]
-        if sum(part.area for part in parts) >= _SHRUNK * region.area:
+        parts = _moved(region, used, -1)
+        parts = parts[:1] + [part for part in parts[1:] if part.area >= min_area]
+        if parts and sum(part.area for part in parts) >= _SHRUNK * region.area:
             return [ring_loop(thinned(part, _FINE * used).exterior) for part in parts], used
     return [loop], 0.0

@@ -48,7 +48,7 @@ def find_outline(
     xmin, ymin, xmax, ymax = component.bounds
     top, left = max(ymin - 1, 0), max(xmin - 1, 0)
     crop = np.s_[top : ymax + 1, left : xmax + 1]
-    framed = np.pad(components.labels[crop] == rank + 1, 1)
+    framed = np.pad(components.found[crop] == components.labels[rank], 1)
     least = max(_SPECK, _SPECK_SHARE * component.area)
     specks = _fill_specks(framed, least)
     part = framed[1:-1, 1:-1]
@@ -72,7 +72,7 @@ def find_outline(
     polygon = shapely.Polygon(loops[chosen[0]], [loops[i] for i in chosen[1:]])
     polygon = thinned(polygon, _PRECISION)
     exterior, *holes = map(ring_loop, (polygon.exterior, *polygon.interiors))
-    inside = np.zeros(components.labels.shape, dtype=bool)
+    inside = np.zeros(components.found.shape, dtype=bool)
     inside[crop] = part
     n_specks = specks + len(loops) - len(chosen)
     return Outline(component, exterior, tuple(holes), n_specks, least, block, inside)
@@ -90,7 +90,8 @@ def _fill_specks(inside: NDArray[np.bool_], least: float) -> int:
     """
     if _steps(inside) < _NOISY:
         return 0
-    background, _ = label(~inside)
+    background = np.zeros(inside.shape, dtype=np.int32)
+    label(~inside, output=background)
     fill = np.bincount(background.ravel()) < least
     fill[0] = False
     inside |= fill[background]

@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from glid_nb._errors import did_you_mean
+from glid_nb._arguments import check_keywords
 from glid_nb.geometry import Cage
 from glid_nb.imaging.components import Component, Components, find_components
 from glid_nb.imaging.dilate import Dilation, dilate
@@ -110,11 +110,8 @@ def trace(image: ImageSource, options: TraceOptions | None = None, **changes: An
 
 def with_changes(options: TraceOptions | None, changes: dict[str, Any]) -> TraceOptions:
     """`options` with fields replaced; an unknown name is refused with a hint."""
-    names = [field.name for field in fields(TraceOptions)]
-    for name in changes:
-        if name not in names:
-            hint = did_you_mean(name, names) or f"; there are {', '.join(names)}"
-            raise TraceError(f"'{name}' is no option of trace{hint}")
+    known = (field.name for field in fields(TraceOptions))
+    check_keywords("trace", changes, known, TraceError)
     return replace(options if options is not None else TraceOptions(), **changes)
 
 

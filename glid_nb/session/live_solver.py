@@ -11,21 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb.geometry.panels import Panels
+from glid_nb.geometry import MeshMap, Panels
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import (
-    OURS,
-    DeformationMap,
-    MeshMap,
-    MethodProgress,
-    MethodResult,
-    Step,
-    run_method,
-)
 from glid_nb.session.edit_state import EditedPose, Solution, continued_history
 from glid_nb.session.worker import LatestWins, weakly
-from glid_nb.solvers import Iteration, Progress, Result, solve
-from glid_nb.solvers.discretisation import discretise
+from glid_nb.solvers import DeformationMap, Iteration, Newton, Progress, Result, solve
+from glid_nb.solvers.discretisation import Discretisation, discretise
 
 Array = NDArray[Any]
 
@@ -61,12 +52,12 @@ class Frame:
     task: Task
     map: HarmonicMap
     """Certified. The task's own while a method works on a mesh."""
-    history: tuple[Iteration, ...] | tuple[Step, ...]
+    history: tuple[Iteration, ...]
     """All iterations of this gesture so far."""
     solution: Solution | None
     """None while the solve goes on."""
     panels: Panels | None = None
-    """Of the boundary; None for other methods than ours."""
+    """Of the boundary; None where the method has none."""
     sigma2_lower: Array = field(default_factory=lambda: np.empty(0))
     """(p,) certified bound per panel; empty when it is not known."""
     mesh: MeshMap | None = None
@@ -79,7 +70,8 @@ class Frame:
         """What is proved of sigma_2 everywhere; NaN when the solver did not say."""
         if len(self.sigma2_lower):
             return float(self.sigma2_lower.min())
-        return self.history[-1].sigma2_lower if self.history else math.nan
+        known = self.history[-1].sigma2_lower if self.history else None
+        return math.nan if known is None else known
 
 
 class LiveSolver:
@@ -97,11 +89,12 @@ class LiveSolver:
         self, publish: Callable[[Frame], None], failed: Callable[[Exception], None]
     ) -> None:
         self._publish, self._failed = weakly(publish), weakly(failed)
-        self._last: Result | MethodResult | None = None
+        self._last: Result | None = None
         self._last_chain: int | None = None
-        self._iterations: tuple[Any, ...] = ()
+        self._iterations: tuple[Iteration, ...] = ()
         self._starts: tuple[int, ...] = ()
         self._published = -np.inf
+        self._bounds = np.empty(0)
 
     def solve(self, task: Task, worker: LatestWins[Task]) -> None:
         """Run the task's method, and publish what it comes to.
@@ -116,98 +109,71 @@ class LiveSolver:
         earlier = tuple(i for i in self._starts if before and before[0].iteration <= i < start)
         self._starts = (*earlier, start)
         try:
-            if task.pose.method.name == OURS:
-                assert not isinstance(last, MethodResult)
-                result, frame = self._solve_by_ours(task, worker, last, before)
-            else:
-                assert not isinstance(last, Result)
-                result, frame = self._solve_by_method(task, worker, last, before)
+            result = self._result(task, worker, last, before)
         except Exception as error:  # shown to the user; the next task begins anew
             self._last = None
             self._failed(error)
             return
+        history = continued_history(before, result.history)
+        solution = Solution.of(result, before, self._starts)
+        frame = self._frame(task, result.map, history, solution, result.discretisation)
         self._last, self._last_chain, self._iterations = result, task.chain, frame.history
         self._published = time.monotonic()
         self._publish(frame)
 
-    def _solve_by_ours(
+    def _result(
         self,
         task: Task,
         worker: LatestWins[Task],
         last: Result | None,
         before: tuple[Iteration, ...],
-    ) -> tuple[Result, Frame]:
-        edited = task.pose
-        bounds = np.empty(0)
+    ) -> Result:
+        """Run the task's method, showing where it is as often as frames are due."""
+        edited, method = task.pose, task.pose.method
         calls = iterations = 0
+        self._bounds = np.empty(0)
 
         def callback(progress: Progress) -> bool:
-            nonlocal bounds, calls, iterations
+            nonlocal calls, iterations
+            if progress.sigma2_lower is None and not progress.history:
+                # The start of a method: every task takes a step from there.
+                return worker.cancelled
             calls += 1
-            bounds = progress.sigma2_lower
+            self._bounds = np.empty(0) if progress.sigma2_lower is None else progress.sigma2_lower
             moved, iterations = len(progress.history) > iterations, len(progress.history)
             # The panels that a call without an iteration has split are kept for the next task.
             if worker.overtaken or (task.single and (moved or calls > 1)):
                 return True  # the frame comes with the result
             if moved and self._is_time():
                 history = continued_history(before, progress.history)
-                panels = progress.discretisation.panels
-                self._publish(
-                    Frame(task, progress.map, history, None, panels, bounds, starts=self._starts)
-                )
+                disc = progress.discretisation
+                self._publish(self._frame(task, progress.map, history, None, disc))
             return False
 
-        start = _starting_point(edited, last)
         # The shape is under a hand: it must go on from where it is, without turning as a whole.
         # A single handle takes it along.
-        options = replace(edited.options, align=len(edited.pose) == 1, restarts=0)
+        align = isinstance(method, Newton) and len(edited.pose) == 1
+        options = replace(edited.options, align=align, restarts=0)
+        start = _starting_point(edited, last)
         domain = edited.map.domain
-        result = solve(domain, edited.pose, edited.energy, options, start, callback)
-        solution = Solution.of(result, before, self._starts)
-        panels = result.discretisation.panels
-        bounds = bounds if len(bounds) == len(panels) else np.empty(0)
-        history = continued_history(before, result.history)
-        return result, Frame(
-            task, result.map, history, solution, panels, bounds, starts=self._starts
-        )
+        return solve(domain, edited.pose, edited.energy, options, start, callback, method=method)
 
-    def _solve_by_method(
+    def _frame(
         self,
         task: Task,
-        worker: LatestWins[Task],
-        last: MethodResult | None,
-        before: tuple[Step, ...],
-    ) -> tuple[MethodResult, Frame]:
-        edited = task.pose
-
-        def callback(progress: MethodProgress) -> bool:
-            if worker.cancelled:
-                return True
-            if len(progress.history) == 1:  # the start: every task takes a step from there
-                return False
-            if task.single or worker.overtaken:
-                return True
-            if self._is_time():
-                history = continued_history(before, progress.history[1:])
-                self._publish(_frame(task, progress.map, history, None))
-            return False
-
-        start = edited.map if last is None else last.map
-        if isinstance(start, HarmonicMap) and edited.method.takes("conformal"):
-            start = _conformal_if_asked(edited, start)
-        result = run_method(
-            edited.method.name,
-            edited.map.domain,
-            edited.pose,
-            edited.energy,
-            align=False,
-            start=start,
-            triangulation=start.triangulation if isinstance(start, MeshMap) else None,
-            callback=callback,
-            **edited.method.arguments(edited.options),
-        )
-        history = continued_history(before, result.history[1:])
-        return result, _frame(task, result.map, history, Solution.of_method(result, before))
+        map: DeformationMap,
+        history: tuple[Iteration, ...],
+        solution: Solution | None,
+        discretisation: Discretisation | None,
+    ) -> Frame:
+        """What the method has reached; the map of a mesh stands beside the task's."""
+        panels = None if discretisation is None else discretisation.panels
+        bounds = self._bounds
+        if panels is None or len(bounds) != len(panels):
+            bounds = np.empty(0)
+        mesh = map if isinstance(map, MeshMap) else None
+        certified = task.pose.map if isinstance(map, MeshMap) else map
+        return Frame(task, certified, history, solution, panels, bounds, mesh, self._starts)
 
     def _is_time(self) -> bool:
         """Whether the next frame is due; the time counts from now on if it is."""
@@ -218,25 +184,15 @@ class LiveSolver:
         return due
 
 
-def _frame(
-    task: Task, map: DeformationMap, history: tuple[Step, ...], solution: Solution | None
-) -> Frame:
-    """What a method other than ours has reached; its map of a mesh stands beside the task's."""
-    if isinstance(map, MeshMap):
-        return Frame(task, task.pose.map, history, solution, mesh=map)
-    return Frame(task, map, history, solution)
-
-
-def _starting_point(edited: EditedPose, last: Result | None) -> HarmonicMap | Result:
-    start = _conformal_if_asked(edited, edited.map if last is None else last.map)
-    if last is None or start is not last.map:
+def _starting_point(edited: EditedPose, last: Result | None) -> DeformationMap | Result:
+    start = edited.map if last is None else last.map
+    if isinstance(start, MeshMap):
+        return start
+    conformal = edited.options.conformal and "conformal" in edited.method.options
+    if conformal and np.abs(start.psi - start.psi[0]).max() > 0:
+        # The one conformal map that is always at hand.
+        return HarmonicMap.identity(start.domain)
+    if last is None or last.n_panels is None:
         return start
     fresh = discretise(start.domain, edited.options.sampling, edited.options.certificate)
     return start if last.n_panels > _MOST_REFINED * len(fresh.panels) else last
-
-
-def _conformal_if_asked(edited: EditedPose, start: HarmonicMap) -> HarmonicMap:
-    """The start, or the one conformal map that is always at hand where it must be conformal."""
-    if edited.options.conformal and np.abs(start.psi - start.psi[0]).max() > 0:
-        return HarmonicMap.identity(start.domain)
-    return start

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import DeformationMap, MeshMap
 from glid_nb.session.edit_state import EditState, Solution
 from glid_nb.session.live_solver import Frame
+from glid_nb.solvers import DeformationMap
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +54,7 @@ class Moment:
     def solution(self) -> Solution | None:
         """How the pose was solved; None while it is not."""
         current, frame = self.state.current, self.frame
-        if current.solution is not None:
+        if current.method.certified:
             return current.solution
         # A method on a mesh leaves the pose as it is.
         latest = frame is not None and frame.task.pose.asks_the_same(current)

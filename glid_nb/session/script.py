@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -11,9 +12,8 @@ import numpy as np
 from glid_nb.energies import CustomEnergy, Energy
 from glid_nb.geometry import Domain
 from glid_nb.imaging import TraceError, TraceOptions, trace
-from glid_nb.methods import OURS
 from glid_nb.session.document import Document, DocumentError, NamedPose
-from glid_nb.solvers import Options
+from glid_nb.solvers import Method, Newton, Options
 
 
 def python_code(document: Document, picture: str = "picture.png", *, exact: bool = False) -> str:
@@ -62,23 +62,16 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
 def _solve_lines(pose: NamedPose) -> list[str]:
     handles, targets = pose.pose.handles.tolist(), pose.pose.targets.tolist()
     arguments = ["domain", "pose", _energy(pose.energy)]
-    function, options = "solve", _changed(pose.options, Options())
-    if pose.method.name != OURS:
-        function = "run_method"
-        settings = pose.method.arguments(pose.options)
-        arguments = [
-            repr(pose.method.name),
-            *arguments,
-            *(f"{name}={_plain(value)!r}" for name, value in settings.items()),
-        ]
-    elif options:
+    if options := _changed(pose.options, Options(), pose.method.options):
         arguments.append(f"glid.Options({options})")
+    if not isinstance(pose.method, Newton):
+        arguments.append(f"method={_method(pose.method)}")
     return [
         "pose = glid.Pose(",
         f"    handles={handles},",
         f"    targets={targets},",
         ")",
-        f"result = glid.{function}({', '.join(arguments)})",
+        f"result = glid.solve({', '.join(arguments)})",
         "map = result.map",
     ]
 
@@ -130,14 +123,19 @@ def _energy(energy: Energy) -> str:
     return f"glid.{type(energy).__name__}({'' if s is None else f's={float(s)!r}'})"
 
 
-def _changed(value: Any, default: Any) -> str:
+def _method(method: Method) -> str:
+    given = ", ".join(f"{name}={_plain(value)!r}" for name, value in method.settings.items())
+    return f"glid.methods.{type(method).__name__}({given})"
+
+
+def _changed(value: Any, default: Any, names: Sequence[str] | None = None) -> str:
     """The fields of a dataclass that differ from the default, as keyword arguments."""
     parts = []
-    for field in dataclasses.fields(value):
-        given = getattr(value, field.name)
-        if given != getattr(default, field.name):
+    for name in [field.name for field in dataclasses.fields(value)] if names is None else names:
+        given = getattr(value, name)
+        if given != getattr(default, name):
             written = "float('inf')" if given == math.inf else repr(_plain(given))
-            parts.append(f"{field.name}={written}")
+            parts.append(f"{name}={written}")
     return ", ".join(parts)
 
 

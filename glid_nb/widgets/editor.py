@@ -14,17 +14,17 @@ from glid_nb._arguments import check_count
 from glid_nb._jax import once_loaded
 from glid_nb._runtime import enable_compilation_cache
 from glid_nb.certificate import Certificate
+from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.imaging.render import View
-from glid_nb.methods import MeshMap
 from glid_nb.session import Document
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditedPose, EditError
 from glid_nb.session.editor_model import Application, EditorModel, find_document
 from glid_nb.session.status_line import StatusLine
 from glid_nb.session.tracing import TracingProblem
-from glid_nb.solvers import Pose
+from glid_nb.solvers import Method, Pose
 from glid_nb.widgets import cells
 from glid_nb.widgets.arguments import check_keywords, check_vertices
 from glid_nb.widgets.canvas import DeformCanvas
@@ -262,15 +262,15 @@ class Editor(ipywidgets.VBox):
         """Drag a handle's target; the shape follows in the background."""
         self.deformation.drag(handle, to)
 
-    def set_method(self, name: str, **settings: Any) -> None:
-        """Solve by another of `glid_nb.methods`; those on a mesh are shown for comparison.
+    def set_method(self, method: Method | str, **settings: Any) -> None:
+        """Solve by another of `glid_nb.methods`, or its name; those on a mesh are for comparison.
 
         Raises
         ------
         MethodError
             It is unknown, cannot minimise the energy, or its package is not installed.
         """
-        self.deformation.set_method(name, **settings)
+        self.deformation.set_method(method, **settings)
 
     def solve(self, timeout: float | None = None) -> bool:
         """Wait until the shape has come to rest; whether it did within ``timeout`` seconds."""

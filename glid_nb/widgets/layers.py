@@ -13,8 +13,8 @@ import scipy.sparse
 from numpy.typing import NDArray
 
 from glid_nb.figures.style import VERMILION
+from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import FixedPoints, HarmonicMap, as_complex
-from glid_nb.methods import MeshMap
 from glid_nb.methods.mesh.operators import MeshOperators
 from glid_nb.widgets.overlays import N_COLORS, rgb
 from glid_nb.widgets.shader import ShaderMap, fragment_shader, glsl

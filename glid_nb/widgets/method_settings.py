@@ -7,7 +7,7 @@ from typing import Any, Literal, get_args, get_origin
 
 import ipywidgets
 
-from glid_nb.methods import MethodChoice
+from glid_nb.solvers import Method
 
 LABEL_WIDTH = "124px"
 _FULL = ipywidgets.Layout(width="auto")
@@ -24,7 +24,7 @@ class MethodSettings(ipywidgets.GridBox):
 
     def __init__(self, on_change: Callable[[Mapping[str, Any]], None]) -> None:
         self._on_change = on_change
-        self._choice: MethodChoice | None = None
+        self._method: Method | None = None
         self._built: str | None = None
         self.controls: dict[str, Any] = {}
         """By the setting's name."""
@@ -33,26 +33,26 @@ class MethodSettings(ipywidgets.GridBox):
         )
         super().__init__([], layout=layout)
 
-    def show(self, choice: MethodChoice) -> None:
+    def show(self, method: Method) -> None:
         """Bring the rows up to date."""
-        if choice == self._choice:
+        if method == self._method:
             return
-        self._choice = None  # what the controls tell meanwhile comes from here
-        if choice.name != self._built:
-            self._build(choice)
+        self._method = None  # what the controls tell meanwhile comes from here
+        if method.name != self._built:
+            self._build(method)
         for name, control in self.controls.items():
-            control.value = choice.settings.get(name, choice.own_settings[name])
-        self._choice = choice
+            control.value = getattr(method, name)
+        self._method = method
 
-    def _build(self, choice: MethodChoice) -> None:
+    def _build(self, method: Method) -> None:
         old = self.children
-        kinds, controls = choice.method.kinds, {}
-        for name, default in choice.own_settings.items():
+        kinds, controls = method.kinds(), {}
+        for name, default in method.defaults().items():
             control = _control(kinds[name], default)
             if control is not None:
                 control.observe(self._changed, ["value"])
                 controls[name] = control
-        self.controls, self._built = controls, choice.name
+        self.controls, self._built = controls, method.name
         rows = [(ipywidgets.Label(name.replace("_", " ")), c) for name, c in controls.items()]
         self.children = [part for row in rows for part in row]
         self.layout.display = None if rows else "none"
@@ -60,13 +60,13 @@ class MethodSettings(ipywidgets.GridBox):
             part.close()
 
     def _changed(self, _: Any) -> None:
-        choice = self._choice
-        if choice is None:
+        method = self._method
+        if method is None:
             return
         values = {name: control.value for name, control in self.controls.items()}
-        hidden = {k: v for k, v in choice.settings.items() if k not in values}
-        own = {k: v for k, v in values.items() if v != choice.own_settings[k]}
-        self._choice = None  # whatever becomes of it is shown
+        hidden = {k: v for k, v in method.settings.items() if k not in values}
+        own = {k: v for k, v in values.items() if v != method.defaults()[k]}
+        self._method = None  # whatever becomes of it is shown
         self._on_change({**hidden, **own})
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import DeformationMap
+from glid_nb.solvers import DeformationMap
 from glid_nb.widgets.closing import close_with_parts
 from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import legend, panel_legend

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.figures.style import BLUE, GREY
-from glid_nb.geometry import Triangulation, triangulate, uniform_panels
+from glid_nb.geometry import MeshMap, Triangulation, triangulate, uniform_panels
 from glid_nb.geometry.panels import Panels
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
-from glid_nb.methods import DeformationMap, MeshMap
+from glid_nb.solvers import DeformationMap
 from glid_nb.widgets.layers import ComparisonLayer, EvaluatedIn, Layer, MapLayer, attribute
 from glid_nb.widgets.overlays import (
     FULL_MARGIN,

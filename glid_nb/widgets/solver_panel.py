@@ -9,8 +9,9 @@ from typing import Any
 import ipywidgets
 
 from glid_nb.energies import ENERGIES, CustomEnergy, energy_by_name
-from glid_nb.methods import MethodChoice, methods
+from glid_nb.methods import METHODS
 from glid_nb.session.deformation import Deformation
+from glid_nb.solvers import Method
 from glid_nb.widgets.arguments import check_keywords
 from glid_nb.widgets.edit_controls import EditControls
 from glid_nb.widgets.method_settings import LABEL_WIDTH, MethodSettings
@@ -127,11 +128,11 @@ class SolverPanel(EditControls):
 
     def _show(self) -> None:
         current = self.deformation.state.current
-        options, energy, choice = current.options, current.energy, current.method
+        options, energy, method = current.options, current.energy, current.method
         with self._while_showing():
-            self.method.value = choice.name
-            self.about.value = _about(choice)
-            self.settings.show(choice)
+            self.method.value = method.name
+            self.about.value = _about(method)
+            self.settings.show(method)
             custom = isinstance(energy, CustomEnergy)
             names = [*self.energy.options]
             if custom and names[-1][1] != "custom":
@@ -147,7 +148,7 @@ class SolverPanel(EditControls):
             self.hessian.value = options.hessian
             self.iterations.value = options.iterations_per_call
             for control, option in self._options:
-                control.disabled = not choice.takes(option)
+                control.disabled = option not in method.options
             self.pause.value = self.deformation.paused
             self.step.disabled = not self.deformation.paused
 
@@ -180,17 +181,18 @@ class SolverPanel(EditControls):
 def _method_menu() -> list[tuple[str, str]]:
     """All methods, ours first; on what each works, and which package it lacks."""
     return [
-        (
-            method.title + _WORKS_ON[method.family] + ("" if method.available else _NOT_INSTALLED),
-            name,
-        )
-        for name, method in methods().items()
+        (method.label + _WORKS_ON[method.family] + _lacking(method), name)
+        for name, method in METHODS.items()
     ]
 
 
-def _about(choice: MethodChoice) -> str:
-    text = choice.method.summary
-    if choice.method.family != "harmonic":
+def _lacking(method: type[Method]) -> str:
+    return "" if method.available() else _NOT_INSTALLED
+
+
+def _about(method: Method) -> str:
+    text = method.summary
+    if not method.certified:
         text += (
             " Shown for comparison, without a proof; saved and exported is the last certified map."
         )

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.energies import SymmetricDirichlet
-from glid_nb.geometry import Triangulation, triangulate
+from glid_nb.geometry import MeshMap, Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import MeshMap, methods
+from glid_nb.methods import METHODS, available
 from glid_nb.solvers import Pose
 from studies.cases import Case
 from studies.compare.minimum import Minimum, NoMinimumError, mesh_minimum
@@ -26,7 +26,7 @@ from studies.runs import (
     Watcher,
     apart,
     display_mesh,
-    last_of,
+    entries,
     outcome,
     reached,
     run,
@@ -70,7 +70,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
     runs["newton"]["area_mean"] = harmonic_area_mean(ours, mesh)
     other: MeshMap | None = None
     for method in reversed(MESH):
-        if method in methods(available=True):
+        if method in available():
             runs[method], pictures, other = _on_mesh(method, case, mesh, other, plan)
             arrays[f"images_{method}"] = pictures
     plan.detail(f"{case.name}: other settings")
@@ -111,12 +111,12 @@ def _harmonic(
     limit: dict[str, Any] = {"max_iterations": LIMITS.get(method)}
     watcher = Watcher(display.vertices)
     watched = run(method, case, callback=watcher, **limit) if method in _FOLLOWED else None
-    result = last_of(1 if method == "lbfgs" else _UNWATCHED, method, case, **limit)
+    result = run(method, case, runs=1 if method == "lbfgs" else _UNWATCHED, **limit)
     map_ = result.map
     assert isinstance(map_, HarmonicMap)
     measured, end = outcome(result), map_(display.vertices)
     if watched is not None and watched.status.ok:
-        energy = [step.energy for step in watched.history]
+        energy = [step.energy for step in entries(watched)]
         found = reached(watcher.distance(end), watcher.moved, energy, energy[-1], True)
         found = {n: None if i is None else min(i, result.iterations) for n, i in found.items()}
         measured["reached"] = _with_times(found, measured["time"])
@@ -133,7 +133,7 @@ def _on_mesh(
     That is returned last, ``None`` where there is none; ``other`` is that of another method.
     """
     plan.detail(f"{case.name}: {method}, followed for {MESH_SECONDS:.0f} s")
-    settings: dict[str, Any] = {"triangulation": mesh, "max_iterations": 1_000_000}
+    settings: dict[str, Any] = {"mesh": mesh, "max_iterations": 1_000_000}
     watcher = Watcher(mesh.vertices, MESH_SECONDS)
     result = run(method, case, callback=watcher, **settings)
     map_ = result.map
@@ -151,7 +151,7 @@ def _on_mesh(
     plan.detail(f"{case.name}: {method}, timed")
     needed = max((i for i in found.values() if i is not None), default=0)
     timed = run(method, case, **{**settings, "max_iterations": needed})
-    unwatched = [step.time for step in timed.history]
+    unwatched = [step.time for step in entries(timed)]
     time = np.cumsum([*unwatched, *measured["step_time"][len(unwatched) :]]).tolist()
     measured |= {
         "time": time,
@@ -215,7 +215,7 @@ def _with_times(found: dict[str, int | None], time: list[float]) -> dict[str, An
 
 def tables(found: list[Measurement]) -> dict[str, list[Row]]:
     """Iterations, times over ours, distortion, and variants."""
-    titles = {name: method.title for name, method in methods().items()}
+    titles = {name: method.label for name, method in METHODS.items()}
     rows: dict[str, list[Row]] = {
         name: [] for name in ("iterations", "speed", "distortion", "variants")
     }

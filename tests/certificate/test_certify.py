@@ -248,7 +248,7 @@ def test_without_refinement_the_given_panels_are_all_there_is(kind: Any) -> None
     panels = uniform_panels(d.cage, 1000)
     map, truth = measured("ring", 0.02, 3)
     c = certify(map, kind, panels, refine=False)
-    assert len(c.panels) == len(panels) == len(samples.points)
+    assert len(c.panels) == len(panels) >= 1000
     np.testing.assert_array_equal(c.panels.start @ [1, 1j], panels.start)
     check_sound(c, truth)
     assert c.certified

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from glid_nb.geometry import uniform_panels
+from glid_nb.geometry import MeshMap, uniform_panels
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import MeshMap, methods, run_method
+from glid_nb.methods import METHODS
 from glid_nb.session import InputFileError, Problem
 from studies.__main__ import main
 from studies.cases import Case, reference_cases, sample_case
@@ -21,7 +21,7 @@ from studies.compare.minimum import NoMinimumError
 from studies.runs import VISIBLE
 from studies.study import Plan
 
-from ..methods.problems import problem
+from ..methods.problems import problem, run_method
 from ..reference_map import ReferenceMap
 
 
@@ -123,7 +123,7 @@ def test_progress_from_measurement_to_table(tmp_path: Path) -> None:
     assert 2 <= data["area_mean_aligned"] <= ours * (1 + 1e-6)
     tables = progress.tables([data])
     iterations, speed = tables["iterations"][0], tables["speed"][0]
-    titles = {name: method.title for name, method in methods().items()}
+    titles = {name: method.label for name, method in METHODS.items()}
     assert iterations[titles["newton"]] == str(runs["newton"]["iterations"])
     assert iterations[titles["newton-unmodified"]].startswith("indefinite at ")
     assert len(speed[titles["aqp"]].split(" / ")) == 3
@@ -138,8 +138,6 @@ def test_parts_from_measurement_to_table(tmp_path: Path) -> None:
     seconds = times["seconds"]
     assert {"newton", "newton-eigen", "lbfgs", "aqp"} <= set(seconds)
     assert min(seconds.values()) > 0
-    least, most = times["spread"]
-    assert 0 < least <= most
     (row,) = iteration_times.tables([times])["iteration-times"]
     assert float(row["L-BFGS"]) == pytest.approx(1e3 * seconds["lbfgs"], abs=0.06)
 

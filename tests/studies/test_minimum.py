@@ -9,18 +9,19 @@ import pytest
 from scipy.spatial import KDTree
 
 from glid_nb.energies import SymmetricDirichlet
-from glid_nb.methods import MeshMap, MethodResult, run_method
+from glid_nb.geometry import MeshMap
+from glid_nb.solvers import Result
 from studies.compare import minimum
 from studies.compare.minimum import Constraints, NoMinimumError, mesh_minimum
 
-from ..methods.problems import problem
+from ..methods.problems import problem, run_method
 
 COARSE = 250
 _, POSE = problem("ell")
 
 
 @functools.cache
-def run(method: str, iterations: int) -> MethodResult:
+def run(method: str, iterations: int) -> Result:
     if method == "slim":
         pytest.importorskip("igl")
     shape, pose = problem("ell")

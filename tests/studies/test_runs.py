@@ -3,26 +3,38 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from glid_nb.geometry import triangulate
-from glid_nb.methods import MeshMap, MethodProgress, Step, run_method
+from glid_nb.geometry import MeshMap, triangulate
+from glid_nb.methods import AQP
 from glid_nb.session import Problem
+from glid_nb.solvers import Iteration, Progress
 from studies.cases import Case
 from studies.compare.progress import ended_by
 from studies.runs import VISIBLE, Watcher, outcome, reached, run, thumbnails
 
-from ..methods.problems import problem
+from ..methods.problems import problem, run_method
 
 MESH = triangulate(problem("ell")[0].cage, 20)
 
 
-def progress(iteration: int, shift: float, seconds: float = 1.0) -> MethodProgress:
-    step = Step(iteration, 1.0, 1.0, 0.0, 1.0, seconds, 0, np.nan)
-    return MethodProgress(
-        "aqp", (step,), lambda: MeshMap(MESH, MESH.vertices + np.array([shift, 0]))
+def step(iteration: int, flips: int = 0, seconds: float = 1.0) -> Iteration:
+    return Iteration(
+        iteration=iteration, energy_iso=1.0, energy_p2p=0.0, step=1.0, time=seconds, flips=flips
+    )
+
+
+def progress(iteration: int, shift: float) -> Progress:
+    return Progress(
+        method=AQP(),
+        history=tuple(step(i) for i in range(1, iteration + 1)),
+        initial=step(0),
+        energy_iso=1.0,
+        energy_p2p=0.0,
+        make_map=lambda: MeshMap(MESH, MESH.vertices + np.array([shift, 0])),
     )
 
 
@@ -42,7 +54,7 @@ def test_iterates_are_thinned_and_the_method_stopped_in_time() -> None:
 def test_harmonic_maps_are_watched_at_the_points() -> None:
     points = np.array([[0.1, 0.2], [-1.0, -1.0]])
     watcher = Watcher(points)
-    result = run_method("newton", *problem("ell"), callback=watcher)
+    result = run_method("newton", *problem("ell"), callback=watcher, iterations_per_call=1)
     np.testing.assert_allclose(watcher.images[result.iterations], result.map(points), rtol=1e-6)
 
 
@@ -87,11 +99,9 @@ def test_thumbnails_end_with_the_run_that_counts() -> None:
 def test_flips_count_at_every_iteration() -> None:
     case = Case("ell", Problem(*problem("ell")))
     result = run("mls", case, n_vertices=60)
-    history = list(result.history)
-    folded = Step(1, 2.0, 2.0, 0.0, 1.0, 0.1, 7, np.nan)
-    object.__setattr__(result, "history", (history[0], folded, history[-1]))
-    assert result.flips == 0
-    assert outcome(result)["most_flips"] == 7
+    folded = replace(result, history=(step(1, flips=7), *result.history))
+    assert folded.flips == 0
+    assert outcome(folded)["most_flips"] == 7
 
 
 @pytest.mark.slow

@@ -34,7 +34,7 @@ def scribble_score(
     labels, notes = _labels(scribbles, shape, size)
     field = _probability(scaled, labels).astype(np.float32)
     if shape != size:
-        large = Image.fromarray(field).resize(shape[::-1], Image.Resampling.BILINEAR)
+        large = Image.fromarray(field).resize((shape[1], shape[0]), Image.Resampling.BILINEAR)
         field = np.array(large)
     return field, notes
 
@@ -105,7 +105,7 @@ def _drawn(
         rows, columns = ((np.argwhere(strokes) + 0.5) * factor).astype(np.intp).T
         drawn[rows, columns] = True
         return drawn
-    picture = Image.new("1", size[::-1])
+    picture = Image.new("1", (size[1], size[0]))
     for stroke in strokes:
         # A stroke may leave the picture, but not by so much that drawing it would take forever.
         points = np.clip(np.floor(stroke * factor[::-1]), -max(size), 2 * max(size))

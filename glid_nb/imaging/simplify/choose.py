@@ -65,23 +65,23 @@ def simplify(
     max_vertices, min_edge, max_edge
         As in `TraceOptions`.
     """
-    outline = _Outline(loops)
+    ranked = _Ranked(loops)
     areas = np.array([abs(signed_area(loop)) for loop in loops])
     if tolerance is None:
-        tolerance = outline.automatic_tolerance(float(areas[0]), offset)
+        tolerance = ranked.automatic_tolerance(float(areas[0]), offset)
         limits = np.minimum(tolerance, _LOOP_SHARE * np.sqrt(areas))
     else:
         limits = np.full(len(loops), tolerance)
     gap = max(_GAP * room, _LEAST_GAP)
 
-    kept, notes = outline.choose(limits, min_edge, gap)
+    kept, notes = ranked.choose(limits, min_edge, gap)
     if max_vertices is not None and kept.sum() > max_vertices:
         fewest = 3 * len(loops)
         aim, excess = max(max_vertices, fewest), 0
         while True:
             aim = max(aim - excess, fewest)  # repairs put some vertices back
-            tolerance = outline.tolerance_for_count(aim)
-            kept, notes = outline.choose(np.full(len(loops), tolerance), min_edge, gap)
+            tolerance = ranked.tolerance_for_count(aim)
+            kept, notes = ranked.choose(np.full(len(loops), tolerance), min_edge, gap)
             excess = int(kept.sum()) - max_vertices
             if excess <= 0 or aim == fewest:
                 break
@@ -89,14 +89,14 @@ def simplify(
             notes.append(
                 f"max_vertices={max_vertices} is too few: the loops need {kept.sum()} to keep apart"
             )
-    moved = enclosing(outline.loops, kept, _MARGIN * offset, gap)
+    moved = enclosing(ranked.loops, kept, _MARGIN * offset, gap)
     divided = divide_long_edges(moved, max_edge, max_vertices)
     divided.points.setflags(write=False)
     exterior, *holes = divided.split(divided.points)
     return Simplified(exterior, tuple(holes), float(tolerance), tuple(notes))
 
 
-class _Outline:
+class _Ranked:
     """Loops, how much each vertex matters, and the three of each loop that are always kept."""
 
     def __init__(self, loops: tuple[Points, ...]) -> None:

@@ -41,7 +41,7 @@ def _droppable(
     """Vertices at short edges, one per edge, so far apart that each can be judged by itself."""
     length, around = loops.lengths, _around(loops)
     bases = shapely.linestrings(loops.points[around[:, [1, 3]]])
-    height = shapely.distance(shapely.points(loops.points), bases)
+    height = np.asarray(shapely.distance(shapely.points(loops.points), bases))
     taken = np.zeros(len(length), dtype=bool)
     chosen: list[int] = []
     for edges, limit in zip(loops.split(np.arange(len(length))), shortest, strict=True):
@@ -51,7 +51,7 @@ def _droppable(
                 break
             ends = [int(end) for end in around[edge, 2:4] if not blocked[end]]
             if ends:
-                vertex = min(ends, key=height.__getitem__)
+                vertex = min(ends, key=lambda end: height[end])
                 if not taken[around[vertex]].any():
                     taken[around[vertex]] = True
                     chosen.append(vertex)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb.geometry import Triangulation
+from glid_nb.geometry.triangulate import Triangulation
 
 Array = NDArray[Any]
 
