@@ -19,19 +19,12 @@ def machine() -> dict[str, Any]:
     """What to say about a machine beside its numbers."""
     return {
         "processor": _processor(),
-        "cores": cores(),
+        "cores": os.cpu_count(),
         "system": platform.platform(),
         "python": platform.python_version(),
         "devices": [f"{d.platform}: {d.device_kind}" for d in jax.local_devices()],
         "versions": {name: version(name) for name in _LIBRARIES},
     }
-
-
-def cores() -> int:
-    """CPU cores that this process may run on."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def _processor() -> str:
