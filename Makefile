@@ -3,12 +3,14 @@
 # make unit   the fast tests only (under a minute)
 # make lint   ruff and pyright
 # make dev    the development environment with everything
+# make compare  the paper's comparisons measured anew (half an hour); ARGUMENTS=--help tells more
+# make bench  the solver's speed on this machine (a quarter of an hour); ARGUMENTS=--help likewise
 # make browser  Chromium for the browser tests, by apt
 SHELL := /bin/sh
 VENV := .venv
 PYTEST := $(VENV)/bin/python -m pytest
 
-.PHONY: demo test unit lint format dev browser clean
+.PHONY: demo test unit lint format dev compare bench browser clean
 .DEFAULT_GOAL := demo
 
 demo: $(VENV)/.demo
@@ -33,6 +35,12 @@ format: $(VENV)/.dev
 
 dev: $(VENV)/.dev
 
+compare: $(VENV)/.studies
+	$(VENV)/bin/python -m studies.comparisons $(ARGUMENTS)
+
+bench: $(VENV)/.studies
+	$(VENV)/bin/python -m studies.benchmarks $(ARGUMENTS)
+
 browser:
 	tools/chromium.sh
 
@@ -41,13 +49,17 @@ $(VENV)/.demo: pyproject.toml tools/environment.sh
 	tools/environment.sh
 	touch $@
 
+$(VENV)/.studies: pyproject.toml tools/environment.sh
+	tools/environment.sh studies
+	touch $@ $(VENV)/.demo
+
 $(VENV)/.test: pyproject.toml tools/environment.sh
 	tools/environment.sh test
-	touch $@ $(VENV)/.demo
+	touch $@ $(VENV)/.studies $(VENV)/.demo
 
 $(VENV)/.dev: pyproject.toml tools/environment.sh
 	tools/environment.sh dev
-	touch $@ $(VENV)/.test $(VENV)/.demo
+	touch $@ $(VENV)/.test $(VENV)/.studies $(VENV)/.demo
 
 clean:
 	rm -rf $(VENV) glid-nb-demo artefacts dist

@@ -4,25 +4,19 @@
 # Shapes
 from .geometry import Cage as Cage
 from .geometry import Domain as Domain
-from .geometry import GeometryError as GeometryError
 from .geometry import Triangulation as Triangulation
 from .geometry import offset_cage as offset_cage
 from .geometry import triangulate as triangulate
 
 # Pictures
 from .imaging import PixelFrame as PixelFrame
-from .imaging import RenderError as RenderError
 from .imaging import Scribbles as Scribbles
-from .imaging import TraceError as TraceError
 from .imaging import TraceOptions as TraceOptions
 from .imaging import Tracer as Tracer
 from .imaging import Tracing as Tracing
 from .imaging import read_image as read_image
 from .imaging import trace as trace
-from .imaging.overview import figure_png as figure_png
-from .imaging.overview import overview as overview
 from .imaging.render import render as render
-from .imaging.render import rendering as rendering
 
 # Energies
 from .energies import AMIPS as AMIPS
@@ -30,7 +24,6 @@ from .energies import ARAP as ARAP
 from .energies import CustomEnergy as CustomEnergy
 from .energies import MIPS as MIPS
 from .energies import Energy as Energy
-from .energies import EnergyError as EnergyError
 from .energies import ExponentialSymmetricDirichlet as ExponentialSymmetricDirichlet
 from .energies import SymmetricDirichlet as SymmetricDirichlet
 from .energies import energy_by_name as energy_by_name
@@ -41,55 +34,42 @@ from .certificate import GlobalInjectivity as GlobalInjectivity
 from .certificate import certify as certify
 from .certificate import global_injectivity as global_injectivity
 from .harmonic import HarmonicMap as HarmonicMap
-from .harmonic import MapError as MapError
 
 # Solving
 from .solvers import Iteration as Iteration
 from .solvers import Options as Options
-from .solvers import OptionError as OptionError
 from .solvers import Pose as Pose
-from .solvers import PoseError as PoseError
 from .solvers import Progress as Progress
 from .solvers import Result as Result
-from .solvers import StartError as StartError
 from .solvers import Status as Status
 from .solvers import solve as solve
 from .solvers import solve_batch as solve_batch
 from ._runtime import enable_compilation_cache as enable_compilation_cache
 
 # Other methods on the same problems
-from .compare import MeshMap as MeshMap
-from .compare import Method as Method
-from .compare import MethodChoice as MethodChoice
-from .compare import MethodError as MethodError
-from .compare import MethodProgress as MethodProgress
-from .compare import MethodResult as MethodResult
-from .compare import Step as Step
-from .compare import methods as methods
-from .compare import run_method as run_method
+from .methods import MeshMap as MeshMap
+from .methods import Method as Method
+from .methods import MethodChoice as MethodChoice
+from .methods import MethodProgress as MethodProgress
+from .methods import MethodResult as MethodResult
+from .methods import Step as Step
+from . import methods as methods
+from .methods import run_method as run_method
 
 # Files and reports
 from .session import Document as Document
-from .session import DocumentError as DocumentError
-from .session import InputFileError as InputFileError
 from .session import NamedPose as NamedPose
 from .session import Problem as Problem
 from .session import build_report as build_report
 from .session import load_document as load_document
 from .session import load_pose as load_pose
-from .session import load_scribbles as load_scribbles
 from .session import python_code as python_code
 from .session import save_document as save_document
 from .session import suggest_pose as suggest_pose
 
-# Results for other programs
-from .export import animation_bytes as animation_bytes
-from .export import cage_svg as cage_svg
-from .export import mesh_glb as mesh_glb
-from .export import mesh_obj as mesh_obj
-from .export import page_html as page_html
-from .export import picture_png as picture_png
-from .export import textured_mesh as textured_mesh
+# Figures, and results for other programs
+from . import export as export
+from . import figures as figures
 
 # In the notebook
 from .session import TracingModel as TracingModel
@@ -99,6 +79,9 @@ from .widgets import DeformCanvas as DeformCanvas
 from .widgets import Editor as Editor
 from .widgets import SolverMonitor as SolverMonitor
 from .widgets import SolverPanel as SolverPanel
+
+# Whatever is refused
+from ._errors import InputError as InputError
 
 # Bundled pictures
 from . import samples as samples

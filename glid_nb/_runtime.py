@@ -9,11 +9,13 @@ from __future__ import annotations
 import functools
 import os
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
 from threadpoolctl import OpenBLASController, ThreadpoolController
 
 from glid_nb._jax import jax
@@ -73,6 +75,39 @@ def double_precision(function: Callable[P, R]) -> Callable[P, R]:
             return function(*args, **kwargs)
 
     return wrapped
+
+
+def in_chunks(program: Callable[..., R], size: int, rows: Sequence[NDArray[Any]], *fixed: Any) -> R:
+    """Run a compiled program over rows in chunks of one size, so that it compiles once.
+
+    Parameters
+    ----------
+    program : callable
+        ``program(*chunk, *fixed)`` gives a pytree of arrays, one row for each row of the chunk.
+    size : int
+        Rows of a chunk; the last one is filled up with copies of its first row.
+    rows : sequence of arrays
+        With the same number of rows, which may be 0.
+
+    Returns
+    -------
+    The program's pytree for all rows, of NumPy arrays.
+    """
+    count = len(rows[0])
+    parts, structure = [], None
+    for first in range(0, max(count, 1), size):
+        chunk = [a[first : first + size] for a in rows]
+        outputs = program(*(_filled(a, size) for a in chunk), *fixed)
+        own = slice(len(chunk[0]))
+        parts.append([np.asarray(a)[own] for a in jax.tree.leaves(outputs)])
+        structure = jax.tree.structure(outputs)
+    columns = zip(*parts, strict=True)
+    return jax.tree.unflatten(structure, [np.concatenate(column) for column in columns])
+
+
+def _filled(chunk: NDArray[Any], size: int) -> NDArray[Any]:
+    filling = chunk[:1] if len(chunk) else np.zeros((1, *chunk.shape[1:]), chunk.dtype)
+    return np.concatenate([chunk, np.repeat(filling, size - len(chunk), axis=0)])
 
 
 def cache_directory() -> Path:

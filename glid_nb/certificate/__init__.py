@@ -1,29 +1,33 @@
 """Proofs of local injectivity and certified distortion bounds (paper Section 8 and beyond)."""
 
-from glid_nb.certificate import bdhm, hermite, lipschitz, rounding
-from glid_nb.certificate.bounds import EndValues, PanelBounds, derivative_bound_weights
+from glid_nb.certificate import rounding
+from glid_nb.certificate.bdhm import BDHM
 from glid_nb.certificate.certify import (
-    METHODS,
+    PROOFS,
     Certificate,
-    Method,
+    CertificateKind,
     PanelCertificate,
     certify,
 )
+from glid_nb.certificate.hermite import Hermite
 from glid_nb.certificate.injectivity import GlobalInjectivity, global_injectivity
+from glid_nb.certificate.panels import EndValues, PanelBounds, PanelProof
+from glid_nb.certificate.paper import Lipschitz, fz_vanishes
 
 __all__ = [
-    "METHODS",
+    "BDHM",
+    "PROOFS",
     "Certificate",
+    "CertificateKind",
     "EndValues",
     "GlobalInjectivity",
-    "Method",
+    "Hermite",
+    "Lipschitz",
     "PanelBounds",
     "PanelCertificate",
-    "bdhm",
+    "PanelProof",
     "certify",
-    "derivative_bound_weights",
+    "fz_vanishes",
     "global_injectivity",
-    "hermite",
-    "lipschitz",
     "rounding",
 ]

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._jax import jit, jnp
-from glid_nb._runtime import COMPILER_OPTIONS
+from glid_nb._runtime import COMPILER_OPTIONS, in_chunks
 from glid_nb.certificate import rounding
-from glid_nb.certificate.bounds import derivative_bound_weights, modulus
+from glid_nb.certificate.panels import modulus
+from glid_nb.certificate.paper import derivative_bound_weights
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.harmonic.cauchy import Singularities
 
@@ -32,9 +33,9 @@ class Jets(NamedTuple):
 
     f: Array
     fz: Array
-    fzb: Array
+    fzb_conj: Array
     dfz: Array
-    dfzb: Array
+    dfzb_conj: Array
     f_error: Array
     first_error: Array
     second_error: Array
@@ -46,12 +47,12 @@ class Jets(NamedTuple):
 
     def first(self, direction: Array) -> Array:
         """Derivative along unit vectors, as a complex number."""
-        return self.fz * direction + np.conj(self.fzb * direction)
+        return self.fz * direction + np.conj(self.fzb_conj * direction)
 
     def second(self, direction: Array) -> Array:
         """Second derivative along unit vectors."""
         square = direction**2
-        return self.dfz * square + np.conj(self.dfzb * square)
+        return self.dfz * square + np.conj(self.dfzb_conj * square)
 
 
 class Arcs(NamedTuple):
@@ -117,18 +118,11 @@ class JetEvaluator:
 
     def __call__(self, start: Array, end: Array) -> Jets:
         """Jets at the (p,) complex points ``start``, ``third`` being for the panels to ``end``."""
-        parts = []
-        for first in range(0, len(start), _CHUNK):
-            ends = [z[first : first + _CHUNK] for z in (start, end)]
-            size = len(ends[0])
-            filled = [np.append(z, np.full(_CHUNK - size, z[0])) for z in ends]
-            outputs = _kernel(*filled, self._coefficients, self._singularities)
-            parts.append([np.asarray(values)[:size] for values in outputs])
-        return Jets(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
+        return in_chunks(_kernel, _CHUNK, (start, end), self._coefficients, self._singularities)
 
 
 @functools.partial(jit, compiler_options=COMPILER_OPTIONS)
-def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularities) -> Any:
+def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularities) -> Jets:
     columns = (cauchy.cauchy_coordinates, cauchy.first_derivatives, cauchy.second_derivatives)
     values, slopes, curvatures = (c(start, singularities) @ coefficients.T for c in columns)
     jumps = modulus(cauchy.slope_jumps(coefficients, singularities)).sum(axis=0)
@@ -136,7 +130,7 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularitie
     # Twice, for the two sums over phi and psi.
     slack = 2 * rounding.slack_factor(coefficients.shape[1]) * modulus(coefficients).max()
     first_scale, second_scale = cauchy.rounding_scale(start, singularities)
-    return (
+    return Jets(
         values[:, 0] + jnp.conj(values[:, 1]),
         slopes[:, 0],
         slopes[:, 1],

@@ -10,70 +10,78 @@ here every loop has its affine function, and a hole's logarithm the constant ``1
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
 
 from glid_nb._jax import jax, jnp
-from glid_nb.certificate.bounds import distances, modulus
-from glid_nb.certificate.lipschitz import bounds_from_variation as panel_bounds
+from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
+from glid_nb.certificate.paper import bounds_from_variation, distances
 from glid_nb.harmonic.cauchy import Singularities
 
 if TYPE_CHECKING:
     from jaxtyping import Array, Complex, Float, Int
 
-__all__ = ["SegmentWeights", "constants", "panel_bounds", "segment_weights"]
 
+class BDHM(NamedTuple):
+    """The proof by these constants; ``m`` vertices, then ``N`` holes make ``n``."""
 
-class SegmentWeights(NamedTuple):
-    """What depends on the segments alone; ``m`` vertices, then ``N`` holes make ``n``."""
-
-    constants: Float[Array, "p n"]
+    length: Float[Array, " p"]
+    weights: Float[Array, "n p"]
     """``L_j``."""
-    first: Int[Array, "p m"]
+    first: Int[Array, "m p"]
     """The vertex of the loop of ``z_j`` at which ``L`` is largest on this segment."""
-    second: Int[Array, "p m"]
+    second: Int[Array, "m p"]
     """The neighbour of ``first`` with the larger ``L``."""
-    vertices: Complex[Array, " m"]
 
+    @classmethod
+    def on(
+        cls, start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
+    ) -> Self:
+        """``L_j`` on each segment, and where to subtract."""
+        vertices, following, preceding, _ = map(jnp.asarray, singularities)
+        m = vertices.shape[0]
+        d = distances(start, end, singularities)
+        near = d[:, :m]
+        chord = modulus(vertices[following] - vertices[preceding])
+        weights = chord / (2 * np.pi * near[:, preceding] * near * near[:, following])
+        loop = _loops(following)
+        largest = jax.ops.segment_max(weights.T, loop, m)[loop].T
+        candidates = jnp.where(weights == largest, jnp.arange(m), -1)
+        first = jax.ops.segment_max(candidates.T, loop, m)[loop].T
+        value = jnp.take_along_axis
+        after = value(weights, following[first], 1) >= value(weights, preceding[first], 1)
+        second = jnp.where(after, following[first], preceding[first])
+        weights = jnp.concatenate([weights, d[:, m:] ** -2], axis=1)
+        return cls(jnp.abs(end - start), weights.T, first.T, second.T)
 
-def segment_weights(
-    start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
-) -> SegmentWeights:
-    """Constants of the basis functions on each segment, and where to subtract."""
-    vertices, following, preceding, _ = singularities
-    vertices, following, preceding = map(jnp.asarray, (vertices, following, preceding))
-    m = vertices.shape[0]
-    d = distances(start, end, singularities)
-    near = d[:, :m]
-    chord = modulus(vertices[following] - vertices[preceding])
-    constants = chord / (2 * np.pi * near[:, preceding] * near * near[:, following])
-    loop = _loops(following)
-    largest = jax.ops.segment_max(constants.T, loop, m)[loop].T
-    candidates = jnp.where(constants == largest, jnp.arange(m), -1)
-    first = jax.ops.segment_max(candidates.T, loop, m)[loop].T
-    value = jnp.take_along_axis
-    after = value(constants, following[first], 1) >= value(constants, preceding[first], 1)
-    second = jnp.where(after, following[first], preceding[first])
-    return SegmentWeights(
-        jnp.concatenate([constants, d[:, m:] ** -2], axis=1), first, second, vertices
-    )
+    def constants(
+        self, coefficients: Complex[Array, "k n"], singularities: Singularities
+    ) -> Float[Array, "k p"]:
+        """Lipschitz constants on each segment, one row per row of coefficients."""
+        z, m = jnp.asarray(singularities.vertices), self.first.shape[0]
+        first, second, weights = self.first.T, self.second.T, self.weights.T
+        z1, z2 = z[first], z[second]
 
+        def one(row: Complex[Array, " n"]) -> Float[Array, " p"]:
+            phi = row[:m]
+            phi1 = phi[first]
+            slope = (phi[second] - phi1) / (z2 - z1)
+            rest = modulus(phi - phi1 - slope * (z - z1))
+            return jnp.sum(weights[:, :m] * rest, axis=1) + weights[:, m:] @ modulus(row[m:])
 
-def constants(coefficients: Complex[Array, "k n"], weights: SegmentWeights) -> Float[Array, "k p"]:
-    """Lipschitz constants on each segment, one row per row of coefficients."""
-    z, m = weights.vertices, weights.vertices.shape[0]
-    z1, z2 = z[weights.first], z[weights.second]
+        return jnp.stack([one(row) for row in coefficients])
 
-    def one(row: Complex[Array, " n"]) -> Float[Array, " p"]:
-        phi = row[:m]
-        phi1 = phi[weights.first]
-        slope = (phi[weights.second] - phi1) / (z2 - z1)
-        rest = modulus(phi - phi1 - slope * (z - z1))
-        vertices = jnp.sum(weights.constants[:, :m] * rest, axis=1)
-        return vertices + weights.constants[:, m:] @ modulus(row[m:])
+    def remainder(
+        self, coefficients: Complex[Array, "k n"], singularities: Singularities
+    ) -> Float[Array, "k p"]:
+        """``L l``: no slope at an end takes part in it."""
+        return self.length * self.constants(coefficients, singularities)
 
-    return jnp.stack([one(row) for row in coefficients])
+    @staticmethod
+    def bounds(fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]) -> PanelBounds:
+        """Bounds on each segment by (26) and (27)."""
+        return bounds_from_variation(fz, fzb_conj, remainder)
 
 
 def _loops(following: Int[Array, " m"]) -> Int[Array, " m"]:

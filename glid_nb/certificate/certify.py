@@ -4,23 +4,31 @@ from __future__ import annotations
 
 import functools
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._jax import jit, jnp
-from glid_nb._runtime import COMPILER_OPTIONS, double_precision
-from glid_nb.certificate import bdhm, hermite, lipschitz, rounding
-from glid_nb.certificate.bounds import EndValues, derivative_bound_weights, modulus
-from glid_nb.geometry import Panels, graded_panels
+from glid_nb._runtime import COMPILER_OPTIONS, double_precision, in_chunks
+from glid_nb.certificate import rounding
+from glid_nb.certificate.bdhm import BDHM
+from glid_nb.certificate.hermite import Hermite
+from glid_nb.certificate.panels import EndValues, PanelBounds, PanelProof, after_split, modulus
+from glid_nb.certificate.paper import Lipschitz
+from glid_nb.geometry import Panels, as_points, graded_panels, place
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
-from glid_nb.harmonic.basis import Basis
 
 Array = NDArray[Any]
-Method = Literal["hermite", "lipschitz", "bdhm"]
+CertificateKind = Literal["hermite", "lipschitz", "bdhm"]
 
-METHODS = {"hermite": hermite, "lipschitz": lipschitz, "bdhm": bdhm}
+PROOFS: dict[CertificateKind, type[PanelProof]] = {
+    "hermite": Hermite,
+    "lipschitz": Lipschitz,
+    "bdhm": BDHM,
+}
+"""The kinds of proof by name."""
+
 _CHUNK = 256
 _MAX_ROUNDS = 40
 _MAX_PANELS = 400_000
@@ -82,7 +90,7 @@ class Certificate:
     k_upper: float
     windings: tuple[int, ...]
     panels: PanelCertificate
-    method: Method
+    kind: CertificateKind
     reason: str
 
     @property
@@ -96,10 +104,32 @@ class Certificate:
         return int((self.panels.depth > 0).sum())
 
 
+class _Known(NamedTuple):
+    """Bounds on each panel, and the distortion that is seen at its start."""
+
+    bounds: PanelBounds
+    sigma2_seen: Array
+    sigma1_seen: Array
+    k_seen: Array
+    fz_seen: Array
+    slack: Array
+    """What rounding may have changed."""
+
+    @property
+    def folded(self) -> Array:
+        """(p,) bool: the map certainly folds at the panel's start."""
+        return self.sigma2_seen <= -2 * self.slack
+
+    @property
+    def injective(self) -> Array:
+        """(p,) bool: proved on the whole panel."""
+        return np.asarray(self.bounds.injective)
+
+
 @double_precision
 def certify(
     map: HarmonicMap,
-    method: Method = "hermite",
+    kind: CertificateKind = "hermite",
     panels: Panels | None = None,
     *,
     refine: bool = True,
@@ -110,7 +140,7 @@ def certify(
     Parameters
     ----------
     map : HarmonicMap
-    method : "hermite", "lipschitz" or "bdhm"
+    kind : "hermite", "lipschitz" or "bdhm"
         Cubic interpolants with Bernstein coefficients, the paper's Lipschitz constants (26)-(27),
         or the larger ones of bounded distortion harmonic mappings (Figure 7).
     panels : Panels, optional
@@ -122,166 +152,111 @@ def certify(
         With ``refine``, panels are split until the bounds are within this relative distance of
         values that the map attains.
     """
-    if method not in METHODS:
-        raise ValueError(f"unknown method {method!r}; choose one of {', '.join(METHODS)}")
+    if kind not in PROOFS:
+        raise ValueError(f"unknown kind of certificate {kind!r}; choose one of {', '.join(PROOFS)}")
     if not tightness > 0:
         raise ValueError(f"tightness is {tightness}; it must be positive")
     basis = basis_of(map.domain)
     coefficients = np.stack([basis.pad(map.phi), basis.pad(map.psi)])
+
+    def evaluate(panels: Panels) -> _Known:
+        run = functools.partial(_kernel, kind=kind)
+        ends = (panels.start, panels.end)
+        return in_chunks(run, _CHUNK, ends, coefficients, basis.singularities)
+
     panels = graded_panels(map.domain) if panels is None else panels
-    known = _evaluate(panels, coefficients, basis, method)
+    known = evaluate(panels)
     for _ in range(_MAX_ROUNDS if refine else 0):
         wanted = _to_split(known, tightness) & panels.divisible
-        if (
-            (known["sigma2_seen"] <= -2 * known["slack"]).any()
-            or not wanted.any()
-            or len(panels) > _MAX_PANELS
-        ):
+        if known.folded.any() or not wanted.any() or len(panels) > _MAX_PANELS:
             break
-        finer = panels.split(wanted)
-        parent = np.repeat(np.arange(len(panels)), np.where(wanted, 2, 1))
+        parent, panels = panels.parents(wanted), panels.split(wanted)
         new = wanted[parent]
-        known = {name: values[parent] for name, values in known.items()}
-        fresh = _evaluate(finer.chosen(new), coefficients, basis, method)
-        for name, values in fresh.items():
-            known[name][new] = values
-        panels = finer
-    return _conclude(map, panels, known, method)
+        known = after_split(known, parent, new, evaluate(panels.chosen(new)))
+    return _conclude(map, panels, known, kind)
 
 
-def _to_split(known: dict[str, Array], tightness: float) -> Array:
+def _to_split(known: _Known, tightness: float) -> Array:
     """Panels whose proof fails, or that keep the overall bounds from being tight."""
-    least, most, worst = (
-        known["sigma2_seen"].min(),
-        known["sigma1_seen"].max(),
-        known["k_seen"].max(),
-    )
+    bounds, injective = known.bounds, known.injective
+    worst = known.k_seen.max()
     k_slack = tightness * max(worst, 1e-3)
     # Splitting shortens panels; it does not lessen what rounding takes from the bounds.
-    slack = known["slack"]
-    least_gain = 4 * slack
-    failed = ~known["injective"] & (known["sigma2_seen"] > least_gain)
-    loose_sigma2 = known["sigma2_seen"] - known["sigma2_lower"] > least_gain
-    loose_sigma1 = known["sigma1_upper"] - known["sigma1_seen"] > least_gain
+    least_gain = 4 * known.slack
+    failed = ~injective & (known.sigma2_seen > least_gain)
+    loose_sigma2 = known.sigma2_seen - bounds.sigma2_lower > least_gain
+    loose_sigma1 = bounds.sigma1_upper - known.sigma1_seen > least_gain
     # An unknown k belongs to a failed panel; elsewhere k is bounded and f_z is not 0.
-    k_known = np.isfinite(known["k_upper"]) & (known["fz_seen"] > 0)
-    k_gap = np.where(k_known, known["k_upper"], 0) - np.where(k_known, known["k_seen"], 0)
-    loose_k = ~k_known | (k_gap * known["fz_seen"] > 2 * least_gain)
+    k_known = np.isfinite(bounds.k_upper) & (known.fz_seen > 0)
+    k_gap = np.where(k_known, bounds.k_upper, 0) - np.where(k_known, known.k_seen, 0)
+    loose_k = ~k_known | (k_gap * known.fz_seen > 2 * least_gain)
     return failed | (
-        (loose_sigma2 & (known["sigma2_lower"] < least * (1 - tightness)))
-        | (loose_sigma1 & (known["sigma1_upper"] > most * (1 + tightness)))
-        | (loose_k & known["injective"] & (known["k_upper"] > worst + k_slack))
+        (loose_sigma2 & (bounds.sigma2_lower < known.sigma2_seen.min() * (1 - tightness)))
+        | (loose_sigma1 & (bounds.sigma1_upper > known.sigma1_seen.max() * (1 + tightness)))
+        | (loose_k & injective & (bounds.k_upper > worst + k_slack))
     )
 
 
 def _conclude(
-    map: HarmonicMap, panels: Panels, known: dict[str, Array], method: Method
+    map: HarmonicMap, panels: Panels, known: _Known, kind: CertificateKind
 ) -> Certificate:
+    bounds = known.bounds
     n_loops = 1 + map.domain.n_holes
-    turns = np.bincount(panels.loop, weights=known["turning"], minlength=n_loops) / (2 * np.pi)
+    turns = np.bincount(panels.loop, weights=bounds.turning, minlength=n_loops) / (2 * np.pi)
     windings = tuple(int(w) for w in np.round(np.nan_to_num(turns)))
-    folded = known["sigma2_seen"] <= -2 * known["slack"]
-    open_ = ~known["injective"]
-    if folded.any():
-        i = int(np.argmin(known["sigma2_seen"]))
-        certified = False
-        reason = (
-            f"The map is not locally injective: sigma_2 = {known['sigma2_seen'][i]:.3g} "
-            f"near {_place(panels.start[i])}."
-        )
-    elif open_.any():
-        i = int(np.argmin(known["sigma2_lower"]))
-        certified = False
-        reason = (
-            f"Undecided: {int(open_.sum())} of {len(panels)} panels could not be proved "
-            f"injective, the worst near {_place(panels.middle[i])}."
-        )
-    elif sum(windings) != 0:
-        certified = False
-        reason = f"The map is not locally injective: f_z has {sum(windings)} zeros in the domain."
-    else:
-        certified = True
-        reason = f"Proved locally injective on {len(panels)} panels."
+    reason = _failure(panels, known, sum(windings))
+    per_panel = (bounds.sigma2_lower, bounds.sigma1_upper, bounds.k_upper)
+    for values in per_panel:
+        values.flags.writeable = False
     return Certificate(
-        certified,
-        float(known["sigma2_lower"].min()),
-        float(known["sigma1_upper"].max()),
-        float(known["k_upper"].max()),
+        not reason,
+        float(bounds.sigma2_lower.min()),
+        float(bounds.sigma1_upper.max()),
+        float(bounds.k_upper.max()),
         windings,
         PanelCertificate(
-            _frozen(_real(panels.start)),
-            _frozen(_real(panels.end)),
-            panels.loop,
-            panels.depth,
-            *(_frozen(known[name]) for name in ("sigma2_lower", "sigma1_upper", "k_upper")),
+            as_points(panels.start), as_points(panels.end), panels.loop, panels.depth, *per_panel
         ),
-        method,
-        reason,
+        kind,
+        reason or f"Proved locally injective on {len(panels)} panels.",
     )
 
 
-def _evaluate(
-    panels: Panels, coefficients: Array, basis: Basis, method: Method
-) -> dict[str, Array]:
-    """Bounds on each panel, and the distortion seen at its start, by name."""
-    count = len(panels)
-    parts = []
-    for first in range(0, count, _CHUNK):
-        ends = [panels.start[first : first + _CHUNK], panels.end[first : first + _CHUNK]]
-        size = len(ends[0])
-        filled = [np.append(e, np.full(_CHUNK - size, e[0])) for e in ends]
-        outputs = _kernel(*filled, coefficients, basis.singularities, method=method)
-        parts.append({name: np.asarray(values)[:size] for name, values in outputs.items()})
-    return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+def _failure(panels: Panels, known: _Known, zeros: int) -> str:
+    """Why the map is not certified; empty if it is."""
+    unproved = ~known.injective
+    if known.folded.any():
+        i = int(np.argmin(known.sigma2_seen))
+        return (
+            f"The map is not locally injective: sigma_2 = {known.sigma2_seen[i]:.3g} "
+            f"near {place(panels.start[i])}."
+        )
+    if unproved.any():
+        i = int(np.argmin(known.bounds.sigma2_lower))
+        return (
+            f"Undecided: {int(unproved.sum())} of {len(panels)} panels could not be proved "
+            f"injective, the worst near {place(panels.middle[i])}."
+        )
+    if zeros != 0:
+        return f"The map is not locally injective: f_z has {zeros} zeros in the domain."
+    return ""
 
 
-@functools.partial(jit, static_argnames="method", compiler_options=COMPILER_OPTIONS)
-def _kernel(start: Any, end: Any, coefficients: Any, singularities: Any, method: Method) -> Any:
+@functools.partial(jit, static_argnames="kind", compiler_options=COMPILER_OPTIONS)
+def _kernel(
+    start: Any, end: Any, coefficients: Any, singularities: Any, kind: CertificateKind
+) -> _Known:
     chord = end - start
     values = [cauchy.first_derivatives(z, singularities) @ coefficients.T for z in (start, end)]
     slopes = [
         chord[:, None] * (cauchy.second_derivatives(z, singularities) @ coefficients.T)
         for z in (start, end)
     ]
-    ends = EndValues(
-        *(v[:, k] for k in (0, 1) for v in values), *(s[:, k] for k in (0, 1) for s in slopes)
-    )
-    length = jnp.abs(chord)
-    if method == "bdhm":
-        segments = bdhm.segment_weights(start, end, singularities)
-        remainder = length * bdhm.constants(coefficients, segments)
-    else:
-        module = hermite if method == "hermite" else lipschitz
-        jumps = jnp.abs(cauchy.slope_jumps(coefficients, singularities))
-        weights = derivative_bound_weights(start, end, singularities, module.DERIVATIVE_ORDER)
-        remainder = module.remainder_factor(length) * (jumps @ weights.T)
+    fz, fzb_conj = (EndValues(*(a[:, k] for a in (*values, *slopes))) for k in (0, 1))
+    proof = PROOFS[kind].on(start, end, singularities)
     factor = rounding.slack_factor(coefficients.shape[1]) * jnp.abs(coefficients).max()
     slack = factor * rounding.panel_scale(start, end, singularities)
-    remainder = remainder + slack
-    bounds = METHODS[method].panel_bounds(ends, remainder[0], remainder[1])
-    f, g = (modulus(values[0][:, k]) for k in (0, 1))
-    return {
-        "sigma2_lower": bounds.sigma2_lower,
-        "sigma1_upper": bounds.sigma1_upper,
-        "k_upper": bounds.k_upper,
-        "turning": bounds.turning,
-        "injective": bounds.injective,
-        "sigma2_seen": f - g,
-        "sigma1_seen": f + g,
-        "k_seen": g / f,
-        "fz_seen": f,
-        "slack": slack,
-    }
-
-
-def _frozen(values: Array) -> Array:
-    values.flags.writeable = False
-    return values
-
-
-def _real(z: Array) -> Array:
-    return np.stack([np.real(z), np.imag(z)], axis=-1)
-
-
-def _place(z: complex) -> str:
-    return f"({z.real:.6g}, {z.imag:.6g})"
+    remainder = proof.remainder(coefficients, singularities) + slack
+    bounds = proof.bounds(fz, fzb_conj, remainder)
+    f, g = modulus(fz.start), modulus(fzb_conj.start)
+    return _Known(bounds, f - g, f + g, g / f, f, slack)

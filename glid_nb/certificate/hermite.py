@@ -10,10 +10,12 @@ interpolation does not change sign, so the bound holds for complex functions too
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 from glid_nb._jax import jnp
-from glid_nb.certificate.bounds import EndValues, PanelBounds, modulus, turning
+from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
+from glid_nb.certificate.paper import derivative_bound_weights, turning
+from glid_nb.harmonic.cauchy import Singularities, slope_jumps
 
 if TYPE_CHECKING:
     from jaxtyping import Array, Complex, Float
@@ -22,41 +24,55 @@ if TYPE_CHECKING:
     Cubic = list[Complex[Array, " p"]]
     Sextic = list[Float[Array, " p"]]
 
-DERIVATIVE_ORDER = 4
 
+class Hermite(NamedTuple):
+    """The proof by cubic interpolants on graded panels."""
 
-def remainder_factor(length: Float[Array, " p"]) -> Float[Array, " p"]:
+    factor: Float[Array, " p"]
     """``l^4 / 384``: remainder per unit of the bound on the fourth derivative."""
-    return length**4 / 384
+    weights: Float[Array, "n p"]
+    """The bound on the fourth derivative per unit of each slope jump."""
 
+    @classmethod
+    def on(
+        cls, start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
+    ) -> Self:
+        """The weights of the remainder on the panels."""
+        weights = derivative_bound_weights(start, end, singularities, 4)
+        return cls(jnp.abs(end - start) ** 4 / 384, weights.T)
 
-def panel_bounds(
-    values: EndValues, remainder_fz: Float[Array, " p"], remainder_fzb: Float[Array, " p"]
-) -> PanelBounds:
-    """Bounds that hold on each whole panel.
+    def remainder(
+        self, coefficients: Complex[Array, "k n"], singularities: Singularities
+    ) -> Float[Array, "k p"]:
+        """``e_f`` and ``e_g``."""
+        jumps = jnp.abs(slope_jumps(coefficients, singularities))
+        return self.factor * (jumps @ self.weights)
 
-    The interpolants are cut in half once, which tightens the enclosure without another
-    evaluation of the map.
-    """
-    p = _control_points(values.fz_start, values.fz_end, values.dfz_start, values.dfz_end)
-    q = _control_points(values.fzb_start, values.fzb_end, values.dfzb_start, values.dfzb_end)
-    halves = [
-        _piece_bounds(p_half, q_half, remainder_fz, remainder_fzb)
-        for p_half, q_half in zip(_halves(p), _halves(q), strict=True)
-    ]
-    sigma2, sigma1, k = zip(*halves, strict=True)
+    @staticmethod
+    def bounds(fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]) -> PanelBounds:
+        """Bounds that hold on each whole panel.
 
-    # If the control polygon lies in a half plane further than e_f from 0, so does f_z.
-    direction = p[0] / modulus(p[0]) + p[3] / modulus(p[3])
-    direction = direction / modulus(direction)
-    offset = _least([jnp.real(jnp.conj(direction) * point) for point in p])
-    return PanelBounds(
-        jnp.nan_to_num(_least(sigma2), nan=-jnp.inf),
-        _greatest(sigma1),
-        _greatest(k),
-        offset > remainder_fz,
-        turning(values),
-    )
+        The interpolants are cut in half once, which tightens the enclosure without another
+        evaluation of the map.
+        """
+        p, q = _control_points(fz), _control_points(fzb_conj)
+        halves = [
+            _piece_bounds(p_half, q_half, remainder[0], remainder[1])
+            for p_half, q_half in zip(_halves(p), _halves(q), strict=True)
+        ]
+        sigma2, sigma1, k = zip(*halves, strict=True)
+
+        # If the control polygon lies in a half plane further than e_f from 0, so does f_z.
+        direction = p[0] / modulus(p[0]) + p[3] / modulus(p[3])
+        direction = direction / modulus(direction)
+        offset = _least([jnp.real(jnp.conj(direction) * point) for point in p])
+        return PanelBounds(
+            jnp.nan_to_num(_least(sigma2), nan=-jnp.inf),
+            _greatest(sigma1),
+            _greatest(k),
+            offset > remainder[0],
+            turning(fz.start, fz.end),
+        )
 
 
 def _piece_bounds(
@@ -86,13 +102,8 @@ def _piece_bounds(
     return sigma2, sigma1, jnp.where(sigma2 > 0, jnp.minimum(k, from_sigma), k)
 
 
-def _control_points(
-    start: Complex[Array, " p"],
-    end: Complex[Array, " p"],
-    slope_start: Complex[Array, " p"],
-    slope_end: Complex[Array, " p"],
-) -> Cubic:
-    return [start, start + slope_start / 3, end - slope_end / 3, end]
+def _control_points(f: EndValues) -> Cubic:
+    return [f.start, f.start + f.slope_start / 3, f.end - f.slope_end / 3, f.end]
 
 
 def _halves(cubic: Cubic) -> tuple[Cubic, Cubic]:

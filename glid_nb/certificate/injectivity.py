@@ -29,8 +29,9 @@ from glid_nb._runtime import double_precision
 from glid_nb.certificate.arcs import Arcs, JetEvaluator, Jets
 from glid_nb.certificate.certify import Certificate, certify
 from glid_nb.certificate.crossing import proved_crossing
+from glid_nb.certificate.panels import after_split
 from glid_nb.certificate.segments import segment_distance
-from glid_nb.geometry import Panels, graded_panels
+from glid_nb.geometry import Panels, as_points, graded_panels, place
 from glid_nb.harmonic import HarmonicMap
 
 Array = NDArray[Any]
@@ -162,13 +163,10 @@ def _corner_simple(arcs: Arcs, following: Array) -> Array:
 def _split(
     panels: Panels, jets: Jets, wanted: Array, evaluate: JetEvaluator
 ) -> tuple[Panels, Jets]:
-    finer = panels.split(wanted)
-    parent = np.repeat(np.arange(len(panels)), np.where(wanted, 2, 1))
+    finer, parent = panels.split(wanted), panels.parents(wanted)
     new = wanted[parent]
-    jets = jets.at(parent)
-    for values, fresh in zip(jets, evaluate(finer.start[new], finer.end[new]), strict=True):
-        values[new] = fresh
-    return finer, jets
+    fresh = evaluate(finer.start[new], finer.end[new])
+    return finer, after_split(jets, parent, new, fresh)
 
 
 def _injective(n_panels: int) -> GlobalInjectivity:
@@ -181,24 +179,18 @@ def _injective(n_panels: int) -> GlobalInjectivity:
 
 def _overlapping(image: complex, points: Array, n_panels: int) -> GlobalInjectivity:
     reason = (
-        f"The map overlaps itself: the boundary points {_place(points[0])} and "
-        f"{_place(points[1])} are both mapped to {_place(image)}."
+        f"The map overlaps itself: the boundary points {place(points[0])} and "
+        f"{place(points[1])} are both mapped to {place(image)}."
     )
-    crossing = np.array([image.real, image.imag])
-    parameters = np.stack([np.real(points), np.imag(points)], axis=-1)
-    return GlobalInjectivity("no", reason, n_panels, crossing, parameters)
+    return GlobalInjectivity("no", reason, n_panels, as_points(image), as_points(points))
 
 
 def _undecided(panels: Panels, pairs: Array, open_: Array) -> GlobalInjectivity:
     if pairs.size:
         closest = pairs[:, np.argmin(panels.length[pairs].max(axis=0))]
-        places = " and ".join(_place(z) for z in panels.middle[closest])
+        places = " and ".join(place(z) for z in panels.middle[closest])
         what = f"the images of the boundary near {places} touch or nearly do"
     else:
-        what = f"the image of the boundary is too curved near {_place(panels.middle[open_][0])}"
+        what = f"the image of the boundary is too curved near {place(panels.middle[open_][0])}"
     reason = f"Undecided: {what}; {len(panels)} pieces of the boundary do not tell."
     return GlobalInjectivity("undecided", reason, len(panels))
-
-
-def _place(z: complex) -> str:
-    return f"({z.real:.6g}, {z.imag:.6g})"

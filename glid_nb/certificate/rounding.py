@@ -16,11 +16,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from glid_nb._jax import jnp
-from glid_nb.certificate.bounds import UNIT_ROUNDOFF
 from glid_nb.harmonic.cauchy import Singularities, rounding_scale
 
 if TYPE_CHECKING:
     from jaxtyping import Array, Complex, Float
+
+UNIT_ROUNDOFF = 2.0**-53
 
 CARRIED_STEPS = 31
 """Most steps through which values are carried before they are computed anew."""

@@ -24,6 +24,7 @@ from glid_nb.cli.progress import Progress
 from glid_nb.cli.run_solver import check_interrupted, run_solver
 from glid_nb.cli.solver_arguments import add_solver_arguments, energy_of, options_of
 from glid_nb.cli.trace import add_trace_arguments, cage_data, size_in_words, trace_options_of
+from glid_nb.imaging.render import rendering
 
 DEFAULT_SAMPLE = "gecko"
 DEFAULT_POSE = "gentle"
@@ -73,7 +74,7 @@ def run(chosen: argparse.Namespace) -> None:
     with progress.step("rendering"):
         deformed, cropped = _deformed(image, result.map)
     with progress.step("drawing the overview"):
-        figure = glid_nb.figure_png(glid_nb.overview(image, result, pose))
+        figure = glid_nb.figures.figure_png(glid_nb.figures.overview(image, result, pose))
 
     files: dict[Path, bytes | str] = {
         out / "deformed.png": png_bytes(deformed),
@@ -130,9 +131,9 @@ def _deformed(
     image: NDArray[np.unsignedinteger], harmonic_map: glid_nb.HarmonicMap
 ) -> tuple[NDArray[np.uint8], bool]:
     """The deformed picture, and whether it had to be zoomed out to show all of it."""
-    rendering = glid_nb.rendering(image, harmonic_map)
-    if rendering.outside <= _CROPPED:
-        return rendering.picture, False
+    in_place = rendering(image, harmonic_map)
+    if in_place.outside <= _CROPPED:
+        return in_place.picture, False
     return glid_nb.render(image, harmonic_map, view="fit"), True
 
 

@@ -6,12 +6,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from glid_nb import InputError
 
-class BadFileError(ValueError):
+
+class BadFileError(InputError):
     """The content of a file was refused."""
 
 
-class CommandError(ValueError):
+class CommandError(InputError):
     """A command cannot do what it is asked to."""
 
 
@@ -29,11 +31,10 @@ def about(path: Path) -> Iterator[None]:
 def is_bad_input(error: BaseException) -> bool:
     """Whether an exception tells of the user's input rather than of a bug.
 
-    The package refuses bad input with subclasses of ValueError of its own; a plain ValueError
-    comes from a bug and keeps its traceback. What the operating system refuses is input as well.
+    A plain ValueError comes from a bug and keeps its traceback. What the operating system refuses
+    is input as well.
     """
-    ours = type(error).__module__.partition(".")[0] == "glid_nb"
-    return isinstance(error, OSError) or (ours and isinstance(error, ValueError))
+    return isinstance(error, OSError | InputError)
 
 
 def one_line(error: BaseException) -> str:

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 import glid_nb
-from glid_nb.cli import bench, compare, demo, lab, render, samples, solve, trace
+from glid_nb.cli import demo, lab, render, samples, solve, trace
 from glid_nb.cli.errors import is_bad_input, one_line
 
-COMMANDS = (demo, trace, solve, render, samples, compare, bench, lab)
+COMMANDS = (demo, trace, solve, render, samples, lab)
 
 EXIT_OK = 0
 EXIT_BAD_INPUT = 1

@@ -71,13 +71,11 @@ def energy_of(chosen: argparse.Namespace) -> Energy:
 
     Raises
     ------
-    EnergyError
+    InputError
         It is unknown, its parameter is not positive, or it has none and one is given.
     """
     if chosen.s is not None and chosen.energy in ("iso", "arap"):
-        raise glid_nb.EnergyError(
-            f"--s is the parameter of exp and amips; {chosen.energy} has none"
-        )
+        raise glid_nb.InputError(f"--s is the parameter of exp and amips; {chosen.energy} has none")
     return glid_nb.energy_by_name(chosen.energy, chosen.s)
 
 

@@ -85,7 +85,7 @@ def trace_options_of(chosen: argparse.Namespace) -> glid_nb.TraceOptions:
     """The options that the flags name."""
     given = {n: getattr(chosen, n) for n, _ in _NUMBERS if getattr(chosen, n) is not None}
     if chosen.scribbles is not None:
-        given["scribbles"] = glid_nb.load_scribbles(chosen.scribbles)
+        given["scribbles"] = glid_nb.Scribbles.load(chosen.scribbles)
     return glid_nb.TraceOptions(
         method=chosen.method,
         invert=chosen.invert,

@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self, TypeVar
 
+from glid_nb._errors import InputError
 from glid_nb._jax import jax, once_loaded, settle
 
 if TYPE_CHECKING:
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     Scalars = Float[Array, " *samples"]
 
 
-class EnergyError(ValueError):
+class EnergyError(InputError):
     """An energy is unknown or its parameter is out of range."""
 
 

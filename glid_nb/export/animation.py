@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image, ImageDraw
 
+from glid_nb.figures.style import CYAN, INK
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.mesh import DeformedMesh, deformed_mesh
 from glid_nb.imaging.rasterise import render_mesh
 from glid_nb.imaging.render import OutputFrame, outline_points
-from glid_nb.imaging.style import CYAN, INK
 from glid_nb.imaging.texture import Texture
 from glid_nb.solvers import Pose
 

@@ -8,9 +8,9 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb.figures.style import BLUE, CYAN, GREY, INK
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
-from glid_nb.imaging.style import BLUE, CYAN, GREY, INK
 from glid_nb.solvers import Pose
 
 # The polylines stray from the curves by less than this, world units; the picture is 20 long.

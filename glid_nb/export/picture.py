@@ -29,7 +29,7 @@ def picture_png(
     size : (w, h), optional
         Pixels of the result; by default the image's own.
     view : "source" or "fit"
-        Show what the picture showed, or all of the deformed shape; see `glid_nb.rendering`.
+        Show what the picture showed, or all of the deformed shape; see `glid_nb.render`.
 
     Raises
     ------

@@ -1,6 +1,8 @@
 """Polygons with holes: validation, offsets, hole points, sampling and triangulation."""
 
 from glid_nb.geometry._loops import GeometryError as GeometryError
+from glid_nb.geometry._loops import as_points as as_points
+from glid_nb.geometry._loops import place as place
 from glid_nb.geometry._loops import signed_area as signed_area
 from glid_nb.geometry.cage import Cage as Cage
 from glid_nb.geometry.domain import Domain as Domain

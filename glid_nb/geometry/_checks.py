@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._numbers import real_array
+from glid_nb._arguments import real_array
 from glid_nb.geometry._loops import (
     GeometryError,
     loop_name,

@@ -9,8 +9,10 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._errors import InputError
 
-class GeometryError(ValueError):
+
+class GeometryError(InputError):
     """A polygon, offset or domain that cannot be used; the message says where and what to do.
 
     Attributes
@@ -40,9 +42,14 @@ def plain_name(index: int) -> str:
 
 
 def place(point: ArrayLike) -> str:
-    """Coordinates for a message, e.g. "(1.5, -0.25)"."""
-    x, y = np.asarray(point, dtype=np.float64)
+    """Coordinates of an (x, y) or complex point for a message, e.g. "(1.5, -0.25)"."""
+    x, y = as_points(point) if np.iscomplexobj(point) else np.asarray(point, dtype=np.float64)
     return f"({x:.6g}, {y:.6g})"
+
+
+def as_points(z: ArrayLike) -> NDArray[np.float64]:
+    """(..., 2) real points of (...) complex ones; read-only if those are."""
+    return np.ascontiguousarray(z, dtype=np.complex128).view(np.float64).reshape(*np.shape(z), 2)
 
 
 def signed_area(loop: NDArray[np.float64]) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._numbers import real_array
+from glid_nb._arguments import real_array
 from glid_nb.geometry._loops import GeometryError, loop_list, loop_name, place
 from glid_nb.geometry.cage import Cage
 from glid_nb.geometry.offset import hole_points as choose_hole_points

@@ -74,6 +74,10 @@ class Panels:
         depth = np.repeat(self.depth + chosen, count)
         return _linked(start, end, np.repeat(self.loop, count), depth)
 
+    def parents(self, chosen: Array) -> Array:
+        """(q,) int: of which panel here each panel of ``split(chosen)`` is the whole or a half."""
+        return np.repeat(np.arange(len(self)), np.where(chosen & self.divisible, 2, 1))
+
     def chosen(self, which: Array) -> Panels:
         """Only the panels of ``which`` (p,) bool, as a bare list: ``next`` loses its meaning."""
         index = np.arange(int(which.sum()))
@@ -140,8 +144,8 @@ def edge_panels(domain: Domain) -> Panels:
 
 def panels_between(points: Array, loop: Array) -> Panels:
     """Panels between consecutive sample points of closed loops (the paper's segments)."""
-    following = _next_index(loop)
-    return Panels(points, points[following], loop, np.zeros(len(points), dtype=int), following)
+    depth = np.zeros(len(points), dtype=int)
+    return _linked(points, points[_next_index(loop)], loop, depth)
 
 
 def distance_to_segments(points: Array, start: Array, end: Array) -> Array:

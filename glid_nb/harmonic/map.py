@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,11 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._files import write_text_atomically
+from glid_nb._arguments import real_array
+from glid_nb._errors import InputError, about
 from glid_nb._jax import jax, jnp
-from glid_nb._numbers import real_array
+from glid_nb._json import parse_json, write_json
 from glid_nb._runtime import double_precision
-from glid_nb.geometry import Cage, Domain, GeometryError
+from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import cauchy
 from glid_nb.harmonic.basis import Basis, build_basis
 from glid_nb.harmonic.cauchy import Singularities
@@ -31,7 +31,7 @@ _CHUNK_ELEMENTS = 1 << 19
 _SMALL_CHUNK = 64
 
 
-class MapError(ValueError):
+class MapError(InputError):
     """A harmonic map's coefficients, or a file that should hold one, are not valid."""
 
 
@@ -184,10 +184,8 @@ class HarmonicMap:
             chosen = key in ("offset_cage", "offset_holes", "hole_points")
             if key not in data or (chosen and data[key] is None):
                 raise MapError(f'the map lacks the key "{key}"')
-        try:
+        with about("the map's domain is not valid", MapError):
             domain = Domain.from_dict(data)
-        except GeometryError as error:
-            raise MapError(f"the map's domain is not valid: {error}") from error
         given = [data["offset_cage"], *data["offset_holes"]]
         for i, (loop, kept) in enumerate(zip(given, domain.offset_cage.loops, strict=True)):
             # The coefficients are in the file's order of vertices.
@@ -199,7 +197,7 @@ class HarmonicMap:
 
     def save(self, path: str | Path) -> None:
         """Write the map as JSON, atomically."""
-        write_text_atomically(Path(path), json.dumps(self.to_dict()))
+        write_json(path, self.to_dict())
 
     @classmethod
     def load(cls, path: str | Path) -> HarmonicMap:
@@ -212,14 +210,8 @@ class HarmonicMap:
         OSError
             When it cannot be read.
         """
-        try:
-            data = json.loads(Path(path).read_text(encoding="utf-8"))
-        except (ValueError, RecursionError) as error:
-            raise MapError(f"{path} is not a JSON file: {error}") from error
-        try:
-            return cls.from_dict(data)
-        except MapError as error:
-            raise MapError(f"{path}: {error}") from error
+        with about(path, MapError):
+            return cls.from_dict(parse_json(Path(path).read_bytes(), str(path)))
 
     @double_precision
     def _evaluate(self, kernel: Callable[..., Any], points: ArrayLike) -> tuple[Array, ...]:

@@ -1,11 +1,13 @@
 """The error of everything between a picture and a cage."""
 
+from glid_nb._errors import InputError
 
-class RenderError(ValueError):
+
+class RenderError(InputError):
     """A picture cannot be warped as asked."""
 
 
-class TraceError(ValueError):
+class TraceError(InputError):
     """A picture, or a choice of options, that no cage can be traced from; the message says why.
 
     Attributes

@@ -80,7 +80,7 @@ def deformed_mesh(
     # Edges are looked at once; those found straight enough stay so.
     straight, error = np.zeros(0, np.int64), 0.0
     for _ in range(_MOST_ROUNDS):
-        edges, edge_of = _edges(triangles)
+        edges, edge_of = unique_edges(triangles)
         fresh = np.flatnonzero(~np.isin(_keys(edges), straight, assume_unique=True))
         middles = vertices[edges[fresh]].mean(axis=1)
         middle_images = map(middles)
@@ -125,7 +125,7 @@ def sheet_heights(cage: Cage, vertices: Floats, triangles: Ints) -> Floats:
     -------
     (v,) array
     """
-    edges, _ = _edges(triangles)
+    edges, _ = unique_edges(triangles)
     length = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
     n = len(vertices)
     graph = scipy.sparse.csr_array((length, (edges[:, 0], edges[:, 1])), shape=(n, n))
@@ -140,7 +140,7 @@ def sheet_heights(cage: Cage, vertices: Floats, triangles: Ints) -> Floats:
     return np.nan_to_num(inner + 0.35 * along, posinf=0.0) + 0.35 * vertices[:, 0]
 
 
-def _edges(triangles: Ints) -> tuple[Ints, Ints]:
+def unique_edges(triangles: Ints) -> tuple[Ints, Ints]:
     """Unique edges (e, 2), and for side k of each triangle, opposite vertex k, its edge: (t, 3)."""
     sides = np.stack([np.roll(triangles, -1, axis=1), np.roll(triangles, 1, axis=1)], axis=2)
     sides = np.sort(sides.reshape(-1, 2), axis=1)

@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._errors import about
+from glid_nb._json import check_fields, check_strokes, read_object
 from glid_nb.imaging.errors import TraceError
 
 Method = Literal["auto", "alpha", "threshold", "color", "scribbles"]
@@ -41,6 +44,27 @@ class Scribbles:
     ) -> None:
         object.__setattr__(self, "foreground", _strokes(foreground, "foreground"))
         object.__setattr__(self, "background", _strokes(background, "background"))
+
+    @classmethod
+    def load(cls, path: str | Path) -> Scribbles:
+        """Read strokes from a JSON file.
+
+        The file is an object with the keys ``foreground`` and, optionally, ``background``, each a
+        list of strokes, a stroke being a list of ``[x, y]`` pixels from the picture's top left
+        corner.
+
+        Raises
+        ------
+        InputFileError
+            When the file holds something else; the message names the file and the culprit.
+        OSError
+            When it cannot be read.
+        """
+        with about(path):
+            data = read_object(path)
+            required, optional = {"foreground": check_strokes}, {"background": check_strokes}
+            check_fields(data, "scribbles", required, optional, others=True)
+            return cls(data["foreground"], data.get("background") or [])
 
 
 @dataclass(frozen=True)

@@ -1,21 +1,35 @@
-"""Draw a textured triangle mesh into a picture, on the CPU and without OpenGL."""
+"""Draw a textured triangle mesh into a picture, on the CPU and without OpenGL.
+
+Triangles are cut into horizontal spans. Where an edge crosses a row of samples is computed from
+the edge's end points alone, the lower one first, so two triangles that share an edge get the same
+number to the last bit: every sample on either side belongs to exactly one of them.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb.imaging import scanline
-from glid_nb.imaging.texture import Sampler, Texture
+from glid_nb.imaging.mesh import unique_edges
+from glid_nb.imaging.texture import Sampler, Texture, gradients
 
-# Pixels that are drawn at a time; bounds the memory beyond the picture itself.
+# Pixels that are drawn at a time, and pixels on outlines among them: bounds on the memory beyond
+# the picture itself.
 _BAND = 1 << 19
-
-# Pixels on outlines that are resolved at a time.
 _OUTLINE = 1 << 16
+
+# A pixel on an outline is resolved with this many rows of this many samples. The samples of one
+# row are shifted against those of the next, as a vertical edge would otherwise know 8 degrees of
+# coverage instead of 64.
+SUBSAMPLES = 8
+_SHIFT = ((np.arange(SUBSAMPLES) * 3) % SUBSAMPLES + 0.5) / SUBSAMPLES
+_COLUMNS = (np.arange(SUBSAMPLES) + _SHIFT[:, None]) / SUBSAMPLES
+
+Ints = NDArray[np.int32]
+Floats = NDArray[np.float64]
 
 
 def render_mesh(
@@ -78,118 +92,213 @@ def render_mesh(
     picture = np.zeros((height, width, 4), np.uint8)
 
     corners = target[faces]
-    low, high = scanline.bounding_boxes(corners)
+    low, high = corners.min(axis=1), corners.max(axis=1)
     visible = np.flatnonzero(((high > 0) & (low < [width, height])).all(axis=1))
-    outline = target[scanline.outline_edges(faces, corners)]
-    corners, low, high = corners[visible], low[visible], high[visible]
+    outline = target[outline_edges(faces, corners)]
+    corners, faces = corners[visible], faces[visible]
     if not len(corners):
         return picture
-    sampler = Sampler(texture, corners, source[faces[visible]])
-    planes = None
-    if levels is not None:
-        planes = scanline.Heights.over(corners, levels[faces[visible]])
-    coarse = scanline.ScanConverter(corners)
-    fine = scanline.ScanConverter(corners, scanline.SUBSAMPLES)
+    sampler = Sampler(texture, corners, source[faces])
+    scan = ScanConverter(corners)
+    height_at = _order_of_triangles if levels is None else _planes(corners, levels[faces])
 
-    rows = max(1, _BAND // width)
-    for top in range(0, height, rows):
-        bottom = min(top + rows, height)
-        touched = scanline.pixels_on(outline, top, bottom, width)
-        band = np.zeros(((bottom - top) * width, 4), np.float32)
-        layers = scanline.layers(coarse.spans(top, bottom, width), top, bottom, width, planes)
-        for depth, layer in enumerate(layers):
-            inside = ~touched.ravel()[layer.sample]
-            place, triangle = layer.sample[inside], layer.triangle[inside]
-            x, y = place % width + np.float32(0.5), place // width + np.float32(top + 0.5)
-            _lay(sampler(triangle, x, y), band, place, first=depth == 0)
-
-        close = scanline.near(low, high, touched, top)
-        for start, stop in _portions(touched):
-            pixels = start * width + np.flatnonzero(touched[start:stop])
-            n, first, last = scanline.SUBSAMPLES, top + start, top + stop
-            spans = fine.spans(first * n, last * n, width * n, close)
-            layers = scanline.subsample_layers(spans, touched[start:stop], first, planes)
-            corner = np.stack([pixels % width, pixels // width + top], axis=1)
-            band[pixels] = _resolved(layers, corner.astype(np.float32), sampler)
+    for top, bottom, touched in _bands(outline, width, height):
+        n_pixels = (bottom - top) * width
+        triangle, place = scan.pixels(top, bottom, width)
+        x, y = place % width + 0.5, place // width + (top + 0.5)
+        inside = Samples(triangle, place, x, y)
+        band = _composed(inside, sampler(triangle, x, y), n_pixels, height_at)
+        pixels = np.flatnonzero(touched)
+        if len(pixels):
+            samples = scan.subsamples(top, bottom, touched)
+            colours = _composed(
+                samples, _shaded(samples, sampler), len(pixels) * SUBSAMPLES**2, height_at
+            ).reshape(-1, SUBSAMPLES**2, 4)
+            # Where one sheet covers the whole pixel, its colour at the middle is sharper.
+            count = np.bincount(samples.place, minlength=colours.shape[0] * SUBSAMPLES**2)
+            partial = (count.reshape(-1, SUBSAMPLES**2) != 1).any(axis=1)
+            band[pixels[partial]] = colours[partial].mean(axis=1)
         picture[top:bottom] = _straight(band).reshape(-1, width, 4)
     return picture
 
 
-def _lay(
-    colours: NDArray[np.float32], canvas: NDArray[np.float32], place: NDArray[Any], first: bool
-) -> None:
-    """Lay premultiplied colours (k, 4) over those of the canvas (n, 4) at distinct places."""
-    if first:  # there is nothing below, and this layer is the largest
-        canvas[place] = colours
-    else:
-        canvas[place] = canvas[place] * (1 - colours[:, 3:]) + colours
+class Samples(NamedTuple):
+    """Points of the output, each seen through a triangle; one may be seen through several.
 
-
-def _portions(touched: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
-    """Consecutive (start, stop) rows with few enough touched pixels to be resolved at once."""
-    count = np.cumsum(touched.sum(axis=1))
-    start = 0
-    while start < len(count) and count[-1] > (done := count[start - 1] if start else 0):
-        stop = max(int(np.searchsorted(count, done + _OUTLINE, side="right")), start + 1)
-        yield start, stop
-        start = stop
-
-
-def _resolved(
-    layers: list[scanline.Layer], corner: NDArray[np.float32], sampler: Sampler
-) -> NDArray[np.float32]:
-    """(p, 4) premultiplied colours of pixels that an outline touches.
-
-    ``corner`` (p, 2) holds the pixels' upper left corners.
+    Attributes
+    ----------
+    triangle : (k,) int32 array
+    place : (k,) int array
+        Which sample of the output.
+    x, y : (k,) arrays
+        Continuous output pixels.
     """
-    n_samples = scanline.SUBSAMPLES**2
-    result = np.zeros((len(corner), 4), np.float32)
-    if not layers:
-        return result
-    parts = [scanline.fragments(layer) for layer in layers]
-    colours = [_shaded(part, corner, sampler) for part in parts]
-    # Most pixels have one layer, whose fragments just add up.
-    stacked = np.zeros(len(corner), dtype=bool)
-    for part in parts[1:]:
-        stacked[part.pixel] = True
-    share = (parts[0].count / n_samples)[:, None]
-    for channel, values in enumerate((colours[0] * share).T):
-        result[:, channel] = np.bincount(parts[0].pixel, values, len(corner))
-    if not stacked.any():
-        return result
-    number = np.cumsum(stacked) - 1
-    canvas = np.zeros((int(stacked.sum()) * n_samples, 4), np.float32)
-    for depth, (part, colour) in enumerate(zip(parts, colours, strict=True)):
-        pixel, place = np.divmod(part.sample, n_samples)
-        chosen = np.flatnonzero(stacked[pixel])
-        slots = number[pixel[chosen]] * n_samples + place[chosen]
-        _lay(colour[part.fragment[chosen]], canvas, slots, first=depth == 0)
-    result[stacked] = canvas.reshape(-1, n_samples, 4).mean(axis=1)
-    return result
+
+    triangle: Ints
+    place: NDArray[Any]
+    x: NDArray[Any]
+    y: NDArray[Any]
 
 
-def _shaded(
-    parts: scanline.Fragments, corner: NDArray[np.float32], sampler: Sampler
-) -> NDArray[np.float32]:
-    """(f, 4) premultiplied colours of fragments.
+class ScanConverter:
+    """Which samples lie in which of the triangles with these corners (t, 3, 2), output pixels."""
 
-    Where all fragments of a pixel show the same part of the picture it is looked up at the centre
-    of what they cover together, so a pixel that an outline only grazes is drawn like any other.
-    Where sheets overlap each is looked up where it is visible.
+    def __init__(self, corners: Floats) -> None:
+        order = np.argsort(corners[:, :, 1], axis=1)[:, :, None]
+        self._x, self._y = np.moveaxis(np.take_along_axis(corners, order, axis=1), 2, 0)
+        lower, upper = [0, 1, 0], [1, 2, 2]
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            rise = self._y[:, upper] - self._y[:, lower]
+            self._slope = (self._x[:, upper] - self._x[:, lower]) / rise
+
+    def spans(self, top: int, bottom: int, n: int) -> tuple[Ints, Ints, Floats, Floats]:
+        """Where triangles cross the rows of samples y = (row + 1/2) / n between top and bottom.
+
+        Returns triangle, row and the ends of the half-open interval on it, all of shape (s,).
+        """
+        rows = np.ceil(self._y * n - 0.5).clip(top * n, bottom * n).astype(np.int32)
+        count = rows[:, 2] - rows[:, 0]
+        triangle = np.repeat(np.arange(len(rows), dtype=np.int32), count)
+        row = _runs(rows[:, 0], count)
+        y = (row + 0.5) / n
+        short = (row >= rows[triangle, 1]).astype(np.int8)
+        one = self._x[triangle, 0] + (y - self._y[triangle, 0]) * self._slope[triangle, 2]
+        other = self._x[triangle, short] + (
+            (y - self._y[triangle, short]) * self._slope[triangle, short]
+        )
+        return triangle, row, np.minimum(one, other), np.maximum(one, other)
+
+    def pixels(self, top: int, bottom: int, width: int) -> tuple[Ints, Ints]:
+        """(triangle, place) of the pixels whose centres lie in triangles, row by row from top."""
+        triangle, row, left, right = self.spans(top, bottom, 1)
+        start, stop = (np.ceil(x - 0.5).clip(0, width).astype(np.int32) for x in (left, right))
+        return np.repeat(triangle, stop - start), _runs((row - top) * width + start, stop - start)
+
+    def subsamples(self, top: int, bottom: int, touched: NDArray[np.bool_]) -> Samples:
+        """The samples of the touched pixels, of which the p-th has the numbers from 64 p on."""
+        width = touched.shape[1]
+        before = np.zeros(touched.size + 1, np.int32)
+        np.cumsum(touched, out=before[1:])
+        triangle, row, left, right = self.spans(top, bottom, SUBSAMPLES)
+        line = (row // SUBSAMPLES - top) * width
+        first = before[line + np.floor(left).clip(0, width).astype(np.int32)]
+        count = before[line + np.ceil(right).clip(0, width).astype(np.int32)] - first
+        some = np.repeat(np.arange(len(row), dtype=np.int32), count)
+        triangle, row, left, right = triangle[some], row[some], left[some], right[some]
+        pixel = _runs(first, count)
+        x = (np.flatnonzero(touched) % width)[pixel, None] + _COLUMNS[row % SUBSAMPLES]
+        some, column = np.nonzero((x >= left[:, None]) & (x < right[:, None]))
+        place = pixel[some].astype(np.int64) * SUBSAMPLES**2
+        place += row[some] % SUBSAMPLES * SUBSAMPLES + column
+        return Samples(triangle[some], place, x[some, column], (row[some] + 0.5) / SUBSAMPLES)
+
+
+def outline_edges(triangles: NDArray[np.integer], corners: Floats) -> NDArray[Any]:
+    """(e, 2) vertex pairs where a sheet of the mesh ends or folds over.
+
+    These are all edges but those between two triangles of the same orientation.
     """
-    middle = corner[parts.pixel] + parts.pixel_centre
-    seen, reach = sampler.footprint(parts.triangle, middle)
-    new = np.diff(parts.pixel, prepend=-1) > 0
-    starts = np.flatnonzero(new)
-    low = np.minimum.reduceat(seen - reach, starts)
-    high = np.maximum.reduceat(seen + reach, starts)
-    least = np.minimum.reduceat(reach, starts)
-    one_sheet = np.all(high - low <= 4 * least, axis=1)[np.cumsum(new) - 1]
-    points = np.where(one_sheet[:, None], middle, corner[parts.pixel] + parts.centre)
-    return sampler(parts.triangle, points[:, 0], points[:, 1])
+    edges, edge_of = unique_edges(triangles)
+    e = corners[:, 1:] - corners[:, :1]
+    turn = np.where(e[:, 0, 0] * e[:, 1, 1] < e[:, 0, 1] * e[:, 1, 0], -1, 1)
+    return edges[np.abs(np.bincount(edge_of.ravel(), np.repeat(turn, 3), len(edges))) != 2]
 
 
-def _straight(premultiplied: NDArray[Any]) -> NDArray[np.uint8]:
+def _bands(
+    outline: Floats, width: int, height: int
+) -> Iterator[tuple[int, int, NDArray[np.bool_]]]:
+    """(top, bottom, touched) of bands of rows, each with few pixels that an outline touches."""
+    rows = max(1, _BAND // width)
+    ahead = [(top, min(top + rows, height)) for top in range(0, height, rows)][::-1]
+    while ahead:
+        top, bottom = ahead.pop()
+        touched = _touched(outline, top, bottom, width)
+        if bottom - top > 1 and touched.sum() > _OUTLINE:
+            middle = (top + bottom) // 2
+            ahead += [(middle, bottom), (top, middle)]
+        else:
+            yield top, bottom, touched
+
+
+def _touched(segments: Floats, top: int, bottom: int, width: int) -> NDArray[np.bool_]:
+    """(rows, width), which pixels any of the segments (e, 2, 2) touches."""
+    touched = np.zeros((bottom - top, width), dtype=bool)
+    order = np.argsort(segments[:, :, 1], axis=1)[:, :, None]
+    a, b = np.moveaxis(np.take_along_axis(segments, order, axis=1), 1, 0)
+    first = np.floor(a[:, 1]).clip(top, bottom).astype(np.int32)
+    last = np.floor(b[:, 1]).clip(top - 1, bottom - 1).astype(np.int32)
+    count = np.maximum(last - first + 1, 0)
+    row = _runs(first, count)
+    a, b = np.repeat(a, count, axis=0), np.repeat(b, count, axis=0)
+    rise = b[:, 1] - a[:, 1]
+    slope = np.divide(b[:, 0] - a[:, 0], rise, out=np.zeros_like(rise), where=rise > 0)
+    # Where the segment enters and leaves the row of pixels.
+    enter = np.where(a[:, 1] >= row, a[:, 0], a[:, 0] + (row - a[:, 1]) * slope)
+    leave = np.where(b[:, 1] <= row + 1, b[:, 0], a[:, 0] + (row + 1 - a[:, 1]) * slope)
+    margin = 1e-6 * (1 + np.abs(enter) + np.abs(leave))
+    left = np.floor(np.minimum(enter, leave) - margin).clip(0, width).astype(np.int32)
+    right = np.floor(np.maximum(enter, leave) + margin).clip(-1, width - 1).astype(np.int32)
+    touched.ravel()[_runs((row - top) * width + left, np.maximum(right - left + 1, 0))] = True
+    return touched
+
+
+def _planes(corners: Floats, heights: Floats) -> Callable[[Samples], Floats]:
+    """Heights of samples on the planes through heights (t, 3) at corners (t, 3, 2)."""
+    right, down = gradients(corners, heights[:, :, None])[:, 0].T
+    level = heights[:, 0] - right * corners[:, 0, 0] - down * corners[:, 0, 1]
+
+    def at(samples: Samples) -> Floats:
+        triangle = samples.triangle
+        return level[triangle] + right[triangle] * samples.x + down[triangle] * samples.y
+
+    return at
+
+
+def _order_of_triangles(samples: Samples) -> Floats:
+    return samples.triangle.astype(np.float64)
+
+
+def _shaded(samples: Samples, sampler: Sampler) -> NDArray[np.float32]:
+    """(k, 4) colours of subsamples: all those of a triangle in a pixel get that at their centroid.
+
+    A look-up covers a whole pixel, so one at each sample would blur the outline.
+    """
+    n_triangles = int(samples.triangle.max(initial=0)) + 1
+    pixel = samples.place // SUBSAMPLES**2
+    _, first, fragment, count = np.unique(
+        pixel * n_triangles + samples.triangle,
+        return_index=True,
+        return_inverse=True,
+        return_counts=True,
+    )
+    x, y = (np.bincount(fragment, values) / count for values in (samples.x, samples.y))
+    return sampler(samples.triangle[first], x, y)[fragment]
+
+
+def _composed(
+    samples: Samples,
+    colours: NDArray[np.float32],
+    n_places: int,
+    height_at: Callable[[Samples], Floats],
+) -> NDArray[np.float32]:
+    """(n_places, 4) premultiplied colours of samples (k, 4), the higher ones over the lower."""
+    canvas = np.zeros((n_places, 4), np.float32)
+    place = samples.place
+    several = np.bincount(place, minlength=n_places)[place] > 1
+    canvas[place[~several]] = colours[~several]
+    rest = np.flatnonzero(several)
+    height = height_at(Samples(*(values[rest] for values in samples)))
+    rest = rest[np.lexsort((height, place[rest]))]
+    first = np.flatnonzero(np.diff(place[rest], prepend=-1))
+    rank = np.arange(len(rest)) - np.repeat(first, np.diff(first, append=len(rest)))
+    for k in range(int(rank.max(initial=-1)) + 1):
+        chosen = rest[rank == k]
+        below, above = canvas[place[chosen]], colours[chosen]
+        canvas[place[chosen]] = below * (1 - above[:, 3:]) + above
+    return canvas
+
+
+def _straight(premultiplied: NDArray[np.float32]) -> NDArray[np.uint8]:
     """(n, 4) 8-bit colours with straight alpha."""
     result = np.zeros(premultiplied.shape, np.uint8)
     seen = np.flatnonzero(premultiplied[:, 3] >= 0.5 / 255)
@@ -198,6 +307,14 @@ def _straight(premultiplied: NDArray[Any]) -> NDArray[np.uint8]:
     colours[:, 3] *= 255
     result[seen] = np.minimum(colours + np.float32(0.5), np.float32(255))
     return result
+
+
+def _runs(first: NDArray[Any], count: NDArray[Any]) -> Ints:
+    """The integers first[0], first[0] + 1, ... (count[0] of them), first[1], ..., as int32."""
+    ends = np.cumsum(count)
+    total = int(ends[-1]) if len(ends) else 0
+    offset = (first - (ends - count)).astype(np.int32)
+    return np.repeat(offset, count) + np.arange(total, dtype=np.int32)
 
 
 def _checked_size(size: tuple[int, int]) -> tuple[int, int]:
@@ -209,7 +326,7 @@ def _checked_size(size: tuple[int, int]) -> tuple[int, int]:
     return width, height
 
 
-def _checked_points(points: ArrayLike, name: str) -> NDArray[np.float64]:
+def _checked_points(points: ArrayLike, name: str) -> Floats:
     array = np.asarray(points, dtype=np.float64)
     if array.ndim != 2 or array.shape[1] != 2:
         raise ValueError(f"{name} has shape {array.shape}; expected (v, 2)")
@@ -219,17 +336,17 @@ def _checked_points(points: ArrayLike, name: str) -> NDArray[np.float64]:
     return array
 
 
-def _checked_heights(heights: ArrayLike, n_vertices: int) -> NDArray[np.float64]:
+def _checked_heights(heights: ArrayLike, n_vertices: int) -> Floats:
     array = np.asarray(heights, dtype=np.float64)
     if array.shape != (n_vertices,):
         raise ValueError(f"heights has shape {array.shape}; expected ({n_vertices},)")
-    bad = np.flatnonzero(np.logical_not(np.isfinite(array)))
+    bad = np.flatnonzero(~np.isfinite(array))
     if bad.size:
         raise ValueError(f"heights[{bad[0]}] is {array[bad[0]]}; it must be finite")
     return array
 
 
-def _checked_triangles(triangles: ArrayLike, n_vertices: int) -> NDArray[np.int32]:
+def _checked_triangles(triangles: ArrayLike, n_vertices: int) -> Ints:
     array = np.asarray(triangles)
     if array.size == 0:
         return np.zeros((0, 3), np.int32)

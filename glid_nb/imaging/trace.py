@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
@@ -12,11 +11,17 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from glid_nb._errors import did_you_mean
 from glid_nb.geometry import Cage
 from glid_nb.imaging.components import Component, Components, find_components
 from glid_nb.imaging.dilate import Dilation, dilate
 from glid_nb.imaging.errors import TraceError
-from glid_nb.imaging.foreground import Foreground, Walker, find_foreground, smoothed
+from glid_nb.imaging.foreground import (
+    Foreground,
+    find_foreground,
+    scaled_picture,
+    smoothed,
+)
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.holes import Hole, choose_holes, filled_mask
 from glid_nb.imaging.options import TraceOptions
@@ -109,9 +114,8 @@ def with_changes(options: TraceOptions | None, changes: dict[str, Any]) -> Trace
     names = [field.name for field in fields(TraceOptions)]
     for name in changes:
         if name not in names:
-            close = difflib.get_close_matches(name, names, n=1)
-            hint = f"did you mean '{close[0]}'?" if close else f"there are {', '.join(names)}"
-            raise TraceError(f"'{name}' is no option of trace; {hint}")
+            hint = did_you_mean(name, names) or f"; there are {', '.join(names)}"
+            raise TraceError(f"'{name}' is no option of trace{hint}")
     return replace(options if options is not None else TraceOptions(), **changes)
 
 
@@ -204,7 +208,7 @@ class Tracer:
                 background=background,
                 background_at=at,
                 scribbles=scribbles,
-                walker=None if scribbles is None else self._walker,
+                scaled=None if scribbles is None else self._scaled,
             ),
             options.method,
             options.invert,
@@ -215,8 +219,8 @@ class Tracer:
         return self._stage("foreground", smoothed, rated, options.smoothing)
 
     @cached_property
-    def _walker(self) -> Walker:
-        return Walker.of(self.image)
+    def _scaled(self) -> NDArray[np.float64]:
+        return scaled_picture(self.image)
 
     def _cage(
         self,

@@ -12,7 +12,7 @@ name            holes  shows
 ==============  =====  ====================================================
 
 The pictures are RGBA with a transparent ground, their longer side 20 world units like that of any
-picture. ``python -m glid_nb.samples.draw`` draws them anew from `glid_nb.samples.drawings`.
+picture. In a checkout ``python -m studies.samples.draw`` draws them anew.
 """
 
 from __future__ import annotations
@@ -24,13 +24,15 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from glid_nb._errors import InputError
+
 PoseKind: TypeAlias = Literal["gentle", "extreme"]
 
 _NAMES = ("gecko", "teapot", "frog", "monstera", "gingerbread", "bar")
 _PICTURES = Path(__file__).parent / "pictures"
 
 
-class SampleError(ValueError):
+class SampleError(InputError):
     """There is no such sample or no such pose of it."""
 
 

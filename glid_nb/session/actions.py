@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._numbers import real_array
-from glid_nb.compare import MethodChoice
+from glid_nb._arguments import real_array
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import MethodChoice
 from glid_nb.session.edit_state import EditedPose, EditError, EditState
 from glid_nb.solvers import Pose
 
@@ -99,7 +99,7 @@ def set_options(state: EditState, **changes: Any) -> EditState:
 
 
 def set_method(state: EditState, name: str, **settings: Any) -> EditState:
-    """Solve by another of :func:`glid_nb.compare.methods`; refused when it cannot run."""
+    """Solve by another of :func:`glid_nb.methods.methods`; refused when it cannot run."""
     choice = MethodChoice(name, settings)
     choice.check(state.current.energy)
     return state.with_current(state.current.changed(method=choice))

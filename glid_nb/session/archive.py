@@ -8,8 +8,8 @@ import zlib
 from collections.abc import Mapping
 from pathlib import Path
 
+from glid_nb._errors import InputFileError
 from glid_nb._files import in_words, write_bytes_atomically
-from glid_nb.session.json_file import InputFileError
 
 # A document has at most a handful of members; their names, sizes and places fit in this.
 _DIRECTORY_BYTES = 64 * 1024
@@ -60,11 +60,12 @@ def read_archive(path: Path, most_bytes: Mapping[str, int]) -> dict[str, bytes]:
             return {info.filename: archive.read(info) for info in members}
     except InputFileError:
         raise
-    except (zipfile.BadZipFile, zlib.error, EOFError) as error:
+    # The second row is what zipfile raises for headers that make no sense.
+    except (
+        *(zipfile.BadZipFile, zlib.error, EOFError),
+        *(NotImplementedError, RuntimeError, ValueError, OSError, OverflowError),
+    ) as error:
         raise InputFileError(f"this is no intact zip file: {error}") from error
-    # What zipfile raises for headers that make no sense.
-    except (NotImplementedError, RuntimeError, ValueError, OSError, OverflowError) as error:
-        raise InputFileError(f"the zip file cannot be read: {error}") from error
 
 
 def _check_members(members: list[zipfile.ZipInfo], most_bytes: Mapping[str, int]) -> None:

@@ -9,7 +9,8 @@ import weakref
 from collections.abc import Callable
 from pathlib import Path
 
-from glid_nb.session.document import Document, save_document
+from glid_nb.session.document import Document
+from glid_nb.session.document_file import save_document
 from glid_nb.session.own_files import version_of
 
 INTERVAL = 3.0

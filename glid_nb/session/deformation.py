@@ -12,11 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import check_type
 from glid_nb.certificate import Certificate, certify
-from glid_nb.compare import DeformationMap, MeshMap
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import DeformationMap, MeshMap
 from glid_nb.session import actions
 from glid_nb.session.edit_state import EditedPose, EditError, EditState, Solution
 from glid_nb.session.history import History
@@ -25,7 +26,6 @@ from glid_nb.session.moment import Moment
 from glid_nb.session.point_finder import PointFinder
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.solvers import Options, Pose
-from glid_nb.solvers.arguments import check_type
 
 Array = NDArray[Any]
 Observer = Callable[[str], None]

@@ -1,62 +1,25 @@
-"""A document: everything that an editor holds, as one value and as one file."""
+"""A document: everything that an editor holds, as one value."""
 
 from __future__ import annotations
 
-import json
-import weakref
-from collections.abc import Collection
-from dataclasses import asdict, dataclass, field
-from pathlib import Path
-from typing import Any, TypeVar
+from collections.abc import Sized
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb.certificate import Certificate, certify
-from glid_nb.compare import MethodChoice
+from glid_nb._errors import InputFileError, about
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
-from glid_nb.harmonic import HarmonicMap, MapError
-from glid_nb.harmonic.map import complex_from_pairs, complex_to_pairs
+from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
-from glid_nb.imaging.read import MAX_SIDE
-from glid_nb.session import document_parts as parts
-from glid_nb.session.archive import read_archive, write_archive
-from glid_nb.session.json_file import InputFileError, check_points, require_keys
-from glid_nb.solvers import Options, Pose, PoseError
-
-T = TypeVar("T")
+from glid_nb.methods import MethodChoice
+from glid_nb.solvers import Options, Pose
 
 MOST_POSES = 1000
 """Most poses that a document may hold."""
 
-FORMAT = "glid_nb-document"
-FORMAT_VERSION = 2
-_READABLE = (1, 2)
-
 _LONGEST_NAME = 200
-_JSON, _IMAGE = "document.json", "image.png"
-_KEYS = (
-    "format",
-    "version",
-    "image_size_px",
-    "domain",
-    "trace_options",
-    "scribbles",
-    "poses",
-    "active",
-)
-_POSE_KEYS = ("name", "handles", "targets", "energy", "options", "method", "phi", "psi")
-_KEYS_SINCE_2 = ("method",)
-# Unpacked. A picture of MAX_SIDE squared has 256 MB of pixels; PNG adds a little to noise.
-_MOST_BYTES = {
-    _JSON: 64 << 20,
-    _IMAGE: 5 * MAX_SIDE**2,
-    **{parts.scribble_member(key): MAX_SIDE**2 for key in parts.STROKES},
-}
-
-# Maps are immutable, so each is proved once however often it is saved.
-_certificates: weakref.WeakKeyDictionary[HarmonicMap, Certificate] = weakref.WeakKeyDictionary()
 
 
 class DocumentError(InputFileError):
@@ -99,7 +62,7 @@ class NamedPose:
     method: MethodChoice = field(default_factory=MethodChoice)
 
     def __post_init__(self) -> None:
-        _checked("the name of a pose", self.name, str)
+        _check_kind("the name of a pose", self.name, str)
         if not 1 <= len(self.name) <= _LONGEST_NAME:
             raise DocumentError(
                 f"the name of a pose must have 1 to {_LONGEST_NAME} characters, "
@@ -112,11 +75,9 @@ class NamedPose:
             ("map", HarmonicMap),
             ("method", MethodChoice),
         ):
-            _checked(f"{key} of the pose {self.name!r}", getattr(self, key), kind)
-        try:
+            _check_kind(f"{key} of the pose {self.name!r}", getattr(self, key), kind)
+        with about(f"the pose {self.name!r}", DocumentError):
             self.pose.check_inside(self.map.domain)
-        except PoseError as error:
-            raise DocumentError(f"the pose {self.name!r}: {error}") from error
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,21 +118,20 @@ class Document:
     def __post_init__(self) -> None:
         object.__setattr__(self, "image", _checked_image(self.image))
         object.__setattr__(self, "poses", tuple(self.poses))
-        _checked("cage", self.cage, Cage)
-        _checked("domain", self.domain, Domain)
-        _checked("trace_options", self.trace_options, TraceOptions)
+        _check_kind("cage", self.cage, Cage)
+        _check_kind("domain", self.domain, Domain)
+        _check_kind("trace_options", self.trace_options, TraceOptions)
         if self.scribbles is not None:
-            _checked("scribbles", self.scribbles, Scribbles)
+            _check_kind("scribbles", self.scribbles, Scribbles)
         if not self.cage.equals(self.domain.cage):
             raise DocumentError("cage: it is not the cage of the domain")
         if self.trace_options.scribbles not in (None, self.scribbles):
             raise DocumentError(
                 "trace_options: its scribbles are not those of the document; pass the same object"
             )
-        if len(self.poses) > MOST_POSES:
-            raise DocumentError(f"poses: there are {len(self.poses)}; {MOST_POSES} are allowed")
+        check_count(self.poses)
         for i, pose in enumerate(self.poses):
-            _checked(f"poses[{i}]", pose, NamedPose)
+            _check_kind(f"poses[{i}]", pose, NamedPose)
             if pose.map.domain is not self.domain:
                 raise DocumentError(
                     f"poses[{i}] ({pose.name!r}): its map lives on another domain than the document"
@@ -188,165 +148,15 @@ class Document:
         return self.poses[self.active] if self.poses else None
 
 
-def save_document(document: Document, path: str | Path) -> None:
-    """Write a document to one file, atomically: a zip of JSON and PNG.
-
-    ``document.json`` holds everything but pixels, which are in ``image.png``; scribbled masks are
-    in ``scribbles-*.png``. Numbers are written so that they read back bit for bit.
-
-    Raises
-    ------
-    DocumentError
-        When a map is not certified, or an energy is a Python function. Nothing is written then.
-    OSError
-        When the file cannot be written; what was there before stays.
-    """
-    members: dict[str, bytes] = {}
-    scribbles = None
-    if document.scribbles is not None:
-        scribbles, members = parts.scribbles_to_dict(document.scribbles)
-    height, width = document.image.shape[:2]
-    data = {
-        "format": FORMAT,
-        "version": FORMAT_VERSION,
-        "image_size_px": [width, height],
-        "domain": document.domain.to_dict(),
-        "trace_options": parts.trace_options_to_dict(document.trace_options),
-        "scribbles": scribbles,
-        "poses": [_pose_to_dict(i, pose) for i, pose in enumerate(document.poses)],
-        "active": document.active,
-    }
-    text = json.dumps(data, allow_nan=False, default=np.generic.item).encode("utf-8")
-    members = {_JSON: text, _IMAGE: parts.image_png(document.image), **members}
-    write_archive(Path(path), members, stored=frozenset(members) - {_JSON})
+def check_count(poses: Sized) -> None:
+    """Raise :class:`DocumentError` for more poses than a document may hold."""
+    if len(poses) > MOST_POSES:
+        raise DocumentError(f"poses: there are {len(poses)}; {MOST_POSES} are allowed")
 
 
-def load_document(path: str | Path) -> Document:
-    """Read a document that :func:`save_document` wrote; every map in it is proved anew.
-
-    Raises
-    ------
-    DocumentError
-        When the file is no valid document; the message names the file and the culprit.
-    OSError
-        When it cannot be read.
-    """
-    path = Path(path)
-    try:
-        return _from_members(read_archive(path, _MOST_BYTES))
-    except InputFileError as error:
-        raise DocumentError(f"{path}: {error}") from error
-
-
-def _from_members(members: dict[str, bytes]) -> Document:
-    for name in (_JSON, _IMAGE):
-        if name not in members:
-            raise DocumentError(f"{name} is missing; this is no glid_nb document")
-    data = parts.parse_json(members[_JSON], _JSON)
-    if data.get("format") != FORMAT:
-        raise DocumentError(f'{_JSON}: the key "format" is not "{FORMAT}"')
-    version = data.get("version")
-    if version not in _READABLE or isinstance(version, bool | float):
-        raise DocumentError(
-            f"version {version!r:.20} of the format is not supported, only "
-            f"{' and '.join(map(str, _READABLE))}; a newer glid_nb may have written it: update "
-            "this one"
-        )
-    parts.check_known(data, _KEYS, _JSON)
-    require_keys(data, tuple(key for key in _KEYS if key != "scribbles"))
-    size = _size(data["image_size_px"])
-    image = np.asarray(parts.read_png(members[_IMAGE], size, "RGBA", _IMAGE), dtype=np.uint8)
-    scribbles = None
-    if data.get("scribbles") is not None:
-        scribbles = parts.scribbles_from_dict(
-            parts.object_of(data["scribbles"], "scribbles"), members, size
-        )
-    domain = parts.domain_from_dict(parts.object_of(data["domain"], "domain"))
-    options = parts.trace_options_from_dict(
-        parts.object_of(data["trace_options"], "trace_options"), scribbles
-    )
-    given = parts.list_of(data["poses"], "poses")
-    if len(given) > MOST_POSES:
-        raise DocumentError(f"poses: there are {len(given)}; {MOST_POSES} are allowed")
-    # Before version 2 there was one method.
-    keys = [key for key in _POSE_KEYS if version > 1 or key not in _KEYS_SINCE_2]
-    poses = tuple(_pose_from_dict(i, pose, domain, keys) for i, pose in enumerate(given))
-    return Document(image, domain.cage, domain, options, scribbles, poses, data["active"])
-
-
-def _size(value: Any) -> tuple[int, int]:
-    if not (isinstance(value, list) and len(value) == 2 and all(type(n) is int for n in value)):
-        raise DocumentError(f"image_size_px must be [width, height], not {value!r:.60}")
-    width, height = value
-    if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
-        raise DocumentError(
-            f"image_size_px is {width} x {height}; a side has 1 to {MAX_SIDE} pixels"
-        )
-    return width, height
-
-
-def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
-    where = f"poses[{index}] ({pose.name!r})"
-    _check_proved(pose.map, where)
-    try:
-        energy = parts.energy_to_dict(pose.energy)
-    except InputFileError as error:
-        raise DocumentError(f"{where}: {error}") from error
-    return {
-        "name": pose.name,
-        **pose.pose.to_dict(),
-        "energy": energy,
-        "options": asdict(pose.options),
-        "method": parts.method_to_dict(pose.method),
-        "phi": complex_to_pairs(pose.map.phi),
-        "psi": complex_to_pairs(pose.map.psi),
-    }
-
-
-def _pose_from_dict(index: int, value: Any, domain: Domain, keys: Collection[str]) -> NamedPose:
-    where = f"poses[{index}]"
-    data = parts.object_of(value, where)
-    try:
-        parts.check_known(data, keys, "the pose")
-        require_keys(data, keys)
-        where = f"{where} ({data['name']!r:.60})"
-        for key in ("handles", "targets"):
-            check_points(data[key], key)
-        map = HarmonicMap(
-            domain,
-            complex_from_pairs(data["phi"], "phi"),
-            complex_from_pairs(data["psi"], "psi"),
-        )
-        method = MethodChoice()
-        if "method" in keys:
-            method = parts.method_from_dict(parts.object_of(data["method"], "method"))
-        pose = NamedPose(
-            data["name"],
-            Pose.from_dict(data),
-            parts.energy_from_dict(parts.object_of(data["energy"], "energy")),
-            parts.options_from_dict(parts.object_of(data["options"], "options")),
-            map,
-            method,
-        )
-    except (InputFileError, MapError, PoseError) as error:
-        raise DocumentError(f"{where}: {error}") from error
-    _check_proved(map, where)
-    return pose
-
-
-def _check_proved(map: HarmonicMap, where: str) -> None:
-    certificate = _certificates.get(map)
-    if certificate is None:
-        certificate = _certificates[map] = certify(map)
-    if not certificate.certified:
-        raise DocumentError(f"{where}: its map is not certified. {certificate.reason}")
-
-
-def _checked(name: str, value: object, kind: type[T]) -> T:
-    """``value``, or an error that calls it ``name`` if it is not of the class ``kind``."""
+def _check_kind(name: str, value: object, kind: type) -> None:
     if not isinstance(value, kind):
         raise DocumentError(f"{name} must be of the class {kind.__name__}, not {value!r:.60}")
-    return value
 
 
 def _checked_image(image: NDArray[np.uint8]) -> NDArray[np.uint8]:

@@ -7,10 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
-from glid_nb.compare import MethodChoice, MethodResult, Step
+from glid_nb._errors import InputError
 from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import MethodChoice, MethodResult, Step
 from glid_nb.session.document import NamedPose
 from glid_nb.solvers import Iteration, Options, Pose, Result, Status
 
@@ -24,7 +25,7 @@ MOST_ITERATIONS = 200
 """So many of a gesture's iterations are kept, the latest ones."""
 
 
-class EditError(ValueError):
+class EditError(InputError):
     """An action that the editor refuses; the message says why and what to do."""
 
 

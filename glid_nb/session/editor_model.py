@@ -19,7 +19,8 @@ from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import ImageSource
 from glid_nb.session.autosave import Autosave, flush, free_sibling
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.document import Document, DocumentError, load_document, save_document
+from glid_nb.session.document import Document, DocumentError
+from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.edit_state import EditedPose, EditError, EditState
 from glid_nb.session.own_files import OwnFiles
 from glid_nb.session.tracing import TracingModel, TracingState

@@ -13,7 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb.compare import (
+from glid_nb.geometry.panels import Panels
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import (
     OURS,
     DeformationMap,
     MeshMap,
@@ -22,8 +24,6 @@ from glid_nb.compare import (
     Step,
     run_method,
 )
-from glid_nb.geometry.panels import Panels
-from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.edit_state import EditedPose, Solution, continued_history
 from glid_nb.solvers import Iteration, Progress, Result, solve
 from glid_nb.solvers.discretisation import discretise

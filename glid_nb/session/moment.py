@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from glid_nb.compare import MeshMap
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import MeshMap
 from glid_nb.session.edit_state import EditState, Solution
 from glid_nb.session.live_solver import Frame
 

@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from glid_nb._files import write_text_atomically
-from glid_nb.geometry import Domain, GeometryError
-from glid_nb.session.json_file import (
-    InputFileError,
+from glid_nb._errors import about
+from glid_nb._json import (
+    check_fields,
     check_loops,
     check_points,
     check_positive,
-    read_json_object,
-    require_keys,
+    read_object,
+    write_json,
 )
-from glid_nb.solvers import Pose, PoseError
+from glid_nb.geometry import Domain
+from glid_nb.solvers import Pose
+
+_POSE = {"handles": check_points, "targets": check_points}
+_CHOSEN_WHEN_MISSING = {
+    "holes": check_loops,
+    "offset": check_positive,
+    "offset_cage": check_points,
+    "offset_holes": check_loops,
+    "hole_points": check_points,
+}
 
 
 @dataclass(frozen=True)
@@ -60,18 +68,10 @@ class Problem:
         InputFileError, GeometryError, PoseError
             When something is missing or not valid; the message names the key or the place.
         """
-        require_keys(data, ("cage", "handles", "targets"))
-        for key in ("cage", "handles", "targets", "offset_cage", "hole_points"):
-            if data.get(key) is not None:
-                check_points(data[key], key)
-        for key in ("holes", "offset_holes"):
-            if data.get(key) is not None:
-                check_loops(data[key], key)
-        if data.get("offset") is not None:
-            check_positive(data["offset"], "offset")
-        parts = ("cage", "holes", "offset", "offset_cage", "offset_holes", "hole_points")
-        domain = Domain.from_dict({key: data[key] for key in parts if key in data})
-        return cls(domain, Pose.from_dict(data))
+        required = {"cage": check_points, **_POSE}
+        check_fields(data, "a problem", required, _CHOSEN_WHEN_MISSING, others=True)
+        shape = {key: data.get(key) for key in ("cage", *_CHOSEN_WHEN_MISSING)}
+        return cls(Domain.from_dict(shape), Pose.from_dict(data))
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON values under the keys that :meth:`from_dict` reads."""
@@ -79,7 +79,7 @@ class Problem:
 
     def save(self, path: str | Path) -> None:
         """Write the problem as JSON, atomically."""
-        write_text_atomically(Path(path), json.dumps(self.to_dict()))
+        write_json(path, self.to_dict())
 
     @classmethod
     def load(cls, path: str | Path) -> Problem:
@@ -92,11 +92,8 @@ class Problem:
         OSError
             When it cannot be read.
         """
-        data = read_json_object(path)
-        try:
-            return cls.from_dict(data)
-        except (InputFileError, GeometryError, PoseError) as error:
-            raise InputFileError(f"{path}: {error}") from error
+        with about(path):
+            return cls.from_dict(read_object(path))
 
 
 def load_pose(path: str | Path) -> Pose:
@@ -109,11 +106,7 @@ def load_pose(path: str | Path) -> Pose:
     OSError
         When it cannot be read.
     """
-    data = read_json_object(path)
-    try:
-        require_keys(data, ("handles", "targets"))
-        for key in ("handles", "targets"):
-            check_points(data[key], key)
+    with about(path):
+        data = read_object(path)
+        check_fields(data, "a pose", _POSE, others=True)
         return Pose.from_dict(data)
-    except (InputFileError, PoseError) as error:
-        raise InputFileError(f"{path}: {error}") from error

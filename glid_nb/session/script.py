@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from glid_nb.compare import OURS
 from glid_nb.energies import CustomEnergy, Energy
 from glid_nb.geometry import Domain
 from glid_nb.imaging import TraceError, TraceOptions, trace
+from glid_nb.methods import OURS
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.solvers import Options
 

@@ -9,8 +9,8 @@ from typing import Literal
 
 from glid_nb._bounds import rounded_down, rounded_up
 from glid_nb.certificate import Certificate
-from glid_nb.compare import MeshMap, MethodError
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import MeshMap, MethodError
 from glid_nb.session.edit_state import EditState, Solution
 from glid_nb.session.live_solver import Frame
 from glid_nb.session.moment import Moment

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import check_type
 from glid_nb._jax import jax, jnp, lax
 from glid_nb._runtime import (
     COMPILER_OPTIONS,
@@ -30,7 +31,6 @@ from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import newton, outcome
 from glid_nb.solvers.align import aligned
-from glid_nb.solvers.arguments import check_type
 from glid_nb.solvers.discretisation import Discretisation, discretise
 from glid_nb.solvers.evaluation import Constraints
 from glid_nb.solvers.history import entries
@@ -195,7 +195,6 @@ class _Batch:
         program = _program(
             self.devices,
             options.hessian,
-            options.certificate,
             capacity_for(options.iterations_per_call),
         )
         clock = compilation_clock()
@@ -282,7 +281,7 @@ def dealt(count: int, devices: int, per_device: int) -> Array:
 
 
 @functools.cache
-def _program(devices: tuple[Any, ...], hessian: Any, certificate: Any, capacity: int) -> Any:
+def _program(devices: tuple[Any, ...], hessian: Any, capacity: int) -> Any:
     """The compiled program for poses on these devices; each device loops on its own."""
     mesh = jax.sharding.Mesh(np.array(devices), ("poses",))
     # A CPU gains nothing from lockstep, in which every pose takes every branch; and the thread pool
@@ -312,7 +311,6 @@ def _program(devices: tuple[Any, ...], hessian: Any, certificate: Any, capacity:
                 jnp.zeros((len(unknowns.free),) * 2),
                 settings._replace(iterations=limit),
                 hessian=hessian,
-                certificate=certificate,
                 capacity=capacity,
             )
             # A factor serves one pose at one time; it need not come back.

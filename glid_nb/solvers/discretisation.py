@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from glid_nb._jax import jax, jnp
-from glid_nb._runtime import double_precision
-from glid_nb.certificate import Method as CertificateKind
-from glid_nb.certificate import bdhm, derivative_bound_weights, hermite, lipschitz, rounding
+from glid_nb._runtime import double_precision, in_chunks
+from glid_nb.certificate import PROOFS, CertificateKind, PanelProof, rounding
 from glid_nb.geometry import Domain, graded_panels, panels_between, uniform_boundary_samples
 from glid_nb.geometry.panels import Panels, paired
 from glid_nb.harmonic import basis_of, cauchy
@@ -68,8 +67,8 @@ class Matrices(NamedTuple):
     weights: Float[Array, " p+q"]
     """Quadrature weights of the energy at the nodes; their sum is 1."""
     hessian_weights: Float[Array, " h"]
-    remainder: Float[Array, "c p"]
-    """Remainder of the certificate per modulus of a slope jump."""
+    proof: PanelProof
+    """The constants of the certificate on the panels."""
     rounding: Float[Array, " p"]
     """Rounding slack per largest modulus of a coefficient, for values carried along."""
     chord: Float[Array, "2 p"]
@@ -77,8 +76,6 @@ class Matrices(NamedTuple):
     next: Int[Array, " p"]
     real: Bool[Array, " p"]
     """False for padding."""
-    segments: bdhm.SegmentWeights | None
-    """BDHM's constants, where they take the remainder's place."""
 
 
 class _Rows(NamedTuple):
@@ -87,7 +84,7 @@ class _Rows(NamedTuple):
     ends: np.ndarray
     slopes: np.ndarray
     middles: np.ndarray
-    remainder: np.ndarray
+    proof: PanelProof
     rounding: np.ndarray
 
 
@@ -148,7 +145,7 @@ class Discretisation:
         children = np.flatnonzero(chosen[parent])
         second = children[1::2]
 
-        rows = _Rows(*(part[parent] for part in old))
+        rows = jax.tree.map(lambda part: part[parent], old)
         rows.ends[second] = old.middles[parent[second]]
         rows.slopes[second] = basis_rows(
             cauchy.second_derivatives, panels.start[second], self.basis
@@ -156,9 +153,11 @@ class Discretisation:
         rows.middles[children] = basis_rows(
             cauchy.first_derivatives, panels.middle[children], self.basis
         )
-        rows.remainder[children], rows.rounding[children] = _certificate_rows(
+        fresh = _certificate_rows(
             panels.start[children], panels.end[children], self.basis, self.certificate
         )
+        for known, new in zip(jax.tree.leaves(rows[-2:]), jax.tree.leaves(fresh), strict=True):
+            known[children] = new
         size = len(self.matrices.real)
         if len(panels) > size:
             # Who splits once splits again: growing by more now saves compiling again and again,
@@ -187,11 +186,12 @@ def discretise(
     else:
         samples = uniform_boundary_samples(domain.cage, UNIFORM_SAMPLES)
         panels = panels_between(samples.points, samples.loop)
-    middles = panels.middle if sampling == "graded" else panels.middle[:0]
+    ends = basis_rows(cauchy.first_derivatives, panels.start, basis)
+    graded = sampling == "graded"
     rows = _Rows(
-        basis_rows(cauchy.first_derivatives, panels.start, basis),
+        ends,
         basis_rows(cauchy.second_derivatives, panels.start, basis),
-        basis_rows(cauchy.first_derivatives, middles, basis),
+        basis_rows(cauchy.first_derivatives, panels.middle, basis) if graded else ends[:0],
         *_certificate_rows(panels.start, panels.end, basis, certificate),
     )
     p = bucket(len(panels))
@@ -234,7 +234,7 @@ def _graded(
         hessian_weights=jnp.asarray(share),
         whitened=whitened(_transposed(nodes[index]), t).astype(jnp.float32),
         whitening=t,
-        **_panel_arrays(panels, rows, p, basis, certificate),
+        **_panel_arrays(panels, rows, p),
     )
     return Discretisation(domain, basis, "graded", certificate, panels, matrices, t)
 
@@ -285,7 +285,7 @@ def _uniform(
         hessian_weights=jnp.asarray(padded(weights, h, 0.0)),
         whitened=whitened(nodes[:, index], t).astype(jnp.float32),
         whitening=t,
-        **_panel_arrays(panels, rows, p, basis, certificate),
+        **_panel_arrays(panels, rows, p),
     )
     return Discretisation(domain, basis, "uniform", certificate, panels, matrices, t)
 
@@ -298,7 +298,7 @@ def _rows_of(matrices: Matrices, count: int) -> _Rows:
         nodes[:, :count].T,
         np.asarray(matrices.slopes)[:, :count].T,
         nodes[:, p : p + count].T,
-        np.asarray(matrices.remainder)[:, :count].T,
+        jax.tree.map(lambda a: np.asarray(a)[..., :count].T, matrices.proof),
         np.asarray(matrices.rounding)[:count],
     )
 
@@ -307,28 +307,16 @@ def _transposed(rows: np.ndarray) -> Array:
     return jnp.asarray(np.ascontiguousarray(rows.T))
 
 
-def _panel_arrays(
-    panels: Panels, rows: _Rows, p: int, basis: Basis, certificate: CertificateKind
-) -> dict[str, Any]:
+def _panel_arrays(panels: Panels, rows: _Rows, p: int) -> dict[str, Any]:
     chord = panels.end - panels.start
-    segments = None
-    if certificate == "bdhm":
-        ends = padded(panels.start, p), padded(panels.end, p)
-        segments = _compiled_segment_weights()(*ends, basis.singularities)
     return {
         "slopes": _transposed(padded(rows.slopes, p)),
-        "remainder": _transposed(padded(rows.remainder, p)),
+        "proof": jax.tree.map(lambda part: _transposed(padded(part, p)), rows.proof),
         "rounding": jnp.asarray(padded(rows.rounding, p)),
         "chord": jnp.stack([padded(np.real(chord), p), padded(np.imag(chord), p)]),
         "next": jnp.asarray(padded(panels.next, p)),
         "real": jnp.asarray(np.arange(p) < len(panels)),
-        "segments": segments,
     }
-
-
-@functools.cache
-def _compiled_segment_weights() -> Any:
-    return jax.jit(bdhm.segment_weights)
 
 
 def bucket(count: int) -> int:
@@ -356,42 +344,29 @@ def _compiled_rows(kernel: Any) -> Any:
 
 def basis_rows(kernel: Any, z: np.ndarray, basis: Basis) -> np.ndarray:
     """``[Re D, -Im D]`` of one of the basis matrices at points ``z`` (k,)."""
-    return _in_chunks(_compiled_rows(kernel), (z,), basis, (2 * basis.n_columns,))[0]
+    return _in_chunks(_compiled_rows(kernel), (z,), basis)
 
 
 @functools.cache
 def _compiled_certificate_rows(certificate: CertificateKind) -> Any:
-    method = hermite if certificate == "hermite" else lipschitz
-
     def rows(start: Any, end: Any, singularities: Any) -> Any:
-        weights = derivative_bound_weights(start, end, singularities, method.DERIVATIVE_ORDER)
-        factor = method.remainder_factor(jnp.abs(end - start))
+        proof = PROOFS[certificate].on(start, end, singularities)
         scale = rounding.panel_scale(start, end, singularities)
-        n_columns = weights.shape[1]
-        return factor[:, None] * weights, rounding.carried_slack_factor(n_columns) * scale
+        n_columns = len(singularities.vertices) + len(singularities.hole_points)
+        return jax.tree.map(jnp.transpose, proof), rounding.carried_slack_factor(n_columns) * scale
 
     return jax.jit(rows)
 
 
 def _certificate_rows(
     start: np.ndarray, end: np.ndarray, basis: Basis, certificate: CertificateKind
-) -> tuple[np.ndarray, np.ndarray]:
-    kernel = _compiled_certificate_rows(certificate)
-    remainder, slack = _in_chunks(kernel, (start, end), basis, (basis.n_columns,), ())
-    return remainder, slack
+) -> tuple[PanelProof, np.ndarray]:
+    """The proof's constants, the panels first, and the slack for rounding."""
+    return _in_chunks(_compiled_certificate_rows(certificate), (start, end), basis)
 
 
-def _in_chunks(
-    kernel: Any, points: tuple[np.ndarray, ...], basis: Basis, *row_shapes: tuple[int, ...]
-) -> tuple[np.ndarray, ...]:
+def _in_chunks(kernel: Any, points: tuple[np.ndarray, ...], basis: Basis) -> Any:
     """Run a row-wise kernel over chunks of two fixed sizes, so that it compiles at most twice."""
-    count = len(points[0])
-    outputs = tuple(np.empty((count, *shape)) for shape in row_shapes)
-    chunk = min(64 if count <= 64 else 1 << 20, max(64, _CHUNK_ELEMENTS // basis.n_columns))
-    for first in range(0, count, chunk):
-        part = [padded(z[first : first + chunk], chunk) for z in points]
-        results = kernel(*part, basis.singularities)
-        results = results if isinstance(results, tuple) else (results,)
-        for output, result in zip(outputs, results, strict=True):
-            output[first : first + chunk] = np.asarray(result)[: count - first]
-    return outputs
+    most = 64 if len(points[0]) <= 64 else 1 << 20
+    chunk = min(most, max(64, _CHUNK_ELEMENTS // basis.n_columns))
+    return in_chunks(kernel, chunk, points, basis.singularities)

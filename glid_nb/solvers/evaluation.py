@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from glid_nb._arrays import AnyArray
 from glid_nb._jax import jnp, lax
-from glid_nb.certificate import METHODS, EndValues, PanelBounds, bdhm
+from glid_nb.certificate import EndValues, PanelBounds
 from glid_nb.energies import Differentials
-from glid_nb.harmonic.cauchy import Singularities, slope_jumps
-from glid_nb.solvers.discretisation import CertificateKind, Matrices
+from glid_nb.harmonic.cauchy import Singularities
+from glid_nb.solvers.discretisation import Matrices
 
 if TYPE_CHECKING:
     from jaxtyping import Array, Bool, Float
@@ -41,7 +41,6 @@ def bounds(
     coefficients: Float[Array, " 4c"],
     samples: Samples,
     largest: Float[Array, ""],
-    certificate: CertificateKind,
 ) -> PanelBounds:
     """The certificate's bounds on every panel.
 
@@ -54,10 +53,9 @@ def bounds(
     f, g = _complex_rows(samples.nodes[:, :panels])
     df, dg = _complex_rows(samples.slopes)
     after = matrices.next
-    values = EndValues(
-        f, f[after], g, g[after], df * chord, df[after] * chord, dg * chord, dg[after] * chord
-    )
-    return METHODS[certificate].panel_bounds(values, remainder[0], remainder[1])
+    fz = EndValues(f, f[after], df * chord, df[after] * chord)
+    fzb_conj = EndValues(g, g[after], dg * chord, dg[after] * chord)
+    return matrices.proof.bounds(fz, fzb_conj, remainder)
 
 
 def tightened_by_splitting(
@@ -134,11 +132,7 @@ def _truncation(
     matrices: Matrices, singularities: Singularities, coefficients: Float[Array, " 4c"]
 ) -> Float[Array, "2 p"]:
     """How far the derivatives of ``phi`` and ``psi`` may be from what their ends say."""
-    pair = jnp.stack(_complex_pair(coefficients))
-    if matrices.segments is not None:
-        return jnp.hypot(*matrices.chord) * bdhm.constants(pair, matrices.segments)
-    jumps = slope_jumps(pair, singularities)
-    return jnp.abs(jumps) @ matrices.remainder
+    return matrices.proof.remainder(jnp.stack(_complex_pair(coefficients)), singularities)
 
 
 def _complex_pair(y: Float[Array, " 4c"]) -> tuple[Array, Array]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from glid_nb._arrays import AnyArray
 from glid_nb._jax import jnp, lax
-from glid_nb.certificate import PanelBounds
+from glid_nb.certificate import PanelBounds, fz_vanishes
 from glid_nb.energies import Energy
 from glid_nb.solvers.outcome import BLOCKED, NO_DECREASE, PENDING, REFUSED, RUNNING
 
@@ -134,7 +134,7 @@ def backtrack(
         refuses = real & ~bounds.injective
         # Condition (30): zeros of f_z inside show as a sum of turnings that is not 0. The step then
         # jumps over a map with a zero on the boundary; the panels that turned most are where.
-        zeros = jnp.abs(jnp.sum(jnp.where(real, bounds.turning, 0))) > 1
+        zeros = fz_vanishes(jnp.where(real, bounds.turning, 0))
         turned = jnp.where(real, jnp.abs(bounds.turning - turning), 0)
         jumped = zeros & ~jnp.any(refuses) & (turned >= jnp.max(turned) / 2)
         refuses = refuses | (jumped & real)

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from glid_nb._arrays import AnyArray
 from glid_nb._jax import jax, jit, jnp, lax
 from glid_nb._runtime import COMPILER_OPTIONS
-from glid_nb.certificate import PanelBounds
+from glid_nb.certificate import PanelBounds, fz_vanishes
 from glid_nb.energies import Energy
 from glid_nb.harmonic.cauchy import Singularities
 from glid_nb.solvers import cholesky, evaluation, line_search, whitening
-from glid_nb.solvers.discretisation import CertificateKind, Matrices
+from glid_nb.solvers.discretisation import Matrices
 from glid_nb.solvers.evaluation import Constraints, Samples
 from glid_nb.solvers.hessian import (
     LocalHessian,
@@ -102,7 +102,6 @@ def iterations(
     settings: Settings,
     *,
     hessian: HessianKind,
-    certificate: CertificateKind,
     capacity: int,
 ) -> State:
     """Up to ``settings.iterations`` (at most ``capacity``) Newton iterations, to be compiled.
@@ -201,7 +200,7 @@ def iterations(
         return _Line(direction, change, squared_decrement, search)
 
     def bounds(samples: Samples, y: Float[Array, " 4c"], largest: Array) -> PanelBounds:
-        return evaluation.bounds(matrices, singularities, y, samples, largest, certificate)
+        return evaluation.bounds(matrices, singularities, y, samples, largest)
 
     def corrected(place: _Place, gain: Array, factor: Array) -> tuple:
         """Go on by corrections while they pay; the place, how many, and whether at the minimum."""
@@ -263,7 +262,7 @@ def iterations(
                 lambda: bounds(further.samples, further.coefficients, further.largest),
                 lambda: panel,
             )
-            zeros = jnp.abs(jnp.sum(jnp.where(matrices.real, proof.turning, 0))) > 1
+            zeros = fz_vanishes(jnp.where(matrices.real, proof.turning, 0))
             proved = jnp.all(proof.injective | ~matrices.real) & ~zeros & (count > 0)
             return (
                 _where(proved, further, place),
@@ -368,7 +367,7 @@ def _where(condition: Bool[Array, ""], one: Any, other: Any) -> Any:
 
 run = jit(
     iterations,
-    static_argnames=("hessian", "certificate", "capacity"),
+    static_argnames=("hessian", "capacity"),
     donate_argnames=("factor",),
     compiler_options=COMPILER_OPTIONS,
 )

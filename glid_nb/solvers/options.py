@@ -9,6 +9,7 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
+from glid_nb._errors import InputError
 from glid_nb.certificate.rounding import CARRIED_STEPS
 from glid_nb.solvers.discretisation import CertificateKind, Sampling
 
@@ -19,7 +20,7 @@ _MOST_PER_CALL = CARRIED_STEPS // (1 + MOST_CORRECTIONS)
 HessianKind = Literal["adaptive", "projected", "exact"]
 
 
-class OptionError(ValueError):
+class OptionError(InputError):
     """A setting is out of range."""
 
 

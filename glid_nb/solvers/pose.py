@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._numbers import real_array
+from glid_nb._arguments import real_array
+from glid_nb._errors import InputError
 from glid_nb.geometry import Domain
 
 Array = NDArray[Any]
@@ -20,7 +21,7 @@ Array = NDArray[Any]
 _FARTHEST = 1e6
 
 
-class PoseError(ValueError):
+class PoseError(InputError):
     """The handles or their targets are not valid."""
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._arguments import check_type
 from glid_nb._jax import jit, jnp
 from glid_nb._runtime import compilation_clock, double_precision, single_blas_thread
 from glid_nb.energies import Energy, as_energy
@@ -19,7 +20,6 @@ from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.harmonic.basis import Basis
 from glid_nb.solvers import newton, outcome
 from glid_nb.solvers.align import aligned
-from glid_nb.solvers.arguments import check_type
 from glid_nb.solvers.discretisation import Discretisation, basis_rows, discretise, padded
 from glid_nb.solvers.evaluation import Constraints
 from glid_nb.solvers.history import entries
@@ -281,7 +281,6 @@ class _Loop:
             self.factor,
             settings,
             hessian=options.hessian,
-            certificate=options.certificate,
             capacity=capacity_for(options.iterations_per_call),
         )
 

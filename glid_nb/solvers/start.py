@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from glid_nb._errors import InputError
 from glid_nb.certificate import certify
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 
 
-class StartError(ValueError):
+class StartError(InputError):
     """The map to start from cannot be used."""
 
 

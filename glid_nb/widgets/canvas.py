@@ -12,12 +12,13 @@ import numpy as np
 import traitlets
 from numpy.typing import NDArray
 
+from glid_nb._arguments import check_count
 from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.geometry import Domain
 from glid_nb.geometry.panels import Panels
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session.deformation import Deformation
-from glid_nb.widgets.arguments import LEAST_CANVAS, check_count, check_vertices
+from glid_nb.widgets.arguments import LEAST_CANVAS, check_vertices
 from glid_nb.widgets.gestures import Gestures
 from glid_nb.widgets.overlays import OVERLAYS
 from glid_nb.widgets.pane import Pane

@@ -9,10 +9,10 @@ import pythreejs as three
 import scipy.sparse
 from numpy.typing import NDArray
 
-from glid_nb.compare import MeshMap
-from glid_nb.compare.mesh.operators import MeshOperators
+from glid_nb.figures.style import VERMILION
 from glid_nb.harmonic import as_complex
-from glid_nb.imaging.style import VERMILION
+from glid_nb.methods import MeshMap
+from glid_nb.methods.mesh.operators import MeshOperators
 from glid_nb.widgets.overlays import N_COLORS
 from glid_nb.widgets.shader import glsl
 

@@ -11,13 +11,14 @@ import ipywidgets
 import numpy as np
 from numpy.typing import ArrayLike
 
+from glid_nb._arguments import check_count
 from glid_nb._jax import once_loaded
 from glid_nb._runtime import enable_compilation_cache
 from glid_nb.certificate import Certificate
-from glid_nb.compare import MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.imaging.render import View
+from glid_nb.methods import MeshMap
 from glid_nb.session import Document
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditedPose, EditError
@@ -26,7 +27,7 @@ from glid_nb.session.status_line import StatusLine
 from glid_nb.session.tracing import TracingProblem
 from glid_nb.solvers import Pose
 from glid_nb.widgets import cells
-from glid_nb.widgets.arguments import check_count, check_vertices
+from glid_nb.widgets.arguments import check_vertices
 from glid_nb.widgets.canvas import DeformCanvas
 from glid_nb.widgets.closing import close_with_parts
 from glid_nb.widgets.monitor import SolverMonitor

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from glid_nb._errors import InputError
 from glid_nb._files import write_bytes_atomically
 from glid_nb.export import (
     cage_svg,
@@ -33,7 +34,7 @@ _BESIDE = {".obj": (".mtl", "-texture.png"), ".py": ("-source.png",)}
 """What follows the stem in the names of the files that come with one."""
 
 
-class ExportError(ValueError):
+class ExportError(InputError):
     """Something cannot be exported that way."""
 
 

@@ -14,15 +14,15 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from glid_nb.certificate import Certificate
-from glid_nb.geometry import Cage
-from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.plots import (
+from glid_nb.figures.plots import (
     CertificatePlot,
     EnergyPlot,
     IterationRecord,
     StepPlot,
     TimePlot,
 )
+from glid_nb.geometry import Cage
+from glid_nb.harmonic import HarmonicMap
 from glid_nb.widgets.plots_frame import plot_boxes
 
 Array = NDArray[Any]

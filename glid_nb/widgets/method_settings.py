@@ -7,7 +7,7 @@ from typing import Any, Literal, get_args, get_origin
 
 import ipywidgets
 
-from glid_nb.compare import MethodChoice
+from glid_nb.methods import MethodChoice
 
 LABEL_WIDTH = "124px"
 _FULL = ipywidgets.Layout(width="auto")

@@ -8,12 +8,13 @@ from typing import Any
 
 import ipywidgets
 
+from glid_nb._errors import InputError
 from glid_nb.session.editor_model import EditorModel
 
 _SUFFIX = ".glid"
 
 
-class FileNameError(ValueError):
+class FileNameError(InputError):
     """A file cannot have that name; the message says which it can have."""
 
 

@@ -13,7 +13,7 @@ from glid_nb._jax import jnp
 from glid_nb.energies import AMIPS, ARAP, Energy, ExponentialSymmetricDirichlet, SymmetricDirichlet
 from glid_nb.solvers.restarts import isometry_energy
 
-# Ten evenly spaced colours of `imaging.style.distortion_colors`; the first canvas does not wait for
+# Ten evenly spaced colours of `figures.style.distortion_colors`; the first canvas does not wait for
 # matplotlib to say so.
 _COLORS = (
     "#fcf4b6",

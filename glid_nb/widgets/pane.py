@@ -8,9 +8,9 @@ import ipywidgets
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb.compare import DeformationMap, MeshMap
 from glid_nb.energies import Energy
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import DeformationMap, MeshMap
 from glid_nb.widgets.closing import close_with_parts
 from glid_nb.widgets.overlays import legend, panel_legend
 from glid_nb.widgets.scene import N_VERTICES, EvaluatedIn, Scene, renderer

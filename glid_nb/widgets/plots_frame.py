@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from glid_nb.imaging.style import FAINT, GREY
+from glid_nb.figures.style import FAINT, GREY
 
 # CSS pixels. Above a plot is its legend, in the upper row below a line of text; below it are ticks
 # and the axis's name.

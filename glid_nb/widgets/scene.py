@@ -12,13 +12,13 @@ import numpy as np
 import pythreejs as three
 from numpy.typing import NDArray
 
-from glid_nb.compare import MeshMap
 from glid_nb.energies import Energy
+from glid_nb.figures.style import BLUE, GREY
 from glid_nb.geometry import Triangulation, triangulate, uniform_boundary_samples
 from glid_nb.geometry.panels import Panels
 from glid_nb.harmonic import FixedPoints, HarmonicMap
 from glid_nb.imaging import PixelFrame
-from glid_nb.imaging.style import BLUE, GREY
+from glid_nb.methods import MeshMap
 from glid_nb.widgets.comparison_layer import ComparisonLayer
 from glid_nb.widgets.overlays import (
     FULL_MARGIN,

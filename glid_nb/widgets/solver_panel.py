@@ -8,8 +8,8 @@ from typing import Any
 
 import ipywidgets
 
-from glid_nb.compare import MethodChoice, methods
 from glid_nb.energies import ENERGY_NAMES, CustomEnergy, energy_by_name
+from glid_nb.methods import MethodChoice, methods
 from glid_nb.session.deformation import Deformation
 from glid_nb.widgets.edit_controls import EditControls
 from glid_nb.widgets.method_settings import LABEL_WIDTH, MethodSettings

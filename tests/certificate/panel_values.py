@@ -45,13 +45,10 @@ def derivative(coefficients: Array) -> Array:
     return coefficients[:, 1:] * np.arange(1, coefficients.shape[1])
 
 
-def end_values(f: Array, g: Array) -> EndValues:
+def end_values(f: Array) -> EndValues:
     """Panels of length 1: derivatives along the panel are those in t."""
-    columns: list[Array] = []
-    for c in (f, g, derivative(f), derivative(g)):
-        columns += [values(c, np.zeros(1))[:, 0], values(c, np.ones(1))[:, 0]]
-    fz, fzb, dfz, dfzb = (columns[k : k + 2] for k in (0, 2, 4, 6))
-    return EndValues(*fz, *fzb, *dfz, *dfzb)
+    ends = (np.zeros(1), np.ones(1))
+    return EndValues(*(values(c, t)[:, 0] for c in (f, derivative(f)) for t in ends))
 
 
 def change_of_argument(path: Array) -> Array:

@@ -18,7 +18,7 @@ from glid_nb.harmonic import HarmonicMap
 from ..domains import dense_check, domain, random_map, reference
 from ..reference_map import DenseCheck, Measured, cauchy_first
 
-METHODS = ("hermite", "lipschitz")
+KINDS = ("hermite", "lipschitz")
 CERTIFIED = ("ell", "ring", "twin")
 
 # Sizes at which the random maps go from almost isometric to folded everywhere.
@@ -48,12 +48,12 @@ def check_sound(c: Certificate, truth: Measured) -> None:
     assert c.certified == c.reason.startswith("Proved locally injective")
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("kind", KINDS)
 @given(name=st.sampled_from(CERTIFIED), size=sizes, seed=st.integers(0, 10**6))
 @settings(max_examples=20)
-def test_certificates_are_true(method: Any, name: str, size: float, seed: int) -> None:
+def test_certificates_are_true(kind: Any, name: str, size: float, seed: int) -> None:
     map, truth = measured(name, size, seed)
-    c = certify(map, method)
+    c = certify(map, kind)
     check_sound(c, truth)
     # And complete: with refinement nothing but a real obstacle is in the way.
     if truth.sigma2 > 0.02 and sum(truth.windings) == 0:
@@ -63,12 +63,12 @@ def test_certificates_are_true(method: Any, name: str, size: float, seed: int) -
         assert "not locally injective" in c.reason
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("kind", KINDS)
 @given(name=st.sampled_from(CERTIFIED), size=sizes, seed=st.integers(0, 10**6))
 @settings(max_examples=10)
-def test_every_panel_is_true(method: Any, name: str, size: float, seed: int) -> None:
+def test_every_panel_is_true(kind: Any, name: str, size: float, seed: int) -> None:
     map = random_map(name, size, seed)
-    c = certify(map, method)
+    c = certify(map, kind)
     panels = c.panels
     start, end = panels.start @ [1, 1j], panels.end @ [1, 1j]
     t = np.linspace(0, 1, 9)
@@ -85,14 +85,14 @@ def test_every_panel_is_true(method: Any, name: str, size: float, seed: int) -> 
     assert c.k_upper == panels.k_upper.max()
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", CERTIFIED)
 @pytest.mark.parametrize("tightness", [0.02, 0.002])
-def test_bounds_are_as_tight_as_asked(method: Any, name: str, tightness: float) -> None:
+def test_bounds_are_as_tight_as_asked(kind: Any, name: str, tightness: float) -> None:
     map, truth = measured(name, 0.05, 1)
-    if method == "lipschitz" and tightness < 0.01:
+    if kind == "lipschitz" and tightness < 0.01:
         return
-    c = certify(map, method, tightness=tightness)
+    c = certify(map, kind, tightness=tightness)
     assert c.certified
     # Theorem 4.2: the extremes are attained on the boundary.
     assert truth.sigma2 * (1 - 1.01 * tightness) <= c.sigma2_lower <= truth.sigma2
@@ -123,11 +123,11 @@ def test_the_result_is_immutable() -> None:
 
 
 def test_the_identity() -> None:
-    for method in METHODS:
+    for kind in KINDS:
         for name in CERTIFIED:
-            c = certify(HarmonicMap.identity(domain(name)), method)
+            c = certify(HarmonicMap.identity(domain(name)), kind)
             assert c.certified
-            assert c.method == method
+            assert c.kind == kind
             assert c.sigma2_lower == pytest.approx(1, abs=1e-9)
             assert c.sigma1_upper == pytest.approx(1, abs=1e-9)
             assert c.k_upper == pytest.approx(0, abs=1e-9)
@@ -152,40 +152,40 @@ def annulus_check() -> DenseCheck:
     return dense_check("annulus", 10_000)
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_knot_is_certified(method: Any) -> None:
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_knot_is_certified(kind: Any) -> None:
     """Figure 3: f_z turns once around on the exterior loop and back on the interior one."""
     map = holomorphic("annulus", lambda z: z**2 / 2, lambda z: 0.2 * z)
     truth = annulus_check().measure(map.phi, map.psi)
     assert truth.sigma2 > 0.1
     assert truth.windings == (1, -1)
-    c = certify(map, method)
+    c = certify(map, kind)
     check_sound(c, truth)
     assert c.certified
     assert c.windings == (1, -1)
     assert c.winding == 0
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_knot_the_other_way_is_certified(method: Any) -> None:
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_knot_the_other_way_is_certified(kind: Any) -> None:
     """f = -1 / z, f_z = 1 / z^2: it turns by -2 and +2, and is globally injective."""
     map = holomorphic("annulus", lambda z: -1 / z)
     truth = annulus_check().measure(map.phi, map.psi)
-    c = certify(map, method)
+    c = certify(map, kind)
     check_sound(c, truth)
     assert c.certified
     assert c.windings == truth.windings == (-2, 2)
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("zero", [-1.5 - 1j, 0.3 - 1.4j])
-def test_a_zero_of_fz_inside_is_refused_by_the_winding(method: Any, zero: complex) -> None:
+def test_a_zero_of_fz_inside_is_refused_by_the_winding(kind: Any, zero: complex) -> None:
     """f = (z - a)^2 / 2 on a domain around a: sigma_2 > 0 on the boundary, yet a branch point."""
     map = holomorphic("ell", lambda z: (z - zero) ** 2 / 2)
     truth = dense_check("ell").measure(map.phi, map.psi)
     assert truth.sigma2_boundary > 0.05
     assert truth.windings == (1,)
-    c = certify(map, method)
+    c = certify(map, kind)
     assert not c.certified
     assert (c.panels.sigma2_lower > 0).all()
     assert c.windings == (1,)
@@ -204,13 +204,13 @@ def test_two_zeros_are_counted() -> None:
     assert not c.certified
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_folded_map_is_reported_where_it_folds(method: Any) -> None:
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_folded_map_is_reported_where_it_folds(kind: Any) -> None:
     """f = z + conj(z^2) / 6 folds where |z| > 3, only at the far corners of the L."""
     map = holomorphic("ell", lambda z: z, lambda z: z**2 / 6)
     truth = dense_check("ell").measure(map.phi, map.psi)
     assert truth.sigma2_boundary < -0.1
-    c = certify(map, method)
+    c = certify(map, kind)
     assert not c.certified
     found = re.fullmatch(
         r"The map is not locally injective: sigma_2 = (\S+) near \((\S+), (\S+)\)\.", c.reason
@@ -224,9 +224,9 @@ def test_a_folded_map_is_reported_where_it_folds(method: Any) -> None:
     assert c.sigma2_lower <= truth.sigma2_boundary
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("excess", [1e-3, -1e-3])
-def test_a_dent_between_the_ends_of_panels_is_seen(method: Any, excess: float) -> None:
+def test_a_dent_between_the_ends_of_panels_is_seen(kind: Any, excess: float) -> None:
     """The least sigma_2 is just below or above 0, at a point that ends no panel."""
     map = random_map("ell", 0.3, 3)
     check = dense_check("ell")
@@ -237,18 +237,18 @@ def test_a_dent_between_the_ends_of_panels_is_seen(method: Any, excess: float) -
     psi = map.psi * (1 + excess) * f[worst] / g[worst]
     yardstick = reference(HarmonicMap(map.domain, map.phi, psi))
     assert yardstick.sigma2(ends).min() > 0
-    c = certify(HarmonicMap(map.domain, map.phi, psi), method)
+    c = certify(HarmonicMap(map.domain, map.phi, psi), kind)
     check_sound(c, check.measure(map.phi, psi))
     assert c.certified == (excess < 0), c.reason
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_without_refinement_the_given_panels_are_all_there_is(method: Any) -> None:
+@pytest.mark.parametrize("kind", KINDS)
+def test_without_refinement_the_given_panels_are_all_there_is(kind: Any) -> None:
     d = domain("ring")
     samples = uniform_boundary_samples(d.cage, 1000)
     panels = panels_between(samples.points, samples.loop)
     map, truth = measured("ring", 0.02, 3)
-    c = certify(map, method, panels, refine=False)
+    c = certify(map, kind, panels, refine=False)
     assert len(c.panels) == len(panels) == len(samples.points)
     np.testing.assert_array_equal(c.panels.start @ [1, 1j], panels.start)
     check_sound(c, truth)
@@ -257,15 +257,15 @@ def test_without_refinement_the_given_panels_are_all_there_is(method: Any) -> No
     map, truth = measured("ring", 0.4, 3)
     samples = uniform_boundary_samples(d.cage, 10)
     coarse = panels_between(samples.points, samples.loop)
-    c = certify(map, method, coarse, refine=False)
+    c = certify(map, kind, coarse, refine=False)
     assert len(c.panels) == len(coarse) < 25
     assert not c.certified
     assert re.search(r"Undecided: \d+ of \d+ panels could not be proved injective", c.reason)
-    finer = certify(map, method, coarse, refine=True)
+    finer = certify(map, kind, coarse, refine=True)
     check_sound(finer, truth)
     assert finer.certified
     # However loose the bounds may be, panels are split until there is a proof.
-    loose = certify(map, method, coarse, tightness=5.0)
+    loose = certify(map, kind, coarse, tightness=5.0)
     check_sound(loose, truth)
     assert loose.certified
     assert len(loose.panels) < len(finer.panels)
@@ -279,7 +279,10 @@ def test_lipschitz_needs_more_panels_than_hermite() -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"method": "newton"}, "unknown method 'newton'; choose one of hermite, lipschitz, bdhm"),
+        (
+            {"kind": "newton"},
+            "unknown kind of certificate 'newton'; choose one of hermite, lipschitz, bdhm",
+        ),
         ({"tightness": 0}, "tightness is 0; it must be positive"),
         ({"tightness": -1.0}, "tightness is -1.0"),
         ({"tightness": float("nan")}, "tightness is nan"),

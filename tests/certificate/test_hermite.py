@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from glid_nb.certificate import PanelBounds, derivative_bound_weights, hermite
-from glid_nb.certificate.bounds import distances
+from glid_nb.certificate import Hermite, PanelBounds, hermite
+from glid_nb.certificate.paper import derivative_bound_weights, distances
 from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import basis_of, cauchy
 from glid_nb.harmonic.cauchy import Singularities
@@ -21,12 +21,13 @@ from ..domains import random_map, reference
 from ..reference_map import cauchy_first, holomorphic_derivative
 from .panel_values import PANELS, T, change_of_argument, end_values, polynomials, seeds, values
 
-bounds_of = jax.jit(hermite.panel_bounds)
+bounds_of = jax.jit(Hermite.bounds)
 
 
 def bounds(f: np.ndarray, g: np.ndarray, e_f: Any, e_g: Any) -> PanelBounds:
     with jax.enable_x64(True):
-        got = bounds_of(end_values(f, g), np.full(PANELS, e_f), np.full(PANELS, e_g))
+        remainder = np.stack([np.full(PANELS, e_f), np.full(PANELS, e_g)])
+        got = bounds_of(end_values(f), end_values(g), remainder)
         return PanelBounds(*map(np.asarray, got))
 
 
@@ -137,9 +138,8 @@ def panel_remainders(name: str, size: float, seed: int) -> tuple[np.ndarray, ...
 
     @jax.jit
     def allowed(start: Any, end: Any) -> Any:
-        weights = derivative_bound_weights(start, end, basis.singularities, 4)
-        jumps = abs(cauchy.slope_jumps(coefficients, basis.singularities))
-        return hermite.remainder_factor(abs(end - start))[:, None] * (weights @ jumps.T)
+        proof = Hermite.on(start, end, basis.singularities)
+        return proof.remainder(coefficients, basis.singularities).T
 
     with jax.enable_x64(True):
         remainder = np.asarray(allowed(panels.start, panels.end))

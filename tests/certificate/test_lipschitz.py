@@ -6,7 +6,8 @@ import jax
 import numpy as np
 from hypothesis import given, settings
 
-from glid_nb.certificate import PanelBounds, lipschitz
+from glid_nb.certificate import Lipschitz, PanelBounds
+from glid_nb.harmonic.cauchy import Singularities
 
 from .panel_values import (
     PANELS,
@@ -18,7 +19,7 @@ from .panel_values import (
     values,
 )
 
-bounds_of = jax.jit(lipschitz.panel_bounds)
+bounds_of = jax.jit(Lipschitz.bounds)
 
 
 def curvature(coefficients: np.ndarray) -> np.ndarray:
@@ -29,9 +30,8 @@ def curvature(coefficients: np.ndarray) -> np.ndarray:
 def bounds(f: np.ndarray, g: np.ndarray, share: float = 1.0) -> PanelBounds:
     """Bounds with l^2 / 2 times the exact bound on the second derivative, l = 1."""
     with jax.enable_x64(True):
-        factor = np.asarray(lipschitz.remainder_factor(np.ones(PANELS)))
-        remainders = [share * factor * curvature(c) for c in (f, g)]
-        return PanelBounds(*map(np.asarray, bounds_of(end_values(f, g), *remainders)))
+        remainder = np.stack([share * curvature(c) / 2 for c in (f, g)])
+        return PanelBounds(*map(np.asarray, bounds_of(end_values(f), end_values(g), remainder)))
 
 
 @given(drawn=seeds)
@@ -61,18 +61,15 @@ def test_it_is_condition_27() -> None:
     """sigma_2(v_i) + sigma_2(v_{i+1}) >= (L_fz + L_fzbar) l, with the constants written out."""
     f, g = polynomials((5, 1.0, 0.5), 4)
     got = bounds(f, g)
-    ends = end_values(f, g)
+    fz, fzb_conj = end_values(f), end_values(g)
     constants = [
-        (np.abs(a) + np.abs(b)) / 2 + curvature(c) / 2
-        for a, b, c in (
-            (ends.dfz_start, ends.dfz_end, f),
-            (ends.dfzb_start, ends.dfzb_end, g),
-        )
+        (np.abs(ends.slope_start) + np.abs(ends.slope_end)) / 2 + curvature(c) / 2
+        for ends, c in ((fz, f), (fzb_conj, g))
     ]
-    sigma2 = np.abs(ends.fz_start) + np.abs(ends.fz_end)
-    sigma2 = sigma2 - np.abs(ends.fzb_start) - np.abs(ends.fzb_end)
+    sigma2 = np.abs(fz.start) + np.abs(fz.end)
+    sigma2 = sigma2 - np.abs(fzb_conj.start) - np.abs(fzb_conj.end)
     np.testing.assert_allclose(2 * got.sigma2_lower, sigma2 - sum(constants), rtol=1e-12)
-    turning = np.abs(ends.fz_start) + np.abs(ends.fz_end) > constants[0]
+    turning = np.abs(fz.start) + np.abs(fz.end) > constants[0]
     np.testing.assert_array_equal(got.turning_known, turning)
     assert 0 < turning.sum() < PANELS or turning.all()
 
@@ -96,8 +93,14 @@ def test_a_dip_between_flat_ends_is_not_missed() -> None:
 
 
 def test_the_remainder_grows_with_the_square_of_the_length() -> None:
-    np.testing.assert_array_equal(lipschitz.remainder_factor(np.array([0.1, 1, 3])) * 2,
-                                  np.array([0.1, 1, 3]) ** 2)  # fmt: skip
+    triangle, cycle = np.array([1e3j, 2e3j, 1e3 + 1e3j]), np.array([1, 2, 0])
+    far = Singularities(triangle, cycle, np.argsort(cycle), np.array([]))
+    lengths = np.array([0.1, 1, 3])
+    with jax.enable_x64(True):
+        proof = jax.jit(Lipschitz.on)(np.zeros(3), lengths + 0j, far)
+        np.testing.assert_array_equal(np.asarray(proof.half_square) * 2, lengths**2)
+        remainder = np.asarray(proof.remainder(np.array([[1.0, 0, 0]]), far))[0]
+    np.testing.assert_allclose(remainder / lengths**2, remainder[1], rtol=0.02)
 
 
 def test_zeros_of_fz_are_never_injective() -> None:

@@ -98,11 +98,11 @@ def test_more_columns_need_more_slack() -> None:
     assert rounding.slack_factor(1000) > 2 * rounding.slack_factor(100)
 
 
-@pytest.mark.parametrize("method", ["hermite", "lipschitz"])
-def test_a_map_moved_far_away_is_decided_quickly(method: str) -> None:
+@pytest.mark.parametrize("kind", ["hermite", "lipschitz"])
+def test_a_map_moved_far_away_is_decided_quickly(kind: str) -> None:
     """Rounding alone keeps the bounds from the tightness asked; splitting cannot help it."""
     map = translated(HarmonicMap.identity(domain("ring")), 1e8)
-    c = certify(map, method)
+    c = certify(map, kind)
     assert c.certified
     assert c.sigma2_lower < 1 < c.sigma1_upper
     assert len(c.panels) < 10_000

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial import Delaunay
 
-from glid_nb.imaging import rasterise, scanline
-from glid_nb.imaging.rasterise import render_mesh
+from glid_nb.imaging import rasterise
+from glid_nb.imaging.rasterise import ScanConverter, outline_edges, render_mesh
 from glid_nb.imaging.texture import Texture
 
 QUAD = np.array([[0, 1, 2], [0, 2, 3]])
@@ -180,8 +180,8 @@ def test_an_outline_that_ends_on_pixel_borders_is_sharp():
 
 
 @settings(max_examples=25)
-@given(seed=st.integers(0, 10_000), scale=st.sampled_from([1, scanline.SUBSAMPLES]))
-def test_every_sample_belongs_to_exactly_one_triangle(seed: int, scale: int):
+@given(seed=st.integers(0, 10_000), resolved=st.booleans())
+def test_every_sample_belongs_to_exactly_one_triangle(seed: int, resolved: bool):
     # Coordinates on a coarse grid put many samples on edges and vertices.
     rng = np.random.default_rng(seed)
     inner = rng.integers(1, [160, 120], (60, 2)) / 4
@@ -189,17 +189,17 @@ def test_every_sample_belongs_to_exactly_one_triangle(seed: int, scale: int):
     turn = rng.uniform(-1e-3, 1e-3)
     triangles = Delaunay(points).simplices
     points = 20 + (points - 20) @ [[1, turn], [-turn, 1]] * (1 + 1e-3)
-    spans = scanline.ScanConverter(points[triangles], scale).spans(
-        2 * scale, 28 * scale, 40 * scale
-    )
-    middle = spans.start < 38 * scale
-    inside = (np.minimum(spans.stop, 38 * scale) - np.maximum(spans.start, 2 * scale)).clip(0)
-    assert inside[middle].sum() == 36 * 26 * scale**2
-    layers = scanline.layers(spans, 2 * scale, 28 * scale, 40 * scale)
-    assert len(layers) == 1
-    seen = np.zeros((26 * scale, 40 * scale), dtype=bool)
-    seen.ravel()[layers[0].sample] = True
-    assert seen[:, 2 * scale : 38 * scale].all()
+    scan = ScanConverter(points[triangles])
+    if resolved:
+        samples = scan.subsamples(2, 28, np.ones((26, 40), dtype=bool))
+        place, n = samples.place, 26 * 40 * 64
+        at = 2 * 40 * 64 + place
+        np.testing.assert_array_equal(np.floor(samples.y) * 40 + np.floor(samples.x), at // 64)
+    else:
+        place, n = scan.pixels(2, 28, 40)[1], 26 * 40
+    count = np.bincount(place, minlength=n).reshape(26, 40, -1)
+    assert (count[:, 2:38] == 1).all()
+    assert (count <= 1).all()
 
 
 def bent_mesh(seed: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]:
@@ -220,7 +220,7 @@ def test_a_deformed_mesh_has_no_seams_and_keeps_its_area(seed: int):
     points, positions, triangles = bent_mesh(seed)
     image = np.full((8, 8), 255, np.uint8)
     alpha = render_mesh(image, points / 6.25, positions, triangles, (70, 70))[..., 3]
-    outline = positions[scanline.outline_edges(triangles, positions[triangles])]
+    outline = positions[outline_edges(triangles, positions[triangles])]
     (shape,) = shapely.polygonize([shapely.LineString(edge) for edge in outline]).geoms
     assert alpha.sum() / 255 == pytest.approx(shape.area, rel=1e-3)
     x, y = np.mgrid[:70, :70]

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from glid_nb.session.autosave import Autosave
-from glid_nb.session.document import load_document, save_document
+from glid_nb.session.document_file import load_document, save_document
 
 from .test_document import document
 

@@ -17,17 +17,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from glid_nb.compare import MethodChoice
 from glid_nb.energies import AMIPS, CustomEnergy, SymmetricDirichlet
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
-from glid_nb.session.document import (
-    Document,
-    DocumentError,
-    NamedPose,
-    load_document,
-    save_document,
-)
+from glid_nb.methods import MethodChoice
+from glid_nb.session.document import Document, DocumentError, NamedPose
+from glid_nb.session.document_file import load_document, save_document
 from glid_nb.solvers import Options, Pose
 
 from ..domains import domain, random_map

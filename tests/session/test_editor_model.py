@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from glid_nb.session.autosave import flush
-from glid_nb.session.document import DocumentError, load_document
+from glid_nb.session.document import DocumentError
+from glid_nb.session.document_file import load_document
 from glid_nb.session.editor_model import (
     Application,
     EditorModel,

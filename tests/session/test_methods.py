@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from glid_nb.certificate import certify
-from glid_nb.compare import MeshMap, MethodError, methods
 from glid_nb.energies import AMIPS, ARAP, SymmetricDirichlet
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import MeshMap, MethodError, methods
 from glid_nb.session import live_solver
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import MOST_ITERATIONS, EditState

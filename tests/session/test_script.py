@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from glid_nb.compare import MeshMap, MethodChoice
 from glid_nb.energies import AMIPS, CustomEnergy, SymmetricDirichlet
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import MeshMap, MethodChoice
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.script import python_code
 from glid_nb.session.tracing import TracingModel

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from glid_nb import samples
 from glid_nb.geometry import Cage, GeometryError
 from glid_nb.imaging import Scribbles, TraceError, TraceOptions
-from glid_nb.session.document import Document, load_document, save_document
+from glid_nb.session.document import Document
+from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.tracing import TracingModel, TracingOutcome
 
 

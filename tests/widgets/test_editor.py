@@ -21,9 +21,10 @@ from PIL import Image
 
 import glid_nb as glid
 from glid_nb.certificate import certify
-from glid_nb.imaging.style import distortion_colors
+from glid_nb.figures.style import distortion_colors
 from glid_nb.session.autosave import flush
-from glid_nb.session.document import DocumentError, load_document
+from glid_nb.session.document import DocumentError
+from glid_nb.session.document_file import load_document
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.moment import Moment
 from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor

@@ -64,11 +64,24 @@ def border_color(image: NDArray[np.unsignedinteger]) -> BorderColor | None:
     most = np.bincount(codes).argmax()
     color = scaled[codes == most].mean(axis=0)
     for _ in range(3):  # a few steps towards the mode: the bin may have cut it
-        distance = np.linalg.norm(scaled - color, axis=1) / np.sqrt(3)
-        near = distance <= _SAME
-        color = np.median(scaled[near], axis=0)
-    distance = np.linalg.norm(scaled - color, axis=1) / np.sqrt(3)
+        color = np.median(scaled[_distances(scaled, color) <= _SAME], axis=0)
+    distance = _distances(scaled, color)
     near = distance <= _SAME
     red, green, blue = (float(c) for c in color)
     spread = float(np.percentile(distance[near], 99)) if near.any() else 0.0
     return BorderColor((red, green, blue), float(near.mean()), spread)
+
+
+def _distances(colors: NDArray[np.float64], color: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.linalg.norm(colors - color, axis=1) / np.sqrt(3)
+
+
+def border_is_bright(
+    image: NDArray[np.unsignedinteger], values: NDArray[np.float32], threshold: float
+) -> bool:
+    """Whether most of the picture's border, where it is not transparent, is above the threshold.
+
+    True for a transparent border: then dark ink on nothing is the likely picture.
+    """
+    border = border_pixels(values)[border_pixels(image[..., 3]) > 0]
+    return not border.size or float(np.mean(border > threshold)) >= 0.5

@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 _BINS = 256
 _SAMPLES = 2_000_000  # a histogram of more tells nothing new
+_INCLUSIVE = 0.12  # a colour threshold that keeps parts resembling the background
+_BETWEEN = 0.1  # of the shape's pixels may lie between the background and Otsu's threshold
 
 
 def histogram(score: NDArray[np.float32]) -> NDArray[np.float64]:
@@ -36,3 +38,23 @@ def otsu(shares: NDArray[np.float64]) -> float:
     # The first run only: a second one is another plateau.
     run = best[: 1 + int(np.argmax(np.append(np.diff(best) > 1, True)))]
     return float((run[0] + run[-1] + 2) / 2 / _BINS)
+
+
+def color_threshold(distance: NDArray[np.float32], spread: float) -> float:
+    """A threshold for the distance from the background's colour.
+
+    Otsu's, if little lies between the background and it: then its middle position gives the best
+    edges. Otherwise parts of the shape resemble the background, and the threshold goes as low as
+    the background's own spread allows.
+    """
+    shares = histogram(distance)
+    middle = otsu(shares)
+    floor = min(1.5 * spread + 0.02, 0.9)
+    if middle <= floor:
+        return middle if middle > spread else floor
+    edges = np.arange(len(shares)) / len(shares)
+    between = shares[(edges >= floor) & (edges < middle)].sum()
+    above = shares[edges >= middle].sum()
+    if between <= _BETWEEN * above:
+        return middle
+    return max(floor, min(0.5 * middle, _INCLUSIVE))

@@ -2,42 +2,65 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter
 
 from glid_nb.imaging.errors import TraceError
 
-_EMPTY = {
-    "alpha": "lower the threshold, or use another method",
-    "threshold": "change the threshold, or set invert",
-    "color": "lower the threshold, or pick another background colour",
-    "scribbles": "draw foreground strokes over more of the shape",
-}
-_EMPTY_PLAIN = {
-    "alpha": "lower the Threshold, or paint over the shape with Scribbles",
-    "threshold": "change the Threshold, or paint over the shape with Scribbles",
-    "color": "lower the Threshold, or paint over the shape with Scribbles",
-    "scribbles": "paint over more of the shape",
-}
-_FULL = {
-    "alpha": "use method='color', 'threshold' or 'scribbles'",
-    "threshold": "change the threshold, or set invert",
-    "color": "raise the threshold, or pick another background colour",
-    "scribbles": "draw background strokes around the shape",
-}
-_FULL_PLAIN = {
-    "alpha": "choose Colour or Brightness, or paint over the shape with Scribbles",
-    "threshold": "change the Threshold, or paint over the shape with Scribbles",
-    "color": "raise the Threshold, or paint over the shape with Scribbles",
-    "scribbles": "paint over the background around the shape",
-}
-_CONTROLS = {
-    "alpha": "Alpha",
-    "threshold": "Brightness",
-    "color": "Colour",
-    "scribbles": "Scribbles",
+_SMOOTHING = 0.001  # of the longer side
+_LEAST_SMOOTHING = 0.5  # less is not worth the time
+
+
+class _Words(NamedTuple):
+    """What messages say of a method, in the terms of options and in those of controls."""
+
+    measure: str
+    control: str
+    if_empty: str
+    if_empty_plain: str
+    if_full: str
+    if_full_plain: str
+
+
+_OR_PAINT = "change the Threshold, or paint over the shape with Scribbles"
+_LOWER_OR_PAINT = "lower the Threshold, or paint over the shape with Scribbles"
+_WORDS = {
+    "alpha": _Words(
+        "alpha",
+        "Alpha",
+        "lower the threshold, or use another method",
+        _LOWER_OR_PAINT,
+        "use method='color', 'threshold' or 'scribbles'",
+        "choose Colour or Brightness, or paint over the shape with Scribbles",
+    ),
+    "threshold": _Words(
+        "brightness",
+        "Brightness",
+        "change the threshold, or set invert",
+        _OR_PAINT,
+        "change the threshold, or set invert",
+        _OR_PAINT,
+    ),
+    "color": _Words(
+        "colour distance",
+        "Colour",
+        "lower the threshold, or pick another background colour",
+        _LOWER_OR_PAINT,
+        "raise the threshold, or pick another background colour",
+        "raise the Threshold, or paint over the shape with Scribbles",
+    ),
+    "scribbles": _Words(
+        "scribbles",
+        "Scribbles",
+        "draw foreground strokes over more of the shape",
+        "paint over more of the shape",
+        "draw background strokes around the shape",
+        "paint over the background around the shape",
+    ),
 }
 
 
@@ -85,30 +108,34 @@ class Foreground:
         TraceError
             None is, or all are.
         """
-        level = self.level(threshold)
-        mask = self.score > level
+        mask = self.score > self.level(threshold)
+        words, value = _WORDS[self.method], self.threshold(threshold)
         if not mask.any():
             raise TraceError(
-                f"the image has no foreground by {describe(self)}: no pixel passes the threshold "
-                f"{self.threshold(threshold):.3g}; {_EMPTY[self.method]}",
-                f"{_CONTROLS[self.method]} finds no shape in the picture; "
-                f"{_EMPTY_PLAIN[self.method]}",
+                f"the image has no foreground by {words.measure}: no pixel passes the threshold "
+                f"{value:.3g}; {words.if_empty}",
+                f"{words.control} finds no shape in the picture; {words.if_empty_plain}",
             )
         if mask.all():
             raise TraceError(
-                f"the foreground covers the whole image by {describe(self)}: every pixel passes "
-                f"the threshold {self.threshold(threshold):.3g}; {_FULL[self.method]}",
-                f"{_CONTROLS[self.method]} takes the whole picture for the shape; "
-                f"{_FULL_PLAIN[self.method]}",
+                f"the foreground covers the whole image by {words.measure}: every pixel passes "
+                f"the threshold {value:.3g}; {words.if_full}",
+                f"{words.control} takes the whole picture for the shape; {words.if_full_plain}",
             )
         return mask
 
 
-def describe(foreground: Foreground) -> str:
-    """The method in words."""
-    return {
-        "alpha": "alpha",
-        "threshold": "brightness",
-        "color": "colour distance",
-        "scribbles": "scribbles",
-    }[foreground.method]
+def smoothed(foreground: Foreground, sigma: float | None) -> Foreground:
+    """The field after a Gaussian filter of standard deviation ``sigma`` in pixels, 0 for none.
+
+    By default a thousandth of the longer side, and none for fields that are smooth as they are.
+    """
+    score = foreground.score
+    if sigma is None:
+        own = 0.0 if foreground.method in ("alpha", "scribbles") else _SMOOTHING * max(score.shape)
+        sigma = own if own >= _LEAST_SMOOTHING else 0.0
+    if sigma == 0:
+        return foreground
+    score = np.asarray(gaussian_filter(score, sigma, mode="nearest", truncate=3.0), np.float32)
+    score.setflags(write=False)
+    return replace(foreground, score=score)

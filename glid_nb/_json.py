@@ -1,0 +1,193 @@
+"""Reading JSON that somebody else wrote: every surprise is an error that names the key."""
+
+from __future__ import annotations
+
+import functools
+import json
+import math
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from glid_nb._errors import InputFileError, did_you_mean
+from glid_nb._files import write_text_atomically
+
+Check = Callable[[Any, str], None]
+"""Raises InputFileError for a value that does not belong under the key of that name."""
+
+_KINDS = {
+    type(None): "null",
+    bool: "true or false",
+    list: "a list",
+    dict: "an object",
+    str: "a string",
+    int: "a number",
+    float: "a number",
+}
+
+
+def parse_json(raw: bytes, name: str, kind: str = "a JSON file", *, nan: bool = True) -> Any:
+    """The JSON value in the bytes of a file; a number too large for floating point is infinite.
+
+    Parameters
+    ----------
+    raw : bytes
+    name, kind : str
+        What is read, and what it should be, for "(name) is not (kind): ...".
+    nan : bool
+        Let NaN and Infinity pass, which are no JSON, for a check that names their key.
+
+    Raises
+    ------
+    InputFileError
+        For what is no JSON, and for an object that has a key twice.
+    """
+    constant = float if nan else _refuse_constant
+    try:
+        return json.loads(
+            raw.decode("utf-8-sig"),
+            parse_int=_integer,
+            parse_constant=constant,
+            object_pairs_hook=_object,
+        )
+    except UnicodeDecodeError as error:
+        raise InputFileError(f"{name} is not {kind}: it is not UTF-8 text") from error
+    except (ValueError, RecursionError) as error:
+        raise InputFileError(f"{name} is not {kind}: {error}") from error
+
+
+def read_object(path: str | Path) -> dict[str, Any]:
+    """The JSON object in a file.
+
+    Raises
+    ------
+    InputFileError
+        When the file is not UTF-8 text, not JSON, or not an object at the top.
+    OSError
+        When it cannot be read.
+    """
+    data = parse_json(Path(path).read_bytes(), str(path))
+    if not isinstance(data, dict):
+        raise InputFileError(f"{path} must hold a JSON object {{...}}, not {_KINDS[type(data)]}")
+    return data
+
+
+def write_json(path: str | Path, data: Mapping[str, Any]) -> None:
+    """Write an object to a file, atomically: a line for each key."""
+    write_text_atomically(Path(path), json_text(data))
+
+
+def json_text(data: Mapping[str, Any]) -> str:
+    """An object as JSON for a file: readable at the top, arrays on one line."""
+    lines = (f" {json.dumps(key)}: {json.dumps(value)}" for key, value in data.items())
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def check_fields(
+    data: Any,
+    name: str,
+    required: Mapping[str, Check],
+    optional: Mapping[str, Check] | None = None,
+    *,
+    others: bool = False,
+) -> None:
+    """Raise unless ``data`` is an object whose keys hold what they should.
+
+    Parameters
+    ----------
+    data : any JSON value
+    name : str
+        What messages call it.
+    required, optional : mapping of keys to checks
+        The keys that must be there, and those that may be missing or null.
+    others : bool
+        Whether it may have any other keys.
+    """
+    check_object(data, name)
+    known = {**required, **(optional or {})}
+    for key in () if others else sorted(data.keys() - known.keys()):
+        raise InputFileError(f"{name} holds the unknown key {key!r:.60}{did_you_mean(key, known)}")
+    missing = [f'"{key}"' for key in required if data.get(key) is None]
+    if missing:
+        noun = "key" if len(missing) == 1 else "keys"
+        raise InputFileError(f"the {noun} {', '.join(missing)} must be given")
+    for key, check in known.items():
+        if data.get(key) is not None:
+            check(data[key], key)
+
+
+def anything(value: Any, key: str) -> None:
+    """Any value, which is checked where it is used."""
+
+
+def check_kind(kind: type) -> Check:
+    """A check for values of one of JSON's kinds."""
+
+    def check(value: Any, key: str) -> None:
+        if type(value) is not kind:
+            raise InputFileError(f"{key} must be {_KINDS[kind]}, not {_shown(value)}")
+
+    return check
+
+
+check_object, check_list, check_text = check_kind(dict), check_kind(list), check_kind(str)
+
+
+def check_positive(value: Any, key: str) -> None:
+    """A finite number above 0."""
+    if not _is_number(value) or not math.isfinite(value) or value <= 0:
+        raise InputFileError(f'"{key}" must be a positive number, not {_shown(value)}')
+
+
+def check_points(value: Any, key: str) -> None:
+    """A list of ``[x, y]`` pairs of finite numbers."""
+    _check_list_of(value, key, "[x, y] pair")
+    for i, point in enumerate(value):
+        if not (isinstance(point, list) and len(point) == 2 and all(map(_is_number, point))):
+            raise InputFileError(
+                f"{key}[{i}] must be a pair [x, y] of numbers, not {_shown(point)}"
+            )
+        if not all(map(math.isfinite, point)):
+            raise InputFileError(f"{key}[{i}] must be finite, not {_shown(point)}")
+
+
+def check_loops(value: Any, key: str, each: str = "loop") -> None:
+    """A list of loops, each a list of ``[x, y]`` pairs of finite numbers."""
+    _check_list_of(value, key, each)
+    for i, loop in enumerate(value):
+        check_points(loop, f"{key}[{i}]")
+
+
+check_strokes: Check = functools.partial(check_loops, each="stroke")
+
+
+def _check_list_of(value: Any, key: str, each: str) -> None:
+    if not isinstance(value, list):
+        raise InputFileError(f'"{key}" must be a list of {each}s, not {_KINDS[type(value)]}')
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _shown(value: Any) -> str:
+    text = json.dumps(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _integer(digits: str) -> int | float:
+    size = float(digits)
+    return int(digits) if math.isfinite(size) else size
+
+
+def _refuse_constant(constant: str) -> None:
+    raise ValueError(f"it holds {constant}, which is no number")
+
+
+def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    data = dict(pairs)
+    if len(data) < len(pairs):
+        keys = [key for key, _ in pairs]
+        twice = next(key for key in keys if keys.count(key) > 1)
+        raise ValueError(f'the key "{twice}" is given twice')
+    return data

@@ -1,0 +1,90 @@
+"""Proofs on panels: what they are given, what they say, and what a kind of proof is."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self, TypeVar
+
+from numpy.typing import NDArray
+
+from glid_nb._jax import jax, jnp
+from glid_nb.harmonic.cauchy import Singularities
+
+if TYPE_CHECKING:
+    from jaxtyping import Array, Bool, Complex, Float
+
+
+class EndValues(NamedTuple):
+    """A holomorphic function, ``f_z`` or ``conj(f_zbar)``, at the two ends of each panel.
+
+    Slopes are derivatives along the panel: the complex derivative times ``end - start``.
+    """
+
+    start: Complex[Array, " p"]
+    end: Complex[Array, " p"]
+    slope_start: Complex[Array, " p"]
+    slope_end: Complex[Array, " p"]
+
+
+class PanelBounds(NamedTuple):
+    """Proved on the whole panel, ends included; ``turning_known`` is part of the proof."""
+
+    sigma2_lower: Float[Array, " p"]
+    sigma1_upper: Float[Array, " p"]
+    k_upper: Float[Array, " p"]
+    turning_known: Bool[Array, " p"]
+    """Whether the change of ``arg f_z`` along the panel is proved to be ``turning`` (29)."""
+    turning: Float[Array, " p"]
+    """The principal ``Arg`` of the quotient of the end values of ``f_z``."""
+
+    @property
+    def injective(self) -> Bool[Array, " p"]:
+        """Where ``|f_z| > |f_zbar|`` is proved and the turning is known (Conditions 4a, 5)."""
+        return (self.sigma2_lower > 0) & self.turning_known
+
+
+class PanelProof(Protocol):
+    """A kind of proof; an instance holds what depends on the panels alone.
+
+    Instances are JAX pytrees of arrays whose last axis is that of the panels, so a solver computes
+    them once for many maps.
+    """
+
+    @classmethod
+    def on(
+        cls, start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
+    ) -> Self:
+        """The proof's constants on the panels from ``start`` to ``end``."""
+        ...
+
+    def remainder(
+        self, coefficients: Complex[Array, "k n"], singularities: Singularities
+    ) -> Float[Array, "k p"]:
+        """Of ``sum_j D_j coefficients_j``, what the values at the ends do not tell.
+
+        Whoever evaluates the bounds adds to it what rounding may have changed.
+        """
+        ...
+
+    @staticmethod
+    def bounds(fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]) -> PanelBounds:
+        """What is proved for the map, given the remainders of both its derivatives."""
+        ...
+
+
+T = TypeVar("T")
+
+
+def after_split(known: T, parent: NDArray[Any], new: NDArray[Any], fresh: T) -> T:
+    """A pytree of NumPy arrays over panels after a split: ``fresh`` on the panels that are new."""
+
+    def merged(values: NDArray[Any], others: NDArray[Any]) -> NDArray[Any]:
+        result = values[parent]
+        result[new] = others
+        return result
+
+    return jax.tree.map(merged, known, fresh)
+
+
+def modulus(z: Complex[Array, " *k"]) -> Float[Array, " *k"]:
+    """``|z|`` without care for overflow, which no value here is near; it compiles to much less."""
+    return jnp.sqrt(jnp.real(z) ** 2 + jnp.imag(z) ** 2)

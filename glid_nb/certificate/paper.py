@@ -1,0 +1,128 @@
+"""Section 8 of the paper, "Locally injective certification", in its order.
+
+A segment of the boundary runs from ``v_i`` to ``v_{i+1}`` and has the length ``l``. On it ``f_z``
+and ``f_zbar`` are Lipschitz continuous with constants ``L_fz`` and ``L_fzbar``. If Condition (27)
+holds on all segments and the sum (30) is 0, the map is locally injective.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple, Self
+
+from glid_nb._jax import jnp
+from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
+from glid_nb.harmonic.cauchy import Singularities, slope_jumps
+
+if TYPE_CHECKING:
+    from jaxtyping import Array, Bool, Complex, Float
+
+
+def bounds_from_variation(
+    fz: EndValues, fzb_conj: EndValues, variation: Float[Array, "2 p"]
+) -> PanelBounds:
+    """Bounds on each segment by (26) and (27), ``variation`` being ``L_fz l`` and ``L_fzbar l``.
+
+    ``|f_z|_min   = (|f_z(v_i)| + |f_z(v_{i+1})|) / 2 - L_fz l / 2``,
+    ``|f_zbar|_max = (|f_zbar(v_i)| + |f_zbar(v_{i+1})|) / 2 + L_fzbar l / 2``.
+    That the first is at least the second is Condition (26), which reads
+    ``sigma_2(v_i) + sigma_2(v_{i+1}) >= (L_fz + L_fzbar) l`` (27). Turning is known by (28).
+    """
+    variation_fz, variation_fzb = variation
+    mean_fz = (modulus(fz.start) + modulus(fz.end)) / 2
+    mean_fzb = (modulus(fzb_conj.start) + modulus(fzb_conj.end)) / 2
+    fz_min = mean_fz - variation_fz / 2
+    fzb_max = mean_fzb + variation_fzb / 2
+    return PanelBounds(
+        fz_min - fzb_max,
+        mean_fz + variation_fz / 2 + fzb_max,
+        jnp.where(fz_min > 0, fzb_max / fz_min, jnp.inf),
+        2 * mean_fz > variation_fz,
+        turning(fz.start, fz.end),
+    )
+
+
+class Lipschitz(NamedTuple):
+    """The paper's proof, by its Lipschitz constants (Section 8, Appendix H).
+
+    ``L_fz = (|f_z'(v_i)| + |f_z'(v_{i+1})|) / 2
+    + l/2 (sum_j L_j |s_j - s_{j+1}| + sum_j L_j^h |phi_j|)``
+    with the constants of :func:`derivative_bound_weights`, and likewise ``L_fzbar``.
+    """
+
+    half_square: Float[Array, " p"]
+    """``l^2 / 2``, by which the sums count in ``L l``."""
+    weights: Float[Array, "n p"]
+    """``L_j`` and ``L_j^h``."""
+
+    @classmethod
+    def on(
+        cls, start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
+    ) -> Self:
+        """``L_j`` and ``L_j^h`` on the segments."""
+        weights = derivative_bound_weights(start, end, singularities, 2)
+        return cls(jnp.abs(end - start) ** 2 / 2, weights.T)
+
+    def remainder(
+        self, coefficients: Complex[Array, "k n"], singularities: Singularities
+    ) -> Float[Array, "k p"]:
+        """The terms of ``L l`` beyond the mean slope of the two ends."""
+        jumps = jnp.abs(slope_jumps(coefficients, singularities))
+        return self.half_square * (jumps @ self.weights)
+
+    @staticmethod
+    def bounds(fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]) -> PanelBounds:
+        """Bounds on each segment by (26) and (27)."""
+        variation = [
+            (modulus(f.slope_start) + modulus(f.slope_end)) / 2 + rest
+            for f, rest in zip((fz, fzb_conj), remainder, strict=True)
+        ]
+        return bounds_from_variation(fz, fzb_conj, variation)
+
+
+def derivative_bound_weights(
+    start: Complex[Array, " p"],
+    end: Complex[Array, " p"],
+    singularities: Singularities,
+    order: int,
+) -> Float[Array, "p n"]:
+    """Weights ``w`` with ``|d^order f_z / dz^order| <= w @ |slope jumps|`` on each segment.
+
+    For ``order`` 2 the paper's ``L_j = 1 / (2 pi d(z_j)^2)`` and ``L_j^h = 2 / d(rho_k)^3``; in
+    general ``(order-1)! / (2 pi d^order)`` and ``order! / d^(order+1)``.
+    """
+    d = distances(start, end, singularities)
+    m = singularities.vertices.shape[0]
+    vertices = math.factorial(order - 1) / (2 * math.pi) * d[:, :m] ** -order
+    holes = math.factorial(order) * d[:, m:] ** -(order + 1)
+    return jnp.concatenate([vertices, holes], axis=1)
+
+
+def distances(
+    start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
+) -> Float[Array, "p n"]:
+    """``d(z_j)`` and ``d(rho_k)``: the distance of each segment to each singularity."""
+    points = jnp.concatenate([singularities.vertices, singularities.hole_points])
+    along = (end - start)[:, None]
+    relative = points - start[:, None]
+    length_squared = jnp.real(along) ** 2 + jnp.imag(along) ** 2
+    position = jnp.real(relative * jnp.conj(along)) / jnp.where(
+        length_squared > 0, length_squared, 1
+    )
+    return modulus(relative - jnp.clip(position, 0, 1) * along)
+
+
+def turning(fz_start: Complex[Array, " p"], fz_end: Complex[Array, " p"]) -> Float[Array, " p"]:
+    """``Arg(f_z(v_{i+1}) / f_z(v_i))``, the change of ``arg f_z`` along each segment (29).
+
+    By Theorem 8.1 it is that if ``|f_z(v_i)| + |f_z(v_{i+1})| > L_fz l`` (28).
+    """
+    return jnp.angle(fz_end * jnp.conj(fz_start))
+
+
+def fz_vanishes(turning: Float[Array, " p"]) -> Bool[Array, ""]:
+    """Whether ``f_z`` has zeros in the domain: whether the sum (30) of all turnings is not 0.
+
+    Corollary 8.2; where all turnings are known, the sum is a multiple of ``2 pi`` but for rounding.
+    """
+    return jnp.abs(jnp.sum(turning)) > 1

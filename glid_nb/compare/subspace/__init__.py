@@ -1,6 +1,0 @@
-"""Methods in the harmonic subspace, with Newton's own line search and certificate."""
-
-from glid_nb.compare.subspace.methods import METHODS
-from glid_nb.compare.subspace.problem import SubspaceProblem
-
-__all__ = ["METHODS", "SubspaceProblem"]

@@ -1,0 +1,2 @@
+from .overview_figure import figure_png as figure_png
+from .overview_figure import overview as overview

@@ -1,0 +1,532 @@
+"""The plots of a solve: energy, Newton steps, time per iteration, certificate.
+
+Each is drawn once and then updated, so the same code makes a page of a paper and a display that
+moves while the solver works: ``update`` says whether the axes' limits changed, and ``artists`` are
+what has to be drawn anew when they did not.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Collection, Sequence
+from typing import Any, Protocol
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.text import Text
+from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
+from numpy.typing import NDArray
+
+from glid_nb._bounds import rounded_down
+from glid_nb.certificate import Certificate
+from glid_nb.figures.style import (
+    BLUE,
+    FAINT,
+    GREEN,
+    HAIRLINE,
+    INK,
+    LINE,
+    SKY,
+    SMALL,
+    VERMILION,
+    tidy,
+)
+from glid_nb.geometry import Cage
+from glid_nb.harmonic import HarmonicMap
+
+# Points from the axis down to its name.
+_AXIS_NAME = 12.0
+
+# Above axes narrower than so many inches a line of text does not fit beside the legend, which is
+# so many points high.
+_WIDE, _LEGEND_HEIGHT = 3.0, 12.0
+
+# An energy is drawn on a logarithmic axis when it falls by this factor or more.
+_LOG_FROM = 20.0
+
+# Decades that a logarithmic axis shows at most below the largest value.
+_DECADES = 12
+
+# Up to so many iterations each has a dot of its own; one alone would not be seen without.
+_DOTTED = 12
+
+# Limits of axes are among these times a power of ten: they change seldom while values do, and only
+# a change of limits needs a whole new drawing.
+_ROUND = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
+_ROUND_COUNTS = (1.0, 2.0, 5.0, 10.0)
+
+# The mean width of a character, as a share of the font's size.
+_CHARACTER = 0.62
+
+# The certificate's axis ends at this multiple of what nine tenths of the boundary stay below.
+_PEAK = 1.5
+
+# Where the true sigma_2 is sampled within each panel.
+_SAMPLES = np.array([0.0, 0.25, 0.5, 0.75, 1.0])
+
+
+class IterationRecord(Protocol):
+    """What the plots read of one iteration; `glid_nb.solvers` has more."""
+
+    @property
+    def iteration(self) -> int: ...
+    @property
+    def energy(self) -> float: ...
+    @property
+    def energy_iso(self) -> float: ...
+    @property
+    def energy_p2p(self) -> float: ...
+    @property
+    def step(self) -> float: ...
+    @property
+    def decrement(self) -> float: ...
+    @property
+    def time(self) -> float: ...
+
+
+class EnergyPlot:
+    """Energy after each iteration: the total, the isometric part and the targets' part.
+
+    Parameters
+    ----------
+    axes : Axes
+        Axes to draw into; its look is set here.
+    animated : bool
+        Whether the lines are left out of a normal draw, to be blitted.
+    """
+
+    def __init__(self, axes: Axes, animated: bool = False) -> None:
+        self.axes = axes
+        _over_iterations(axes)
+        self._p2p = _line(axes, animated, color=VERMILION, label="targets")
+        self._iso = _line(axes, animated, color=BLUE, label="isometric")
+        self._total = _line(axes, animated, color=INK, label="total", linestyle=(0, (4, 1.5)))
+        self._within = _dots(axes, animated, INK)
+        self._text = _note(axes, animated)
+        _legend(axes, [self._total, self._iso, self._p2p])
+
+    @property
+    def artists(self) -> tuple[Artist, ...]:
+        """What ``update`` changes."""
+        return self._p2p, self._iso, self._total, self._within, self._text
+
+    def update(
+        self,
+        history: Sequence[IterationRecord],
+        start_energy: float | None = None,
+        starts: Collection[int] = (),
+        solving: bool = False,
+    ) -> bool:
+        """Show these iterations; True when the limits or the scale of the axes changed.
+
+        ``start_energy`` is the total before the first of them, drawn at iteration 0. ``starts`` are
+        the iterations that began with moved targets: the lines join what they ended with, but for
+        the last one while the solver is still at it.
+        """
+        before = _view(self.axes)
+        x = np.array([0, *(record.iteration for record in history)], dtype=float)
+        start = np.nan if start_energy is None else start_energy
+        series = {
+            self._p2p: np.array([np.nan, *(record.energy_p2p for record in history)]),
+            self._iso: np.array([np.nan, *(record.energy_iso for record in history)]),
+            self._total: np.array([start, *(record.energy for record in history)]),
+        }
+        if start_energy is None:
+            x, series = x[1:], {line: values[1:] for line, values in series.items()}
+        ends = _ends(x, starts, solving)
+        for line, values in series.items():
+            _show(line, x[ends], values[ends])
+        within = ~ends
+        self._within.set_data(x[within], series[self._total][within])
+        self._text.set_text(f"E = {history[-1].energy:.4g}" if len(history) else "no iterations")
+        # The limits are those of the lines: how high a moved target first lifts the energy would
+        # flatten them.
+        values = np.concatenate([y[ends] for y in series.values()])
+        values = values[np.isfinite(values)]
+        total = series[self._total][ends]
+        falls = len(total) > 0 and total[0] > _LOG_FROM * total[-1] > 0
+        if falls:
+            # The targets' part ends at nothing; the plot need not follow it all the way.
+            lowest = 0.1 * float(total[total > 0].min())
+            _log_limits(self.axes, values[values > lowest])
+        else:
+            self.axes.set_yscale("linear")
+            top = float(values.max(initial=1.0))
+            self.axes.set_ylim(0.0, _rounded_up(1.2 * top))
+        _iteration_limits(self.axes, x)
+        return _view(self.axes) != before
+
+
+class StepPlot:
+    """Length of each step and the Newton decrement, on a logarithmic axis."""
+
+    def __init__(self, axes: Axes, animated: bool = False) -> None:
+        self.axes = axes
+        _over_iterations(axes)
+        self._decrement = _line(axes, animated, color=BLUE, label="Newton decrement")
+        self._step = _line(axes, animated, color=VERMILION, label="step length")
+        self._within = _dots(axes, animated, BLUE)
+        _legend(axes, [self._step, self._decrement])
+
+    @property
+    def artists(self) -> tuple[Artist, ...]:
+        """What ``update`` changes."""
+        return self._decrement, self._step, self._within
+
+    def update(
+        self,
+        history: Sequence[IterationRecord],
+        starts: Collection[int] = (),
+        solving: bool = False,
+    ) -> bool:
+        """Show these iterations; True when the limits of the axes changed.
+
+        ``starts`` and ``solving`` as in :meth:`EnergyPlot.update`.
+        """
+        before = _view(self.axes)
+        x = np.array([record.iteration for record in history], dtype=float)
+        ends = _ends(x, starts, solving)
+        steps, decrements = (
+            np.array([getattr(record, name) for record in history], dtype=float)
+            for name in ("step", "decrement")
+        )
+        steps, decrements = (np.where(y > 0, y, np.nan) for y in (steps, decrements))
+        _show(self._step, x[ends], steps[ends])
+        _show(self._decrement, x[ends], decrements[ends])
+        self._within.set_data(x[~ends], decrements[~ends])
+        values = np.concatenate([steps, decrements])
+        _log_limits(self.axes, values[np.isfinite(values)])
+        _iteration_limits(self.axes, x)
+        return _view(self.axes) != before
+
+
+class TimePlot:
+    """How long each iteration took, as bars in milliseconds."""
+
+    def __init__(self, axes: Axes, animated: bool = False) -> None:
+        self.axes = axes
+        _over_iterations(axes)
+        axes.yaxis.set_major_locator(MaxNLocator(2, min_n_ticks=2))
+        axes.set_ylabel("ms", fontsize=SMALL, labelpad=2)
+        (self._bars,) = axes.fill(
+            [0.0], [0.0], facecolor=GREEN, alpha=0.6, linewidth=0, animated=animated
+        )
+        self._text = _note(axes, animated, legend=False)
+
+    @property
+    def artists(self) -> tuple[Artist, ...]:
+        """What ``update`` changes."""
+        return self._bars, self._text
+
+    def update(self, history: Sequence[IterationRecord]) -> bool:
+        """Show these iterations; True when the limits of the axes changed."""
+        before = _view(self.axes)
+        x = np.array([record.iteration for record in history], dtype=float)
+        times = np.array([1e3 * record.time for record in history], dtype=float)
+        times = np.where(np.isfinite(times) & (times > 0), times, 0.0)
+        sides = x[:, None] + [-0.4, -0.4, 0.4, 0.4]
+        heights = times[:, None] * [0.0, 1.0, 1.0, 0.0]
+        corners = np.stack([sides.ravel(), heights.ravel()], axis=1)
+        self._bars.set_xy(corners if len(corners) else [[0.0, 0.0]])
+        usual = float(np.median(times)) if len(times) else 0.0
+        self._text.set_text(f"{usual:.3g} ms per iteration" if usual else "")
+        # One iteration that had to wait must not make the others too low to see.
+        most = min(float(times.max()), 3 * usual) if usual else 1.0
+        self.axes.set_ylim(0.0, _rounded_up(1.1 * most))
+        _iteration_limits(self.axes, x)
+        return _view(self.axes) != before
+
+
+class CertificatePlot:
+    """The certified lower bound on sigma_2 along the boundary, over the sampled truth.
+
+    Parameters
+    ----------
+    axes : Axes
+    cage : Cage
+        The domain's boundary; its loops stand side by side, each with its name or, where that does
+        not fit, its number below. Make the axes their final size first.
+    animated : bool
+        Whether what changes is left out of a normal draw, to be blitted.
+    """
+
+    def __init__(self, axes: Axes, cage: Cage, animated: bool = False) -> None:
+        self.axes = axes
+        tidy(axes)
+        lengths = [float(np.linalg.norm(np.roll(p, -1, 0) - p, axis=1).sum()) for p in cage.loops]
+        self._starts = np.concatenate([[0.0], np.cumsum(lengths)])
+        axes.set_xlim(0.0, float(self._starts[-1]))
+        self._name_loops(cage)
+        axes.axhline(0.0, color=VERMILION, linewidth=LINE, zorder=1)
+        # Curves may be anywhere above the axis, so the line's name is below it.
+        _below(axes, 0.0, "threshold 0", color=VERMILION, ha="left")
+        self._bound = _line(
+            axes, animated, color=BLUE, label="certified bound", linewidth=0.9, zorder=3
+        )
+        self._truth = _line(
+            axes, animated, color=INK, label="σ₂, sampled", linewidth=0.45, zorder=4
+        )
+        (self._fill,) = axes.fill(
+            [0.0], [0.0], facecolor=SKY, alpha=0.35, linewidth=0, animated=animated, zorder=2
+        )
+        self._least = _line(
+            axes,
+            animated,
+            color=VERMILION,
+            linestyle="none",
+            marker="o",
+            markersize=3.5,
+            markerfacecolor="white",
+            zorder=5,
+        )
+        self._text = _note(axes, animated)
+        _legend(axes, [self._truth, self._bound])
+
+    @property
+    def artists(self) -> tuple[Artist, ...]:
+        """What ``update`` changes."""
+        return self._fill, self._bound, self._truth, self._least, self._text
+
+    def _name_loops(self, cage: Cage) -> None:
+        """Below the axis: lengths along the boundary, or the loops where there are several."""
+        axes = self.axes
+        if not cage.n_holes:
+            axes.set_xlabel("arc length", fontsize=SMALL, labelpad=2)
+            axes.xaxis.set_major_locator(MaxNLocator(5))
+            return
+        for loop, (start, end) in enumerate(itertools.pairwise(self._starts)):
+            if loop % 2:
+                axes.axvspan(start, end, color=FAINT, alpha=0.25, linewidth=0, zorder=0)
+            if loop:
+                axes.axvline(start, color=FAINT, linewidth=HAIRLINE, zorder=0)
+        pixels = axes.get_window_extent().width / self._starts[-1]
+        character = _CHARACTER * SMALL * axes.figure.dpi / 72
+        places, names = zip(*_loop_names(self._starts, character / pixels), strict=True)
+        axes.set_xticks(places, names)
+        if any(name[0].isdigit() for name in names):
+            middle = (self._starts[1] / self._starts[-1] + 1.0) / 2
+            _below(axes, float(middle), "hole" if cage.n_holes == 1 else "holes", ha="center")
+        axes.tick_params(axis="x", length=0, pad=3)
+
+    def clear(self) -> None:
+        """Show that nothing is certified."""
+        for line in (self._bound, self._truth, self._least):
+            line.set_data([], [])
+        self._fill.set_xy([[0.0, 0.0]])
+        self._text.set_text("not certified")
+        self._text.set_color(VERMILION)
+
+    def update(self, certificate: Certificate, map: HarmonicMap | None = None) -> bool:
+        """Show a certificate; with the map also its sigma_2, sampled five times per panel.
+
+        Returns
+        -------
+        bool
+            Whether the limits of the axes changed.
+        """
+        before = _view(self.axes)
+        panels = certificate.panels
+        length, bound = panels.length, np.nan_to_num(panels.sigma2_lower, nan=-1.0)
+        # Along each loop the panels follow one another from the loop's start.
+        first = np.flatnonzero(np.diff(panels.loop, prepend=-1))
+        left = np.cumsum(length) - length
+        shift = self._starts[panels.loop[first]] - left[first]
+        left = left + np.repeat(shift, np.diff(first, append=len(length)))
+        ends = np.stack([left, left + length], axis=1)
+        levels = np.stack([bound, bound], axis=1)
+        self._bound.set_data(_with_gaps(ends, first), _with_gaps(levels, first))
+        upper = np.stack([ends.ravel(), np.maximum(levels.ravel(), 0.0)], axis=1)
+        self._fill.set_xy(np.concatenate([[[ends[0, 0], 0]], upper, [[ends[-1, 1], 0]]]))
+        least = int(np.argmin(bound))
+        self._least.set_data([ends[least].mean()], [bound[least]])
+        certified = certificate.certified
+        lower = rounded_down(certificate.sigma2_lower) if certified else ""
+        proof = f"σ₂ ≥ {lower}" if certified else "not certified"
+        self._text.set_text(f"{proof}, {_winding(certificate)}")
+        self._text.set_color(INK if certified else VERMILION)
+
+        seen = levels
+        self._truth.set_data([], [])
+        if map is not None:
+            along = (panels.end - panels.start)[:, None] * _SAMPLES[:, None]
+            points = (panels.start[:, None] + along).reshape(-1, 2)
+            seen = np.asarray(map.sigma2(points)).reshape(len(bound), -1)
+            places = left[:, None] + length[:, None] * _SAMPLES
+            self._truth.set_data(_with_gaps(places, first), _with_gaps(seen, first))
+        # What counts is how far above 0 the curves stay, so high peaks are cut off.
+        top = max(0.1, min(float(seen.max()), _PEAK * float(np.quantile(seen, 0.9))))
+        bottom = min(float(seen.min()), float(bound.min()))
+        high = _rounded_up(1.2 * top)
+        low = max(min(-0.04 * high, -_rounded_up(-1.05 * bottom)), -max(high, 1.0))
+        self.axes.set_ylim(low, high)
+        return _view(self.axes) != before
+
+
+def _line(axes: Axes, animated: bool, linewidth: float = LINE, **style: Any) -> Line2D:
+    line = Line2D([], [], linewidth=linewidth, animated=animated, **style)
+    axes.add_line(line)
+    return line
+
+
+def _dots(axes: Axes, animated: bool, color: str) -> Line2D:
+    """Faint dots for what a line leaves out."""
+    style = {"linestyle": "none", "marker": "o", "markersize": 1.6, "markeredgewidth": 0.0}
+    return _line(axes, animated, color=color, alpha=0.35, zorder=1.5, **style)
+
+
+def _ends(x: NDArray[np.float64], starts: Collection[int], solving: bool) -> NDArray[np.bool_]:
+    """Which of the iterations ``x`` were the last before one of ``starts``, or of all.
+
+    The last of all ends nothing yet while the solver is at it. Where only one solve is seen, all.
+    """
+    begins = np.isin(x[1:], np.fromiter(starts, dtype=float))
+    return np.append(begins, not solving)[: len(x)] if begins.any() else np.ones(len(x), dtype=bool)
+
+
+def _show(line: Line2D, x: NDArray[np.float64], values: NDArray[np.float64]) -> None:
+    """The line through these points, with a dot at each while there are few."""
+    line.set_data(x, values)
+    line.set_marker("o" if len(x) <= _DOTTED else "")
+    line.set_markersize(2.4)
+
+
+def _below(axes: Axes, place: float, name: str, color: str = INK, **style: Any) -> None:
+    """A word in the line of the axis's name, at this share of the axis."""
+    axes.annotate(
+        name,
+        (place, 0.0),
+        xycoords="axes fraction",
+        xytext=(0.0, -_AXIS_NAME),
+        textcoords="offset points",
+        va="top",
+        fontsize=SMALL,
+        color=color,
+        **style,
+    )
+
+
+def _note(axes: Axes, animated: bool, legend: bool = True) -> Text:
+    """An empty line of text above the axes at the right, where no curve gets.
+
+    Beside the legend where the axes are wide, above it where they are not.
+    """
+    inches = axes.get_window_extent().width / axes.figure.dpi
+    text = axes.annotate(
+        "",
+        (1.0, 1.0),
+        xycoords="axes fraction",
+        xytext=(0.0, _LEGEND_HEIGHT if legend and inches < _WIDE else 2.0),
+        textcoords="offset points",
+        ha="right",
+        va="bottom",
+        fontsize=SMALL,
+        color=INK,
+        annotation_clip=False,
+    )
+    text.set_animated(animated)
+    return text
+
+
+def _legend(axes: Axes, lines: Sequence[Line2D]) -> None:
+    axes.legend(
+        handles=lines,
+        fontsize=SMALL,
+        frameon=False,
+        loc="lower left",
+        bbox_to_anchor=(-0.03, 1.0),
+        borderaxespad=0.3,
+        ncols=len(lines),
+        handlelength=1.1,
+        handletextpad=0.35,
+        columnspacing=0.7,
+        borderpad=0.1,
+        labelcolor=INK,
+    )
+
+
+def _view(axes: Axes) -> tuple[Any, ...]:
+    return axes.get_xlim(), axes.get_ylim(), axes.get_yscale()
+
+
+def _over_iterations(axes: Axes) -> None:
+    tidy(axes)
+    axes.set_xlabel("iteration", fontsize=SMALL, labelpad=2)
+    axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
+
+
+def _iteration_limits(axes: Axes, x: NDArray[np.float64]) -> None:
+    first, last = (float(x[0]), float(x[-1])) if len(x) else (0.0, 1.0)
+    step = _rounded_up(max(last - first, 1.0) / 3, _ROUND_COUNTS)
+    step = max(step, 1.0)
+    low = first if first <= 1 else step * np.floor(first / step)
+    high = step * np.ceil(last / step)
+    if first == last:  # one iteration stands in the middle
+        low, high = first - 1, first + 1
+    room = 0.03 * (high - low)
+    axes.set_xlim(low - room, high + room)
+
+
+def _log_limits(axes: Axes, positive: NDArray[np.float64]) -> None:
+    """Whole decades around the values, the lowest left out where they span too many."""
+    axes.set_yscale("log")
+    axes.yaxis.set_major_locator(LogLocator(numticks=6))
+    axes.yaxis.set_minor_locator(NullLocator())
+    if not len(positive):
+        axes.set_ylim(0.1, 1.0)
+        return
+    high = np.ceil(np.log10(positive.max()) + 0.1)
+    low = np.floor(np.log10(positive.min()) - 0.1)
+    axes.set_ylim(10.0 ** max(low, high - _DECADES), 10.0**high)
+
+
+def _rounded_up(value: float, among: Sequence[float] = _ROUND) -> float:
+    """The least of these numbers times a power of ten that is not less; 0 for what is below 0."""
+    if not value > 0:
+        return 0.0
+    unit = 10.0 ** np.floor(np.log10(value))
+    return float(unit * min((m for m in among if m * unit >= value), default=10.0))
+
+
+def _loop_names(starts: NDArray[np.float64], character: float) -> list[tuple[float, str]]:
+    """Where along the boundary which loop's name goes, as (place, name).
+
+    ``starts`` are the loops' starts and the boundary's end, ``character`` is the width of a
+    character. Loops next to each other that are too short for their numbers share one name.
+    """
+    width = np.diff(starts)
+
+    def fits(name: str, loop: int) -> bool:
+        return (len(name) + 1) * character <= width[loop]
+
+    names: list[tuple[float, str]] = []
+    first = 0
+    while first < len(width):
+        last = first
+        name = Cage.loop_name(first).removesuffix(" loop")
+        if not fits(name, first) and first:
+            name = str(first)
+            while not fits(name, first) and last + 1 < len(width):
+                if fits(str(last + 1), last + 1):
+                    break
+                last += 1
+            name = name if last == first else f"{first}–{last}"
+        names.append((float(starts[first] + starts[last + 1]) / 2, name))
+        first = last + 1
+    return names
+
+
+def _winding(certificate: Certificate) -> str:
+    """The winding number of ``f_z``, and each loop's own where they are not all 0."""
+    text = f"winding number {certificate.winding}"
+    if any(certificate.windings):
+        each = enumerate(certificate.windings)
+        loops = (f"{Cage.loop_name(i).removesuffix(' loop')} {turns}" for i, turns in each)
+        text += f" ({', '.join(loops)})"
+    return text.replace("-", "\N{MINUS SIGN}")
+
+
+def _with_gaps(rows: NDArray[np.float64], starts: NDArray[np.intp]) -> NDArray[np.float64]:
+    """The rows one after the other, with a NaN before each that begins a loop."""
+    return np.insert(rows.ravel(), starts[1:] * rows.shape[1], np.nan)

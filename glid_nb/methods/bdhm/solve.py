@@ -1,0 +1,207 @@
+"""BDHM's iteration: a second-order cone program per step, its result certified within the bounds.
+
+With its frames held fixed ARAP lies above ARAP and touches it at the map they are of, and the
+bounds with these frames are convex and imply the true ones (Chen & Weber 2015). So a program that
+admits the current map has a solution toward which the energy falls all the way. The bounds hold at
+samples, by a margin, and are then proved everywhere; where the current map itself, proved only
+without the margin, exceeds it, the sample's bound gives way to what the map has.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glid_nb._runtime import double_precision, single_blas_thread
+from glid_nb.certificate import Certificate
+from glid_nb.geometry import Domain
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods.bdhm.bounds import DistortionBounds
+from glid_nb.methods.bdhm.problem import BoundedProblem
+from glid_nb.methods.bdhm.program import Step, solve_program
+from glid_nb.methods.bdhm.samples import MARGIN, ActiveSet
+from glid_nb.methods.recording import Ending, Run, Snapshot
+from glid_nb.solvers import Pose, Status
+
+Array = NDArray[Any]
+
+# How much of the margin the proof may take.
+_PROOF = 0.4
+# How often one program is solved again with more samples.
+_ROUNDS = 10
+_HALVINGS = 12
+# What a map may keep of its share of the margin after no step from it could be proved.
+_INWARD = 0.9
+# Before the first full step one program is enough, whose solution is cut short anyway, unless it
+# is cut shorter than this.
+_SHORT = 1 / 64
+# An energy as good as none, to which the tolerance is not relative any more.
+_NOTHING = 1e-10
+# What a program's duality gap may be: relative to the decrease that counts as none, and in itself.
+_GAP, _LEAST_GAP, _MOST_GAP = 0.01, 1e-12, 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Iterate:
+    """A map that is proved to keep the bounds."""
+
+    v: Array
+    energy: float
+    certificate: Certificate
+    step: float = np.nan
+
+
+def bdhm(
+    domain: Domain,
+    pose: Pose,
+    p2p_weight: float,
+    bounds: DistortionBounds,
+    align: bool,
+    tolerance: float,
+    start: HarmonicMap | None = None,
+) -> Run:
+    """Alternate between frames and cone programs (Chen & Weber 2015) until none lowers the energy.
+
+    The energy never rises, and every map is proved to keep the bounds. The method has converged
+    when the program at the current map can, by its dual, lower the energy by no more than
+    ``tolerance`` of it: the map is then stationary within bounds at samples that are stricter than
+    those asked for by `MARGIN` or, where it uses more, by less. A start that is not proved to keep
+    the bounds gives way to the identity.
+    """
+    descent = _Descent(_problem(domain, pose, p2p_weight), bounds, tolerance)
+    identity = HarmonicMap.identity(domain)
+    now = descent.started(identity if start is None else start, align)
+    if not bounds.hold(now.certificate):
+        now = descent.started(identity, align)
+    seconds = 0.0
+    while True:
+        yield descent.snapshot(now, seconds)
+        began = time.perf_counter()
+        with single_blas_thread():
+            outcome = descent.advance(now)
+        if isinstance(outcome, Ending):
+            return outcome
+        now, seconds = outcome, time.perf_counter() - began
+
+
+class _Descent:
+    """One run, and the samples that it adds to as it goes."""
+
+    def __init__(self, problem: BoundedProblem, bounds: DistortionBounds, tolerance: float) -> None:
+        self.problem, self.bounds, self.tolerance = problem, bounds, tolerance
+        self.active = ActiveSet.empty(problem, bounds)
+        self.far = True
+        self.tightness = _PROOF * MARGIN * bounds.narrowest
+
+    def started(self, map: HarmonicMap, align: bool) -> Iterate:
+        v = self.problem.unknowns(map, align)
+        return Iterate(v, sum(self.problem.energies(v)), self._proved(v))
+
+    def advance(self, now: Iterate) -> Iterate | Ending:
+        """The next map, or why there is none."""
+        self.active = self.active.around(now.v)
+        if self.far:
+            outcome = self._attempt(now, 1)
+            self.far = isinstance(outcome, Iterate) and _SHORT <= outcome.step < 1
+            if isinstance(outcome, Iterate) or outcome.status is Status.CONVERGED:
+                return outcome
+        outcome = self._attempt(now, _ROUNDS)
+        if isinstance(outcome, Iterate) or outcome.status is Status.CONVERGED:
+            return outcome
+        # Where the map has used up the margin no step is proved any more. A program that gives
+        # some of it back need not lower the energy, but far from the minimum it does.
+        self.active = self.active.with_excess(_INWARD)
+        inward = self._attempt(now, _ROUNDS)
+        self.active = self.active.with_excess(1.0)
+        return inward if isinstance(inward, Iterate) else outcome
+
+    def _attempt(self, now: Iterate, rounds: int) -> Iterate | Ending:
+        """The step of a program that is solved again with the samples its solution violates."""
+        gradient = self.problem.gradient(now.v)
+        none = self.tolerance * max(now.energy, _NOTHING)
+        gap = float(np.clip(_GAP * none, _LEAST_GAP, _MOST_GAP))
+        while True:
+            program = solve_program(gradient, self.active, now.v, gap)
+            rounds -= 1
+            if program.change is None:
+                return _blocked(f"the cone program was not solved ({program.status})")
+            if program.decrease <= none and program.solved:
+                if self.active.excess < 1:
+                    return _blocked("giving back some of the margin costs more than it gains")
+                return Ending(
+                    Status.CONVERGED,
+                    "The solver converged: with the frames held fixed no map within the bounds has "
+                    f"an energy that is lower by more than {self.tolerance:g} of it.",
+                )
+            reached = now.v + program.change
+            wider = self.active.and_violated(reached)
+            if wider is self.active:
+                full = self._accepted(now, reached, 1.0)
+                if isinstance(full, Iterate):
+                    return full
+                if full is None:
+                    break
+                wider = self.active.refined(full)
+            if not rounds:
+                break
+            self.active = wider
+        return self._shortened(now, program.change, program)
+
+    def _accepted(self, now: Iterate, v: Array, step: float) -> Iterate | Certificate | None:
+        """The map, or its proof where that fails, or None where its energy is not lower."""
+        energy = sum(self.problem.energies(v))
+        if not energy <= now.energy:
+            return None
+        certificate = self._proved(v)
+        if not self.bounds.hold(certificate):
+            return certificate
+        return Iterate(v, energy, certificate, step)
+
+    def _shortened(self, now: Iterate, change: Array, program: Step) -> Iterate | Ending:
+        """The longest of the steps 1, 1/2, 1/4, ... whose map is proved to keep the bounds."""
+        for halvings in range(_HALVINGS):
+            step = 0.5**halvings
+            v = now.v + step * change
+            # Samples are looked at first, for they cost less than a proof.
+            if (self.active.used(v) <= 1).all():
+                accepted = self._accepted(now, v, step)
+                if isinstance(accepted, Iterate):
+                    return accepted
+        return _blocked(
+            f"no step toward the cone program's solution ({program.status}), which promises to "
+            f"lower the energy by {program.decrease / now.energy:.1g} of it, both lowers it and is "
+            "proved to keep the bounds"
+        )
+
+    def _proved(self, v: Array) -> Certificate:
+        return self.problem.certified(v, self.tightness)
+
+    def snapshot(self, now: Iterate, seconds: float) -> Snapshot:
+        iso, p2p = self.problem.energies(now.v)
+        return Snapshot(
+            iso,
+            p2p,
+            seconds,
+            lambda: self.problem.map_of(now.v),
+            step=now.step,
+            sigma2_lower=now.certificate.sigma2_lower,
+            certificate=now.certificate,
+        )
+
+
+def _blocked(why: str) -> Ending:
+    return Ending(
+        Status.BLOCKED,
+        f"The solver did not converge: {why}. The last map, which keeps the bounds and has the "
+        "least energy, is returned.",
+    )
+
+
+@double_precision
+def _problem(domain: Domain, pose: Pose, p2p_weight: float) -> BoundedProblem:
+    with single_blas_thread():
+        return BoundedProblem(domain, pose, p2p_weight)

@@ -1,0 +1,303 @@
+"""Documents as files: a zip of JSON and PNG that reads back bit for bit."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+import weakref
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+
+from glid_nb._errors import InputFileError, about
+from glid_nb._json import (
+    anything,
+    check_fields,
+    check_list,
+    check_loops,
+    check_object,
+    check_points,
+    check_text,
+    parse_json,
+)
+from glid_nb.certificate import Certificate, certify
+from glid_nb.energies import CustomEnergy, Energy, energy_by_name
+from glid_nb.geometry import Domain
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.harmonic.map import complex_from_pairs, complex_to_pairs
+from glid_nb.imaging import Scribbles, TraceOptions
+from glid_nb.imaging.read import MAX_SIDE
+from glid_nb.methods import MethodChoice
+from glid_nb.session.archive import read_archive, write_archive
+from glid_nb.session.document import Document, DocumentError, NamedPose, check_count
+from glid_nb.session.png import image_png, light_png, read_png
+from glid_nb.solvers import Options, Pose
+
+T = TypeVar("T")
+
+FORMAT = "glid_nb-document"
+FORMAT_VERSION = 2
+_READABLE = (1, 2)
+
+_JSON, _IMAGE = "document.json", "image.png"
+_MASKS = {key: f"scribbles-{key}.png" for key in ("foreground", "background")}
+# Unpacked. A picture of MAX_SIDE squared has 256 MB of pixels; PNG adds a little to noise.
+_MOST_BYTES = {
+    _JSON: 64 << 20,
+    _IMAGE: 5 * MAX_SIDE**2,
+    **dict.fromkeys(_MASKS.values(), MAX_SIDE**2),
+}
+_KEYS = {
+    "format": check_text,
+    "version": anything,
+    "image_size_px": anything,
+    "domain": check_object,
+    "trace_options": check_object,
+    "poses": check_list,
+    "active": anything,
+}
+_POSE_KEYS_OF_VERSION_1 = {
+    "name": check_text,
+    "handles": check_points,
+    "targets": check_points,
+    "energy": check_object,
+    "options": check_object,
+    "phi": anything,
+    "psi": anything,
+}
+_POSE_KEYS = {**_POSE_KEYS_OF_VERSION_1, "method": check_object}
+_DOMAIN_KEYS = ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "notes")
+_MASK = "mask"  # instead of strokes: the pixels are in a member of their own
+_NEVER = "never"  # TraceOptions.max_edge == inf, which JSON cannot say
+
+# Maps are immutable, so each is proved once however often it is saved.
+_certificates: weakref.WeakKeyDictionary[HarmonicMap, Certificate] = weakref.WeakKeyDictionary()
+
+
+def save_document(document: Document, path: str | Path) -> None:
+    """Write a document to one file, atomically: a zip of JSON and PNG.
+
+    ``document.json`` holds everything but pixels, which are in ``image.png``; scribbled masks are
+    in ``scribbles-*.png``. Numbers are written so that they read back bit for bit.
+
+    Raises
+    ------
+    DocumentError
+        When a map is not certified, or an energy is a Python function. Nothing is written then.
+    OSError
+        When the file cannot be written; what was there before stays.
+    """
+    scribbles, masks = _scribbles_to_members(document.scribbles)
+    height, width = document.image.shape[:2]
+    data = {
+        "format": FORMAT,
+        "version": FORMAT_VERSION,
+        "image_size_px": [width, height],
+        "domain": document.domain.to_dict(),
+        "trace_options": _trace_options_to_dict(document.trace_options),
+        "scribbles": scribbles,
+        "poses": [_pose_to_dict(i, pose) for i, pose in enumerate(document.poses)],
+        "active": document.active,
+    }
+    text = json.dumps(data, allow_nan=False, default=np.generic.item).encode("utf-8")
+    pixels = {_IMAGE: image_png(document.image), **masks}
+    write_archive(Path(path), {_JSON: text, **pixels}, stored=frozenset(pixels))
+
+
+def load_document(path: str | Path) -> Document:
+    """Read a document that :func:`save_document` wrote; every map in it is proved anew.
+
+    Raises
+    ------
+    DocumentError
+        When the file is no valid document; the message names the file and the culprit.
+    OSError
+        When it cannot be read.
+    """
+    with about(path, DocumentError):
+        members = read_archive(Path(path), _MOST_BYTES)
+        for name in (_JSON, _IMAGE):
+            if name not in members:
+                raise DocumentError(f"{name} is missing; this is no glid_nb document")
+        data = parse_json(members[_JSON], _JSON, "JSON", nan=False)
+        pose_keys = _POSE_KEYS if _checked_version(data) > 1 else _POSE_KEYS_OF_VERSION_1
+        check_fields(data, _JSON, _KEYS, {"scribbles": check_object})
+        size = _checked_size(data["image_size_px"])
+        image = np.asarray(read_png(members[_IMAGE], size, "RGBA", _IMAGE), dtype=np.uint8)
+        scribbles = _scribbles_from_members(data.get("scribbles"), members, size)
+        domain = _domain_from_dict(data["domain"])
+        options = _trace_options_from_dict(data["trace_options"], scribbles)
+        check_count(data["poses"])
+        poses = tuple(
+            _pose_from_dict(f"poses[{i}]", pose, domain, pose_keys)
+            for i, pose in enumerate(data["poses"])
+        )
+        return Document(image, domain.cage, domain, options, scribbles, poses, data["active"])
+
+
+def _checked_version(data: Any) -> int:
+    check_object(data, _JSON)
+    if data.get("format") != FORMAT:
+        raise DocumentError(f'{_JSON}: the key "format" is not "{FORMAT}"')
+    version = data.get("version")
+    if version not in _READABLE or isinstance(version, bool | float):
+        raise DocumentError(
+            f"version {version!r:.20} of the format is not supported, only "
+            f"{' and '.join(map(str, _READABLE))}; a newer glid_nb may have written it: update "
+            "this one"
+        )
+    return version
+
+
+def _checked_size(value: Any) -> tuple[int, int]:
+    if not (isinstance(value, list) and len(value) == 2 and all(type(n) is int for n in value)):
+        raise DocumentError(f"image_size_px must be [width, height], not {value!r:.60}")
+    width, height = value
+    if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
+        raise DocumentError(
+            f"image_size_px is {width} x {height}; a side has 1 to {MAX_SIDE} pixels"
+        )
+    return width, height
+
+
+def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
+    where = f"poses[{index}] ({pose.name!r})"
+    _check_proved(pose.map, where)
+    return {
+        "name": pose.name,
+        **pose.pose.to_dict(),
+        "energy": _energy_to_dict(pose.energy, where),
+        "options": dataclasses.asdict(pose.options),
+        "method": {"name": pose.method.name, "settings": dict(pose.method.settings)},
+        "phi": complex_to_pairs(pose.map.phi),
+        "psi": complex_to_pairs(pose.map.psi),
+    }
+
+
+def _pose_from_dict(where: str, data: Any, domain: Domain, keys: Mapping[str, Any]) -> NamedPose:
+    with about(where, DocumentError):
+        check_fields(data, where, keys)
+    where = f"{where} ({data['name']!r:.60})"
+    with about(where, DocumentError):
+        phi, psi = (complex_from_pairs(data[key], key) for key in ("phi", "psi"))
+        pose = NamedPose(
+            data["name"],
+            Pose.from_dict(data),
+            _energy_from_dict(data["energy"]),
+            _from_fields(Options, data["options"], "options"),
+            HarmonicMap(domain, phi, psi),
+            _method_from_dict(data["method"]) if "method" in keys else MethodChoice(),
+        )
+    _check_proved(pose.map, where)
+    return pose
+
+
+def _check_proved(map: HarmonicMap, where: str) -> None:
+    certificate = _certificates.get(map)
+    if certificate is None:
+        certificate = _certificates[map] = certify(map)
+    if not certificate.certified:
+        raise DocumentError(f"{where}: its map is not certified. {certificate.reason}")
+
+
+def _energy_to_dict(energy: Energy, where: str) -> dict[str, Any]:
+    if isinstance(energy, CustomEnergy):
+        raise DocumentError(
+            f"{where}: its energy is a Python function, which cannot be saved; choose a named "
+            "energy"
+        )
+    s = getattr(energy, "s", None)
+    return {"name": energy.name} if s is None else {"name": energy.name, "s": s}
+
+
+def _energy_from_dict(data: Any) -> Energy:
+    with about("energy"):
+        check_fields(data, "energy", {"name": check_text}, {"s": anything})
+        return energy_by_name(data["name"], data.get("s"))
+
+
+def _method_from_dict(data: Any) -> MethodChoice:
+    """The choice, whether the method can run here or not."""
+    with about("method"):
+        check_fields(data, "method", {"name": check_text, "settings": check_object})
+        return MethodChoice(data["name"], data["settings"])
+
+
+def _domain_from_dict(data: Any) -> Domain:
+    """The domain exactly as it was: nothing is chosen, reversed or left out on the way."""
+    with about("domain"):
+        check_fields(data, "domain", dict.fromkeys(_DOMAIN_KEYS, anything))
+        domain = Domain.from_dict(data)
+    if domain.to_dict() != data:
+        # The coefficients of the maps are in the order of the loops' vertices.
+        raise InputFileError("domain: its loops must run as saved")
+    return domain
+
+
+def _trace_options_to_dict(options: TraceOptions) -> dict[str, Any]:
+    """All fields; of the scribbles only whether they are used."""
+    data = {f.name: getattr(options, f.name) for f in dataclasses.fields(options)}
+    data["scribbles"] = options.scribbles is not None
+    if data["max_edge"] == math.inf:
+        data["max_edge"] = _NEVER
+    return data
+
+
+def _trace_options_from_dict(data: Any, scribbles: Scribbles | None) -> TraceOptions:
+    used = data.get("scribbles", False)
+    if not isinstance(used, bool):
+        raise InputFileError("trace_options.scribbles must be true or false")
+    if used and scribbles is None:
+        raise InputFileError("trace_options uses scribbles, but the document has none")
+    changed: dict[str, Any] = {"scribbles": scribbles if used else None}
+    if data.get("max_edge") == _NEVER:
+        changed["max_edge"] = math.inf
+    return _from_fields(TraceOptions, {**data, **changed}, "trace_options")
+
+
+def _from_fields(kind: type[T], data: Any, name: str) -> T:
+    """A dataclass by its fields; those that are missing keep their defaults."""
+    fields = [field.name for field in dataclasses.fields(kind)]  # type: ignore[arg-type]
+    check_fields(data, name, {}, dict.fromkeys(fields, anything))
+    with about(name):
+        return kind(**data)
+
+
+def _scribbles_to_members(
+    scribbles: Scribbles | None,
+) -> tuple[dict[str, Any] | None, dict[str, bytes]]:
+    """Strokes as lists, masks as PNG members."""
+    if scribbles is None:
+        return None, {}
+    data: dict[str, Any] = {}
+    members: dict[str, bytes] = {}
+    for key, member in _MASKS.items():
+        value = getattr(scribbles, key)
+        if isinstance(value, np.ndarray):
+            data[key] = _MASK
+            members[member] = light_png(value)
+        else:
+            data[key] = [stroke.tolist() for stroke in value]
+    return data, members
+
+
+def _scribbles_from_members(
+    data: Any, members: Mapping[str, bytes], size: tuple[int, int]
+) -> Scribbles | None:
+    if data is None:
+        return None
+    check_fields(data, "scribbles", dict.fromkeys(_MASKS, anything))
+    values: dict[str, Any] = {}
+    for key, member in _MASKS.items():
+        values[key] = data[key]
+        if data[key] != _MASK:
+            check_loops(data[key], f"scribbles.{key}", each="stroke")
+        elif member in members:
+            values[key] = read_png(members[member], size, "1", member)
+        else:
+            raise InputFileError(f"scribbles: {member} is missing")
+    with about("scribbles"):
+        return Scribbles(**values)

@@ -1,0 +1,273 @@
+"""How fast the editor is for a person: from the pointer to the page's drawn frame, in Chromium.
+
+    python -m studies.editor.editor_browser [SAMPLE or PROBLEM.json] [--moves N] [--vertices N ...]
+
+Run it from the repository's root; it needs the extra `test` and Chromium. In JupyterLab it measures
+
+- the time from running the cell ``Editor(image)`` to the first drawn canvas, with an empty and then
+  with a filled cache of compiled programs (bundled samples only);
+- a handle dragged with 60 moves a second, the plots beside the canvas: from each pointer event to
+  the first drawn frame that was solved for it or for a later one, with the map evaluated in the
+  vertex shader and in the kernel, at each number of display vertices.
+
+The kernel notes for which target each frame was solved, the page when it was drawn; the two are
+joined by the frame's own numbers.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from playwright.sync_api import Browser
+
+from glid_nb import samples
+from studies.editor.frame_log import N_SAMPLES
+from tests.browser import JupyterServer, LabNotebook, launched_chromium, watched_page
+from tests.widgets.editor_page import MANAGER, Hand
+
+RATE = 60
+"""Moves of the pointer per second."""
+
+# Programs compiled before are found in the folder that the environment names.
+IMPORTS = """
+import os
+os.environ["GLID_NB_CACHE"] = {cache!r}
+import glid_nb as glid
+"""
+IMAGE = "image = glid.samples.image({shape!r})"
+EDITOR = "editor = glid.Editor(image)\neditor"
+
+CANVAS = """
+glid.enable_compilation_cache()
+import ipywidgets
+from studies.editor.editor_frames import load
+from studies.editor.frame_log import FrameLog
+image, domain, pose = load({shape!r})
+canvas = glid.DeformCanvas(image, domain, n_vertices={vertices}, evaluated_in={evaluated_in!r})
+model = canvas.deformation
+model.set_pose(pose.with_targets(pose.handles))
+monitor = glid.SolverMonitor(model)
+log = FrameLog(canvas)
+ipywidgets.HBox([canvas, monitor])
+"""
+
+WATCH = f"""async ([identity, trait, count, widgets]) => {{
+  const manager = await ({MANAGER})();
+  window.glid.watch(await manager.get_model(identity), trait, count, widgets);
+}}"""
+
+DRAWN = """(sample) => {
+  const [, last] = window.glid.frames.at(-1) ?? [0, []];
+  return last.length === sample.length && last.every((n, i) => n === sample[i]);
+}"""
+
+RUN_TIMED = """(index) => {
+  window.glid.clear();
+  window.jupyterapp.shell.currentWidget.content.activeCellIndex = index;
+  const start = performance.now();
+  window.jupyterapp.commands.execute('notebook:run-cell');
+  return start;
+}"""
+
+
+@dataclass(frozen=True)
+class Drag:
+    """What was measured of one drag; times in milliseconds."""
+
+    latencies: np.ndarray
+    """Of each pointer event: until a frame was drawn that was solved for it or a later one."""
+    frames_per_second: float
+    moves_per_second: float
+    solving: float
+    """Median of a solve."""
+    showing: float
+    """Median of the kernel's work for a frame beside the solve."""
+    canvas_bytes: float
+    """Per frame, on the wire, of the canvas."""
+    all_bytes: float
+    """Per frame, on the wire, of everything: plots, status line, the protocol's own messages."""
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("shape", nargs="?", default="gecko")
+    parser.add_argument("--moves", type=int, default=240)
+    parser.add_argument("--vertices", type=int, nargs="+", default=[10_000, 100_000])
+    chosen = parser.parse_args()
+    shape = str(Path(chosen.shape).resolve()) if chosen.shape.endswith(".json") else chosen.shape
+    processor = platform.processor() or platform.machine()
+    print(f"{chosen.shape}; {processor}, {os.cpu_count()} CPUs, {platform.platform()}")
+    # An installed package has its bytecode; without, each kernel would compile every module.
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    with tempfile.TemporaryDirectory() as folder, launched_chromium() as browser:
+        print(f"Chromium {browser.version}, {RATE} moves a second wanted, plots on")
+        server = JupyterServer(Path(folder) / "jupyter")
+        cache = str(Path(folder) / "cache")
+        try:
+            if shape in samples.names():
+                for state in ("empty", "filled"):
+                    seconds = start_time(browser, server, shape, cache)
+                    print(
+                        f"first canvas with {state} cache: {seconds:.1f} s after running the cell"
+                    )
+            print(HEADER)
+            for vertices in chosen.vertices:
+                for evaluated_in in ("shader", "kernel"):
+                    setup = IMPORTS.format(cache=cache) + CANVAS.format(
+                        shape=shape, vertices=vertices, evaluated_in=evaluated_in
+                    )
+                    drag = dragged(browser, server, setup, chosen.moves)
+                    print(row(vertices, evaluated_in, drag), flush=True)
+        finally:
+            server.close()
+
+
+HEADER = (
+    "vertices  map in    latency: median, 95 %   solver: median, share   kernel beside it   "
+    "frames/s  moves/s   canvas bytes, all bytes per frame"
+)
+
+
+def row(vertices: int, evaluated_in: str, drag: Drag) -> str:
+    """One line of the table."""
+    median, late = np.percentile(drag.latencies, [50, 95])
+    return (
+        f"{vertices:8,}  {evaluated_in:6}  {median:9.1f} ms {late:7.1f} ms   "
+        f"{drag.solving:8.1f} ms {min(drag.solving / median, 1):8.0%}   {drag.showing:13.2f} ms"
+        f"   {drag.frames_per_second:8.1f} {drag.moves_per_second:8.1f}   "
+        f"{drag.canvas_bytes:12,.0f} {drag.all_bytes:14,.0f}"
+    )
+
+
+def start_time(browser: Browser, server: JupyterServer, shape: str, cache: str) -> float:
+    """Seconds from running the cell ``Editor(image)`` to the first drawn canvas."""
+    cells = [IMPORTS.format(cache=cache) + IMAGE.format(shape=shape), "None"]
+    with notebook(browser, server, cells) as book:
+        book.page.evaluate(
+            "code => { window.jupyterapp.shell.currentWidget.content.model.cells.get(1)"
+            ".sharedModel.setSource(code); }",
+            EDITOR,
+        )
+        start = book.page.evaluate(RUN_TIMED, 1)
+        book.page.wait_for_function("window.glid.firstFrame !== null", timeout=120_000)
+        seconds = (book.page.evaluate("window.glid.firstFrame") - start) / 1e3
+        # The programs that the first drag needs are compiled in the background.
+        book.wait_for("editor.deformation.solve(0.01)", 180)
+        return seconds
+
+
+def dragged(browser: Browser, server: JupyterServer, setup: str, n_moves: int) -> Drag:
+    """Drag the last handle on a spiral, once to warm up and once for the measurement."""
+    with notebook(browser, server, [setup]) as book:
+        hand = Hand(book)
+        identity, trait, widgets = book.value("[*log.source, log.widgets]")
+        book.page.evaluate(WATCH, [identity, trait, N_SAMPLES, widgets])
+        for count in (n_moves // 4, n_moves):
+            hand.settle()
+            book.page.evaluate("window.glid.clear()")
+            book.value("None", setup="log.clear()")
+            start, seconds = spiral(hand, count)
+            book.wait_for("not model.dragged", 60)
+            hand.settle()
+            last = book.value("log.frames[-1]['sample']")
+            book.page.wait_for_function(DRAWN, arg=last, timeout=60_000)
+        seen = book.page.evaluate("({...window.glid, watch: null, clear: null})")
+        known = book.value("[log.frames, log.solving, log.showing]")
+        unit = book.value("canvas.pane.stage.view[2]")
+    moves = np.array(seen["moves"])
+    targets = start + unit * (moves[:, 1:] - seen["press"]) * [1, -1]
+    latencies, drawn = joined(moves[:, 0], targets, seen["frames"], known[0])
+    return Drag(
+        latencies,
+        drawn / seconds,
+        len(moves) / seconds,
+        1e3 * float(np.median(known[1])),
+        1e3 * float(np.median(known[2])),
+        seen["canvasBytes"] / drawn,
+        seen["bytes"] / drawn,
+    )
+
+
+def spiral(hand: Hand, count: int) -> tuple[np.ndarray, float]:
+    """Drag the last handle; returns where its target was, and the seconds that the drag took."""
+    start = np.array(hand.targets[-1])
+    side = hand.book.value("float(canvas.deformation.domain.cage.longer_side)")
+    turns = np.arange(1, count + 1) / RATE
+    # A spiral, so that no two targets are the same.
+    radius = 0.08 * side * (0.5 + 0.5 * turns / turns[-1])
+    angles = 2 * np.pi * turns
+    points = start + radius[:, None] * np.stack([np.cos(angles) - 0.5, np.sin(angles)], axis=1)
+    places = hand.places([start, *points])
+    mouse = hand.page.mouse
+    mouse.move(*places[0])
+    mouse.down()
+    began = time.perf_counter()
+    for k, place in enumerate(places[1:]):
+        ahead = began + k / RATE - time.perf_counter()
+        if ahead > 0:
+            hand.page.wait_for_timeout(1e3 * ahead)
+        mouse.move(*place)
+    seconds = time.perf_counter() - began
+    mouse.up()
+    return start, seconds
+
+
+def joined(
+    times: np.ndarray, targets: np.ndarray, drawn: list[Any], known: list[dict[str, Any]]
+) -> tuple[np.ndarray, int]:
+    """Milliseconds from each move to its frame, and how many frames were drawn.
+
+    Parameters
+    ----------
+    times : (m,) array
+        Of the pointer's moves.
+    targets : (m, 2) array
+        Where each move put the target.
+    drawn
+        Times and samples of the frames in the page.
+    known
+        Samples and targets of the frames in the kernel.
+    """
+    solved_for = {tuple(frame["sample"]): frame["targets"][-1] for frame in known}
+    latest = -1  # the last move that a frame has shown
+    waits: list[float] = []
+    for time_drawn, sample in drawn:
+        target = solved_for.get(tuple(sample))
+        if target is None:  # of before the drag
+            continue
+        gaps = np.linalg.norm(targets - target, axis=1)
+        move = int(np.argmin(gaps))
+        if gaps[move] > 1e-4:
+            continue
+        waits += [time_drawn - t for t in times[latest + 1 : move + 1]]
+        latest = max(latest, move)
+    if latest < len(times) - 1:
+        raise RuntimeError(f"no frame was drawn for the last of {len(times)} moves")
+    return np.array(waits), len(drawn)
+
+
+@contextmanager
+def notebook(browser: Browser, server: JupyterServer, cells: list[str]) -> Iterator[LabNotebook]:
+    """A notebook in a page that notes what happens, its kernel ended afterwards."""
+    script = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
+    with watched_page(browser, script) as page:
+        book = LabNotebook(page, server, cells)
+        try:
+            yield book
+        finally:
+            book.shut_down()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,231 @@
+"""Methods in the harmonic subspace: one minimum, whichever way leads there."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+
+import numpy as np
+import pytest
+
+from glid_nb._runtime import double_precision
+from glid_nb.certificate import certify
+from glid_nb.energies import ARAP, Energy, SymmetricDirichlet
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import MethodResult, run_method
+from glid_nb.methods.subspace.descent import View
+from glid_nb.methods.subspace.first_order import LBFGS
+from glid_nb.methods.subspace.newton_variants import FLOOR, EigenDirection, HessianDirection
+from glid_nb.methods.subspace.problem import SubspaceProblem
+from glid_nb.solvers import Options, Pose, Status
+
+from ..reference_map import DenseCheck
+from .problems import problem
+
+pytestmark = pytest.mark.slow
+
+
+@functools.cache
+def run(method: str, name: str, energy: Energy | None = None, **settings: object) -> MethodResult:
+    domain, pose = problem(name)
+    return run_method(method, domain, pose, energy, **settings)
+
+
+@pytest.mark.parametrize("name", ["ell", "ring"])
+@pytest.mark.parametrize("method", ["newton-eigen", "newton-shift", "lbfgs", "newton-unmodified"])
+def test_one_minimum(method: str, name: str) -> None:
+    result, ours = run(method, name), run("newton", name)
+    assert result.status.ok, result.message
+    assert result.energy == pytest.approx(ours.energy, rel=1e-6)
+    assert isinstance(result.map, HarmonicMap)
+    assert isinstance(ours.map, HarmonicMap)
+    assert result.map.distance(ours.map) < 1e-2
+    assert result.certificate is not None
+    assert result.certificate.certified
+
+
+@pytest.mark.parametrize("method", ["gradient-descent", "lbfgs"])
+def test_first_order_methods_reach_the_minimum_where_targets_are_soft(method: str) -> None:
+    """A heavy weight makes the energy too stiff for the negative gradient."""
+    settings = {"p2p_weight": 1.0, "max_iterations": 2000}
+    result, ours = run(method, "ell", **settings), run("newton", "ell", **settings)
+    assert result.status is Status.CONVERGED, result.message
+    assert result.energy == pytest.approx(ours.energy, rel=1e-6)
+
+
+@pytest.mark.parametrize("method", ["newton-eigen", "newton-shift"])
+def test_modified_hessians_pass_where_the_exact_one_is_indefinite(method: str) -> None:
+    ours = run("newton", "bent", align=False)
+    assert run(method, "bent", align=False).energy == pytest.approx(ours.energy, rel=1e-6)
+
+
+@double_precision
+def test_newton_eigen_raises_or_mirrors_negative_eigenvalues() -> None:
+    """``-V f(L) V^T g`` with the exact Hessian ``V L V^T``, indefinite after one step."""
+    domain, pose = problem("bent")
+    searcher = SubspaceProblem(domain, pose, SymmetricDirichlet(), Options(align=False))
+    point = searcher.evaluate(searcher.start)
+    view = View(searcher, point, np.asarray(point.gradient), np.nan)
+    step = HessianDirection("projected")(view)
+    assert isinstance(step, np.ndarray)
+    point = searcher.advance(point, step, False).point
+    h = searcher.hessian(point, "exact") + searcher.p2p_hessian
+    gradient = np.asarray(point.gradient)
+    values, vectors = np.linalg.eigh(h)
+    assert values[0] < -1e-3
+    # Along each eigenvector, the gradient over the eigenvalue's replacement.
+    for absolute, least in ((False, FLOOR), (True, -values[0])):
+        moved = EigenDirection(absolute)(View(searcher, point, gradient, np.nan))
+        along = vectors.T @ moved
+        slope = vectors.T @ gradient
+        assert along[0] == pytest.approx(-slope[0] / least, rel=1e-6)
+        assert along[-1] == pytest.approx(-slope[-1] / values[-1], rel=1e-3)
+
+
+def test_newton_eigen_by_modulus_reaches_the_minimum() -> None:
+    result = run("newton-eigen", "bent", align=False, absolute=True)
+    assert result.status.ok
+    ours = run("newton", "bent", align=False)
+    assert result.energy == pytest.approx(ours.energy, rel=1e-6)
+
+
+def test_unmodified_newton_halts_and_says_so() -> None:
+    result = run("newton-unmodified", "bent", align=False)
+    assert result.status is Status.INDEFINITE
+    assert "not positive definite" in result.message
+    assert result.energy > 100 * run("newton", "bent", align=False).energy
+    assert result.certificate is not None
+    assert result.certificate.certified
+
+
+@pytest.mark.parametrize("method", ["gauss-newton", "levenberg-marquardt"])
+def test_least_squares_reaches_newtons_arap(method: str) -> None:
+    result, ours = run(method, "ring", ARAP()), run("newton", "ring", ARAP())
+    assert result.status.ok
+    assert result.energy == pytest.approx(ours.energy, rel=1e-6)
+
+
+@pytest.mark.parametrize("method", ["gauss-newton", "levenberg-marquardt"])
+@pytest.mark.parametrize("handles", [0, 1, 4])
+def test_least_squares_knows_a_perfect_map(method: str, handles: int) -> None:
+    """ARAP's least energy is 0, with which nothing compares relatively."""
+    domain, pose = problem("ell")
+    still = Pose(pose.handles[:handles], pose.handles[:handles])
+    result = run_method(method, domain, still)
+    assert result.status is Status.CONVERGED
+    assert result.iterations == 0
+
+
+@pytest.mark.parametrize("method", ["gauss-newton", "levenberg-marquardt"])
+def test_least_squares_ends_where_it_creeps(method: str) -> None:
+    """No barrier keeps ARAP from folding: steps shrink, each proved on more panels."""
+    domain, pose = problem("ell")
+    far = pose.with_targets(pose.handles * [8.0, -5.0])
+    result = run_method(method, domain, far, align=False)
+    assert result.status is Status.BLOCKED
+    assert result.iterations < 30
+    assert result.certificate is not None
+    assert result.certificate.certified
+
+
+def test_the_staged_solver_is_the_papers() -> None:
+    staged, paper = run("newton-staged", "ring"), run("newton-paper", "ring")
+    assert staged.iterations == paper.iterations
+    for a, b in zip(staged.history, paper.history, strict=True):
+        assert a.energy == pytest.approx(b.energy, rel=1e-6)
+
+
+def test_fewer_hessian_samples_reach_the_same_minimum() -> None:
+    few = run("newton-staged", "ring", hessian_samples=400)
+    assert few.status.ok
+    assert few.energy == pytest.approx(run("newton-staged", "ring").energy, rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    "method", ["newton", "newton-eigen", "newton-shift", "lbfgs", "gradient-descent"]
+)
+def test_energy_decreases(method: str) -> None:
+    settings = {"corrections": 0} if method == "newton" else {}
+    history = run(method, "ell", **settings).history
+    energies = [step.energy for step in history]
+    assert len(energies) > 3
+    assert all(b <= a * (1 + 1e-9) for a, b in itertools.pairwise(energies))
+    assert energies[-1] < 0.01 * energies[0]
+    assert [step.iteration for step in history] == list(range(len(energies)))
+    assert np.isfinite([step.time for step in history]).all()
+
+
+@double_precision
+def test_lbfgs_direction_is_that_of_dense_bfgs() -> None:
+    """While its memory holds every pair, L-BFGS is BFGS with the textbook's matrix update.
+
+    The textbook's inverse loses digits to a heavy weight, so that this one is light.
+    """
+    domain, pose = problem("ring")
+    searcher = SubspaceProblem(
+        domain, pose, SymmetricDirichlet(), Options(align=False, p2p_weight=1e3)
+    )
+    choose = LBFGS(memory=5)
+    free = searcher.unknowns.free
+    point = searcher.evaluate(searcher.start)
+    inverse = np.linalg.inv(searcher.p2p_hessian + np.diag(np.where(free > 0, 2e-4, 1.0)))
+    last = None
+    for _ in range(5):
+        gradient = np.asarray(point.gradient)
+        x = np.asarray(point.coefficients) * free
+        if last is not None:
+            s, y = x - last[0], gradient - last[1]
+            assert s @ y > 0
+            left = np.eye(len(s)) - np.outer(s, y) / (s @ y)
+            inverse = left @ inverse @ left.T + np.outer(s, s) / (s @ y)
+        last = (x, gradient)
+        direction = choose(View(searcher, point, gradient, np.nan))
+        expected = -inverse @ gradient
+        assert np.linalg.norm(direction - expected) < 1e-6 * np.linalg.norm(expected)
+        move = searcher.advance(point, direction, False)
+        assert float(move.step) > 0
+        point = move.point
+    assert len(choose.pairs) == 4
+
+
+def test_the_problem_is_set_up_in_double_precision() -> None:
+    """Also where JAX's own default is single: handles' images agree with the map's."""
+    domain, pose = problem("ring")
+    searcher = SubspaceProblem(domain, pose, SymmetricDirichlet(), Options(align=False))
+    rows = searcher.constraints.handles[: len(pose)]
+    identity = HarmonicMap.identity(domain)
+    phi = searcher.discretisation.basis.pad(identity.phi)
+    images = rows @ np.concatenate([phi.real, phi.imag])
+    np.testing.assert_allclose(images, pose.handles[:, 0], atol=1e-13)
+
+
+def test_rigid_targets_need_no_step() -> None:
+    domain, pose = problem("ell")
+    moved = Pose(pose.handles, -pose.handles + [1.0, 2.0])
+    for method in ("newton-eigen", "newton-shift", "lbfgs", "gradient-descent"):
+        result = run_method(method, domain, moved)
+        assert result.status.ok, (method, result.message)
+        assert result.energy == pytest.approx(2.0, abs=1e-9)
+
+
+def test_bdhm_constants_bound_the_derivative_and_are_looser() -> None:
+    result = run("newton", "ring")
+    map = result.map
+    assert isinstance(map, HarmonicMap)
+    ours, theirs = certify(map, "lipschitz"), certify(map, "bdhm")
+    assert theirs.certified
+    assert len(theirs.panels) > len(ours.panels)
+    domain = map.domain
+    rho = domain.hole_points @ np.array([1, 1j])
+    dense = DenseCheck.on(domain.cage_loops_complex, domain.offset_loops_complex, rho, 100_000)
+    measured = dense.measure(map.phi, map.psi)
+    assert measured.sigma2 >= theirs.sigma2_lower > 0
+    assert measured.sigma1 <= theirs.sigma1_upper
+
+
+@pytest.mark.parametrize("method", ["newton", "newton-eigen", "newton-staged"])
+def test_bdhm_constants_certify_as_well(method: str) -> None:
+    result = run(method, "ring", certificate="bdhm")
+    assert result.certificate is not None
+    assert result.certificate.certified
+    assert result.energy >= run(method, "ring").energy * (1 - 1e-5)

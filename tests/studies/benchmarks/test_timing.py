@@ -1,0 +1,22 @@
+"""Timings: what is called, how often and in which order."""
+
+from __future__ import annotations
+
+from studies.benchmarks.timing import LEAST_REPEATS, timed, timed_in_turn
+
+
+def test_functions_take_turns() -> None:
+    calls: list[str] = []
+    functions = {"a": lambda: calls.append("a"), "b": lambda: calls.append("b")}
+    timings = timed_in_turn(functions, repeats=3)
+    assert calls == ["a", "b"] * 4  # the first of each warms up
+    assert {name: timing["runs"] for name, timing in timings.items()} == {"a": 3, "b": 3}
+    for timing in timings.values():
+        assert 0 <= timing["least"] <= timing["low"] <= timing["median"] <= timing["high"]
+
+
+def test_a_spent_budget_ends_a_timing_after_the_least_repeats() -> None:
+    calls: list[int] = []
+    timing = timed(lambda: calls.append(0), repeats=50, warm_up=2, budget=-1.0)
+    assert timing["runs"] == LEAST_REPEATS
+    assert len(calls) == LEAST_REPEATS + 2
