@@ -36,10 +36,10 @@ format: $(VENV)/.dev
 dev: $(VENV)/.dev
 
 compare: $(VENV)/.studies
-	$(VENV)/bin/python -m studies.comparisons $(ARGUMENTS)
+	$(VENV)/bin/python -m studies compare $(ARGUMENTS)
 
 bench: $(VENV)/.studies
-	$(VENV)/bin/python -m studies.benchmarks $(ARGUMENTS)
+	$(VENV)/bin/python -m studies bench $(ARGUMENTS)
 
 browser:
 	tools/chromium.sh

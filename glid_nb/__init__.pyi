@@ -47,14 +47,8 @@ from .solvers import solve_batch as solve_batch
 from ._runtime import enable_compilation_cache as enable_compilation_cache
 
 # Other methods on the same problems
-from .methods import MeshMap as MeshMap
-from .methods import Method as Method
-from .methods import MethodChoice as MethodChoice
-from .methods import MethodProgress as MethodProgress
-from .methods import MethodResult as MethodResult
-from .methods import Step as Step
+from .geometry import MeshMap as MeshMap
 from . import methods as methods
-from .methods import run_method as run_method
 
 # Files and reports
 from .session import Document as Document

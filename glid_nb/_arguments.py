@@ -42,7 +42,7 @@ def check_count(name: str, value: Any, least: int, unit: str) -> int:
     Raises
     ------
     TypeError
-        It is no whole number.
+        It is not a whole number.
     ValueError
         It is less than ``least``.
     """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -26,7 +27,7 @@ def about(where: str | Path, kind: type[InputError] = InputFileError) -> Iterato
         yield
     except InputError as error:
         text = str(error)
-        if not text.startswith(str(where)):
+        if not re.match(rf"{re.escape(str(where))}(: | (is|has|holds|must) )", text):
             text = f"{where}: {text}"
         raise kind(text) from error
 

@@ -33,7 +33,7 @@ def write_text_atomically(path: Path, text: str) -> None:
 def in_words(error: OSError, path: Path, done: Literal["read", "written"]) -> OSError:
     """An error of the same class whose message says which file cannot be read or written, and why.
 
-    The system's own message has a number, and names temporary files that nobody asked for.
+    The system's own message has an error number and names our temporary files.
     """
     path = path.absolute()
     if not path.parent.is_dir() and isinstance(error, FileNotFoundError | NotADirectoryError):

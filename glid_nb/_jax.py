@@ -1,9 +1,9 @@
 """JAX, imported when something is first computed.
 
-Importing JAX takes longer than all else that an editor does before its canvas is seen, which needs
-nothing computed. So the package's modules take ``jax``, ``jnp`` and ``lax`` from here; the modules
-that these stand for are imported when they are first asked for something. At a module's own level
-use :func:`jit` in place of ``jax.jit``, and :func:`once_loaded` for anything else.
+Importing JAX takes longer than everything else that an editor does before its canvas is seen, and
+the canvas needs nothing computed. So the package's modules import ``jax``, ``jnp`` and ``lax`` from
+here: stand-ins that import the module on first use. At module level use :func:`jit` in place of
+``jax.jit``, and :func:`once_loaded` for anything else.
 """
 
 from __future__ import annotations
@@ -29,18 +29,18 @@ def once_loaded(action: Callable[[], Any]) -> None:
 
 
 def settle() -> None:
-    """Do what waits for JAX if that is imported by now, be it by somebody else."""
+    """Run the pending actions if JAX is imported by now."""
     global _settling
     if not _waiting or "jax" not in sys.modules:
         return
     with _lock:
-        if _settling:  # asked by what is being done
+        if _settling:  # called by a pending action
             return
         _settling = True
         try:
             while _waiting:
                 _waiting[0]()
-                del _waiting[0]  # not before: other threads must wait until it is done
+                del _waiting[0]  # only now: other threads must wait until it has run
         finally:
             _settling = False
 

@@ -130,7 +130,7 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularitie
     # Twice, for the two sums over phi and psi.
     slack = 2 * rounding.slack_factor(coefficients.shape[1]) * modulus(coefficients).max()
     first_scale, second_scale = cauchy.rounding_scale(start, singularities)
-    return Jets(
+    parts: tuple[Any, ...] = (
         values[:, 0] + jnp.conj(values[:, 1]),
         slopes[:, 0],
         slopes[:, 1],
@@ -141,10 +141,11 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularitie
         slack * second_scale,
         third,
     )
+    return Jets(*parts)
 
 
 def _value_scale(z: Any, singularities: Singularities) -> Any:
-    """What ``cauchy.rounding_scale`` is for the derivatives, for ``C(z)``.
+    """The scale of the terms of ``C(z)``, as ``cauchy.rounding_scale`` for the derivatives.
 
     ``|Log(B_{j+1} / B_j)| <= |ln |B_{j+1} / B_j|| + pi``, and 4 roundoffs beside it.
     """

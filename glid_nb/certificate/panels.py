@@ -1,4 +1,4 @@
-"""Proofs on panels: what they are given, what they say, and what a kind of proof is."""
+"""Proofs on panels: their input, their result, and the protocol of a kind of proof."""
 
 from __future__ import annotations
 
@@ -59,15 +59,15 @@ class PanelProof(Protocol):
     def remainder(
         self, coefficients: Complex[Array, "k n"], singularities: Singularities
     ) -> Float[Array, "k p"]:
-        """Of ``sum_j D_j coefficients_j``, what the values at the ends do not tell.
+        """How far ``sum_j D_j coefficients_j`` may be from what its values at the ends suggest.
 
-        Whoever evaluates the bounds adds to it what rounding may have changed.
+        The caller of :meth:`bounds` adds an allowance for rounding.
         """
         ...
 
     @staticmethod
     def bounds(fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]) -> PanelBounds:
-        """What is proved for the map, given the remainders of both its derivatives."""
+        """The bounds on each whole panel, from the remainders of both derivatives."""
         ...
 
 

@@ -35,8 +35,8 @@ def slack_factor(n_columns: int) -> float:
 def carried_slack_factor(n_columns: int) -> float:
     """The factor for carried values, of the largest modulus met on the way.
 
-    One error for the first sum, two for each step, and two more: what is proved from carried values
-    is then also proved by who computes them anew.
+    One error for the first sum, two for each step, and two more: a proof from carried values then
+    also succeeds with values computed anew.
     """
     return (1 + 2 * CARRIED_STEPS + 2) * slack_factor(n_columns)
 

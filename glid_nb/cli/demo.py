@@ -17,14 +17,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 import glid_nb
+from glid_nb._errors import InputFileError, about
+from glid_nb._json import json_text
 from glid_nb.cli import summary
-from glid_nb.cli.errors import BadFileError, about
-from glid_nb.cli.output import check_folder, json_text, png_bytes, write_all
+from glid_nb.cli.flags import (
+    add_solver_flags,
+    add_trace_flags,
+    energy_of,
+    options_of,
+    trace_options_of,
+)
+from glid_nb.cli.output import check_folder, write_all
 from glid_nb.cli.progress import Progress
-from glid_nb.cli.run_solver import check_interrupted, run_solver
-from glid_nb.cli.solver_arguments import add_solver_arguments, energy_of, options_of
-from glid_nb.cli.trace import add_trace_arguments, cage_data, size_in_words, trace_options_of
-from glid_nb.imaging.render import rendering
+from glid_nb.cli.solving import check_interrupted, run_solver
+from glid_nb.cli.trace import cage_data, size_in_words
 
 DEFAULT_SAMPLE = "gecko"
 DEFAULT_POSE = "gentle"
@@ -47,21 +53,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="handles and targets, world coordinates; for a sample also gentle or extreme",
     )
     parser.add_argument(
-        "--out", type=Path, default=Path("glid-nb-demo"), metavar="DIR", help="default: %(default)s"
+        "--out",
+        type=Path,
+        default=Path("glid-nb-demo"),
+        metavar="DIR",
+        help="folder of the results (default: %(default)s)",
     )
     parser.add_argument("--json", action="store_true", help="print the summary as JSON")
-    add_solver_arguments(parser)
-    add_trace_arguments(parser)
+    add_solver_flags(parser)
+    add_trace_flags(parser)
 
 
 def run(chosen: argparse.Namespace) -> None:
     """Run the command."""
-    out = check_folder(chosen.out)
-    energy, options, tracing_options = (
-        energy_of(chosen),
-        options_of(chosen),
-        trace_options_of(chosen),
-    )
+    out: Path = chosen.out
+    check_folder(out)
+    energy, options = energy_of(chosen), options_of(chosen)
+    tracing_options = trace_options_of(chosen)
     progress = Progress()
     source, sample = _source(chosen.image)
     image = glid_nb.read_image(source)
@@ -71,13 +79,14 @@ def run(chosen: argparse.Namespace) -> None:
     pose, origin = _pose(chosen.pose, sample, domain)
 
     result, report = run_solver(domain, pose, energy, options, progress)
+    assert isinstance(result.map, glid_nb.HarmonicMap)
     with progress.step("rendering"):
         deformed, cropped = _deformed(image, result.map)
     with progress.step("drawing the overview"):
         figure = glid_nb.figures.figure_png(glid_nb.figures.overview(image, result, pose))
 
     files: dict[Path, bytes | str] = {
-        out / "deformed.png": png_bytes(deformed),
+        out / "deformed.png": deformed,
         out / "overview.png": figure,
         out / "cage.json": json_text(cage_data(tracing)),
         out / "map.json": json_text(result.map.to_dict()),
@@ -103,7 +112,7 @@ def _source(image: str) -> tuple[Path, str | None]:
     if path.exists():
         return path, None
     if image not in names:
-        raise BadFileError(
+        raise InputFileError(
             f"{image}: there is no such file, and no sample of that name ({', '.join(names)})"
         )
     return glid_nb.samples.path(image), image
@@ -129,12 +138,16 @@ def _pose(
 
 def _deformed(
     image: NDArray[np.unsignedinteger], harmonic_map: glid_nb.HarmonicMap
-) -> tuple[NDArray[np.uint8], bool]:
-    """The deformed picture, and whether it had to be zoomed out to show all of it."""
+) -> tuple[bytes, bool]:
+    """The deformed picture as PNG, and whether it had to be zoomed out to show all of it."""
+    # Slow to import, and not needed by --help.
+    from glid_nb.export.picture import png  # noqa: PLC0415
+    from glid_nb.imaging.render import rendering  # noqa: PLC0415
+
     in_place = rendering(image, harmonic_map)
     if in_place.outside <= _CROPPED:
-        return in_place.picture, False
-    return glid_nb.render(image, harmonic_map, view="fit"), True
+        return png(in_place.picture), False
+    return glid_nb.export.picture_png(image, harmonic_map, view="fit"), True
 
 
 def _rows(

@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 import glid_nb
-from glid_nb.cli.errors import CommandError
+from glid_nb._errors import InputError
 
 NOTEBOOK = "editor.ipynb"
 """Name of the copy."""
@@ -30,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         default=Path(),
         metavar="FOLDER",
-        help="where to work; made if it is not there (default: here)",
+        help="where to work; made if it is missing (default: here)",
     )
     parser.add_argument(
         "--print", action="store_true", help="only print the command that would be run"
@@ -41,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(chosen: argparse.Namespace) -> None:
     """Run the command."""
     if importlib.util.find_spec("jupyterlab") is None:
-        raise CommandError(
+        raise InputError(
             "JupyterLab is not installed here; install it with: pip install 'glid-nb[lab]'"
         )
     folder: Path = chosen.folder
@@ -55,7 +55,7 @@ def run(chosen: argparse.Namespace) -> None:
         shutil.copyfile(bundled_notebook(), notebook)
     status = subprocess.run(command, check=False).returncode
     if status:
-        raise CommandError(f"JupyterLab ended with the exit code {status}")
+        raise InputError(f"JupyterLab ended with the exit code {status}")
 
 
 def bundled_notebook() -> Path:
@@ -64,4 +64,4 @@ def bundled_notebook() -> Path:
     for folder in (package, package.parent):
         if (folder / _NAME).is_file():
             return folder / _NAME
-    raise CommandError(f"{_NAME} is missing from this installation; install glid-nb again")
+    raise InputError(f"{_NAME} is missing from this installation; install glid-nb again")

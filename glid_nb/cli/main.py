@@ -1,4 +1,4 @@
-"""The parser, and what happens to errors."""
+"""The parser of all commands, and what happens to errors."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 import glid_nb
+from glid_nb._errors import InputError
 from glid_nb.cli import demo, lab, render, samples, solve, trace
-from glid_nb.cli.errors import is_bad_input, one_line
 
 COMMANDS = (demo, trace, solve, render, samples, lab)
 
@@ -17,6 +17,22 @@ EXIT_OK = 0
 EXIT_BAD_INPUT = 1
 EXIT_USAGE = 2
 EXIT_INTERRUPTED = 130
+
+
+def is_bad_input(error: BaseException) -> bool:
+    """Whether an exception tells of the user's input rather than of a bug.
+
+    A plain ValueError comes from a bug and keeps its traceback. What the operating system refuses
+    is input as well.
+    """
+    return isinstance(error, OSError | InputError)
+
+
+def one_line(error: BaseException) -> str:
+    """The exception's message without line breaks, and with the file first."""
+    if isinstance(error, OSError) and error.filename is not None and error.strerror:
+        return f"{error.filename}: {error.strerror}"
+    return " ".join(str(error).split())
 
 
 class OneLineParser(argparse.ArgumentParser):
@@ -65,8 +81,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("glid-nb: interrupted", file=sys.stderr)
         return EXIT_INTERRUPTED
-    except (OSError, ValueError) as error:
-        if chosen.debug or not is_bad_input(error):
+    except (OSError, InputError) as error:
+        if chosen.debug:
             raise
         print(f"glid-nb: error: {one_line(error)}", file=sys.stderr)
         return EXIT_BAD_INPUT

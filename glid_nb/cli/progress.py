@@ -15,6 +15,7 @@ PATIENCE = 1.0
 _REFRESH = 0.2
 # Where lines pile up, in a log file say, one in so many seconds is enough.
 _REPEAT = 15.0
+_ERASE_LINE = "\r\x1b[K"
 
 
 class Progress:
@@ -34,58 +35,35 @@ class Progress:
     def __init__(self, stream: TextIO | None = None, patience: float | None = None) -> None:
         self._stream = sys.stderr if stream is None else stream
         self._patience = PATIENCE if patience is None else patience
-        self._live = self._stream.isatty()
 
     @contextmanager
     def step(self, doing: str) -> Iterator[Callable[[str], None]]:
         """Run a step called ``doing``; yields a function that takes what is known meanwhile."""
-        step = _Step(doing, self._stream, self._live)
-        # The step may be one long call into compiled code, so another thread has to speak up.
-        speaker = threading.Thread(target=step.speak, args=(self._patience,), daemon=True)
+        details: list[str] = []
+        done = threading.Event()
+        start = time.perf_counter()
+        live = self._stream.isatty()
+
+        def line() -> str:
+            seconds = time.perf_counter() - start
+            return ", ".join([f"{doing}: {seconds:.1f} s", *details[-1:]])
+
+        def speak() -> None:
+            if done.wait(self._patience):
+                return
+            self._write(f"{_ERASE_LINE}{line()}" if live else f"glid-nb: {doing} ...\n")
+            while not done.wait(_REFRESH if live else _REPEAT):
+                self._write(f"{_ERASE_LINE}{line()}" if live else f"glid-nb: {line()} ...\n")
+            self._write(_ERASE_LINE if live else f"glid-nb: {line()}\n")
+
+        # The step may be one long call into compiled code, so another thread has to speak.
+        speaker = threading.Thread(target=speak, daemon=True)
         speaker.start()
         try:
-            yield step.detail
+            yield details.append
         finally:
-            step.done.set()
+            done.set()
             speaker.join()
-            step.sum_up()
-
-
-class _Step:
-    """One step. All writing is done by one thread, and by the main thread after it has ended."""
-
-    def __init__(self, doing: str, stream: TextIO, live: bool) -> None:
-        self._doing, self._stream, self._live = doing, stream, live
-        self._detail, self._announced = "", False
-        self._start = time.perf_counter()
-        self.done = threading.Event()
-
-    def speak(self, patience: float) -> None:
-        """Announce the step when it takes too long, then keep a terminal's line up to date."""
-        if self.done.wait(patience):
-            return
-        self._announced = True
-        if not self._live:
-            self._write(f"glid-nb: {self._doing} ...\n")
-            while not self.done.wait(_REPEAT):
-                self._write(f"glid-nb: {self._line()} ...\n")
-            return
-        self._write(f"\r\x1b[K{self._line()}")
-        while not self.done.wait(_REFRESH):
-            self._write(f"\r\x1b[K{self._line()}")
-
-    def detail(self, text: str) -> None:
-        self._detail = text
-
-    def sum_up(self) -> None:
-        """Erase the terminal's line, or say how long the step took."""
-        if self._announced:
-            self._write("\r\x1b[K" if self._live else f"glid-nb: {self._line()}\n")
-
-    def _line(self) -> str:
-        seconds = time.perf_counter() - self._start
-        detail = f", {self._detail}" if self._detail else ""
-        return f"{self._doing}: {seconds:.1f} s{detail}"
 
     def _write(self, text: str) -> None:
         self._stream.write(text)

@@ -10,8 +10,8 @@ import argparse
 from pathlib import Path
 
 import glid_nb
-from glid_nb.cli.errors import about
-from glid_nb.cli.output import check_png, png_bytes, write_all
+from glid_nb._errors import about
+from glid_nb.cli.output import check_png, write_all
 from glid_nb.cli.progress import Progress
 
 MAX_SIDE = 20_000
@@ -19,15 +19,17 @@ MAX_SIDE = 20_000
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
-    parser.add_argument("image", type=Path, metavar="IMAGE")
-    parser.add_argument("map", type=Path, metavar="map.json")
-    parser.add_argument("--out", type=Path, metavar="picture.png", required=True)
+    parser.add_argument("image", type=Path, metavar="IMAGE", help="the picture's file")
+    parser.add_argument("map", type=Path, metavar="map.json", help="as `glid-nb solve` writes it")
+    parser.add_argument(
+        "--out", type=Path, metavar="picture.png", required=True, help="where the result goes"
+    )
     parser.add_argument(
         "--size",
         type=_pixels,
         nargs=2,
         metavar=("W", "H"),
-        help="pixels of the result (the picture's)",
+        help="pixels of the result (default: the picture's)",
     )
     parser.add_argument(
         "--view",
@@ -41,15 +43,13 @@ def run(chosen: argparse.Namespace) -> None:
     """Run the command."""
     check_png(chosen.out)
     glid_nb.enable_compilation_cache()
-    progress = Progress()
     harmonic_map = glid_nb.HarmonicMap.load(chosen.map)
     image = glid_nb.read_image(chosen.image)
-    with about(chosen.map), progress.step("rendering"):
-        size = tuple(chosen.size) if chosen.size else None
-        picture = glid_nb.render(image, harmonic_map, size=size, view=chosen.view)
-    write_all({chosen.out: png_bytes(picture)})
-    height, width = picture.shape[:2]
-    print(f"{chosen.out}: {width} x {height} pixels")
+    size = tuple(chosen.size or image.shape[1::-1])
+    with about(chosen.map), Progress().step("rendering"):
+        picture = glid_nb.export.picture_png(image, harmonic_map, size, chosen.view)
+    write_all({chosen.out: picture})
+    print(f"{chosen.out}: {size[0]} x {size[1]} pixels")
 
 
 def _pixels(text: str) -> int:

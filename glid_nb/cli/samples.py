@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 
-import glid_nb
+from glid_nb import samples
 
 _KINDS = ("gentle", "extreme")
 
@@ -17,20 +17,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(chosen: argparse.Namespace) -> None:
     """Run the command."""
-    names = glid_nb.samples.names()
-    if chosen.json:
-        print(
-            json.dumps(
-                {
-                    name: {
-                        "picture": str(glid_nb.samples.path(name)),
-                        "poses": {k: str(glid_nb.samples.pose_path(name, k)) for k in _KINDS},
-                    }
-                    for name in names
-                }
-            )
-        )
-        return
+    names = samples.names()
     width = max(map(len, names))
+    if chosen.json:
+        print(json.dumps({name: _files(name) for name in names}))
+        return
     for name in names:
-        print(f"{name:<{width}}  {glid_nb.samples.path(name)}  (poses: {', '.join(_KINDS)})")
+        print(f"{name:<{width}}  {samples.path(name)}  (poses: {', '.join(_KINDS)})")
+
+
+def _files(name: str) -> dict[str, object]:
+    poses = {kind: str(samples.pose_path(name, kind)) for kind in _KINDS}
+    return {"picture": str(samples.path(name)), "poses": poses}

@@ -11,17 +11,18 @@ import argparse
 from pathlib import Path
 
 import glid_nb
+from glid_nb._errors import about
+from glid_nb._json import json_text
 from glid_nb.cli import summary
-from glid_nb.cli.errors import about
-from glid_nb.cli.output import check_file, json_text, write_all
+from glid_nb.cli.flags import add_solver_flags, energy_of, options_of
+from glid_nb.cli.output import check_file, write_all
 from glid_nb.cli.progress import Progress
-from glid_nb.cli.run_solver import check_interrupted, run_solver
-from glid_nb.cli.solver_arguments import add_solver_arguments, energy_of, options_of
+from glid_nb.cli.solving import check_interrupted, run_solver
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
-    parser.add_argument("problem", type=Path, metavar="PROBLEM.json")
+    parser.add_argument("problem", type=Path, metavar="PROBLEM.json", help="what is solved")
     parser.add_argument("--out", type=Path, metavar="map.json", help="where the map goes")
     parser.add_argument("--report", type=Path, metavar="report.json", help="where the report goes")
     parser.add_argument(
@@ -32,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "rigidly towards the targets)",
     )
     parser.add_argument("--json", action="store_true", help="print the summary as JSON")
-    add_solver_arguments(parser)
+    add_solver_flags(parser)
 
 
 def run(chosen: argparse.Namespace) -> None:
@@ -45,9 +46,10 @@ def run(chosen: argparse.Namespace) -> None:
     start = glid_nb.HarmonicMap.load(chosen.start) if chosen.start else None
     with about(chosen.start or chosen.problem):
         result, report = run_solver(
-            problem.domain, problem.pose, energy, options, Progress(), start=start
+            problem.domain, problem.pose, energy, options, Progress(), start
         )
     files: dict[Path, bytes | str] = {}
+    assert isinstance(result.map, glid_nb.HarmonicMap)
     if chosen.out:
         files[chosen.out] = json_text(result.map.to_dict())
     if chosen.report:

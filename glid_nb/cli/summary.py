@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 from glid_nb._bounds import rounded_down, rounded_up
 
 _LONG = ("history", "options", "versions", "machine")
+_INJECTIVE = {
+    "yes": "locally and globally",
+    "no": "locally only",
+    "undecided": "locally; globally undecided",
+}
 
 
 def as_json(report: Mapping[str, Any], files: Iterable[Path], **extra: Any) -> str:
@@ -34,19 +40,17 @@ def as_text(
     """
     table = [*rows, *_rows(report), *_written(files)]
     width = max(len(name) for name, _ in table)
-    lines, previous = [], ""
-    for name, text in table:
-        lines.append(f"{name if name != previous else '':<{width}}  {text}".rstrip())
-        previous = name
+    lines = []
+    for name, group in groupby(table, key=lambda row: row[0]):
+        for i, (_, text) in enumerate(group):
+            lines.append(f"{name if i == 0 else '':<{width}}  {text}".rstrip())
     return "\n".join(lines)
 
 
 def _written(files: Iterable[Path]) -> list[tuple[str, str]]:
     """A row for every folder."""
-    folders: dict[Path, list[str]] = {}
-    for path in files:
-        folders.setdefault(path.parent, []).append(path.name)
-    rows = [("written", f"{folder}: {', '.join(names)}") for folder, names in folders.items()]
+    folders = groupby(files, key=lambda path: path.parent)
+    rows = [("written", f"{folder}: {', '.join(p.name for p in f)}") for folder, f in folders]
     return rows or [("written", "nothing; name files with --out and --report")]
 
 
@@ -55,31 +59,26 @@ def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     winding = f"{report['winding']}"
     if any(report["windings"]):
         winding += f"  (loops: {', '.join(f'{w:+d}' if w else '0' for w in report['windings'])})"
-    injective = {
-        "yes": "locally and globally",
-        "no": "locally only",
-        "undecided": "locally; globally undecided",
-    }[report["globally_injective"]]
+    injective = _INJECTIVE[report["globally_injective"]]
     if report["crossing"] is not None:
         x, y = report["crossing"]
         injective += f"; the boundary's image crosses itself at ({x:.3g}, {y:.3g})"
-    split = f", {report['panels_split']} split" if report["panels_split"] else ""
+    panels = f"{report['panels']}"
+    if report["panels_split"]:
+        panels += f", {report['panels_split']} split"
     if report["proof_panels"] != report["panels"]:
-        split += f"; {report['proof_panels']} in the final proof"
+        panels += f"; {report['proof_panels']} in the final proof"
+    e, e_iso, e_p2p = (_bounded(report[key], "{:.6g}".format) for key in ("E", "E_iso", "E_p2p"))
     return [
         ("status", report["message"]),
         ("unknowns", f"{report['n_unknowns']}"),
-        ("panels", f"{report['panels']}{split}"),
+        ("panels", panels),
         ("iterations", f"{report['iterations']}"),
-        (
-            "energy",
-            f"{_number(report['E'])}  ({energy}: {_number(report['E_iso'])}, "
-            f"targets: {_number(report['E_p2p'])})",
-        ),
+        ("energy", f"{e}  ({energy}: {e_iso}, targets: {e_p2p})"),
         ("certified", "yes" if report["certified"] else "no"),
-        ("sigma_2", f">= {_bound(report['sigma2_lower'], rounded_down)}"),
-        ("sigma_1", f"<= {_bound(report['sigma1_upper'], rounded_up)}"),
-        ("k", f"<= {_bound(report['k_upper'], rounded_up)}"),
+        ("sigma_2", f">= {_bounded(report['sigma2_lower'], rounded_down, 6)}"),
+        ("sigma_1", f"<= {_bounded(report['sigma1_upper'], rounded_up, 6)}"),
+        ("k", f"<= {_bounded(report['k_upper'], rounded_up, 6)}"),
         ("winding number", winding),
         ("injective", injective if report["certified"] else "not proved"),
         (
@@ -90,9 +89,5 @@ def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     ]
 
 
-def _bound(value: float | None, rounded: Callable[[float, int], str]) -> str:
-    return "unbounded" if value is None else rounded(value, 6)
-
-
-def _number(value: float | None) -> str:
-    return "unbounded" if value is None else f"{value:.6g}"
+def _bounded(value: float | None, written: Any, *digits: int) -> str:
+    return "unbounded" if value is None else written(value, *digits)

@@ -7,8 +7,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-
 from glid_nb._jax import jax, jnp, once_loaded
 from glid_nb.energies.energy import Differentials, Energy, EnergyError
 
@@ -46,6 +44,7 @@ class CustomEnergy(Energy):
     function: Callable[[Scalars, Scalars], Scalars] = field()
 
     name: ClassVar[str] = "custom"
+    label: ClassVar[str] = "Your own"
     is_barrier: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
@@ -60,6 +59,11 @@ class CustomEnergy(Energy):
                     f"and that JAX can differentiate; trying it out gave: {error}"
                 ) from error
             _checked.add(self.function)
+
+    @classmethod
+    def parameters(cls) -> tuple[str, ...]:
+        """None: its constants are the function's own."""
+        return ()
 
     def density(self, x: Scalars, y: Scalars) -> Scalars:
         return jnp.vectorize(self.function)(x, y)
@@ -86,7 +90,7 @@ def _check_isometry(energy: CustomEnergy) -> None:
         one, zero = jnp.ones(1), jnp.zeros(1)
         values = {"value": energy.density(one, zero), **energy.differentials(one, zero)._asdict()}
     for name, value in values.items():
-        if not np.isfinite(np.asarray(value)).all():
+        if not jnp.isfinite(value).all():
             raise EnergyError(
                 f"the custom energy's {name} at the isometry E(1, 0) is {float(value[0])}; it must "
                 "be finite there, with finite first and second derivatives"

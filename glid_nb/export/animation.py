@@ -13,10 +13,8 @@ from PIL import Image, ImageDraw
 
 from glid_nb.figures.style import CYAN, INK
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging import PixelFrame
-from glid_nb.imaging.mesh import DeformedMesh, deformed_mesh
-from glid_nb.imaging.rasterise import render_mesh
-from glid_nb.imaging.render import OutputFrame, outline_points
+from glid_nb.imaging.mesh import deformed_mesh
+from glid_nb.imaging.render import OutputFrame, draw_mesh, outline_points
 from glid_nb.imaging.texture import Texture
 from glid_nb.solvers import Pose
 
@@ -76,7 +74,7 @@ def animation_bytes(
     pictures = []
     for i, map in enumerate(maps):
         mesh = deformed_mesh(map, _VERTICES, tolerance)
-        picture = _on_background(_drawn(texture, mesh, frame), background)
+        picture = _on_background(draw_mesh(texture, mesh, frame), background)
         if poses is not None:
             picture = _with_marks(picture, poses[i], map, frame)
         pictures.append(picture)
@@ -119,18 +117,6 @@ def _common_frame(maps: list[HarmonicMap], size: int) -> OutputFrame:
     return OutputFrame((width, height), scale, (float(x), float(y)))
 
 
-def _drawn(texture: Texture, mesh: DeformedMesh, frame: OutputFrame) -> NDArray[np.uint8]:
-    source = PixelFrame(texture.width, texture.height)
-    return render_mesh(
-        texture,
-        source.to_pixel(mesh.vertices),
-        frame.to_pixel(mesh.images),
-        mesh.triangles,
-        frame.size,
-        mesh.heights,
-    )
-
-
 def _on_background(pixels: NDArray[np.uint8], background: tuple[int, int, int]) -> Image.Image:
     ground = Image.new("RGBA", (pixels.shape[1], pixels.shape[0]), (*background, 255))
     return Image.alpha_composite(ground, Image.fromarray(pixels)).convert("RGB")
@@ -163,30 +149,22 @@ def _encoded(
     background: tuple[int, int, int],
     format: Format,
 ) -> bytes:
-    buffer = io.BytesIO()
-    first, *rest = pictures
+    kind = "PNG"
     if format == "gif":
         # One palette for all frames, or flat areas flicker.
         palette = _palette(pictures, background)
-        first, *rest = (_with_palette(picture, palette, background) for picture in pictures)
-        first.save(
-            buffer,
-            format="GIF",
-            save_all=True,
-            append_images=rest,
-            duration=10 * max(1, round(milliseconds / 10)),
-            loop=0,
-            optimize=False,
-        )
-    else:
-        first.save(
-            buffer,
-            format="PNG",
-            save_all=True,
-            append_images=rest,
-            duration=milliseconds,
-            loop=0,
-        )
+        pictures = [_with_palette(picture, palette, background) for picture in pictures]
+        kind, milliseconds = "GIF", 10 * max(1, round(milliseconds / 10))
+    buffer = io.BytesIO()
+    pictures[0].save(
+        buffer,
+        format=kind,
+        save_all=True,
+        append_images=pictures[1:],
+        duration=milliseconds,
+        loop=0,
+        optimize=False,
+    )
     return buffer.getvalue()
 
 

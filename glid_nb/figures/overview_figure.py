@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,8 +13,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+from matplotlib.ticker import FixedLocator, NullLocator
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot
@@ -26,41 +24,30 @@ from glid_nb.figures.style import (
     GREY,
     HAIRLINE,
     INK,
+    LEGEND,
     SMALL,
     VERMILION,
     distortion_colors,
 )
-from glid_nb.geometry import Cage
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.mesh import DeformedMesh, deformed_mesh
 from glid_nb.imaging.rasterise import render_mesh
-from glid_nb.imaging.render import OutputFrame
+from glid_nb.imaging.render import OutputFrame, along_loop, draw_mesh
 from glid_nb.imaging.texture import Texture
 
 if TYPE_CHECKING:
     from glid_nb.solvers import Pose, Result
 
-_NAMES = (
-    "Source",
-    "Deformation",
-    "Distortion  max(σ₁, 1/σ₂)",
-    "Energy",
-    "Newton steps",
-    "Certificate",
-)
-
-# Inches.
+# Inches: the least width, the height of the plots with all that is written around them, of what is
+# written around the pictures, and most that a picture has.
 _NARROWEST = 4.5
-_MARGIN = 0.12
-_GAP = 0.34
-_TITLE = 0.24
-_KEY = 0.34
-_PLOT = 1.35
-_PLOT_TITLE = 0.4
-_AXIS_LEFT = 0.36
-_AXIS_BELOW = 0.3
-_TALLEST = 3.0
+_PLOTS, _WRITTEN, _TALLEST = 2.2, 0.75, 3.0
+
+# Columns narrower than so many inches have the entries of a legend one below the other.
+_KEY = 2.1
+
+_NAMES = ("Source", "Deformation", "Distortion", "Energy", "Newton steps", "Certificate")
 
 # How much smaller than it could be a picture is drawn for the sake of a common scale.
 _SHRINK = 1.7
@@ -69,6 +56,8 @@ _DPI = 300
 _TICKS = (1, 1.1, 1.2, 1.5, 2, 3, 5, 10, 20, 50, 100, 1000, 10_000)
 # Handles that miss their target by more than this share of the shape's size get a line.
 _MISS = 0.004
+
+Floats = NDArray[np.float64]
 
 
 def overview(
@@ -79,9 +68,9 @@ def overview(
     Above, at one scale unless their sizes differ a lot: the picture with the cage, the offset cage
     and the handles; the deformed picture with targets (cyan discs) and the handles' images (black
     dots), joined by a line where they differ; the distortion max(sigma_1, 1 / sigma_2) over the
-    deformed shape. Where it overlaps itself, both look as `rendering` draws it. Below: the
-    energies and the Newton steps per iteration, and the certified lower bound on sigma_2 along the
-    boundary with the sampled sigma_2.
+    deformed shape. Where it overlaps itself, both look as `render` draws it. Below: the energies
+    and the Newton steps per iteration, and the certified lower bound on sigma_2 along the boundary
+    with the sampled sigma_2.
 
     Parameters
     ----------
@@ -104,51 +93,58 @@ def overview(
     ------
     ValueError
         The figure would be too narrow for its text, or the picture is none.
+    TypeError
+        The result's map is one of a mesh.
     """
     if not width >= _NARROWEST:
         raise ValueError(f"width is {width} inches; the text needs at least {_NARROWEST}")
     texture = image if isinstance(image, Texture) else Texture.from_image(image)
-    map = result.map
+    map, certificate = result.map, result.certificate
+    if certificate is None or not isinstance(map, HarmonicMap):
+        raise TypeError("the overview shows a certified map; the result's is one of a mesh")
     pose = result.pose if pose is None else pose
     cage, outer = map.domain.cage, map.domain.offset_cage
-    source = _Extent.around(outer.exterior)
-    outline = [map(_dense(loop)) for loop in cage.loops]
-    target = _Extent.around(np.concatenate(outline)).reaching(pose.targets)
+    outline = [map(along_loop(loop, 8)) for loop in cage.loops]
+    source = _box(outer.exterior)
+    target = _reaching(_box(np.concatenate(outline)), pose.targets)
+    views = _common_scale(source, target)
 
-    column = (width - 2 * _MARGIN - 2 * _GAP) / 3
-    fits = [min(column / extent.width, _TALLEST / extent.height) for extent in (source, target)]
-    # One scale for both, unless that would leave one of them tiny.
-    scales = [min(fit, max(min(fits), fit / _SHRINK)) for fit in fits]
-    row = max(source.height * scales[0], target.height * scales[1])
-    height = 2 * _MARGIN + _TITLE + row + _KEY + _PLOT_TITLE + _PLOT + _AXIS_BELOW
-    figure = Figure(figsize=(width, height), dpi=_DPI, facecolor="white")
+    across, up = np.ptp(views[0], axis=0)
+    tall = min(width / 3 * up / across, _TALLEST)
+    figure = Figure((width, tall + _WRITTEN + _PLOTS), _DPI, facecolor="white")
+    figure.set_layout_engine("constrained", w_pad=0.08, h_pad=0.04)
     FigureCanvasAgg(figure)
-    page = _Page(figure, width, height)
+    halves: Any = figure.subfigures(2, 1, height_ratios=[tall + _WRITTEN, _PLOTS])
+    pictures, plots = (half.subplots(1, 3) for half in halves)
+    for axes in pictures:
+        axes.set_axis_off()
+    for axes, letter, name in zip((*pictures, *plots), "abcdef", _NAMES, strict=True):
+        _name(axes, letter, name, (0, 4) if axes in pictures else (-24, 26))
 
-    lefts = [_MARGIN + i * (column + _GAP) for i in range(3)]
-    top = height - _MARGIN - _TITLE
-    mesh = deformed_mesh(map, 4000, 0.25 / (scales[1] * _DPI))
-    cells = zip(lefts, (source, target, target), (scales[0], scales[1], scales[1]), strict=True)
-    pictures = [
-        page.picture(left, top, column, row, extent, scale) for left, extent, scale in cells
-    ]
-    _draw_source(pictures[0], texture, cage, outer, pose)
-    _draw_result(pictures[1], texture, mesh, outline, map, pose)
-    _draw_distortion(pictures[2], mesh, outline, map, page, lefts[2], top - row, column)
-    _source_key(page, lefts[0], top - row, column)
-    _result_key(page, lefts[1], top - row, column)
+    _mark_source(pictures[0], map, pose)
+    _mark_result(pictures[1], map, pose, outline)
+    _draw_loops(pictures[2], outline, color=INK, linewidth=0.5)
+    shown = deformed_mesh(map, 4000, 0.25 * np.ptp(views[1, :, 0]) / (width / 3 * _DPI))
+    strip, places = _distortion(pictures[2], map, shown)
+    EnergyPlot(plots[0]).update(result.history, result.start_energy)
+    StepPlot(plots[1]).update(result.history)
+    CertificatePlot(plots[2], cage).update(certificate, map)
 
-    below = _MARGIN + _AXIS_BELOW
-    energy, steps, certificate = (
-        page.axes(left + _AXIS_LEFT, below, column - _AXIS_LEFT, _PLOT) for left in lefts
+    figure.draw_without_rendering()  # lays the axes out, so that pictures can have their pixels
+    figure.set_layout_engine("none")
+    for axes, view in zip(pictures, views[[0, 1, 1]], strict=True):
+        _fit(axes, view)
+    frame = PixelFrame(texture.width, texture.height)
+    corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * [frame.width, frame.height]
+    quad = np.array([[0, 1, 2], [0, 2, 3]])
+    at = _frame_of(pictures[0])
+    _show(
+        pictures[0],
+        render_mesh(texture, corners, at.to_pixel(frame.to_world(corners)), quad, at.size),
     )
-    EnergyPlot(energy).update(result.history, result.start_energy)
-    StepPlot(steps).update(result.history)
-    CertificatePlot(certificate, cage).update(result.certificate, map)
-
-    for i, name in enumerate(_NAMES):
-        y = height - _MARGIN if i < 3 else below + _PLOT + _PLOT_TITLE - 0.02
-        page.title(lefts[i % 3], y, "abcdef"[i], name)
+    at = _frame_of(pictures[1])
+    _show(pictures[1], draw_mesh(texture, shown, at))
+    _show(pictures[2], draw_mesh(strip, shown, at, places))
     return figure
 
 
@@ -159,72 +155,58 @@ def figure_png(figure: Figure) -> bytes:
     return buffer.getvalue()
 
 
-@dataclass(frozen=True)
-class _Extent:
-    """A rectangle of the plane."""
+def _box(points: Floats) -> Floats:
+    """The lower and the upper corner, (2, 2), around points, with a margin."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    room = 0.02 * (high - low).max()
+    return np.stack([low - room, high + room])
 
-    xmin: float
-    ymin: float
-    xmax: float
-    ymax: float
 
-    @classmethod
-    def around(cls, points: NDArray[np.float64], margin: float = 0.02) -> _Extent:
-        low, high = points.min(axis=0), points.max(axis=0)
-        room = margin * float((high - low).max())
-        return cls(*(float(v) for v in (*(low - room), *(high + room))))
+def _reaching(box: Floats, points: Floats) -> Floats:
+    """The box enlarged to hold the points, though not by more than a quarter of its size a side."""
+    if not len(points):
+        return box
+    size = np.ptp(box, axis=0).max()
+    low, high = points.min(axis=0) - 0.03 * size, points.max(axis=0) + 0.03 * size
+    return np.stack(
+        [
+            low.clip(box[0] - 0.25 * size, box[0]),
+            high.clip(box[1], box[1] + 0.25 * size),
+        ]
+    )
 
-    @property
-    def width(self) -> float:
-        return self.xmax - self.xmin
 
-    @property
-    def height(self) -> float:
-        return self.ymax - self.ymin
+def _common_scale(*boxes: Floats) -> Floats:
+    """Boxes of one shape around these, and of one size unless one would be tiny in it."""
+    sizes = np.array([np.ptp(box, axis=0) for box in boxes])
+    common = sizes.max(axis=0)
+    could_grow = (common / sizes).min(axis=1)
+    half = common / 2 * np.minimum(1, _SHRINK / could_grow)[:, None]
+    middle = np.mean(boxes, axis=1)
+    return np.stack([middle - half, middle + half], axis=1)
 
-    def reaching(self, points: NDArray[np.float64]) -> _Extent:
-        """Enlarged to hold the points, though not by more than a quarter of its size per side."""
-        if not len(points):
-            return self
-        most = 0.25 * max(self.width, self.height)
-        room = 0.03 * max(self.width, self.height)
-        low, high = points.min(axis=0) - room, points.max(axis=0) + room
-        return _Extent(
-            float(np.clip(low[0], self.xmin - most, self.xmin)),
-            float(np.clip(low[1], self.ymin - most, self.ymin)),
-            float(np.clip(high[0], self.xmax, self.xmax + most)),
-            float(np.clip(high[1], self.ymax, self.ymax + most)),
+
+def _name(axes: Axes, letter: str, name: str, shift: tuple[float, float]) -> None:
+    """The panel's letter and name, shifted by points from the axes' upper left corner."""
+    for text, indent, weight in ((letter, 0, "bold"), (name, 10, "normal")):
+        axes.annotate(
+            text,
+            (0, 1),
+            xycoords="axes fraction",
+            xytext=(shift[0] + indent, shift[1]),
+            textcoords="offset points",
+            fontsize=FONT_SIZE,
+            fontweight=weight,
+            color=INK,
         )
 
 
-@dataclass(frozen=True)
-class _Page:
-    """A figure that is laid out in inches from its lower left corner."""
-
-    figure: Figure
-    width: float
-    height: float
-
-    def axes(self, left: float, bottom: float, width: float, height: float) -> Axes:
-        w, h = self.width, self.height
-        return self.figure.add_axes((left / w, bottom / h, width / w, height / h))
-
-    def picture(
-        self, left: float, top: float, column: float, row: float, extent: _Extent, scale: float
-    ) -> Axes:
-        """Axes in world units without frame, in the middle of a cell."""
-        width, height = extent.width * scale, extent.height * scale
-        axes = self.axes(left + (column - width) / 2, top - row + (row - height) / 2, width, height)
-        axes.set_xlim(extent.xmin, extent.xmax)
-        axes.set_ylim(extent.ymin, extent.ymax)
-        axes.set_axis_off()
-        return axes
-
-    def title(self, left: float, top: float, letter: str, name: str) -> None:
-        x, y = left / self.width, top / self.height
-        style: dict[str, Any] = {"fontsize": FONT_SIZE, "va": "top", "color": INK}
-        self.figure.text(x, y, letter, fontweight="bold", **style)
-        self.figure.text(x + 0.14 / self.width, y, name, **style)
+def _fit(axes: Axes, view: Floats) -> None:
+    """Show this box in the middle of the axes, as large as possible and not stretched."""
+    size = axes.get_window_extent().size
+    half = size * (np.ptp(view, axis=0) / size).max() / 2
+    low, high = view.mean(axis=0) - half, view.mean(axis=0) + half
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
 
 
 def _frame_of(axes: Axes) -> OutputFrame:
@@ -243,91 +225,67 @@ def _show(axes: Axes, picture: NDArray[np.uint8]) -> None:
     axes.imshow(opaque, extent=extent, aspect="auto", interpolation="nearest", zorder=0)
 
 
-def _draw_source(axes: Axes, texture: Texture, cage: Cage, outer: Cage, pose: Pose) -> None:
-    frame = _frame_of(axes)
-    size = texture.width, texture.height
-    corners = np.array([[0, 0], [size[0], 0], size, [0, size[1]]], dtype=float)
-    world = PixelFrame(*size).to_world(corners)
-    triangles = np.array([[0, 1, 2], [0, 2, 3]])
-    _show(axes, render_mesh(texture, corners, frame.to_pixel(world), triangles, frame.size))
-    for loops in (outer.loops, cage.loops):
-        _draw_loops(axes, loops, color="white", linewidth=1.4, alpha=0.7)
-    _draw_loops(axes, outer.loops, color=GREY, linewidth=0.4)
-    _draw_loops(axes, cage.loops, color=BLUE, linewidth=0.6)
-    _draw_dots(axes, pose.handles, INK, 3.4)
+def _mark_source(axes: Axes, map: HarmonicMap, pose: Pose) -> None:
+    """The cages and the handles."""
+    cage, outer = map.domain.cage.loops, map.domain.offset_cage.loops
+    _draw_loops(axes, [*outer, *cage], color="white", linewidth=1.4, alpha=0.7)
+    _draw_loops(axes, cage, color=BLUE, linewidth=0.6, label="cage")
+    _draw_loops(axes, outer, color=GREY, linewidth=0.4, label="offset cage")
+    _draw_dots(axes, pose.handles, INK, 3.4, edge=0.6, label="handles")
+    _key(axes)
 
 
-def _draw_result(
-    axes: Axes,
-    texture: Texture,
-    mesh: DeformedMesh,
-    outline: list[NDArray[np.float64]],
-    map: HarmonicMap,
-    pose: Pose,
-) -> None:
-    frame = _frame_of(axes)
-    places = PixelFrame(texture.width, texture.height).to_pixel(mesh.vertices)
-    positions = frame.to_pixel(mesh.images)
-    _show(axes, render_mesh(texture, places, positions, mesh.triangles, frame.size, mesh.heights))
-    if not len(pose):
-        return
-    images = map(pose.handles)
+def _mark_result(axes: Axes, map: HarmonicMap, pose: Pose, outline: list[Floats]) -> None:
+    """The targets, the handles' images, and lines between those that differ."""
+    images = map(pose.handles) if len(pose) else pose.handles
     size = float(np.ptp(np.concatenate(outline), axis=0).max())
     apart = np.linalg.norm(images - pose.targets, axis=1) > _MISS * size
     segments = np.stack([images[apart], pose.targets[apart]], axis=1)
     axes.add_collection(
         LineCollection(list(segments), colors=VERMILION, linewidths=0.9, zorder=3), autolim=False
     )
-    _draw_dots(axes, pose.targets, CYAN, 5.0)
-    _draw_dots(axes, images, "black", 2.2, edge=0.0)
+    _draw_dots(axes, pose.targets, CYAN, 5.0, edge=0.6, label="targets")
+    _draw_dots(axes, images, "black", 2.2, edge=0.0, label="handles' images")
+    _key(axes)
 
 
-def _draw_distortion(
-    axes: Axes,
-    mesh: DeformedMesh,
-    outline: list[NDArray[np.float64]],
-    map: HarmonicMap,
-    page: _Page,
-    left: float,
-    bottom: float,
-    column: float,
-) -> None:
+def _distortion(
+    axes: Axes, map: HarmonicMap, mesh: DeformedMesh
+) -> tuple[NDArray[np.uint8], Floats]:
+    """The distortion's colours as a strip to draw with, and each vertex's place in it.
+
+    The colour bar comes below the axes.
+    """
     fz, fzb = (np.abs(v) for v in map.wirtinger(mesh.vertices))
     with np.errstate(divide="ignore"):
         distortion = np.maximum(fz + fzb, 1 / np.maximum(fz - fzb, 0))
     # Spots beside a corner of the cage must not take the scale from the rest.
     highest = max(1.25, min(_quantile(distortion, mesh, 0.995), 1e4))
-    clipped = float(distortion.max()) > 1.02 * highest
-    norm = LogNorm(1.0, highest)
-    colors = distortion_colors()
-    n = colors.N
-    strip = np.tile((colors(np.arange(n)) * 255).round().astype(np.uint8), (2, 1, 1))
+    norm, colors = LogNorm(1.0, highest), distortion_colors()
+    strip = np.tile((colors(np.arange(colors.N)) * 255).round().astype(np.uint8), (2, 1, 1))
     value = np.asarray(norm(np.clip(distortion, 1.0, highest)))
-    places = np.stack([0.5 + value * (n - 1), np.ones(len(value))], axis=1)
-    frame = _frame_of(axes)
-    positions = frame.to_pixel(mesh.images)
-    _show(axes, render_mesh(strip, places, positions, mesh.triangles, frame.size, mesh.heights))
-    _draw_loops(axes, outline, color=INK, linewidth=0.5)
 
-    bar = page.axes(left + 0.1 * column, bottom - 0.17, 0.8 * column, 0.07)
-    scale = page.figure.colorbar(
+    scale = axes.figure.colorbar(
         ScalarMappable(norm, colors),
-        cax=bar,
-        orientation="horizontal",
-        extend="max" if clipped else "neither",
+        ax=axes,
+        location="bottom",
+        shrink=0.8,
+        aspect=24,
+        pad=0.02,
+        extend="max" if float(distortion.max()) > 1.02 * highest else "neither",
         extendfrac=0.04,
+        ticks=FixedLocator(_spaced([tick for tick in _TICKS if tick <= highest * 1.001], highest)),
+        format="{x:g}",
+        panchor=False,
     )
-    ticks = [tick for tick in _TICKS if tick <= highest * 1.001]
-    ticks = _spaced(ticks, highest)
-    scale.ax.xaxis.set_major_locator(FixedLocator(ticks))
+    scale.set_label("max(σ₁, 1/σ₂)", fontsize=SMALL, labelpad=1, color=INK)
     scale.ax.xaxis.set_minor_locator(NullLocator())
-    scale.ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     scale.ax.tick_params(labelsize=SMALL, length=2, width=HAIRLINE, pad=1.5, colors=INK)
-    scale.outline.set_linewidth(HAIRLINE)  # type: ignore[union-attr]
-    scale.outline.set_edgecolor(INK)  # type: ignore[union-attr]
+    scale.outline.set(linewidth=HAIRLINE, edgecolor=INK)  # type: ignore[operator]
+    return strip, np.stack([0.5 + value * (colors.N - 1), np.ones(len(value))], axis=1)
 
 
-def _quantile(values: NDArray[np.float64], mesh: DeformedMesh, share: float) -> float:
+def _quantile(values: Floats, mesh: DeformedMesh, share: float) -> float:
     """What the values at the vertices stay below on this share of the undeformed area."""
     e = mesh.vertices[mesh.triangles][:, 1:] - mesh.vertices[mesh.triangles][:, :1]
     area = np.abs(e[:, 0, 0] * e[:, 1, 1] - e[:, 0, 1] * e[:, 1, 0])
@@ -346,13 +304,16 @@ def _spaced(ticks: list[float], highest: float) -> list[float]:
     return kept
 
 
-def _draw_loops(axes: Axes, loops: Iterable[NDArray[np.float64]], **style: Any) -> None:
+def _draw_loops(axes: Axes, loops: Iterable[Floats], label: str = "", **style: Any) -> None:
+    """Closed lines, of which the legend names one."""
     for loop in loops:
-        axes.plot(*np.concatenate([loop, loop[:1]]).T, solid_joinstyle="round", zorder=2, **style)
+        points = np.concatenate([loop, loop[:1]]).T
+        axes.plot(*points, solid_joinstyle="round", zorder=2, label=label, **style)
+        label = ""
 
 
 def _draw_dots(
-    axes: Axes, points: NDArray[np.float64], color: str, size: float, edge: float = 0.6
+    axes: Axes, points: Floats, color: str, size: float, edge: float, label: str
 ) -> None:
     axes.plot(
         *points.T,
@@ -363,59 +324,18 @@ def _draw_dots(
         markeredgecolor="white" if color != CYAN else INK,
         markeredgewidth=edge,
         zorder=4,
-        clip_on=True,
-    )
-
-
-def _dense(loop: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points along a loop, eight per edge."""
-    t = np.linspace(0, 1, 8, endpoint=False)[:, None]
-    return (loop[:, None] + t * (np.roll(loop, -1, axis=0) - loop)[:, None]).reshape(-1, 2)
-
-
-def _source_key(page: _Page, left: float, bottom: float, column: float) -> None:
-    handles = [
-        Line2D([], [], color=BLUE, linewidth=0.9, label="cage"),
-        Line2D([], [], color=GREY, linewidth=0.7, label="offset cage"),
-        _dot(INK, 3.4, "white", 0.6, "handles"),
-    ]
-    _key(page, left, bottom, column, handles)
-
-
-def _result_key(page: _Page, left: float, bottom: float, column: float) -> None:
-    handles = [
-        _dot(CYAN, 5.0, INK, 0.6, "targets"),
-        _dot("black", 2.2, "black", 0.0, "handles' images"),
-    ]
-    _key(page, left, bottom, column, handles)
-
-
-def _dot(color: str, size: float, edge: str, edge_width: float, label: str) -> Line2D:
-    return Line2D(
-        [],
-        [],
-        linestyle="none",
-        marker="o",
-        color=color,
-        markersize=size,
-        markeredgecolor=edge,
-        markeredgewidth=edge_width,
         label=label,
     )
 
 
-def _key(page: _Page, left: float, bottom: float, column: float, handles: list[Line2D]) -> None:
-    page.figure.legend(
-        handles=handles,
+def _key(axes: Axes) -> None:
+    """A legend below the axes."""
+    handles, _ = axes.get_legend_handles_labels()
+    fits = axes.figure.bbox.width / 3 > _KEY * axes.figure.dpi
+    axes.legend(
         loc="upper center",
-        bbox_to_anchor=((left + column / 2) / page.width, (bottom - 0.04) / page.height),
-        ncols=len(handles),
-        fontsize=SMALL,
-        frameon=False,
-        handlelength=1.2,
-        handletextpad=0.4,
+        bbox_to_anchor=(0.5, 0.0),
+        ncols=len(handles) if fits else 1,
         columnspacing=1.0,
-        borderpad=0.0,
-        borderaxespad=0.0,
-        labelcolor=INK,
+        **LEGEND,
     )

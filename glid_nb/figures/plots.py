@@ -27,6 +27,7 @@ from glid_nb.figures.style import (
     GREEN,
     HAIRLINE,
     INK,
+    LEGEND,
     LINE,
     SKY,
     SMALL,
@@ -43,6 +44,9 @@ _AXIS_NAME = 12.0
 # so many points high.
 _WIDE, _LEGEND_HEIGHT = 3.0, 12.0
 
+# Above axes narrower than so many inches not even the legend fits.
+_NARROW = 1.3
+
 # An energy is drawn on a logarithmic axis when it falls by this factor or more.
 _LOG_FROM = 20.0
 
@@ -52,10 +56,10 @@ _DECADES = 12
 # Up to so many iterations each has a dot of its own; one alone would not be seen without.
 _DOTTED = 12
 
-# Limits of axes are among these times a power of ten: they change seldom while values do, and only
-# a change of limits needs a whole new drawing.
-_ROUND = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
-_ROUND_COUNTS = (1.0, 2.0, 5.0, 10.0)
+# Limits of axes are round numbers: they change seldom while values do, and only a change of limits
+# needs a whole new drawing.
+_ROUND = MaxNLocator(1, steps=[1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10], min_n_ticks=1)
+_ROUND_ITERATIONS = MaxNLocator(3, steps=[1, 2, 5, 10], integer=True)
 
 # The mean width of a character, as a share of the font's size.
 _CHARACTER = 0.62
@@ -65,6 +69,8 @@ _PEAK = 1.5
 
 # Where the true sigma_2 is sampled within each panel.
 _SAMPLES = np.array([0.0, 0.25, 0.5, 0.75, 1.0])
+
+Floats = NDArray[np.float64]
 
 
 class IterationRecord(Protocol):
@@ -79,38 +85,115 @@ class IterationRecord(Protocol):
     @property
     def energy_p2p(self) -> float: ...
     @property
-    def step(self) -> float: ...
+    def step(self) -> float | None: ...
     @property
-    def decrement(self) -> float: ...
+    def decrement(self) -> float | None: ...
     @property
     def time(self) -> float: ...
 
 
-class EnergyPlot:
-    """Energy after each iteration: the total, the isometric part and the targets' part.
+class Plot:
+    """Axes, and artists in them that are updated.
 
     Parameters
     ----------
     axes : Axes
-        Axes to draw into; its look is set here.
+        Axes to draw into; their look is set here.
     animated : bool
-        Whether the lines are left out of a normal draw, to be blitted.
+        Whether the artists are left out of a normal draw, to be blitted.
     """
 
     def __init__(self, axes: Axes, animated: bool = False) -> None:
+        tidy(axes)
         self.axes = axes
-        _over_iterations(axes)
-        self._p2p = _line(axes, animated, color=VERMILION, label="targets")
-        self._iso = _line(axes, animated, color=BLUE, label="isometric")
-        self._total = _line(axes, animated, color=INK, label="total", linestyle=(0, (4, 1.5)))
-        self._within = _dots(axes, animated, INK)
-        self._text = _note(axes, animated)
-        _legend(axes, [self._total, self._iso, self._p2p])
+        self._animated = animated
+
+    artists: tuple[Artist, ...]
+    """What ``update`` changes."""
+
+    def _line(self, color: str, linewidth: float = LINE, **style: Any) -> Line2D:
+        style = {"color": color, "linewidth": linewidth, "animated": self._animated, **style}
+        return self.axes.plot([], [], **style)[0]
+
+    def _area(self, color: str, **style: Any) -> Any:
+        """A filled polygon, empty so far."""
+        style = {"facecolor": color, "linewidth": 0, "animated": self._animated, **style}
+        return self.axes.fill([0.0], [0.0], **style)[0]
+
+    def _note(self, legend: bool = True) -> Text:
+        """An empty line of text above the axes at the right, where no curve gets.
+
+        Beside the legend where the axes are wide, above it where they are not.
+        """
+        above = _LEGEND_HEIGHT if legend and self._inches < _WIDE else 2.0
+        style = {"ha": "right", "va": "bottom", "annotation_clip": False, "in_layout": False}
+        return _beside(self.axes, "", (1, 1), above, animated=self._animated, **style)
+
+    def _legend(self, *lines: Line2D) -> None:
+        """Above the axes, or inside at the upper right where they are narrow."""
+        place: dict[str, Any] = {"loc": "upper right", "borderaxespad": 0.0}
+        if self._inches > _NARROW:
+            place = {"loc": "lower left", "bbox_to_anchor": (-0.03, 1.0), "borderaxespad": 0.3}
+            place |= {"ncols": len(lines), "columnspacing": 0.7}
+        self.axes.legend(handles=lines, **place, **LEGEND).set_in_layout(False)
 
     @property
-    def artists(self) -> tuple[Artist, ...]:
-        """What ``update`` changes."""
-        return self._p2p, self._iso, self._total, self._within, self._text
+    def _inches(self) -> float:
+        return self.axes.get_window_extent().width / self.axes.figure.dpi
+
+    def _view(self) -> tuple[Any, ...]:
+        return self.axes.get_xlim(), self.axes.get_ylim(), self.axes.get_yscale()
+
+
+class _OverIterations(Plot):
+    """A plot with a value per iteration."""
+
+    def __init__(self, axes: Axes, animated: bool = False) -> None:
+        super().__init__(axes, animated)
+        axes.set_xlabel("iteration", fontsize=SMALL, labelpad=2)
+        axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
+
+    def _dots(self, color: str) -> Line2D:
+        """Faint dots for what a line leaves out."""
+        style = {"linestyle": "none", "marker": "o", "markersize": 1.6, "markeredgewidth": 0.0}
+        return self._line(color, alpha=0.35, zorder=1.5, **style)
+
+    def _limit_iterations(self, x: Floats) -> None:
+        first, last = (float(x[0]), float(x[-1])) if len(x) else (0.0, 1.0)
+        if first == last:  # one iteration stands in the middle
+            low, high = first - 1, first + 1
+        else:
+            ticks = _ROUND_ITERATIONS.tick_values(first, last)
+            low, high = first if first <= 1 else ticks[0], ticks[-1]
+        room = 0.03 * (high - low)
+        self.axes.set_xlim(low - room, high + room)
+
+    def _limit_decades(self, positive: Floats) -> None:
+        """Whole decades around the values, the lowest left out where they span too many."""
+        axes = self.axes
+        axes.set_yscale("log")
+        axes.yaxis.set_major_locator(LogLocator(numticks=6))
+        axes.yaxis.set_minor_locator(NullLocator())
+        if not len(positive):
+            axes.set_ylim(0.1, 1.0)
+            return
+        high = np.ceil(np.log10(positive.max()) + 0.1)
+        low = np.floor(np.log10(positive.min()) - 0.1)
+        axes.set_ylim(10.0 ** max(low, high - _DECADES), 10.0**high)
+
+
+class EnergyPlot(_OverIterations):
+    """Energy after each iteration: the total, the isometric part and the targets' part."""
+
+    def __init__(self, axes: Axes, animated: bool = False) -> None:
+        super().__init__(axes, animated)
+        self._p2p = self._line(VERMILION, label="targets")
+        self._iso = self._line(BLUE, label="isometric")
+        self._total = self._line(INK, label="total", linestyle=(0, (4, 1.5)))
+        self._within = self._dots(INK)
+        self._text = self._note()
+        self._legend(self._total, self._iso, self._p2p)
+        self.artists = self._p2p, self._iso, self._total, self._within, self._text
 
     def update(
         self,
@@ -125,55 +208,43 @@ class EnergyPlot:
         the iterations that began with moved targets: the lines join what they ended with, but for
         the last one while the solver is still at it.
         """
-        before = _view(self.axes)
-        x = np.array([0, *(record.iteration for record in history)], dtype=float)
-        start = np.nan if start_energy is None else start_energy
-        series = {
-            self._p2p: np.array([np.nan, *(record.energy_p2p for record in history)]),
-            self._iso: np.array([np.nan, *(record.energy_iso for record in history)]),
-            self._total: np.array([start, *(record.energy for record in history)]),
-        }
-        if start_energy is None:
-            x, series = x[1:], {line: values[1:] for line, values in series.items()}
+        before = self._view()
+        records = [(r.iteration, r.energy_p2p, r.energy_iso, r.energy) for r in history]
+        if start_energy is not None:
+            records.insert(0, (0, np.nan, np.nan, start_energy))
+        x, *series = np.array(records, dtype=float).reshape(-1, 4).T
         ends = _ends(x, starts, solving)
-        for line, values in series.items():
+        for line, values in zip((self._p2p, self._iso, self._total), series, strict=True):
             _show(line, x[ends], values[ends])
-        within = ~ends
-        self._within.set_data(x[within], series[self._total][within])
+        total = series[-1]
+        self._within.set_data(x[~ends], total[~ends])
         self._text.set_text(f"E = {history[-1].energy:.4g}" if len(history) else "no iterations")
         # The limits are those of the lines: how high a moved target first lifts the energy would
         # flatten them.
-        values = np.concatenate([y[ends] for y in series.values()])
+        total = total[ends]
+        values = np.concatenate([y[ends] for y in series])
         values = values[np.isfinite(values)]
-        total = series[self._total][ends]
-        falls = len(total) > 0 and total[0] > _LOG_FROM * total[-1] > 0
-        if falls:
+        if len(total) and total[0] > _LOG_FROM * total[-1] > 0:
             # The targets' part ends at nothing; the plot need not follow it all the way.
             lowest = 0.1 * float(total[total > 0].min())
-            _log_limits(self.axes, values[values > lowest])
+            self._limit_decades(values[values > lowest])
         else:
             self.axes.set_yscale("linear")
-            top = float(values.max(initial=1.0))
-            self.axes.set_ylim(0.0, _rounded_up(1.2 * top))
-        _iteration_limits(self.axes, x)
-        return _view(self.axes) != before
+            self.axes.set_ylim(0.0, _rounded_up(1.2 * float(values.max(initial=1.0))))
+        self._limit_iterations(x)
+        return self._view() != before
 
 
-class StepPlot:
+class StepPlot(_OverIterations):
     """Length of each step and the Newton decrement, on a logarithmic axis."""
 
     def __init__(self, axes: Axes, animated: bool = False) -> None:
-        self.axes = axes
-        _over_iterations(axes)
-        self._decrement = _line(axes, animated, color=BLUE, label="Newton decrement")
-        self._step = _line(axes, animated, color=VERMILION, label="step length")
-        self._within = _dots(axes, animated, BLUE)
-        _legend(axes, [self._step, self._decrement])
-
-    @property
-    def artists(self) -> tuple[Artist, ...]:
-        """What ``update`` changes."""
-        return self._decrement, self._step, self._within
+        super().__init__(axes, animated)
+        self._decrement = self._line(BLUE, label="Newton decrement")
+        self._step = self._line(VERMILION, label="step length")
+        self._within = self._dots(BLUE)
+        self._legend(self._step, self._decrement)
+        self.artists = self._decrement, self._step, self._within
 
     def update(
         self,
@@ -185,46 +256,36 @@ class StepPlot:
 
         ``starts`` and ``solving`` as in :meth:`EnergyPlot.update`.
         """
-        before = _view(self.axes)
-        x = np.array([record.iteration for record in history], dtype=float)
-        ends = _ends(x, starts, solving)
-        steps, decrements = (
-            np.array([getattr(record, name) for record in history], dtype=float)
-            for name in ("step", "decrement")
-        )
+        before = self._view()
+        records = [(r.iteration, r.step, r.decrement) for r in history]
+        x, steps, decrements = np.array(records, dtype=float).reshape(-1, 3).T
         steps, decrements = (np.where(y > 0, y, np.nan) for y in (steps, decrements))
+        ends = _ends(x, starts, solving)
         _show(self._step, x[ends], steps[ends])
         _show(self._decrement, x[ends], decrements[ends])
         self._within.set_data(x[~ends], decrements[~ends])
         values = np.concatenate([steps, decrements])
-        _log_limits(self.axes, values[np.isfinite(values)])
-        _iteration_limits(self.axes, x)
-        return _view(self.axes) != before
+        self._limit_decades(values[np.isfinite(values)])
+        self._limit_iterations(x)
+        return self._view() != before
 
 
-class TimePlot:
+class TimePlot(_OverIterations):
     """How long each iteration took, as bars in milliseconds."""
 
     def __init__(self, axes: Axes, animated: bool = False) -> None:
-        self.axes = axes
-        _over_iterations(axes)
+        super().__init__(axes, animated)
         axes.yaxis.set_major_locator(MaxNLocator(2, min_n_ticks=2))
         axes.set_ylabel("ms", fontsize=SMALL, labelpad=2)
-        (self._bars,) = axes.fill(
-            [0.0], [0.0], facecolor=GREEN, alpha=0.6, linewidth=0, animated=animated
-        )
-        self._text = _note(axes, animated, legend=False)
-
-    @property
-    def artists(self) -> tuple[Artist, ...]:
-        """What ``update`` changes."""
-        return self._bars, self._text
+        self._bars = self._area(GREEN, alpha=0.6)
+        self._text = self._note(legend=False)
+        self.artists = self._bars, self._text
 
     def update(self, history: Sequence[IterationRecord]) -> bool:
         """Show these iterations; True when the limits of the axes changed."""
-        before = _view(self.axes)
-        x = np.array([record.iteration for record in history], dtype=float)
-        times = np.array([1e3 * record.time for record in history], dtype=float)
+        before = self._view()
+        records = [(r.iteration, 1e3 * r.time) for r in history]
+        x, times = np.array(records, dtype=float).reshape(-1, 2).T
         times = np.where(np.isfinite(times) & (times > 0), times, 0.0)
         sides = x[:, None] + [-0.4, -0.4, 0.4, 0.4]
         heights = times[:, None] * [0.0, 1.0, 1.0, 0.0]
@@ -235,11 +296,11 @@ class TimePlot:
         # One iteration that had to wait must not make the others too low to see.
         most = min(float(times.max()), 3 * usual) if usual else 1.0
         self.axes.set_ylim(0.0, _rounded_up(1.1 * most))
-        _iteration_limits(self.axes, x)
-        return _view(self.axes) != before
+        self._limit_iterations(x)
+        return self._view() != before
 
 
-class CertificatePlot:
+class CertificatePlot(Plot):
     """The certified lower bound on sigma_2 along the boundary, over the sampled truth.
 
     Parameters
@@ -247,47 +308,28 @@ class CertificatePlot:
     axes : Axes
     cage : Cage
         The domain's boundary; its loops stand side by side, each with its name or, where that does
-        not fit, its number below. Make the axes their final size first.
+        not fit, its number below. Make the axes about their final size first.
     animated : bool
         Whether what changes is left out of a normal draw, to be blitted.
     """
 
     def __init__(self, axes: Axes, cage: Cage, animated: bool = False) -> None:
-        self.axes = axes
-        tidy(axes)
+        super().__init__(axes, animated)
         lengths = [float(np.linalg.norm(np.roll(p, -1, 0) - p, axis=1).sum()) for p in cage.loops]
         self._starts = np.concatenate([[0.0], np.cumsum(lengths)])
         axes.set_xlim(0.0, float(self._starts[-1]))
         self._name_loops(cage)
         axes.axhline(0.0, color=VERMILION, linewidth=LINE, zorder=1)
         # Curves may be anywhere above the axis, so the line's name is below it.
-        _below(axes, 0.0, "threshold 0", color=VERMILION, ha="left")
-        self._bound = _line(
-            axes, animated, color=BLUE, label="certified bound", linewidth=0.9, zorder=3
-        )
-        self._truth = _line(
-            axes, animated, color=INK, label="σ₂, sampled", linewidth=0.45, zorder=4
-        )
-        (self._fill,) = axes.fill(
-            [0.0], [0.0], facecolor=SKY, alpha=0.35, linewidth=0, animated=animated, zorder=2
-        )
-        self._least = _line(
-            axes,
-            animated,
-            color=VERMILION,
-            linestyle="none",
-            marker="o",
-            markersize=3.5,
-            markerfacecolor="white",
-            zorder=5,
-        )
-        self._text = _note(axes, animated)
-        _legend(axes, [self._truth, self._bound])
-
-    @property
-    def artists(self) -> tuple[Artist, ...]:
-        """What ``update`` changes."""
-        return self._fill, self._bound, self._truth, self._least, self._text
+        _beside(axes, "threshold 0", (0, 0), -_AXIS_NAME, va="top", color=VERMILION)
+        self._bound = self._line(BLUE, 0.9, label="certified bound", zorder=3)
+        self._truth = self._line(INK, 0.45, label="σ₂, sampled", zorder=4)
+        self._fill = self._area(SKY, alpha=0.35, zorder=2)
+        ring = {"marker": "o", "markersize": 3.5, "markerfacecolor": "white"}
+        self._least = self._line(VERMILION, linestyle="none", zorder=5, **ring)
+        self._text = self._note()
+        self._legend(self._truth, self._bound)
+        self.artists = self._fill, self._bound, self._truth, self._least, self._text
 
     def _name_loops(self, cage: Cage) -> None:
         """Below the axis: lengths along the boundary, or the loops where there are several."""
@@ -306,8 +348,9 @@ class CertificatePlot:
         places, names = zip(*_loop_names(self._starts, character / pixels), strict=True)
         axes.set_xticks(places, names)
         if any(name[0].isdigit() for name in names):
-            middle = (self._starts[1] / self._starts[-1] + 1.0) / 2
-            _below(axes, float(middle), "hole" if cage.n_holes == 1 else "holes", ha="center")
+            middle = float(self._starts[1] / self._starts[-1] + 1.0) / 2
+            name = "hole" if cage.n_holes == 1 else "holes"
+            _beside(axes, name, (middle, 0), -_AXIS_NAME, va="top", ha="center")
         axes.tick_params(axis="x", length=0, pad=3)
 
     def clear(self) -> None:
@@ -326,7 +369,7 @@ class CertificatePlot:
         bool
             Whether the limits of the axes changed.
         """
-        before = _view(self.axes)
+        before = self._view()
         panels = certificate.panels
         length, bound = panels.length, np.nan_to_num(panels.sigma2_lower, nan=-1.0)
         # Along each loop the panels follow one another from the loop's start.
@@ -361,22 +404,10 @@ class CertificatePlot:
         high = _rounded_up(1.2 * top)
         low = max(min(-0.04 * high, -_rounded_up(-1.05 * bottom)), -max(high, 1.0))
         self.axes.set_ylim(low, high)
-        return _view(self.axes) != before
+        return self._view() != before
 
 
-def _line(axes: Axes, animated: bool, linewidth: float = LINE, **style: Any) -> Line2D:
-    line = Line2D([], [], linewidth=linewidth, animated=animated, **style)
-    axes.add_line(line)
-    return line
-
-
-def _dots(axes: Axes, animated: bool, color: str) -> Line2D:
-    """Faint dots for what a line leaves out."""
-    style = {"linestyle": "none", "marker": "o", "markersize": 1.6, "markeredgewidth": 0.0}
-    return _line(axes, animated, color=color, alpha=0.35, zorder=1.5, **style)
-
-
-def _ends(x: NDArray[np.float64], starts: Collection[int], solving: bool) -> NDArray[np.bool_]:
+def _ends(x: Floats, starts: Collection[int], solving: bool) -> NDArray[np.bool_]:
     """Which of the iterations ``x`` were the last before one of ``starts``, or of all.
 
     The last of all ends nothing yet while the solver is at it. Where only one solve is seen, all.
@@ -385,111 +416,32 @@ def _ends(x: NDArray[np.float64], starts: Collection[int], solving: bool) -> NDA
     return np.append(begins, not solving)[: len(x)] if begins.any() else np.ones(len(x), dtype=bool)
 
 
-def _show(line: Line2D, x: NDArray[np.float64], values: NDArray[np.float64]) -> None:
+def _show(line: Line2D, x: Floats, values: Floats) -> None:
     """The line through these points, with a dot at each while there are few."""
     line.set_data(x, values)
     line.set_marker("o" if len(x) <= _DOTTED else "")
     line.set_markersize(2.4)
 
 
-def _below(axes: Axes, place: float, name: str, color: str = INK, **style: Any) -> None:
-    """A word in the line of the axis's name, at this share of the axis."""
-    axes.annotate(
-        name,
-        (place, 0.0),
+def _beside(axes: Axes, text: str, place: tuple[float, float], above: float, **style: Any) -> Text:
+    """Text so many points above a place in the axes, which is given by shares of the sides."""
+    return axes.annotate(
+        text,
+        place,
         xycoords="axes fraction",
-        xytext=(0.0, -_AXIS_NAME),
+        xytext=(0.0, above),
         textcoords="offset points",
-        va="top",
         fontsize=SMALL,
-        color=color,
-        **style,
+        **{"color": INK, **style},
     )
 
 
-def _note(axes: Axes, animated: bool, legend: bool = True) -> Text:
-    """An empty line of text above the axes at the right, where no curve gets.
-
-    Beside the legend where the axes are wide, above it where they are not.
-    """
-    inches = axes.get_window_extent().width / axes.figure.dpi
-    text = axes.annotate(
-        "",
-        (1.0, 1.0),
-        xycoords="axes fraction",
-        xytext=(0.0, _LEGEND_HEIGHT if legend and inches < _WIDE else 2.0),
-        textcoords="offset points",
-        ha="right",
-        va="bottom",
-        fontsize=SMALL,
-        color=INK,
-        annotation_clip=False,
-    )
-    text.set_animated(animated)
-    return text
+def _rounded_up(value: float) -> float:
+    """The next round number; 0 for what is not above 0."""
+    return float(_ROUND.tick_values(0.0, value)[-1]) if value > 0 else 0.0
 
 
-def _legend(axes: Axes, lines: Sequence[Line2D]) -> None:
-    axes.legend(
-        handles=lines,
-        fontsize=SMALL,
-        frameon=False,
-        loc="lower left",
-        bbox_to_anchor=(-0.03, 1.0),
-        borderaxespad=0.3,
-        ncols=len(lines),
-        handlelength=1.1,
-        handletextpad=0.35,
-        columnspacing=0.7,
-        borderpad=0.1,
-        labelcolor=INK,
-    )
-
-
-def _view(axes: Axes) -> tuple[Any, ...]:
-    return axes.get_xlim(), axes.get_ylim(), axes.get_yscale()
-
-
-def _over_iterations(axes: Axes) -> None:
-    tidy(axes)
-    axes.set_xlabel("iteration", fontsize=SMALL, labelpad=2)
-    axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
-
-
-def _iteration_limits(axes: Axes, x: NDArray[np.float64]) -> None:
-    first, last = (float(x[0]), float(x[-1])) if len(x) else (0.0, 1.0)
-    step = _rounded_up(max(last - first, 1.0) / 3, _ROUND_COUNTS)
-    step = max(step, 1.0)
-    low = first if first <= 1 else step * np.floor(first / step)
-    high = step * np.ceil(last / step)
-    if first == last:  # one iteration stands in the middle
-        low, high = first - 1, first + 1
-    room = 0.03 * (high - low)
-    axes.set_xlim(low - room, high + room)
-
-
-def _log_limits(axes: Axes, positive: NDArray[np.float64]) -> None:
-    """Whole decades around the values, the lowest left out where they span too many."""
-    axes.set_yscale("log")
-    axes.yaxis.set_major_locator(LogLocator(numticks=6))
-    axes.yaxis.set_minor_locator(NullLocator())
-    if not len(positive):
-        axes.set_ylim(0.1, 1.0)
-        return
-    high = np.ceil(np.log10(positive.max()) + 0.1)
-    low = np.floor(np.log10(positive.min()) - 0.1)
-    axes.set_ylim(10.0 ** max(low, high - _DECADES), 10.0**high)
-
-
-def _rounded_up(value: float, among: Sequence[float] = _ROUND) -> float:
-    """The least of these numbers times a power of ten that is not less; 0 for what is below 0."""
-    if not value > 0:
-        return 0.0
-    unit = 10.0 ** np.floor(np.log10(value))
-    return float(unit * min((m for m in among if m * unit >= value), default=10.0))
-
-
-def _loop_names(starts: NDArray[np.float64], character: float) -> list[tuple[float, str]]:
+def _loop_names(starts: Floats, character: float) -> list[tuple[float, str]]:
     """Where along the boundary which loop's name goes, as (place, name).
 
     ``starts`` are the loops' starts and the boundary's end, ``character`` is the width of a
@@ -527,6 +479,6 @@ def _winding(certificate: Certificate) -> str:
     return text.replace("-", "\N{MINUS SIGN}")
 
 
-def _with_gaps(rows: NDArray[np.float64], starts: NDArray[np.intp]) -> NDArray[np.float64]:
+def _with_gaps(rows: Floats, starts: NDArray[np.intp]) -> Floats:
     """The rows one after the other, with a NaN before each that begins a loop."""
     return np.insert(rows.ravel(), starts[1:] * rows.shape[1], np.nan)

@@ -24,6 +24,16 @@ SMALL = 7.0
 LINE = 1.2
 HAIRLINE = 0.6
 
+LEGEND = {
+    "fontsize": SMALL,
+    "frameon": False,
+    "labelcolor": INK,
+    "handlelength": 1.1,
+    "handletextpad": 0.4,
+    "borderpad": 0.1,
+}
+"""The look of every legend: keywords of matplotlib's."""
+
 
 def distortion_colors() -> Colormap:
     """Pale where the map is isometric, dark where it is not: magma's scale without its black.

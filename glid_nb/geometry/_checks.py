@@ -1,7 +1,7 @@
-"""What a cage's loops must satisfy, checked with a message that names the culprit.
+"""The checks of a cage's loops; each message names the culprit.
 
-Loops that come from a hand are refused in plain words first, for who draws a cage and has not
-heard of its edges' numbers; these follow in parentheses.
+A message begins in plain words, for people who draw a cage and do not see vertex numbers; those
+follow in parentheses.
 """
 
 from __future__ import annotations
@@ -10,13 +10,13 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import real_array
 from glid_nb.geometry._loops import (
     GeometryError,
     loop_name,
     place,
     plain_name,
     point_objects,
+    point_rows,
     segments,
 )
 
@@ -25,28 +25,9 @@ from glid_nb.geometry._loops import (
 RESOLUTION = 1e-12
 
 
-def check_loops(loops: list[NDArray[np.float64]]) -> None:
-    """Raise unless the loops, the exterior first, bound a domain."""
-    corners = np.concatenate(loops)
-    resolution = RESOLUTION * float(max(np.ptp(corners, axis=0).max(), np.abs(corners).max()))
-    for i, loop in enumerate(loops):
-        _check_distinct(loop, i, resolution)
-        _check_not_flat(loop, i, resolution)
-        _check_fold_back(loop, i, resolution)
-    _check_crossings(loops, resolution)
-    _check_nesting(loops)
-
-
 def checked_vertices(vertices: ArrayLike, name: str) -> NDArray[np.float64]:
     """Shape, numbers and count; a float64 copy."""
-    try:
-        loop = real_array(vertices)
-    except (TypeError, ValueError) as error:
-        raise GeometryError(
-            f"{name}: vertices must be pairs of numbers [[x, y], ...] ({error})"
-        ) from error
-    if loop.size and (loop.ndim != 2 or loop.shape[1] != 2):
-        raise GeometryError(f"{name}: vertices must have the shape (n, 2), not {loop.shape}")
+    loop = point_rows(vertices, f"{name}: vertices", "n")
     if len(loop) < 3:
         raise GeometryError(f"{name}: {len(loop)} vertices given, a loop needs at least 3")
     bad = np.flatnonzero(~np.isfinite(loop).all(axis=1))
@@ -65,28 +46,38 @@ def checked_vertices(vertices: ArrayLike, name: str) -> NDArray[np.float64]:
     return loop
 
 
+def check_loops(loops: list[NDArray[np.float64]]) -> None:
+    """Raise unless the loops, the exterior first, bound a domain."""
+    corners = np.concatenate(loops)
+    resolution = RESOLUTION * float(max(np.ptp(corners, axis=0).max(), np.abs(corners).max()))
+    for i, loop in enumerate(loops):
+        _check_distinct(loop, i, resolution)
+        _check_not_flat(loop, i, resolution)
+        _check_fold_back(loop, i, resolution)
+    _check_crossings(loops, resolution)
+    _check_nesting(loops)
+
+
 def _check_distinct(loop: NDArray[np.float64], number: int, resolution: float) -> None:
-    name = loop_name(number)
+    name, plain = loop_name(number), plain_name(number)
     points = point_objects(loop)
     pairs = shapely.STRtree(points).query(points, predicate="dwithin", distance=resolution).T
-    pairs = pairs[pairs[:, 0] < pairs[:, 1]]
-    if not len(pairs):
+    pairs = sorted((i, j) for i, j in pairs.tolist() if i < j)
+    if not pairs:
         return
-    i, j = (int(k) for k in min(map(tuple, pairs)))
-    if (0, len(loop) - 1) in set(map(tuple, pairs.tolist())) and len(pairs) == 1:
+    i, j = pairs[0]
+    if pairs == [(0, len(loop) - 1)]:
         raise GeometryError(
             f"{name}: the last vertex {j} repeats vertex 0 at {place(loop[0])}; "
             "loops close by themselves, leave the last vertex out",
             loop[0],
-            f"{_sentence(plain_name(number))} has two points in one place; leave one of them out",
+            _sentence(f"{plain} has two points in one place; leave one of them out"),
         )
-    plain = (
-        f"{plain_name(number)} has two points in one place; leave one of them out"
-        if j == i + 1
-        else f"{plain_name(number)} touches itself; move one of the points that meet"
-    )
-    details = f"{name}: vertices {i} and {j} coincide at {place(loop[i])}"
-    raise _refusal(plain, details, loop[i])
+    if j == i + 1:
+        problem = f"{plain} has two points in one place; leave one of them out"
+    else:
+        problem = f"{plain} touches itself; move one of the points that meet"
+    raise _refusal(problem, f"{name}: vertices {i} and {j} coincide at {place(loop[i])}", loop[i])
 
 
 def _check_not_flat(loop: NDArray[np.float64], number: int, resolution: float) -> None:
@@ -103,23 +94,6 @@ def _check_not_flat(loop: NDArray[np.float64], number: int, resolution: float) -
         )
 
 
-def _check_crossings(loops: list[NDArray[np.float64]], resolution: float) -> None:
-    """Raise for the first pair of edges that meet, apart from neighbours at their joint."""
-    edges = np.concatenate([segments(loop) for loop in loops])
-    sizes = [len(loop) for loop in loops]
-    loop_of = np.repeat(np.arange(len(loops)), sizes)
-    first = np.concatenate([[0], np.cumsum(sizes)])
-    index = np.arange(len(edges)) - first[loop_of]
-    size = np.array(sizes)[loop_of]
-
-    e, f = shapely.STRtree(edges).query(edges, predicate="dwithin", distance=resolution)
-    e, f = e[e < f], f[e < f]
-    step = np.where(loop_of[e] == loop_of[f], index[f] - index[e], -1)
-    apart = (step != 1) & (step != size[e] - 1)
-    if apart.any():
-        _raise_crossing(loops, edges, loop_of, index, e[apart], f[apart])
-
-
 def _check_fold_back(loop: NDArray[np.float64], number: int, resolution: float) -> None:
     """Raise where an edge runs back along the edge before it."""
     before, after = np.roll(segments(loop), 1), segments(loop)
@@ -130,8 +104,7 @@ def _check_fold_back(loop: NDArray[np.float64], number: int, resolution: float) 
     )
     folded = np.flatnonzero(gap <= resolution)
     if folded.size:
-        i = int(folded[0])
-        n = len(loop)
+        i, n = int(folded[0]), len(loop)
         raise _refusal(
             f"{plain_name(number)} has a spike without width; leave out its tip",
             f"{loop_name(number)}: the edges {_edge((i - 1) % n, n)} and {_edge(i, n)} lie on top "
@@ -140,54 +113,42 @@ def _check_fold_back(loop: NDArray[np.float64], number: int, resolution: float) 
         )
 
 
-def _refusal(plain: str, details: str, point: ArrayLike) -> GeometryError:
-    """What is wrong and what to do in plain words, then where in the data."""
-    plain = _sentence(plain)
-    return GeometryError(f"{plain} ({details})", point, plain)
+def _check_crossings(loops: list[NDArray[np.float64]], resolution: float) -> None:
+    """Raise for the first pair of edges that cross, or else meet apart from their joint."""
+    edges = np.concatenate([segments(loop) for loop in loops])
+    sizes = np.array([len(loop) for loop in loops])
+    number = np.repeat(np.arange(len(loops)), sizes)
+    index = np.arange(len(edges)) - (np.cumsum(sizes) - sizes)[number]
 
-
-def _sentence(text: str) -> str:
-    return text[0].upper() + text[1:]
-
-
-def _edge(i: int, n: int) -> str:
-    return f"{i}-{(i + 1) % n}"
-
-
-def _raise_crossing(
-    loops: list[NDArray[np.float64]],
-    edges: NDArray[np.object_],
-    loop_of: NDArray[np.intp],
-    index: NDArray[np.intp],
-    e_all: NDArray[np.intp],
-    f_all: NDArray[np.intp],
-) -> None:
-    """Describe the first of the touching pairs, a proper crossing if there is one."""
-    crossing = shapely.crosses(edges[e_all], edges[f_all])
-    first = np.lexsort((f_all, e_all, ~crossing))[0]
-    e, f = e_all[first], f_all[first]
-    between = shapely.shortest_line(edges[e], edges[f])
-    common = shapely.get_coordinates(shapely.intersection(edges[e], edges[f]))
-    point = common[0] if len(common) else shapely.get_coordinates(between)[0]
-    at = place(point)
-    a, b = int(loop_of[e]), int(loop_of[f])
-    edge_a, edge_b = _edge(int(index[e]), len(loops[a])), _edge(int(index[f]), len(loops[b]))
+    e, f = shapely.STRtree(edges).query(edges, predicate="dwithin", distance=resolution)
+    step = np.where(number[e] == number[f], index[f] - index[e], -1)
+    apart = (e < f) & (step != 1) & (step != sizes[number[e]] - 1)
+    if not apart.any():
+        return
+    e, f = e[apart], f[apart]
+    crossing = shapely.crosses(edges[e], edges[f])
+    first = np.lexsort((f, e, ~crossing))[0]
+    pair = edges[e[first]], edges[f[first]]
+    common = shapely.get_coordinates(shapely.intersection(*pair))
+    point = common[0] if len(common) else shapely.get_coordinates(shapely.shortest_line(*pair))[0]
+    a, b = int(number[e[first]]), int(number[f[first]])
+    edge_a, edge_b = (_edge(int(index[i[first]]), int(sizes[number[i[first]]])) for i in (e, f))
     verb = "cross" if crossing[first] else "touch"
-    if a == b:
-        advice = (
-            "move its points, or change their order, so that no two sides cross"
-            if crossing[first]
-            else "move the points apart that meet"
-        )
+    if a != b:
+        name_a = "the exterior loop" if a == 0 else loop_name(a)
         raise _refusal(
-            f"{plain_name(a)} {verb}es itself; {advice}",
-            f"{loop_name(a)}: the edges {edge_a} and {edge_b} {verb} at {at}",
+            f"{plain_name(b)} {verb}es {plain_name(a)}; move it away or merge the two",
+            f"edge {edge_b} of {loop_name(b)} and edge {edge_a} of {name_a} {verb} at "
+            f"{place(point)}",
             point,
         )
-    name_a = "the exterior loop" if a == 0 else loop_name(a)
+    if verb == "cross":
+        advice = "move its points, or change their order, so that no two sides cross"
+    else:
+        advice = "move the points apart that meet"
     raise _refusal(
-        f"{plain_name(b)} {verb}es {plain_name(a)}; move it away or merge the two",
-        f"edge {edge_b} of {loop_name(b)} and edge {edge_a} of {name_a} {verb} at {at}",
+        f"{plain_name(a)} {verb}es itself; {advice}",
+        f"{loop_name(a)}: the edges {edge_a} and {edge_b} {verb} at {place(point)}",
         point,
     )
 
@@ -197,12 +158,10 @@ def _check_nesting(loops: list[NDArray[np.float64]]) -> None:
 
     The loops are known not to meet, so one vertex of a loop tells for the whole loop.
     """
-    if len(loops) == 1:
-        return
-    regions = [shapely.Polygon(loop) for loop in loops]
     starts = point_objects(np.array([loop[0] for loop in loops]))
+    regions = [shapely.Polygon(loop) for loop in loops]
     outer, inner = shapely.STRtree(starts).query(regions, predicate="contains")
-    around = {(int(o), int(i)) for o, i in zip(outer, inner, strict=True)}
+    around = sorted(zip(outer.tolist(), inner.tolist(), strict=True))
     for i, loop in enumerate(loops[1:], start=1):
         if (i, 0) in around:
             raise _refusal(
@@ -216,7 +175,7 @@ def _check_nesting(loops: list[NDArray[np.float64]]) -> None:
                 f"vertex 0 of {loop_name(i)} at {place(loop[0])} is not in the exterior loop",
                 loop[0],
             )
-    for o, i in sorted(around):
+    for o, i in around:
         if o > 0:
             raise _refusal(
                 f"{plain_name(i)} lies within {plain_name(o)}, where there is nothing to cut out; "
@@ -224,3 +183,17 @@ def _check_nesting(loops: list[NDArray[np.float64]]) -> None:
                 f"vertex 0 of {loop_name(i)} is at {place(loops[i][0])}",
                 loops[i][0],
             )
+
+
+def _refusal(plain: str, details: str, point: ArrayLike) -> GeometryError:
+    """An error: the problem and its remedy in plain words, then the place in the data."""
+    plain = _sentence(plain)
+    return GeometryError(f"{plain} ({details})", point, plain)
+
+
+def _sentence(text: str) -> str:
+    return text[0].upper() + text[1:]
+
+
+def _edge(i: int, n: int) -> str:
+    return f"{i}-{(i + 1) % n}"

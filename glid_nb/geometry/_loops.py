@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import real_array
 from glid_nb._errors import InputError
 
 
@@ -20,7 +21,7 @@ class GeometryError(InputError):
     point
         The place that the message speaks of, for a picture that shows it; None if there is none.
     plain
-        The message for who sees that place in a picture: without coordinates and numbers of edges.
+        The message without coordinates and vertex numbers, for people who see the place.
     """
 
     def __init__(
@@ -63,6 +64,29 @@ def edge_lengths(loop: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.hypot(*(np.roll(loop, -1, axis=0) - loop).T)
 
 
+def subdivided(loop: NDArray[np.complex128], counts: NDArray[np.integer]) -> NDArray[np.complex128]:
+    """Cut edge i of a complex loop into `counts[i]` equal parts; the parts' start points."""
+    edge = np.repeat(np.arange(len(loop)), counts)
+    first = np.cumsum(counts) - counts
+    share = (np.arange(len(edge)) - first[edge]) / counts[edge]
+    start, end = loop[edge], np.roll(loop, -1)[edge]
+    return start + (end - start) * share
+
+
+def next_index(loop: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Index of the following element within each run of equal ``loop``, cyclically."""
+    following = np.arange(1, len(loop) + 1)
+    first = np.flatnonzero(np.diff(loop, prepend=-1))
+    last = np.append(first[1:], len(loop)) - 1
+    following[last] = first
+    return following
+
+
+def encloses(large: NDArray[np.float64], small: NDArray[np.float64]) -> bool:
+    """Whether an (n, 2) loop lies in another that it is known not to meet."""
+    return bool(shapely.contains_xy(shapely.Polygon(large), *small[0]))
+
+
 def segments(loop: NDArray[np.float64]) -> NDArray[np.object_]:
     """(n,) shapely line strings, the edges of an (n, 2) loop."""
     ends = np.stack([loop, np.roll(loop, -1, axis=0)], axis=1)
@@ -72,6 +96,18 @@ def segments(loop: NDArray[np.float64]) -> NDArray[np.object_]:
 def point_objects(points: NDArray[np.float64]) -> NDArray[np.object_]:
     """(n,) shapely points at (n, 2) positions."""
     return np.asarray(shapely.points(points), dtype=object)
+
+
+def point_rows(value: ArrayLike, what: str, count: str) -> NDArray[np.float64]:
+    """A float64 copy of (n, 2) points; ``what`` and ``count``, such as "n", are for messages."""
+    try:
+        points = real_array(value)
+    except (TypeError, ValueError) as error:
+        raise GeometryError(f"{what} must be pairs of numbers [[x, y], ...] ({error})") from error
+    points = points.reshape(-1, 2) if points.shape == (0,) else points
+    if points.ndim != 2 or points.shape[1] != 2:
+        raise GeometryError(f"{what} must have the shape ({count}, 2), not {points.shape}")
+    return points
 
 
 def loop_list(value: Any, key: str) -> list[Any]:

@@ -11,12 +11,8 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb.geometry._cells import CellGrid
 from glid_nb.geometry._checks import RESOLUTION, check_loops, checked_vertices
 from glid_nb.geometry._loops import GeometryError, edge_lengths, loop_list, loop_name, signed_area
-
-# Below this number of points a grid over the cage does not pay.
-_FEW_POINTS = 20_000
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -154,29 +150,15 @@ class Cage:
             raise GeometryError(f"tolerance must be at least 0, not {tolerance}")
         flat = xy.reshape(-1, 2)
         reach = max(tolerance, self._rounding)
-        xmin, ymin, xmax, ymax = self.bounds
-        low, high = np.array([xmin, ymin]) - reach, np.array([xmax, ymax]) + reach
-        near = np.flatnonzero(((flat >= low) & (flat <= high)).all(axis=1))
-        if len(near) < _FEW_POINTS:
-            return self._contains_exactly(flat, near, reach).reshape(xy.shape[:-1])
-        boxed = np.clip(flat[near], [xmin, ymin], [xmax, ymax])
-        state = self._cells(boxed)
-        undecided = state == CellGrid.UNDECIDED
-        if reach > self._rounding:
-            undecided |= state == CellGrid.OUTSIDE
-        inside = self._contains_exactly(flat, near[undecided], reach)
-        inside[near[state == CellGrid.INSIDE]] = True
+        inside = shapely.intersects_xy(self.polygon, flat[:, 0], flat[:, 1])
+        rest = np.flatnonzero(~inside)
+        if rest.size:
+            # Distances take longest; most points are outside of a wider polygon too.
+            wider = shapely.buffer(self.polygon, 2 * max(reach, 1e-4 * self.longer_side))
+            shapely.prepare(wider)
+            rest = rest[shapely.intersects_xy(wider, flat[rest, 0], flat[rest, 1])]
+            inside[rest] = shapely.dwithin(self._outline, shapely.points(flat[rest]), reach)
         return inside.reshape(xy.shape[:-1])
-
-    def _contains_exactly(
-        self, points: NDArray[np.float64], which: NDArray[np.intp], reach: float
-    ) -> NDArray[np.bool_]:
-        """(n,) whether `points[which]` are inside or within `reach`; False for all others."""
-        inside = np.zeros(len(points), dtype=bool)
-        inside[which] = shapely.intersects_xy(self.polygon, points[which, 0], points[which, 1])
-        rest = which[~inside[which]]
-        inside[rest] = shapely.dwithin(self._outline, shapely.points(points[rest]), reach)
-        return inside
 
     @property
     def _rounding(self) -> float:
@@ -187,10 +169,6 @@ class Cage:
         outline = shapely.MultiLineString([np.vstack([loop, loop[:1]]) for loop in self.loops])
         shapely.prepare(outline)
         return outline
-
-    @cached_property
-    def _cells(self) -> CellGrid:
-        return CellGrid(self.polygon, self._rounding)
 
 
 def _read_only(array: NDArray[Any]) -> NDArray[Any]:

@@ -11,11 +11,10 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import real_array
-from glid_nb.geometry._loops import GeometryError, loop_list, loop_name, place
+from glid_nb.geometry._loops import GeometryError, encloses, loop_list, loop_name, place, point_rows
 from glid_nb.geometry.cage import Cage
+from glid_nb.geometry.offset import Offset, offset_cage
 from glid_nb.geometry.offset import hole_points as choose_hole_points
-from glid_nb.geometry.offset import offset_cage as make_offset_cage
 
 # The paper's reference cages use 0.1 where the longer image side is 20 units.
 _DEFAULT_OFFSET = 0.005
@@ -75,8 +74,7 @@ class Domain:
         `offset` is the distance between the cages; the default is 0.005 of the longer side of the
         cage's bounding box. It is reduced where a passage is too narrow for it; `notes` says where.
         """
-        distance = _DEFAULT_OFFSET * cage.longer_side if offset is None else offset
-        result = make_offset_cage(cage, distance)
+        result = _offset_of(cage, offset)
         return cls(cage, result.cage, choose_hole_points(result.cage), result.notes)
 
     @classmethod
@@ -104,9 +102,7 @@ class Domain:
                 "'offset_holes' is given without 'offset_cage'; give both or neither"
             )
         else:
-            offset = data.get("offset")
-            distance = _DEFAULT_OFFSET * cage.longer_side if offset is None else offset
-            result = make_offset_cage(cage, distance)
+            result = _offset_of(cage, data.get("offset"))
             outer, notes = result.cage, notes + result.notes
         points = data.get("hole_points")
         if points is None:
@@ -147,9 +143,11 @@ class Domain:
     @cached_property
     def hole_points_complex(self) -> NDArray[np.complex128]:
         """(N,) hole points as a read-only complex128 array."""
-        points = self.hole_points[:, 0] + 1j * self.hole_points[:, 1]
-        points.setflags(write=False)
-        return points
+        return self.hole_points.view(np.complex128)[:, 0]
+
+
+def _offset_of(cage: Cage, distance: float | None) -> Offset:
+    return offset_cage(cage, _DEFAULT_OFFSET * cage.longer_side if distance is None else distance)
 
 
 def _checked_notes(notes: Any) -> tuple[str, ...]:
@@ -163,15 +161,7 @@ def _checked_notes(notes: Any) -> tuple[str, ...]:
 
 
 def _checked_hole_points(hole_points: ArrayLike, n_holes: int) -> NDArray[np.float64]:
-    try:
-        points = real_array(hole_points)
-    except (TypeError, ValueError) as error:
-        raise GeometryError(
-            f"hole points must be pairs of numbers [[x, y], ...] ({error})"
-        ) from error
-    points = points.reshape(0, 2) if points.shape == (0,) else points
-    if points.ndim != 2 or points.shape[1] != 2:
-        raise GeometryError(f"hole points must have the shape (N, 2), not {points.shape}")
+    points = point_rows(hole_points, "hole points", "N")
     if len(points) != n_holes:
         raise GeometryError(
             f"{len(points)} hole points given for a cage with {n_holes} holes; give one per hole"
@@ -193,36 +183,27 @@ def _check_enclosed(cage: Cage, offset_cage: Cage) -> None:
             f"the offset cage has {offset_cage.n_holes} holes and the cage {cage.n_holes}; "
             "give one offset hole per hole, in the same order"
         )
-    for i, (loop, offset_loop) in enumerate(zip(cage.loops, offset_cage.loops, strict=True)):
-        _check_loop_pair(loop, offset_loop, i)
     # Loops of different index lie in disjoint places then: either cage's own loops do not meet.
-
-
-def _check_loop_pair(
-    loop: NDArray[np.float64], offset_loop: NDArray[np.float64], index: int
-) -> None:
-    """Raise unless the offset loop is outside the exterior loop or inside the hole."""
-    name = "the exterior loop" if index == 0 else loop_name(index)
-    ring, offset_ring = shapely.LinearRing(loop), shapely.LinearRing(offset_loop)
-    shapely.prepare(ring)
-    if shapely.intersects(ring, offset_ring):
-        meeting = shapely.get_coordinates(shapely.intersection(ring, offset_ring))[0]
-        raise GeometryError(
-            f"the offset of {name} meets {name} itself at {place(meeting)}; "
-            "use a smaller offset there, or leave the offset cage out to have it chosen"
-        )
-    large, small = (offset_loop, loop) if index == 0 else (loop, offset_loop)
-    region = shapely.Polygon(large)
-    if not shapely.contains_xy(region, *small[0]):
-        if index == 0:
+    for i, (loop, offset_loop) in enumerate(zip(cage.loops, offset_cage.loops, strict=True)):
+        name = "the exterior loop" if i == 0 else loop_name(i)
+        ring, offset_ring = shapely.LinearRing(loop), shapely.LinearRing(offset_loop)
+        if shapely.intersects(ring, offset_ring):
+            meeting = shapely.get_coordinates(shapely.intersection(ring, offset_ring))[0]
             raise GeometryError(
-                f"the offset cage's exterior loop does not enclose the cage: vertex 0 of the "
+                f"the offset of {name} meets {name} itself at {place(meeting)}; "
+                "use a smaller offset there, or leave the offset cage out to have it chosen"
+            )
+        if i == 0 and not encloses(offset_loop, loop):
+            raise GeometryError(
+                "the offset cage's exterior loop does not enclose the cage: vertex 0 of the "
                 f"exterior loop at {place(loop[0])} lies outside it; move the offset loop outward"
             )
-        raise GeometryError(
-            f"offset hole {index} does not lie in {name}: its vertex 0 at {place(offset_loop[0])} "
-            "is outside; move it into the hole, and list the offset holes in the order of the holes"
-        )
+        if i > 0 and not encloses(loop, offset_loop):
+            raise GeometryError(
+                f"offset hole {i} does not lie in {name}: its vertex 0 at {place(offset_loop[0])} "
+                "is outside; move it into the hole, and list the offset holes in the order of the "
+                "holes"
+            )
 
 
 def _check_hole_points(points: NDArray[np.float64], offset_cage: Cage) -> None:

@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from glid_nb.geometry._loops import GeometryError, edge_lengths, loop_name, place, segments
+from glid_nb.geometry._loops import (
+    GeometryError,
+    edge_lengths,
+    encloses,
+    loop_name,
+    next_index,
+    place,
+    segments,
+)
 from glid_nb.geometry.cage import Cage
 
 # No edge of the offset cage comes closer to the cage than this share of the smaller of the two
@@ -77,14 +84,13 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
     """
     distance = _checked_distance(distance)
     corners = _Corners(cage, distance)
-    wanted = np.full(cage.n_vertices, distance)
-    local = corners.smoothed(np.minimum(wanted, corners.passage_limits(_PASSAGE_LENGTH)))
-    local, fits = corners.shrunk(local, _LOCAL_ROUNDS)
-    for _ in range(_GLOBAL_ROUNDS):
+    local = corners.smoothed(np.minimum(distance, corners.passage_limits(_PASSAGE_LENGTH)))
+    for _ in range(1 + _GLOBAL_ROUNDS):
+        local, fits = corners.shrunk(local)
         if fits:
             break
-        local, fits = corners.shrunk(0.5 * local, _LOCAL_ROUNDS)
-    if not fits:
+        local = 0.5 * local
+    else:
         i = int(np.argmin(local))
         raise GeometryError(
             f"no offset cage fits: the {corners.describe(i)} lies in a passage too narrow for any "
@@ -155,18 +161,6 @@ def _checked_distance(distance: float) -> float:
     return number
 
 
-@dataclass(frozen=True, eq=False)
-class _Facing:
-    """Pairs of a vertex and an edge of the same loop with nothing but the outside between them."""
-
-    vertex: NDArray[np.intp]
-    edge: NDArray[np.intp]
-    share: NDArray[np.float64]  # position of the nearest point along the edge, 0 to 1
-    gap: NDArray[np.float64]
-    direction: NDArray[np.float64]  # (p, 2) from the vertex to the edge
-    way: NDArray[np.float64]  # between the two along the loop
-
-
 class _Corners:
     """The vertices of all loops in one array, with what an offset needs at each of them."""
 
@@ -177,8 +171,7 @@ class _Corners:
         self.starts = np.concatenate([[0], np.cumsum(sizes)])
         self.loop = np.repeat(np.arange(len(sizes)), sizes)
         index = np.arange(self.starts[-1])
-        self.next = index + 1
-        self.next[self.starts[1:] - 1] = self.starts[:-1]
+        self.next = next_index(self.loop)
         self.previous = np.empty_like(index)
         self.previous[self.next] = index
         self.points = np.concatenate(cage.loops)
@@ -230,20 +223,6 @@ class _Corners:
         Only pairs count whose way along the loop is at least `min_ratio` times the gap between
         them.
         """
-        limits = np.full(len(self.points), np.inf)
-        facing = self._facing
-        chosen = facing.way >= min_ratio * facing.gap
-        w, e, t = facing.vertex[chosen], facing.edge[chosen], facing.share[chosen]
-        room = _PASSAGE_SHARE * facing.gap[chosen]
-        advance = np.maximum(np.sum(self.step[w] * facing.direction[chosen], axis=1), 1.0)
-        np.minimum.at(limits, w, room / advance)
-        np.minimum.at(limits, e, room / np.maximum(1.0 - t, 1e-9))
-        np.minimum.at(limits, self.next[e], room / np.maximum(t, 1e-9))
-        return limits
-
-    @cached_property
-    def _facing(self) -> _Facing:
-        """Pairs that face each other through the outside, too close for the wanted distance."""
         w, e = self.tree.query(
             shapely.points(self.points),
             predicate="dwithin",
@@ -252,6 +231,7 @@ class _Corners:
         apart = (e != w) & (self.next[e] != w) & (self.loop[e] == self.loop[w])
         w, e = w[apart], e[apart]
         arm = self.points[w] - self.points[e]
+        # The nearest point of the edge, as a share of its length.
         t = np.clip(np.sum(arm * self.along[e], axis=1) / self.length[e], 0.0, 1.0)
         across = (t * self.length[e])[:, None] * self.along[e] - arm  # from the vertex to the edge
         gap = np.hypot(*across.T)
@@ -263,8 +243,14 @@ class _Corners:
         off_vertex = np.where(self.convex[w], off_after | off_before, off_after & off_before)
         ahead = (self.position[w] - self.position[e]) % self.perimeter[self.loop[e]]
         way = np.minimum(ahead - t * self.length[e], self.perimeter[self.loop[e]] - ahead)
-        facing = off_edge & off_vertex
-        return _Facing(*(a[facing] for a in (w, e, t, gap, towards, way)))
+        chosen = off_edge & off_vertex & (way >= min_ratio * gap)
+        w, e, t, room = w[chosen], e[chosen], t[chosen], _PASSAGE_SHARE * gap[chosen]
+        advance = np.maximum(np.sum(self.step[w] * towards[chosen], axis=1), 1.0)
+        limits = np.full(len(self.points), np.inf)
+        np.minimum.at(limits, w, room / advance)
+        np.minimum.at(limits, e, room / np.maximum(1.0 - t, 1e-9))
+        np.minimum.at(limits, self.next[e], room / np.maximum(t, 1e-9))
+        return limits
 
     def smoothed(self, local: NDArray[np.float64]) -> NDArray[np.float64]:
         """The largest distances below `local` that change by at most the slope per arc length."""
@@ -276,14 +262,14 @@ class _Corners:
             up = np.minimum.accumulate(d - s) + s
             down = (np.minimum.accumulate((d + s)[::-1]))[::-1] - s
             smooth = np.minimum(up, down)[n : 2 * n]
-            # What is kept is kept to the last digit.
+            # Distances that are not reduced keep their last digit.
             result[a:b] = np.where(smooth < local[a:b] * (1 - 1e-9), smooth, local[a:b])
         return result
 
-    def shrunk(self, local: NDArray[np.float64], rounds: int) -> tuple[NDArray[np.float64], bool]:
+    def shrunk(self, local: NDArray[np.float64]) -> tuple[NDArray[np.float64], bool]:
         """Shrink distances where the offset does not fit until it does; whether it does."""
         limits = None
-        for _ in range(rounds):
+        for _ in range(_LOCAL_ROUNDS):
             factors = self._edge_factors(local)
             if (factors == 1.0).all():
                 factors = self._meeting_factors(local)
@@ -328,7 +314,7 @@ class _Corners:
         )
         e, f = e[apart], f[apart]
         gap = shapely.distance(edges[e], edges[f])
-        # Neighbours of a short edge are close to each other by right: compare with the way round.
+        # Neighbours of a short edge are close to each other anyway: compare with the way round.
         way = self._way_round(np.hypot(*(moved[self.next] - moved).T), e, f)
         close = gap < np.minimum(np.minimum(reach[e], reach[f]), CLEARANCE * way)
         self._blame(factors, edges, e[close], edges[f[close]])
@@ -361,13 +347,8 @@ class _Corners:
 
     def _encloses(self, local: NDArray[np.float64]) -> bool:
         """Whether the offset loops, known not to meet the cage, lie on its right side."""
-        for i, (loop, offset_loop) in enumerate(
-            zip(self.cage.loops, self.split(self.moved(local)), strict=True)
-        ):
-            large, small = (offset_loop, loop) if i == 0 else (loop, offset_loop)
-            if not shapely.contains_xy(shapely.Polygon(large), *small[0]):
-                return False
-        return True
+        pairs = zip(self.cage.loops, self.split(self.moved(local)), strict=True)
+        return all(encloses(*(b, a) if i == 0 else (a, b)) for i, (a, b) in enumerate(pairs))
 
 
 def _notes(corners: _Corners, local: NDArray[np.float64], distance: float) -> tuple[str, ...]:

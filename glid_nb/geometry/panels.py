@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb.geometry._loops import GeometryError, edge_lengths, next_index, subdivided
+from glid_nb.geometry.segments import point_distance
+
 if TYPE_CHECKING:
+    from glid_nb.geometry.cage import Cage
     from glid_nb.geometry.domain import Domain
 
 Array = NDArray[Any]
@@ -101,11 +106,9 @@ def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
     """
     if not ratio > 0:
         raise ValueError(f"ratio is {ratio}; it must be positive")
-    singular = _singularities(domain)
     panels = edge_panels(domain)
     for _ in range(_MAX_BISECTIONS):
-        nearest = distance_to_segments(singular, panels.start, panels.end).min(axis=1)
-        too_long = panels.length > ratio * nearest
+        too_long = panels.length > ratio * _clearance(domain, panels.start, panels.end)
         if not too_long.any():
             break
         panels = panels.split(too_long)
@@ -124,9 +127,8 @@ def paired(panels: Panels, domain: Domain, ratio: float) -> Array:
     even = np.abs(chord - following) <= _EVEN * np.abs(chord)
     candidates = np.flatnonzero(even & (panels.next == after))
     start, end = panels.start[candidates], panels.end[after[candidates]]
-    nearest = distance_to_segments(_singularities(domain), start, end).min(axis=1, initial=np.inf)
     fits = np.zeros(len(panels), dtype=bool)
-    fits[candidates] = np.abs(end - start) <= ratio * nearest
+    fits[candidates] = np.abs(end - start) <= ratio * _clearance(domain, start, end)
     # Of a run of panels that fit, every other one begins a pair.
     index = np.arange(len(panels))
     last_unfit = np.maximum.accumulate(np.where(fits, -1, index))
@@ -135,44 +137,48 @@ def paired(panels: Panels, domain: Domain, ratio: float) -> Array:
 
 def edge_panels(domain: Domain) -> Panels:
     """One panel per edge of the cage."""
-    loops = domain.cage_loops_complex
+    return panels_along(domain.cage.loops_complex)
+
+
+def uniform_panels(cage: Cage, n: int = 10_000) -> Panels:
+    """The segments between about `n` even samples of the boundary (the set G of section 9).
+
+    A loop of length P_l gets n_l = ceil(P_l / P * n) samples, P the whole perimeter; an edge of it
+    gets c = ceil(length / P_l * n_l), at a + (b - a) k / c for k = 0, ..., c - 1. Rounding up makes
+    the total slightly larger than `n`.
+
+    Raises
+    ------
+    GeometryError
+        `n` is less than 1.
+    """
+    if n < 1:
+        raise GeometryError(f"the number of boundary samples must be at least 1, not {n}")
+    lengths = [edge_lengths(loop) for loop in cage.loops]
+    per_loop = [float(edges.sum()) for edges in lengths]
+    perimeter = sum(per_loop)
+    points = []
+    for loop, edges, length in zip(cage.loops_complex, lengths, per_loop, strict=True):
+        n_loop = np.ceil(length / perimeter * n)
+        points.append(subdivided(loop, np.ceil(edges / length * n_loop).astype(int)))
+    return panels_along(points)
+
+
+def panels_along(loops: Sequence[Array]) -> Panels:
+    """Panels from each vertex of closed complex loops to the next."""
     start = np.concatenate(loops)
-    end = np.concatenate([np.roll(loop, -1) for loop in loops])
-    loop = np.repeat(np.arange(len(loops)), [len(loop) for loop in loops])
-    return _linked(start, end, loop, np.zeros(len(start), dtype=int))
+    loop = np.repeat(np.arange(len(loops)), [len(points) for points in loops])
+    return _linked(start, start[next_index(loop)], loop, np.zeros(len(start), dtype=int))
 
 
-def panels_between(points: Array, loop: Array) -> Panels:
-    """Panels between consecutive sample points of closed loops (the paper's segments)."""
-    depth = np.zeros(len(points), dtype=int)
-    return _linked(points, points[_next_index(loop)], loop, depth)
-
-
-def distance_to_segments(points: Array, start: Array, end: Array) -> Array:
-    """(p, k) distances from complex ``points`` (k,) to segments ``start`` to ``end`` (p,)."""
-    along = end - start
-    relative = points - start[:, None]
-    length_squared = np.abs(along) ** 2
-    position = np.real(relative * along.conj()[:, None]) / length_squared[:, None]
-    np.clip(position, 0, 1, out=position)
-    return np.abs(relative - position * along[:, None])
-
-
-def _singularities(domain: Domain) -> Array:
-    return np.concatenate([*domain.offset_loops_complex, domain.hole_points @ [1, 1j]])
+def _clearance(domain: Domain, start: Array, end: Array) -> Array:
+    """(p,) distances of segments to the nearest singularity of ``f_z``."""
+    singular = np.concatenate([*domain.offset_loops_complex, domain.hole_points_complex])
+    return point_distance(singular, start[:, None], end[:, None]).min(axis=1, initial=np.inf)
 
 
 def _linked(start: Array, end: Array, loop: Array, depth: Array) -> Panels:
-    panels = Panels(start, end, loop, depth, _next_index(loop))
+    panels = Panels(start, end, loop, depth, next_index(loop))
     for array in (panels.start, panels.end, panels.loop, panels.depth, panels.next):
         array.flags.writeable = False
     return panels
-
-
-def _next_index(loop: Array) -> Array:
-    """Index of the following element within each run of equal ``loop``, cyclically."""
-    following = np.arange(1, len(loop) + 1)
-    first = np.flatnonzero(np.diff(loop, prepend=-1))
-    last = np.append(first[1:], len(loop)) - 1
-    following[last] = first
-    return following

@@ -10,9 +10,15 @@ import pythoncdt
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb.geometry._loops import GeometryError, edge_lengths, place
+from glid_nb.geometry._loops import (
+    GeometryError,
+    as_points,
+    edge_lengths,
+    next_index,
+    place,
+    subdivided,
+)
 from glid_nb.geometry.cage import Cage
-from glid_nb.geometry.sampling import subdivided
 
 # Lattice points keep this share of the spacing from the boundary: closer ones make flat triangles.
 _MARGIN = 0.55
@@ -80,8 +86,8 @@ def triangulate(
     wanted = _checked_points(cage, points)
     loops = [_with_points(loop, wanted, _SAME * cage.longer_side) for loop in loops]
     boundary = np.concatenate(loops)
-    inside = _lattice_points(_lattice_rows(cage, spacing), spacing)
-    border = np.stack([boundary.real, boundary.imag], axis=1)
+    inside = _lattice(cage, spacing)
+    border = as_points(boundary)
     if len(wanted):
         from scipy.spatial import KDTree  # noqa: PLC0415 - slow to import, and not always needed
 
@@ -140,73 +146,37 @@ def _spacing(cage: Cage, n_vertices: int) -> float:
     # The formula overrates cages with many short edges or slender limbs.
     for _ in range(6):
         count = int(_parts(lengths, spacing).sum())
-        rows = _lattice_rows(cage, spacing)
-        count += int(rows.counts.sum())
+        count += len(_lattice(cage, spacing))
         if abs(count - n_vertices) <= 0.02 * n_vertices or spacing > cage.longer_side:
             break
         spacing *= (count / n_vertices) ** 0.6
     return spacing
 
 
-@dataclass(frozen=True, eq=False)
-class _Rows:
-    """Runs of lattice points: (r,) height, x of the first point, number of points."""
-
-    y: NDArray[np.float64]
-    x: NDArray[np.float64]
-    counts: NDArray[np.int64]
-
-
-def _lattice_rows(cage: Cage, spacing: float) -> _Rows:
-    """Runs of the hexagonal lattice inside the cage and away from its boundary."""
+def _lattice(cage: Cage, spacing: float) -> NDArray[Any]:
+    """(p, 2) points of the hexagonal lattice inside the cage and away from its boundary."""
     inner = shapely.buffer(cage.polygon, -_MARGIN * spacing, quad_segs=4)
-    rings = shapely.get_rings(shapely.get_parts(inner))
-    if not len(rings):
-        return _Rows(np.empty(0), np.empty(0), np.empty(0, dtype=np.int64))
-    xy, ring = shapely.get_coordinates(rings, return_index=True)
-    same = ring[1:] == ring[:-1]
-    a, b = xy[:-1][same], xy[1:][same]
-
-    # Scan line by scan line: where the row crosses the inner boundary, runs start and end.
-    height = _ROW * spacing
-    xmin, ymin, _, _ = cage.bounds
-    low, high = np.minimum(a[:, 1], b[:, 1]), np.maximum(a[:, 1], b[:, 1])
-    first = np.ceil((low - ymin) / height).astype(np.int64)
-    last = np.ceil((high - ymin) / height).astype(np.int64)  # half open: each joint counts once
-    crossings = last - first
-    edge = np.repeat(np.arange(len(a)), crossings)
-    offset = np.cumsum(crossings) - crossings
-    row = first[edge] + np.arange(len(edge)) - offset[edge]
-    y = ymin + row * height
-    t = (y - a[edge, 1]) / (b[edge, 1] - a[edge, 1])
-    x = a[edge, 0] + t * (b[edge, 0] - a[edge, 0])
-    order = np.lexsort((x, row))
-    row, y, x = row[order], y[order], x[order]
-    start, end = x[0::2], x[1::2]
-    origin = xmin + 0.5 * spacing * (row[0::2] % 2)
-    k_start = np.ceil((start - origin) / spacing)
-    counts = np.maximum(np.floor((end - origin) / spacing) - k_start + 1, 0).astype(np.int64)
-    return _Rows(y[0::2], origin + k_start * spacing, counts)
-
-
-def _lattice_points(rows: _Rows, spacing: float) -> NDArray[np.float64]:
-    """(p, 2) points of the runs."""
-    run = np.repeat(np.arange(len(rows.counts)), rows.counts)
-    offset = np.cumsum(rows.counts) - rows.counts
-    x = rows.x[run] + (np.arange(len(run)) - offset[run]) * spacing
-    return np.stack([x, rows.y[run]], axis=1)
+    if inner.is_empty:
+        return np.empty((0, 2))
+    shapely.prepare(inner)
+    xmin, ymin, xmax, ymax = cage.bounds
+    row, k = np.indices(
+        (int((ymax - ymin) / (_ROW * spacing)) + 1, int((xmax - xmin) / spacing) + 1)
+    )
+    points = np.stack(
+        [xmin + (0.5 * (row % 2) + k) * spacing, ymin + row * _ROW * spacing], axis=-1
+    )
+    return points[shapely.intersects_xy(inner, points[..., 0], points[..., 1])]
 
 
 def _constrained_delaunay(
     vertices: NDArray[np.float64], loops: list[NDArray[np.complex128]]
 ) -> NDArray[np.int32]:
     """Triangles of the region bounded by the loops, whose points are the first vertices."""
-    ends = np.cumsum([len(loop) for loop in loops])
-    following = np.arange(1, ends[-1] + 1)
-    following[ends - 1] = np.concatenate([[0], ends[:-1]])
+    following = next_index(np.repeat(np.arange(len(loops)), [len(loop) for loop in loops]))
     # Any: numpy's stubs call an array a buffer from Python 3.12 on only.
     points: Any = np.ascontiguousarray(vertices)
-    edges: Any = np.stack([np.arange(ends[-1]), following], axis=1).astype(np.uintc)
+    edges: Any = np.stack([np.arange(len(following)), following], axis=1).astype(np.uintc)
     delaunay = pythoncdt.Triangulation(
         pythoncdt.VertexInsertionOrder.AUTO,
         pythoncdt.IntersectingConstraintEdges.NOT_ALLOWED,

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import itertools
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb.geometry._loops import next_index
 from glid_nb.harmonic.cauchy import Singularities
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ def build_basis(domain: Domain) -> Basis:
     loops = domain.offset_loops_complex
     sizes = [len(loop) for loop in loops]
     vertices = np.concatenate(loops)
-    rho = domain.hole_points @ np.array([1, 1j])
+    rho = domain.hole_points_complex
     m, n_holes = len(vertices), len(rho)
 
     hole_padding = next(b for b in (*_HOLE_BUCKETS, n_holes) if b >= n_holes) - n_holes
@@ -94,16 +94,10 @@ def build_basis(domain: Domain) -> Basis:
     ring = center + far * np.exp(2j * np.pi * np.arange(padding) / max(padding, 1))
     outside = center + 2 * far * np.exp(2j * np.pi * np.arange(hole_padding) / 64)
 
-    starts = np.cumsum([0, *sizes, padding])
-    following, preceding = [], []
-    for start, stop in itertools.pairwise(starts):
-        index = np.arange(start, stop)
-        following.append(np.roll(index, -1))
-        preceding.append(np.roll(index, 1))
-
+    following = next_index(np.repeat(np.arange(len(sizes) + 1), [*sizes, padding]))
     phi_free = np.zeros(m + padding + n_holes + hole_padding, dtype=bool)
     phi_free[:m] = True
-    for start in starts[1 : len(sizes)]:
+    for start in np.cumsum(sizes[:-1]):
         phi_free[start : start + 2] = False
     psi_free = phi_free.copy()
     psi_free[0] = False
@@ -112,8 +106,8 @@ def build_basis(domain: Domain) -> Basis:
     return Basis(
         Singularities(
             np.concatenate([vertices, ring]),
-            np.concatenate(following),
-            np.concatenate(preceding),
+            following,
+            np.argsort(following),
             np.concatenate([rho, outside]),
         ),
         np.concatenate([np.arange(m), m + padding + np.arange(n_holes)]),

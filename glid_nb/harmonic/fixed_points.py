@@ -1,4 +1,4 @@
-"""Many maps of one domain at the same points, for the eye."""
+"""Many maps of one domain at the same points, in single precision for drawing."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ _MOST_KEPT = 1 << 26  # numbers, of 8 bytes each
 class FixedPoints:
     """Images and derivatives of the same points under one map after the other.
 
-    What is costly in a map is a logarithm for each point and edge of the offset cage, whatever the
-    coefficients are. These are computed for the first map and kept, in single precision; beyond
-    half a gigabyte they are computed for each map. By the edges e of the offset cage (D.1) reads
+    Most of an evaluation's time goes into one logarithm for each point and edge of the offset cage,
+    which do not depend on the coefficients. They are computed for the first map and kept in single
+    precision, up to half a gigabyte. Summed over the edges e of the offset cage, (D.1) reads
 
         F  = 1/(2 pi i) sum_e (phi_e + (z - z_e) s_e) L_e
         F' = 1/(2 pi i) sum_e s_e L_e
@@ -73,7 +73,7 @@ class FixedPoints:
         return image, np.concatenate(derivatives).view(np.float32)
 
     def _matrix(self, start: int, z: Array) -> Array:
-        """What belongs to the points from the ``start``-th on, whatever the map.
+        """The matrix of the points from the ``start``-th on, which does not depend on the map.
 
         Columns are logarithms ``L_e = Log(B_{e+1} / B_e)`` of the edges, then ``ln|z - rho|`` and
         ``1 / (z - rho)`` of the holes.

@@ -15,8 +15,8 @@ from glid_nb._arguments import real_array
 from glid_nb._errors import InputError, about
 from glid_nb._jax import jax, jnp
 from glid_nb._json import parse_json, write_json
-from glid_nb._runtime import double_precision
-from glid_nb.geometry import Cage, Domain
+from glid_nb._runtime import double_precision, in_chunks
+from glid_nb.geometry import Cage, Domain, as_points, uniform_panels
 from glid_nb.harmonic import cauchy
 from glid_nb.harmonic.basis import Basis, build_basis
 from glid_nb.harmonic.cauchy import Singularities
@@ -114,7 +114,7 @@ class HarmonicMap:
         (k, 2) array
         """
         (f,) = self._evaluate(_values, points)
-        return np.stack([np.real(f), np.imag(f)], axis=-1)
+        return as_points(f)
 
     def wirtinger(self, points: ArrayLike) -> tuple[Array, Array]:
         """Wirtinger derivatives ``f_z`` and ``f_zbar``, each (k,) complex (Equation (9))."""
@@ -125,8 +125,8 @@ class HarmonicMap:
         """The ``order``-th complex derivatives of ``f_z`` and of ``conj(f_zbar)``, order >= 1."""
         if order < 1:
             raise ValueError(f"order is {order}; it must be at least 1")
-        a, b = self._evaluate(_higher(order), points)
-        return a, b
+        fz, fzb_conj = self._evaluate(_higher(order), points)
+        return fz, fzb_conj
 
     def sigma1(self, points: ArrayLike) -> Array:
         """Large singular value of the Jacobian, (k,) (Equation (2))."""
@@ -154,10 +154,7 @@ class HarmonicMap:
         Both components of the difference are harmonic, so their extremes lie on the boundary;
         ``n_points`` boundary points sample it. The maps may have different offset cages.
         """
-        from glid_nb.geometry import uniform_boundary_samples  # noqa: PLC0415
-
-        samples = uniform_boundary_samples(self.domain.cage, n_points).points
-        points = np.stack([samples.real, samples.imag], axis=-1)
+        points = as_points(uniform_panels(self.domain.cage, n_points).start)
         return float(np.linalg.norm(self(points) - other(points), axis=1).max())
 
     def to_dict(self) -> dict[str, Any]:
@@ -221,15 +218,7 @@ class HarmonicMap:
         # Two chunk sizes only, so that few programs are compiled whatever the number of points.
         large = max(_SMALL_CHUNK, _CHUNK_ELEMENTS // basis.n_columns)
         chunk = _SMALL_CHUNK if len(z) <= _SMALL_CHUNK else large
-        run = _compiled(kernel)
-        parts = []
-        for start in range(0, max(len(z), 1), chunk):
-            part = z[start : start + chunk]
-            filled = np.full(chunk, part[0] if len(part) else 0j)
-            filled[: len(part)] = part
-            outputs = run(filled, coefficients, basis.singularities)
-            parts.append([np.asarray(o)[: len(part)] for o in outputs])
-        return tuple(np.concatenate(columns) for columns in zip(*parts, strict=True))
+        return in_chunks(_compiled(kernel), chunk, (z,), coefficients, basis.singularities)
 
 
 def as_complex(points: ArrayLike) -> Array:

@@ -7,14 +7,14 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import find_objects, generate_binary_structure, label
+from scipy.ndimage import find_objects
+from scipy.ndimage import label as label_pixels
 
 from glid_nb.imaging.errors import TraceError
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.options import Point
 
 _LISTED = 50
-_MOST = np.iinfo(np.uint16).max - 1  # beyond these, specks of a noisy image, all labelled alike
 
 
 @dataclass(frozen=True)
@@ -44,17 +44,12 @@ class Components:
     """All components of a foreground, the largest first.
 
     Pixels that share a side or a corner are connected.
-
-    Attributes
-    ----------
-    labels
-        (h, w) read-only uint16: 0 in the background, 1 + rank in a component.
-    areas
-        (n,) areas in pixels, descending.
     """
 
-    labels: NDArray[np.uint16]
-    areas: NDArray[np.intp]
+    found: NDArray[np.int32]  # (h, w) labels as they were found, 0 in the background
+    labels: NDArray[np.intp]  # (n,) the label of each component
+    areas: NDArray[np.intp]  # (n,) in pixels, descending
+    boxes: list[tuple[slice, slice]]  # (n,) rows and columns, by label
 
     @property
     def n_components(self) -> int:
@@ -64,11 +59,7 @@ class Components:
     @cached_property
     def largest(self) -> tuple[Component, ...]:
         """The fifty largest, or all if there are fewer."""
-        count = min(self.n_components, _LISTED)
-        if count == 1:  # the usual picture, and faster than find_objects
-            return (self._described(0, *bounding_slices(self.labels == 1)),)
-        slices = (where for where in find_objects(self.labels, count) if where is not None)
-        return tuple(self._described(rank, *where) for rank, where in enumerate(slices))
+        return tuple(map(self._described, range(min(self.n_components, _LISTED))))
 
     def component(self, rank: int) -> Component:
         """The component of a rank.
@@ -78,7 +69,7 @@ class Components:
         TraceError
             There are not that many.
         """
-        if not 0 <= rank < min(self.n_components, _MOST):
+        if not 0 <= rank < self.n_components:
             raise TraceError(
                 f"component {rank} does not exist: the foreground has {self.n_components} "
                 f"{'component' if self.n_components == 1 else 'components'}, counted from 0, the "
@@ -86,18 +77,13 @@ class Components:
                 f"The component that was chosen is gone, {self.n_components} "
                 f"{'is' if self.n_components == 1 else 'are'} left; choose another",
             )
-        if rank < _LISTED:
-            return self.largest[rank]
-        return self._described(rank, *bounding_slices(self.labels == rank + 1))
+        return self.largest[rank] if rank < _LISTED else self._described(rank)
 
-    def _described(self, rank: int, rows: slice, columns: slice) -> Component:
-        column = columns.start + int(np.argmax(self.labels[rows.start, columns] == rank + 1))
-        return Component(
-            rank,
-            int(self.areas[rank]),
-            (columns.start, rows.start, columns.stop, rows.stop),
-            (column + 0.5, rows.start + 0.5),
-        )
+    def _described(self, rank: int) -> Component:
+        rows, columns = self.boxes[self.labels[rank] - 1]
+        left = columns.start + int(np.argmax(self.found[rows.start, columns] == self.labels[rank]))
+        bounds = columns.start, rows.start, columns.stop, rows.stop
+        return Component(rank, int(self.areas[rank]), bounds, (left + 0.5, rows.start + 0.5))
 
     def rank_at(self, point: Point) -> int:
         """Rank of the component around a point (x, y) in pixel coordinates.
@@ -107,43 +93,25 @@ class Components:
         TraceError
             The point lies outside the image or on the background.
         """
-        height, width = self.labels.shape
+        height, width = self.found.shape
         row, column = PixelFrame(width=width, height=height).index_at(point, "component_at")
-        rank = int(self.labels[row, column]) - 1
-        if rank < 0:
+        label = self.found[row, column]
+        if label == 0:
             raise TraceError(
                 f"component_at: the pixel ({point[0]:g}, {point[1]:g}) is background; pick a pixel "
                 "of the shape",
                 "There is only background at the place that was picked; pick a place on the shape",
             )
-        return rank
-
-
-def bounding_slices(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
-    """The rows and columns that hold all of a mask that is not empty."""
-    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
-    return slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
-
-
-def labelled(mask: NDArray[np.bool_], corners: bool) -> tuple[NDArray[np.int32], int]:
-    """Number the components of a mask from 1; pixels may be connected by `corners` too."""
-    found = np.zeros(mask.shape, dtype=np.int32)
-    count = label(mask, generate_binary_structure(2, 2 if corners else 1), output=found)
-    assert isinstance(count, int)
-    return found, count
+        return int(np.flatnonzero(self.labels == label)[0])
 
 
 def find_components(mask: NDArray[np.bool_]) -> Components:
     """Label the components of an (h, w) mask that is not empty."""
-    crop = bounding_slices(mask)
-    found, count = labelled(mask[crop], corners=True)
-    areas = np.bincount(found.ravel(), minlength=count + 1)[1:]
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    box = slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
+    found = np.zeros(mask.shape, dtype=np.int32)
+    count = label_pixels(mask[box], np.ones((3, 3)), output=found[box])
+    areas = np.bincount(found[box].ravel())[1:]
     order = np.argsort(-areas, kind="stable")
-    new = np.zeros(count + 1, dtype=np.uint16)
-    new[1 + order] = np.minimum(np.arange(1, count + 1), _MOST + 1)
-    labels = np.zeros(mask.shape, dtype=np.uint16)
-    labels[crop] = new[found]
-    labels.setflags(write=False)
-    areas = areas[order]
-    areas.setflags(write=False)
-    return Components(labels, areas)
+    boxes = [box] if count == 1 else find_objects(found)
+    return Components(found, order + 1, areas[order], boxes)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -46,21 +47,21 @@ class Hole:
     by_offset: bool = False
 
 
-@dataclass(frozen=True, eq=False)
-class HoleRule:
-    """Decides which holes are kept: by least area in square pixels, with exceptions by points."""
+class HoleRule(NamedTuple):
+    """Decides which holes are kept: by least area in square pixels, with exceptions by pixels."""
 
     min_area: float
     min_bay_area: float  # for holes that the offset makes: these are gaps for sure
     keep: Sequence[Point]
     drop: Sequence[Point]
 
-    def keeps(self, loop: NDArray[np.float64], area: float, by_offset: bool = False) -> bool:
-        """Whether a hole is kept."""
-        if _holds_any(loop, self.drop):
-            return False
-        least = self.min_bay_area if by_offset else self.min_area
-        return area >= least or _holds_any(loop, self.keep)
+    def hole(self, loop: NDArray[np.float64], by_offset: bool = False) -> Hole:
+        """The hole with an outline, kept or not."""
+        region = shapely.Polygon(loop)
+        pixel = shapely.point_on_surface(region)
+        large = region.area >= (self.min_bay_area if by_offset else self.min_area)
+        kept = (large or _holds_any(loop, self.keep)) and not _holds_any(loop, self.drop)
+        return Hole(loop, region.area, region.bounds, (pixel.x, pixel.y), kept, by_offset)
 
 
 def choose_holes(
@@ -85,7 +86,7 @@ def choose_holes(
         least_bay = max(_LEAST_SHARE * outline.component.area, _LEAST_AREA)
     least = max(least, outline.speck)
     rule = HoleRule(least, least_bay, keep, drop)
-    holes = tuple(as_hole(loop, rule) for loop in outline.holes)
+    holes = tuple(map(rule.hole, outline.holes))
     filled = [h for h in holes if not h.kept and not _holds_any(h.loop, drop)]
     notes = []
     if filled or outline.n_specks:
@@ -103,38 +104,20 @@ def choose_holes(
     return holes, rule, tuple(notes)
 
 
-def as_hole(loop: NDArray[np.float64], rule: HoleRule, by_offset: bool = False) -> Hole:
-    """A hole with the given outline."""
-    region = shapely.Polygon(loop)
-    pixel = shapely.point_on_surface(region)
-    kept = rule.keeps(loop, region.area, by_offset)
-    return Hole(loop, region.area, region.bounds, (pixel.x, pixel.y), kept, by_offset)
-
-
-def filled_mask(
-    shape: tuple[int, int], outline: Outline, holes: tuple[Hole, ...]
-) -> NDArray[np.bool_]:
+def filled_mask(outline: Outline, holes: tuple[Hole, ...]) -> NDArray[np.bool_]:
     """(h, w) read-only mask of the component with the holes that are not kept filled."""
-    mask = np.zeros(shape, dtype=bool)
-    row, column = outline.corner
-    height, width = outline.inside.shape
-    mask[row : row + height, column : column + width] = outline.inside
-    for hole in holes:
-        if not hole.kept:
+    mask = outline.inside.copy()
+    dropped = [hole for hole in holes if not hole.kept]
+    if dropped:
+        filling = Image.new("1", mask.shape[::-1])
+        for hole in dropped:
             # The pixels on the hole's outline, which are drawn too, are the shape's own.
-            xmin, ymin, xmax, ymax = np.floor(hole.bounds).astype(int)
-            drawn = Image.new("1", (xmax - xmin + 1, ymax - ymin + 1))
-            vertices = (hole.loop - [xmin + 0.5, ymin + 0.5]).ravel().tolist()
-            ImageDraw.Draw(drawn).polygon(vertices, fill=1, outline=1)
-            part = mask[ymin : ymax + 1, xmin : xmax + 1]
-            part |= np.asarray(drawn)[: part.shape[0], : part.shape[1]]
+            ImageDraw.Draw(filling).polygon((hole.loop - 0.5).ravel().tolist(), fill=1, outline=1)
+        mask |= np.asarray(filling)
     mask.setflags(write=False)
     return mask
 
 
 def _holds_any(loop: NDArray[np.float64], points: Sequence[Point]) -> bool:
     """Whether a loop goes around one of the points."""
-    if not points:
-        return False
-    xy = np.array(points)
-    return bool(shapely.contains_xy(shapely.Polygon(loop), xy[:, 0], xy[:, 1]).any())
+    return any(shapely.contains_xy(shapely.Polygon(loop), *point) for point in points)

@@ -162,14 +162,7 @@ def rendering(
         mesh = deformed_mesh(map, even, _TOLERANCE_PX / scale)
     else:
         mesh = deformed_mesh(map, n_vertices)
-    picture = render_mesh(
-        texture,
-        source.to_pixel(mesh.vertices),
-        frame.to_pixel(mesh.images),
-        mesh.triangles,
-        frame.size,
-        mesh.heights,
-    )
+    picture = draw_mesh(texture, mesh, frame)
     return Rendering(picture, frame, mesh, _share_outside(mesh, frame), mesh.error * scale)
 
 
@@ -187,11 +180,33 @@ def _check_fits(frame: PixelFrame, map: HarmonicMap) -> None:
         )
 
 
+def draw_mesh(
+    texture: ArrayLike | Texture,
+    mesh: DeformedMesh,
+    frame: OutputFrame,
+    places: NDArray[np.float64] | None = None,
+) -> NDArray[np.uint8]:
+    """The RGBA pixels of a textured mesh.
+
+    ``places`` (v, 2) are the vertices' in the texture, pixels; by default where they lie undeformed
+    in the picture that their cage was traced from.
+    """
+    texture = texture if isinstance(texture, Texture) else Texture.from_image(texture)
+    if places is None:
+        places = PixelFrame(texture.width, texture.height).to_pixel(mesh.vertices)
+    positions = frame.to_pixel(mesh.images)
+    return render_mesh(texture, places, positions, mesh.triangles, frame.size, mesh.heights)
+
+
 def outline_points(map: HarmonicMap) -> NDArray[np.float64]:
     """Points on the exterior loop, close enough together to bound the deformed shape."""
-    loop = map.domain.cage.exterior
-    t = np.linspace(0, 1, 16, endpoint=False)[:, None, None]
-    return (loop + t * (np.roll(loop, -1, axis=0) - loop)).reshape(-1, 2)
+    return along_loop(map.domain.cage.exterior, 16)
+
+
+def along_loop(loop: NDArray[np.float64], per_edge: int) -> NDArray[np.float64]:
+    """Points along a polygon (n, 2), evenly spread on each edge."""
+    t = np.linspace(0, 1, per_edge, endpoint=False)[:, None]
+    return (loop[:, None] + t * (np.roll(loop, -1, axis=0) - loop)[:, None]).reshape(-1, 2)
 
 
 def _share_outside(mesh: DeformedMesh, frame: OutputFrame) -> float:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
 from typing import Any, TypeVar
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from glid_nb._errors import did_you_mean
+from glid_nb._arguments import check_keywords
 from glid_nb.geometry import Cage
 from glid_nb.imaging.components import Component, Components, find_components
 from glid_nb.imaging.dilate import Dilation, dilate
@@ -111,11 +110,8 @@ def trace(image: ImageSource, options: TraceOptions | None = None, **changes: An
 
 def with_changes(options: TraceOptions | None, changes: dict[str, Any]) -> TraceOptions:
     """`options` with fields replaced; an unknown name is refused with a hint."""
-    names = [field.name for field in fields(TraceOptions)]
-    for name in changes:
-        if name not in names:
-            hint = did_you_mean(name, names) or f"; there are {', '.join(names)}"
-            raise TraceError(f"'{name}' is no option of trace{hint}")
+    known = (field.name for field in fields(TraceOptions))
+    check_keywords("trace", changes, known, TraceError)
     return replace(options if options is not None else TraceOptions(), **changes)
 
 
@@ -145,33 +141,16 @@ class Tracer:
         o = options if options is not None else TraceOptions()
         foreground = self.foreground(o)
         components = self._stage(
-            "components",
-            lambda f, threshold: find_components(f.mask(threshold)),
-            foreground,
-            o.threshold,
+            "components", lambda f, t: find_components(f.mask(t)), foreground, o.threshold
         )
         rank = o.component if o.component_at is None else components.rank_at(o.component_at)
-        outline = self._stage("outline", _outline, foreground, components, o.threshold, rank)
-        holes, rule, hole_notes = self._stage(
-            "holes",
-            choose_holes,
-            outline,
-            foreground.method,
-            o.min_hole_area,
-            o.keep_holes,
-            o.drop_holes,
-        )
-        mask = self._stage("mask", filled_mask, self.image.shape[:2], outline, holes)
+        outline = self._stage("outline", find_outline, foreground, components, o.threshold, rank)
+        hole_options = (foreground.method, o.min_hole_area, o.keep_holes, o.drop_holes)
+        holes, rule, hole_notes = self._stage("holes", choose_holes, outline, *hole_options)
+        mask = self._stage("mask", filled_mask, outline, holes)
         dilation = self._stage("dilation", dilate, outline, holes, rule, o.offset)
-        simplified, cage = self._stage(
-            "simplification",
-            self._cage,
-            dilation,
-            o.simplify,
-            o.max_vertices,
-            o.min_edge,
-            o.max_edge,
-        )
+        size_options = (o.simplify, o.max_vertices, o.min_edge, o.max_edge)
+        simplified, cage = self._stage("cage", self._cage, dilation, *size_options)
         notes = (
             *foreground.notes,
             *_component_notes(components, rank, o),
@@ -182,45 +161,30 @@ class Tracer:
             *self._stage("coverage", _coverage_notes, outline, holes, simplified),
         )
         return Tracing(
-            cage,
-            mask,
-            self.frame,
-            notes,
-            foreground.method,
-            foreground.threshold(o.threshold),
-            dilation.offset,
-            simplified.tolerance,
-            outline.component,
-            components.largest,
-            components.n_components,
-            outline.exterior,
-            dilation.listed,
+            cage=cage,
+            mask=mask,
+            frame=self.frame,
+            notes=notes,
+            method=foreground.method,
+            threshold=foreground.threshold(o.threshold),
+            offset=dilation.offset,
+            simplify=simplified.tolerance,
+            component=outline.component,
+            components=components.largest,
+            n_components=components.n_components,
+            outline=outline.exterior,
+            holes=dilation.listed,
         )
 
     def foreground(self, options: TraceOptions) -> Foreground:
         """How much each pixel is foreground, the first two stages."""
-        rated = self._stage(
-            "rated",
-            lambda method, invert, background, at, scribbles: find_foreground(
-                self.image,
-                method,
-                invert=invert,
-                background=background,
-                background_at=at,
-                scribbles=scribbles,
-                scaled=None if scribbles is None else self._scaled,
-            ),
-            options.method,
-            options.invert,
-            options.background,
-            options.background_at,
-            options.scribbles,
-        )
-        return self._stage("foreground", smoothed, rated, options.smoothing)
+        o = options
+        how = (o.method, o.invert, o.background, o.background_at, o.scribbles, self._scaled)
+        rated = self._stage("rated", find_foreground, self.image, *how)
+        return self._stage("foreground", smoothed, rated, o.smoothing)
 
-    @cached_property
     def _scaled(self) -> NDArray[np.float64]:
-        return scaled_picture(self.image)
+        return self._stage("scaled", scaled_picture, self.image)
 
     def _cage(
         self,
@@ -244,24 +208,10 @@ class Tracer:
 
     def _stage(self, name: str, function: Callable[..., T], *inputs: Any) -> T:
         """The stage's last result if its inputs are the same, else a new one."""
-        if name in self._stages:
-            previous, result = self._stages[name]
-            if previous == inputs:  # the stages' results compare by identity, options by value
-                return result
-        result = function(*inputs)
-        self._stages[name] = (inputs, result)
-        return result
-
-
-def _outline(
-    foreground: Foreground, components: Components, threshold: float | None, rank: int
-) -> Outline:
-    return find_outline(
-        foreground.score,
-        foreground.level(threshold),
-        components.labels,
-        components.component(rank),
-    )
+        # Arrays and the stages' results are the same if they are one object, options if equal.
+        if name not in self._stages or self._stages[name][0] != inputs:
+            self._stages[name] = (inputs, function(*inputs))
+        return self._stages[name][1]
 
 
 def _component_notes(components: Components, rank: int, options: TraceOptions) -> list[str]:

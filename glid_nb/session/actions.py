@@ -14,13 +14,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb import methods
 from glid_nb._arguments import real_array
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import MethodChoice
 from glid_nb.session.edit_state import EditedPose, EditError, EditState
-from glid_nb.solvers import Pose
+from glid_nb.solvers import Method, Pose
 
 Array = NDArray[Any]
 
@@ -73,6 +73,11 @@ def move_targets(state: EditState, indices: Iterable[int], targets: ArrayLike) -
     return _with_pose(state, state.pose.with_targets(moved))
 
 
+def move_target(state: EditState, handle: int, to: ArrayLike) -> EditState:
+    """Put one target elsewhere."""
+    return move_targets(state, [handle], to)
+
+
 def nudge(state: EditState, indices: Iterable[int], delta: ArrayLike) -> EditState:
     """Shift the targets of some handles by ``delta`` (2,)."""
     chosen = _checked_indices(state, indices)
@@ -98,11 +103,11 @@ def set_options(state: EditState, **changes: Any) -> EditState:
     return state.with_current(state.current.changed(options=options))
 
 
-def set_method(state: EditState, name: str, **settings: Any) -> EditState:
-    """Solve by another of :func:`glid_nb.methods.methods`; refused when it cannot run."""
-    choice = MethodChoice(name, settings)
-    choice.check(state.current.energy)
-    return state.with_current(state.current.changed(method=choice))
+def set_method(state: EditState, method: Method | str, **settings: Any) -> EditState:
+    """Solve by another of :mod:`glid_nb.methods`, or its name; refused when it cannot run."""
+    method = methods.by_name(method, **settings) if isinstance(method, str) else method
+    method.check(state.current.energy)
+    return state.with_current(state.current.changed(method=method))
 
 
 def set_pose(state: EditState, pose: Pose) -> EditState:

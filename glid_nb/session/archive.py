@@ -13,6 +13,11 @@ from glid_nb._files import in_words, write_bytes_atomically
 
 # A document has at most a handful of members; their names, sizes and places fit in this.
 _DIRECTORY_BYTES = 64 * 1024
+# The second row is what zipfile raises for headers that make no sense.
+_DAMAGE = (
+    *(zipfile.BadZipFile, zlib.error, EOFError),
+    *(NotImplementedError, RuntimeError, ValueError, OSError, OverflowError),
+)
 
 
 def write_archive(path: Path, members: Mapping[str, bytes], stored: frozenset[str]) -> None:
@@ -48,42 +53,35 @@ def read_archive(path: Path, most_bytes: Mapping[str, int]) -> dict[str, bytes]:
     most = sum(most_bytes.values()) + _DIRECTORY_BYTES
     try:
         size = path.stat().st_size
-        if size > most:
-            raise InputFileError(f"the file has {size:,} bytes; {most:,} are allowed")
-        data = path.read_bytes()
+        data = path.read_bytes() if size <= most else b""
     except OSError as error:
         raise in_words(error, path, "read") from error
+    if size > most:
+        raise InputFileError(f"the file has {size:,} bytes; {most:,} are allowed")
+    members: dict[str, bytes] = {}
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            members = archive.infolist()
-            _check_members(members, most_bytes)
-            return {info.filename: archive.read(info) for info in members}
+            for info in archive.infolist():
+                if info.filename in members:
+                    raise InputFileError(f"it holds {info.filename} twice")
+                _check_member(info, most_bytes)
+                members[info.filename] = archive.read(info)
     except InputFileError:
         raise
-    # The second row is what zipfile raises for headers that make no sense.
-    except (
-        *(zipfile.BadZipFile, zlib.error, EOFError),
-        *(NotImplementedError, RuntimeError, ValueError, OSError, OverflowError),
-    ) as error:
+    except _DAMAGE as error:
         raise InputFileError(f"this is no intact zip file: {error}") from error
+    return members
 
 
-def _check_members(members: list[zipfile.ZipInfo], most_bytes: Mapping[str, int]) -> None:
-    seen: set[str] = set()
-    for info in members:
-        name = info.filename
-        if name not in most_bytes:
-            raise InputFileError(
-                f"it holds {name!r:.80}, which does not belong there; expected only "
-                f"{', '.join(most_bytes)}"
-            )
-        if name in seen:
-            raise InputFileError(f"it holds {name} twice")
-        seen.add(name)
-        if info.flag_bits & 1:
-            raise InputFileError(f"{name} is encrypted")
-        # zipfile stops at this size whatever the compressed data hold.
-        if info.file_size > most_bytes[name]:
-            raise InputFileError(
-                f"{name} unpacks to {info.file_size:,} bytes; {most_bytes[name]:,} are allowed"
-            )
+def _check_member(info: zipfile.ZipInfo, most_bytes: Mapping[str, int]) -> None:
+    name, size = info.filename, info.file_size
+    if name not in most_bytes:
+        raise InputFileError(
+            f"it holds {name!r:.80}, which does not belong there; expected only "
+            f"{', '.join(most_bytes)}"
+        )
+    if info.flag_bits & 1:
+        raise InputFileError(f"{name} is encrypted")
+    # zipfile stops at this size whatever the compressed data hold.
+    if size > most_bytes[name]:
+        raise InputFileError(f"{name} unpacks to {size:,} bytes; {most_bytes[name]:,} are allowed")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import threading
-import time
 import weakref
 from collections.abc import Callable
 from pathlib import Path
@@ -12,6 +11,7 @@ from pathlib import Path
 from glid_nb.session.document import Document
 from glid_nb.session.document_file import save_document
 from glid_nb.session.own_files import version_of
+from glid_nb.session.worker import LatestWins
 
 INTERVAL = 3.0
 """Least number of seconds between two saves, by default."""
@@ -44,33 +44,36 @@ class Autosave:
     ) -> None:
         if not interval >= 0:
             raise ValueError(f"interval is {interval}; it must be at least 0 seconds")
-        self._worker = _Worker(Path(path), interval, on_done)
+        self._file = _File(Path(path), on_done)
+        self._worker: LatestWins[Document] = LatestWins(
+            self._file.save, self, f"autosave {Path(path).name}", interval=interval, finish=True
+        )
         _all.add(self)
-        # Also at the end of the process.
-        self._finalizer = weakref.finalize(self, self._worker.close)
 
     @property
     def path(self) -> Path:
         """The file."""
-        return self._worker.path
+        return self._file.path
 
     @property
     def left(self) -> Path | None:
         """The file that was left to somebody else; None while nobody else has changed it."""
-        return self._worker.left
+        return self._file.left
 
     @property
     def error(self) -> Exception | None:
         """What went wrong with the last save; None when it went well."""
-        return self._worker.error
+        return self._file.error
 
     @property
     def n_saved(self) -> int:
         """How often the file was written."""
-        return self._worker.n_saved
+        return self._file.n_saved
 
     def submit(self, document: Document) -> None:
         """Save this document soon; returns at once."""
+        if self._worker.closed:
+            raise RuntimeError(f"the autosave of {self.path} is closed")
         self._worker.submit(document)
 
     def write(self, document: Document) -> None:
@@ -81,19 +84,24 @@ class Autosave:
         DocumentError, OSError
             It cannot be written; what was there before stays.
         """
-        self._worker.write(document)
+        self._worker.cancel()  # what is pending is older
+        try:
+            self._file.write(document)
+        except Exception:
+            self._worker.submit(document)
+            raise
 
     def take_over(self) -> None:
         """Accept the file as it is now: its next save is not a change by somebody else."""
-        self._worker.take_over()
+        self._file.take_over()
 
     def flush(self, timeout: float | None = None) -> bool:
         """Save what is pending now; whether that was done (or had failed) within ``timeout``."""
-        return self._worker.flush(timeout)
+        return self._worker.hurry(timeout)
 
     def close(self) -> None:
         """Save what is pending and end the thread. Submitting is an error from then on."""
-        self._finalizer()
+        self._worker.close()
 
 
 _all: weakref.WeakSet[Autosave] = weakref.WeakSet()
@@ -113,99 +121,43 @@ def free_sibling(path: Path) -> Path:
     return next(other for other in others if not other.exists())
 
 
-class _Worker:
-    """The thread and what it shares; it does not know the `Autosave`, so that one can be dropped.
+class _File:
+    """The file, and what is known of it; it does not know the `Autosave`, so that can be dropped.
 
-    The thread starts with the first document and ends when it is closed.
+    Its lock is held while the file is written.
     """
 
-    def __init__(
-        self, path: Path, interval: float, on_done: Callable[[Exception | None], None] | None
-    ) -> None:
-        self.path, self._interval, self._on_done = path, interval, on_done
+    def __init__(self, path: Path, on_done: Callable[[Exception | None], None] | None) -> None:
+        self.path, self._on_done = path, on_done
         self.left: Path | None = None
-        self._known = version_of(path)
-        self._changed = threading.Condition()
-        self._pending: Document | None = None
-        self._hurry = self._busy = self._closed = False
-        self._thread: threading.Thread | None = None
         self.error: Exception | None = None
         self.n_saved = 0
+        self._known = version_of(path)
+        self._writing = threading.Lock()
 
-    def submit(self, document: Document) -> None:
-        with self._changed:
-            if self._closed:
-                raise RuntimeError(f"the autosave of {self.path} is closed")
-            self._pending = document
-            if self._thread is None:
-                self._thread = threading.Thread(
-                    target=self._run, name=f"autosave {self.path.name}", daemon=True
-                )
-                self._thread.start()
-            self._changed.notify_all()
-
-    def flush(self, timeout: float | None) -> bool:
-        with self._changed:
-            self._hurry = True
-            self._changed.notify_all()
-            done = self._changed.wait_for(lambda: self._pending is None and not self._busy, timeout)
-            self._hurry = False
-            return done
-
-    def close(self) -> None:
-        with self._changed:
-            self._closed = True
-            self._changed.notify_all()
-            thread = self._thread
-        if thread is not None and thread is not threading.current_thread():
-            thread.join()
-
-    def write(self, document: Document) -> None:
-        with self._changed:
-            self._changed.wait_for(lambda: not self._busy)
-            save_document(document, self.path)
-            self._pending, self._known, self.error = None, version_of(self.path), None
-            self._changed.notify_all()
-
-    def take_over(self) -> None:
-        with self._changed:
-            self._changed.wait_for(lambda: not self._busy)
-            self._known = version_of(self.path)
-
-    def _save(self, document: Document) -> None:
-        found = version_of(self.path)
-        if found not in (None, self._known):
-            self.left, self.path = self.path, free_sibling(self.path)
-        save_document(document, self.path)
-        self._known = version_of(self.path)
-
-    def _run(self) -> None:
-        last = -float("inf")
-        while True:
-            with self._changed:
-                self._changed.wait_for(lambda: self._pending is not None or self._closed)
-                due = last + self._interval
-                self._changed.wait_for(
-                    lambda: self._hurry or self._closed, max(0.0, due - time.monotonic())
-                )
-                document, self._pending = self._pending, None
-                if document is None:
-                    if self._closed:
-                        return
-                    continue  # it was written meanwhile
-                self._busy = True
-            failure: Exception | None = None
+    def save(self, document: Document, _: object) -> None:
+        """In the thread: write the file, or one beside it where somebody else has changed it."""
+        failure: Exception | None = None
+        with self._writing:
             try:
-                self._save(document)
-            except Exception as error:  # reported; the thread must live on
+                if version_of(self.path) not in (None, self._known):
+                    self.left, self.path = self.path, free_sibling(self.path)
+                save_document(document, self.path)
+                self._known = version_of(self.path)
+            except Exception as error:  # reported; the next submission tries again
                 failure = error
-            last = time.monotonic()
             self.error = failure
             self.n_saved += failure is None
-            try:
-                if self._on_done is not None:
-                    self._on_done(failure)
-            finally:
-                with self._changed:
-                    self._busy = False
-                    self._changed.notify_all()
+        if self._on_done is not None:
+            self._on_done(failure)
+
+    def write(self, document: Document) -> None:
+        """In the caller's thread: write the file, whoever has changed it."""
+        with self._writing:
+            save_document(document, self.path)
+            self._known, self.error = version_of(self.path), None
+
+    def take_over(self) -> None:
+        """Take the file as it is now for one's own."""
+        with self._writing:
+            self._known = version_of(self.path)

@@ -13,8 +13,7 @@ from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
-from glid_nb.methods import MethodChoice
-from glid_nb.solvers import Options, Pose
+from glid_nb.solvers import Method, Newton, Options, Pose
 
 MOST_POSES = 1000
 """Most poses that a document may hold."""
@@ -45,7 +44,7 @@ class NamedPose:
         How.
     map : HarmonicMap
         The result; certified.
-    method : MethodChoice
+    method : Method
         By what. A method on a mesh leaves its result out of the document.
 
     Raises
@@ -59,7 +58,7 @@ class NamedPose:
     energy: Energy
     options: Options
     map: HarmonicMap
-    method: MethodChoice = field(default_factory=MethodChoice)
+    method: Method = field(default_factory=Newton)
 
     def __post_init__(self) -> None:
         _check_kind("the name of a pose", self.name, str)
@@ -73,7 +72,7 @@ class NamedPose:
             ("energy", Energy),
             ("options", Options),
             ("map", HarmonicMap),
-            ("method", MethodChoice),
+            ("method", Method),
         ):
             _check_kind(f"{key} of the pose {self.name!r}", getattr(self, key), kind)
         with about(f"the pose {self.name!r}", DocumentError):

@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from glid_nb import methods
 from glid_nb._errors import InputFileError, about
 from glid_nb._json import (
     anything,
@@ -30,11 +31,10 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.map import complex_from_pairs, complex_to_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE
-from glid_nb.methods import MethodChoice
 from glid_nb.session.archive import read_archive, write_archive
 from glid_nb.session.document import Document, DocumentError, NamedPose, check_count
 from glid_nb.session.png import image_png, light_png, read_png
-from glid_nb.solvers import Options, Pose
+from glid_nb.solvers import Method, Newton, Options, Pose
 
 T = TypeVar("T")
 
@@ -70,6 +70,7 @@ _POSE_KEYS_OF_VERSION_1 = {
 }
 _POSE_KEYS = {**_POSE_KEYS_OF_VERSION_1, "method": check_object}
 _DOMAIN_KEYS = ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "notes")
+_MOST_ITERATIONS = 200  # stands for the method's own
 _MASK = "mask"  # instead of strokes: the pixels are in a member of their own
 _NEVER = "never"  # TraceOptions.max_edge == inf, which JSON cannot say
 
@@ -170,8 +171,8 @@ def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
         "name": pose.name,
         **pose.pose.to_dict(),
         "energy": _energy_to_dict(pose.energy, where),
-        "options": dataclasses.asdict(pose.options),
-        "method": {"name": pose.method.name, "settings": dict(pose.method.settings)},
+        "options": _options_to_dict(pose.options),
+        "method": {"name": pose.method.name, "settings": pose.method.settings},
         "phi": complex_to_pairs(pose.map.phi),
         "psi": complex_to_pairs(pose.map.psi),
     }
@@ -187,9 +188,9 @@ def _pose_from_dict(where: str, data: Any, domain: Domain, keys: Mapping[str, An
             data["name"],
             Pose.from_dict(data),
             _energy_from_dict(data["energy"]),
-            _from_fields(Options, data["options"], "options"),
+            _options_from_dict(data["options"]),
             HarmonicMap(domain, phi, psi),
-            _method_from_dict(data["method"]) if "method" in keys else MethodChoice(),
+            _method_from_dict(data["method"]) if "method" in keys else Newton(),
         )
     _check_proved(pose.map, where)
     return pose
@@ -209,8 +210,7 @@ def _energy_to_dict(energy: Energy, where: str) -> dict[str, Any]:
             f"{where}: its energy is a Python function, which cannot be saved; choose a named "
             "energy"
         )
-    s = getattr(energy, "s", None)
-    return {"name": energy.name} if s is None else {"name": energy.name, "s": s}
+    return {"name": energy.name, **{name: getattr(energy, name) for name in energy.parameters()}}
 
 
 def _energy_from_dict(data: Any) -> Energy:
@@ -219,11 +219,23 @@ def _energy_from_dict(data: Any) -> Energy:
         return energy_by_name(data["name"], data.get("s"))
 
 
-def _method_from_dict(data: Any) -> MethodChoice:
-    """The choice, whether the method can run here or not."""
+def _options_to_dict(options: Options) -> dict[str, Any]:
+    most = _MOST_ITERATIONS if options.max_iterations is None else options.max_iterations
+    return {**dataclasses.asdict(options), "max_iterations": most}
+
+
+def _options_from_dict(data: Any) -> Options:
+    options = _from_fields(Options, data, "options")
+    if options.max_iterations == _MOST_ITERATIONS:
+        return dataclasses.replace(options, max_iterations=None)
+    return options
+
+
+def _method_from_dict(data: Any) -> Method:
+    """The method, whether it can run here or not."""
     with about("method"):
         check_fields(data, "method", {"name": check_text, "settings": check_object})
-        return MethodChoice(data["name"], data["settings"])
+        return methods.by_name(data["name"], **data["settings"])
 
 
 def _domain_from_dict(data: Any) -> Domain:

@@ -5,17 +5,14 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, TypeVar
+from typing import Any
 
 from glid_nb._errors import InputError
 from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import MethodChoice, MethodResult, Step
 from glid_nb.session.document import NamedPose
-from glid_nb.solvers import Iteration, Options, Pose, Result, Status
-
-Record = TypeVar("Record", bound=Iteration | Step)
+from glid_nb.solvers import Iteration, Method, Newton, Options, Pose, Result, Status
 
 LIVE_OPTIONS = Options(restarts=0, iterations_per_call=1)
 """Settings for solving under a hand: the next frame soon, and no other way to a minimum."""
@@ -38,7 +35,7 @@ class Solution:
     energy: float
     energy_iso: float
     energy_p2p: float
-    history: tuple[Iteration, ...] | tuple[Step, ...]
+    history: tuple[Iteration, ...]
     starts: tuple[int, ...] = ()
     """Which of the gesture's iterations began with moved targets."""
 
@@ -54,7 +51,7 @@ class Solution:
         """The outcome of a solve that continued one with the iterations ``before``."""
         return cls(
             result.status,
-            result.status.message,
+            result.message,
             result.energy,
             result.energy_iso,
             result.energy_p2p,
@@ -62,20 +59,10 @@ class Solution:
             starts,
         )
 
-    @classmethod
-    def of_method(cls, result: MethodResult, before: Sequence[Step] = ()) -> Solution:
-        """The outcome of another method; the start, which it records, is no iteration."""
-        return cls(
-            result.status,
-            result.message,
-            result.energy,
-            result.energy_iso,
-            result.energy_p2p,
-            continued_history(before, result.history[1:]),
-        )
 
-
-def continued_history(before: Sequence[Record], more: Sequence[Record]) -> tuple[Record, ...]:
+def continued_history(
+    before: Sequence[Iteration], more: Sequence[Iteration]
+) -> tuple[Iteration, ...]:
     """One history of two, numbered through."""
     last = before[-1].iteration if before else 0
     latest = more[-MOST_ITERATIONS:]
@@ -99,7 +86,7 @@ class EditedPose:
     solution : Solution or None
         How the solve that found ``map`` ended; None while there is none for this very pose,
         energy, options and method.
-    method : MethodChoice
+    method : Method
         What solves it. A method on a mesh leaves ``map`` as it is.
     """
 
@@ -109,7 +96,7 @@ class EditedPose:
     options: Options
     map: HarmonicMap
     solution: Solution | None = None
-    method: MethodChoice = field(default_factory=MethodChoice)
+    method: Method = field(default_factory=Newton)
 
     @property
     def solved(self) -> bool:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import functools
-import threading
 import warnings
 import weakref
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -22,6 +21,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, DocumentError
 from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.edit_state import EditedPose, EditError, EditState
+from glid_nb.session.observed import Observed
 from glid_nb.session.own_files import OwnFiles
 from glid_nb.session.tracing import TracingModel, TracingState
 
@@ -83,8 +83,11 @@ def find_document(path: str | Path) -> Document | None:
     return load_document(path) if Path(path).exists() else None
 
 
-class EditorModel:
+class EditorModel(Observed):
     """A tracing and the deformation of what was traced.
+
+    ``observe`` tells of ``"replaced"``, when ``deformation`` or ``tracing`` is another object, and
+    of ``"saved"`` after each save in the background, of which ``save_error`` says how it went.
 
     Parameters
     ----------
@@ -113,16 +116,13 @@ class EditorModel:
     ) -> None:
         if path is not None:
             _check_place(Path(path))
-        self._lock = threading.RLock()
-        self._observers: list[Callable[[], None]] = []
-        self._save_observers: list[Callable[[], None]] = []
+        super().__init__()
         self._autosave: Autosave | None = None
         self.save_error: Exception | None = None
         """Why the last save in the background failed; None when it did not."""
         self.own_files = OwnFiles()
         """The files that were saved, opened and exported."""
         self._session: _Session | None = None
-        self._swap = threading.Lock()
         # Sessions of other pictures, to which the tracing's undo may go back, and their files.
         self._shelf: list[tuple[_Session, Path | None]] = []
         # What a domain was traced by; undo of the deformation goes back to it.
@@ -131,14 +131,15 @@ class EditorModel:
         # The file that somebody named for the autosave; others are called after it.
         self._named_path: Path | None = None
         self._saved_work: tuple[Any, ...] = ()
-        if document is None:
-            self.tracing = TracingModel(image)
-            """The picture that is open and its cage."""
-            self.apply_tracing()
-        else:
-            self._take(document)
-        if path is not None:
-            self._save_to(Path(path))
+        with self.locked():
+            if document is None:
+                self.tracing = TracingModel(image)
+                """The picture that is open and its cage."""
+                self.apply_tracing()
+            else:
+                self._take(document)
+            if path is not None:
+                self._save_to(Path(path))
 
     @property
     def autosave_path(self) -> Path | None:
@@ -186,14 +187,6 @@ class EditorModel:
         sessions = (session, *(shelved for shelved, _ in self._shelf))
         return any(map(self._is_unsaved, sessions))
 
-    def on_replaced(self, callback: Callable[[], None]) -> None:
-        """Call ``callback`` when ``deformation`` or ``tracing`` is another object."""
-        self._observers.append(callback)
-
-    def on_saved(self, callback: Callable[[], None]) -> None:
-        """Call ``callback`` after each save in the background; ``save_error`` says how it went."""
-        self._save_observers.append(callback)
-
     @property
     def image(self) -> Array | None:
         """The picture that is deformed; the tracing may have another one open, not applied yet."""
@@ -206,14 +199,14 @@ class EditorModel:
         is, and the new session is saved beside it. A picture that the tracing's undo has brought
         back comes back with its poses and its file.
         """
-        with self._lock:
+        with self.locked():
             domain, image = self.tracing.domain, self.tracing.image
             session = self._session
             if domain is None or (session is not None and session.domain is domain):
                 return Application()
             assert image is not None  # a domain comes from a picture
             if session is not None and session.image is image:
-                self._swap_session(session, self._traced(session.deformation))
+                self._session = self._traced(session.deformation)
                 return Application(_apply(session.deformation, domain))
             done = Application()
             if session is not None:
@@ -221,8 +214,7 @@ class EditorModel:
                 by_redo = self.tracing.redo_reaches(session.image)
                 done = Application(0, True, self.autosave_path, by_redo)
             self._change_picture(domain, image)
-        self._tell()
-        return done
+            return done
 
     @property
     def document(self) -> Document:
@@ -269,19 +261,19 @@ class EditorModel:
             It cannot be read; nothing has changed then.
         """
         document = open_document(path)
-        with self._lock:
+        with self.locked():
             if self._autosave is not None:
                 self._save_to(Path(path))
                 self._named_path = Path(path)
             self.own_files.note_session(path)
             self._take(document)
             self._saved_work = _work_of(self.deformation.poses)
-        self._tell()
 
     def autosave(self) -> None:
         """Save soon, if there is a path to save to and something to save."""
-        if self._autosave is not None and self.has_shape:
-            self._autosave.submit(self.document)
+        with self.locked():
+            if self._autosave is not None and self.has_shape:
+                self._autosave.submit(self.document)
 
     def close(self) -> None:
         """Save what is pending and end all threads.
@@ -291,9 +283,8 @@ class EditorModel:
         RuntimeWarning
             The last state could not be saved.
         """
-        with self._lock:
+        with self.locked():
             self._observers.clear()
-            self._save_observers.clear()
             autosave, self._autosave = self._autosave, None
         if autosave is not None:
             autosave.close()
@@ -318,17 +309,13 @@ class EditorModel:
             tracing.image, tracing.domain, tracing.options, tracing.scribbles, deformation
         )
 
-    def _swap_session(self, old: _Session, new: _Session) -> None:
-        """Put one session in the place of another, unless that is there no longer."""
-        with self._swap:
-            if self._session is old:
-                self._session = new
-
     def _change_picture(self, domain: Domain, image: Array) -> None:
         """Begin with another picture, or go on with one that was there before."""
         shelved = next((s for s in self._shelf if s[0].image is image), None)
         if shelved is None:
             if self._named_path is not None and self._session is not None:
+                if self._autosave is not None:
+                    self._autosave.flush()  # its name is not free
                 self._save_to(free_sibling(self._named_path))
             self._replace(Deformation(domain, begin=False))
             return
@@ -362,15 +349,17 @@ class EditorModel:
     def _replace(self, deformation: Deformation) -> None:
         old, self._session = self._session, self._traced(deformation)
         if old is not None:
-            old.deformation.close()
+            self._afterwards(old.deformation.close)  # its thread may wait for the lock
+        self._tell("replaced")
         deformation.observe(functools.partial(self._on_change, deformation))
 
     def _on_change(self, deformation: Deformation, what: str) -> None:
-        session = self._session
-        if session is None or session.deformation is not deformation:
-            return
-        if what == "state" and session.domain is not deformation.domain:
-            self._follow(session, deformation.domain)
+        with self.locked():
+            session = self._session
+            if session is None or session.deformation is not deformation:
+                return
+            if what == "state" and session.domain is not deformation.domain:
+                self._follow(session, deformation.domain)
         if self._autosave is None or deformation.dragged:
             return
         if what == "state" or (what == "frame" and deformation.solved):
@@ -387,15 +376,14 @@ class EditorModel:
                 tracing.return_to(source)
             else:
                 tracing.set_loops(domain.cage.loops)
-        self._swap_session(session, self._traced(session.deformation))
+        self._session = self._traced(session.deformation)
 
     def _saved(self, error: Exception | None) -> None:
         """After a save in the background, in its thread."""
         self.save_error = error
         if error is None:
             self._note_autosave()
-        for callback in tuple(self._save_observers):
-            callback()
+        self._announce("saved")  # without the lock, which may be held by who waits for the save
 
     def _note_autosave(self) -> None:
         if (path := self.autosave_path) is None:
@@ -403,10 +391,6 @@ class EditorModel:
         self.own_files.note([path], path)
         if self.own_files.session == self.left_path:
             self.own_files.session = path
-
-    def _tell(self) -> None:
-        for callback in tuple(self._observers):
-            callback()
 
 
 def _apply(deformation: Deformation, domain: Domain) -> int:

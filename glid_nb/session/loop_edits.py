@@ -69,11 +69,13 @@ def nearest_edge(loops: Loops, point: ArrayLike) -> tuple[int, int, Loop]:
 
 def around(loops: Loops, point: ArrayLike) -> int | None:
     """Index of the hole loop that goes around a point, or None."""
-    x, y = checked_point(point)
-    for i, loop in enumerate(loops[1:], start=1):
-        if shapely.contains_xy(shapely.Polygon(loop), x, y):
-            return i
-    return None
+    holes = enumerate(loops[1:], start=1)
+    return next((i for i, loop in holes if contains(loop, point)), None)
+
+
+def contains(loop: Loop, point: ArrayLike) -> bool:
+    """Whether a loop goes around a point."""
+    return bool(shapely.contains_xy(shapely.Polygon(loop), *checked_point(point)))
 
 
 def checked_point(point: ArrayLike) -> Loop:

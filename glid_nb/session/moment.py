@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import MeshMap
 from glid_nb.session.edit_state import EditState, Solution
 from glid_nb.session.live_solver import Frame
+from glid_nb.solvers import DeformationMap
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,6 +27,10 @@ class Moment:
     paused: bool
     error: Exception | None = None
     """What the solver's thread met, if that was the last thing it did."""
+    selection: tuple[int, ...] = ()
+    """Indices of the selected handles."""
+    dragged: tuple[int, ...] = ()
+    """Indices of the handles that are being dragged."""
 
     @property
     def map(self) -> HarmonicMap:
@@ -34,14 +39,27 @@ class Moment:
 
     @property
     def comparison(self) -> MeshMap | None:
-        """What a method on a mesh has come to, uncertified."""
+        """What a method on a mesh has come to, uncertified, beside :attr:`map`; else None.
+
+        It is not part of the state, and lags behind it while the method works.
+        """
         return None if self.frame is None else self.frame.mesh
+
+    @property
+    def shown(self) -> DeformationMap:
+        """What there is to see: the comparison, or the certified map."""
+        return self.map if self.comparison is None else self.comparison
 
     @property
     def solution(self) -> Solution | None:
         """How the pose was solved; None while it is not."""
         current, frame = self.state.current, self.frame
-        if current.method.method.family == "harmonic":
+        if current.method.certified:
             return current.solution
         latest = frame is not None and frame.task.pose.asks_the_same(current)
         return frame.solution if frame is not None and latest else None
+
+    @property
+    def solved(self) -> bool:
+        """Whether the pose's method has come to its end."""
+        return self.solution is not None and self.solution.ended

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from glid_nb._errors import InputFileError
-from glid_nb.export.picture import png
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
@@ -29,6 +28,8 @@ def image_png(image: NDArray[np.uint8]) -> bytes:
 
 def light_png(pixels: NDArray[Any]) -> bytes:
     """PNG, compressed lightly: a picture of 4 megapixels takes a tenth of a second."""
+    from glid_nb.export.picture import png  # noqa: PLC0415 - not for the first canvas
+
     return png(pixels, compress_level=1)
 
 

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb.geometry import Domain, triangulate
+from glid_nb.geometry import Domain, MeshMap, triangulate
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import DeformationMap, MeshMap
+from glid_nb.solvers import DeformationMap
 
 Array = NDArray[Any]
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from glid_nb._jax import jax
 from glid_nb.certificate import global_injectivity
+from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Result
 
 _LIBRARIES = ("jax", "jaxlib", "numpy", "scipy")
@@ -41,8 +42,10 @@ def build_report(result: Result) -> dict[str, Any]:
         finite are null.
     """
     began = time.perf_counter()
-    certificate = result.certificate
-    injectivity = global_injectivity(result.map, certificate)
+    map_, certificate = result.map, result.certificate
+    if certificate is None or not isinstance(map_, HarmonicMap):
+        raise TypeError("a report needs a certified map; the result's is one of a mesh")
+    injectivity = global_injectivity(map_, certificate)
     certify_time = time.perf_counter() - began
     energy, options, crossing = result.energy_measure, result.options, injectivity.crossing
     report = {
@@ -73,7 +76,9 @@ def build_report(result: Result) -> dict[str, Any]:
         "solve_time": result.solve_time,
         "certify_time": certify_time,
         "options": dataclasses.asdict(options),
-        "history": [dataclasses.asdict(iteration) for iteration in result.history],
+        "history": [
+            {**dataclasses.asdict(entry), "energy": entry.energy} for entry in result.history
+        ],
         "versions": _versions(),
         "machine": _machine(),
     }

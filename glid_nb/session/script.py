@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from glid_nb.energies import CustomEnergy, Energy
+from glid_nb.energies import CustomEnergy
 from glid_nb.geometry import Domain
-from glid_nb.imaging import TraceError, TraceOptions, trace
-from glid_nb.methods import OURS
+from glid_nb.imaging import TraceError, trace
 from glid_nb.session.document import Document, DocumentError, NamedPose
-from glid_nb.solvers import Options
+from glid_nb.solvers import Newton
 
 
 def python_code(document: Document, picture: str = "picture.png", *, exact: bool = False) -> str:
@@ -51,9 +51,8 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
     lines = ["import glid_nb as glid", ""]
     lines += _domain_lines(document, picture)
     if exact:
-        lines += [
-            f"map = glid.HarmonicMap(domain, {pose.map.phi.tolist()}, {pose.map.psi.tolist()})"
-        ]
+        phi, psi = pose.map.phi.tolist(), pose.map.psi.tolist()
+        lines.append(f"map = glid.HarmonicMap(domain, {phi}, {psi})")
     else:
         lines += _solve_lines(pose)
     return "\n".join(lines) + "\n"
@@ -61,24 +60,17 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
 
 def _solve_lines(pose: NamedPose) -> list[str]:
     handles, targets = pose.pose.handles.tolist(), pose.pose.targets.tolist()
-    arguments = ["domain", "pose", _energy(pose.energy)]
-    function, options = "solve", _changed(pose.options, Options())
-    if pose.method.name != OURS:
-        function = "run_method"
-        settings = pose.method.arguments(pose.options)
-        arguments = [
-            repr(pose.method.name),
-            *arguments,
-            *(f"{name}={_plain(value)!r}" for name, value in settings.items()),
-        ]
-    elif options:
+    arguments = ["domain", "pose", _made(pose.energy)]
+    if options := _changed(pose.options, pose.method.options):
         arguments.append(f"glid.Options({options})")
+    if not isinstance(pose.method, Newton):
+        arguments.append(f"method={_made(pose.method, 'glid.methods')}")
     return [
         "pose = glid.Pose(",
         f"    handles={handles},",
         f"    targets={targets},",
         ")",
-        f"result = glid.{function}({', '.join(arguments)})",
+        f"result = glid.solve({', '.join(arguments)})",
         "map = result.map",
     ]
 
@@ -86,7 +78,7 @@ def _solve_lines(pose: NamedPose) -> list[str]:
 def _domain_lines(document: Document, picture: str) -> list[str]:
     lines = []
     if _is_traced(document):
-        options = _changed(document.trace_options, TraceOptions())
+        options = _changed(document.trace_options)
         arguments = f"image, {options}" if options else "image"
         lines += [
             f"image = glid.read_image({picture!r})",
@@ -125,21 +117,18 @@ def _is_traced(document: Document) -> bool:
     return cage.equals(document.cage)
 
 
-def _energy(energy: Energy) -> str:
-    s = getattr(energy, "s", None)
-    return f"glid.{type(energy).__name__}({'' if s is None else f's={float(s)!r}'})"
+def _made(value: Any, module: str = "glid") -> str:
+    """The call that makes a dataclass."""
+    return f"{module}.{type(value).__name__}({_changed(value)})"
 
 
-def _changed(value: Any, default: Any) -> str:
-    """The fields of a dataclass that differ from the default, as keyword arguments."""
-    parts = []
-    for field in dataclasses.fields(value):
-        given = getattr(value, field.name)
-        if given != getattr(default, field.name):
-            written = "float('inf')" if given == math.inf else repr(_plain(given))
-            parts.append(f"{field.name}={written}")
+def _changed(value: Any, names: Sequence[str] | None = None) -> str:
+    """The fields of a dataclass that differ from the defaults, as keyword arguments."""
+    parts, default = [], type(value)()
+    for name in [field.name for field in dataclasses.fields(value)] if names is None else names:
+        given = getattr(value, name)
+        if given != getattr(default, name):
+            given = given.item() if isinstance(given, np.generic) else given
+            written = "float('inf')" if given == math.inf else repr(given)
+            parts.append(f"{name}={written}")
     return ", ".join(parts)
-
-
-def _plain(value: Any) -> Any:
-    return value.item() if isinstance(value, np.generic) else value

@@ -9,12 +9,12 @@ from typing import Literal
 
 from glid_nb._bounds import rounded_down, rounded_up
 from glid_nb.certificate import Certificate
+from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import MeshMap, MethodError
 from glid_nb.session.edit_state import EditState, Solution
 from glid_nb.session.live_solver import Frame
 from glid_nb.session.moment import Moment
-from glid_nb.solvers import Status
+from glid_nb.solvers import MethodError, Status
 
 Level = Literal["idle", "working", "good", "blocked", "error"]
 
@@ -69,7 +69,7 @@ def describe(moment: Moment, certificate_of: Callable[[HarmonicMap], Certificate
 
 def _describe_comparison(solution: Solution, frame: Frame, proof: str) -> StatusLine:
     """The status of a pose whose method on a mesh has ended."""
-    title = frame.task.pose.method.method.title
+    title = frame.task.pose.method.label
     status = solution.status
     if status is Status.STOPPED:
         return StatusLine("idle", f"{title} stopped" + proof)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
@@ -29,11 +28,12 @@ from glid_nb.imaging.read import ImageSource
 from glid_nb.imaging.trace import with_changes
 from glid_nb.session import loop_edits
 from glid_nb.session.document import Document
+from glid_nb.session.history import History
 from glid_nb.session.loop_edits import Loops
+from glid_nb.session.observed import Observed
 
 Brush = Literal["foreground", "background"]
 
-_MOST_STEPS = 200
 _KEPT_OUTCOMES = 12  # each holds a mask of the picture's size
 
 
@@ -116,7 +116,7 @@ _NO_SCRIBBLES = Scribbles([], [])
 _METHOD_OF_SCRIBBLES: dict[str, Any] = {"method": "scribbles", "scribbles": _NO_SCRIBBLES}
 
 
-class TracingModel:
+class TracingModel(Observed):
     """Traces a cage from a picture, interactively, with undo; a widget is a view of one.
 
     Every action makes a new immutable state. A state whose loops are no cage may exist (a vertex
@@ -144,21 +144,16 @@ class TracingModel:
         self, image: ImageSource | None = None, options: TraceOptions | None = None
     ) -> None:
         chosen = options if options is not None else TraceOptions()
-        state = TracingState(
-            None if image is None else _pixels(image),
-            replace(chosen, scribbles=_NO_SCRIBBLES if chosen.method == "scribbles" else None),
-            chosen.scribbles,
-        )
-        self._begin(state)
+        pixels = None if image is None else _pixels(image)
+        self._begin(TracingState(pixels, _without_strokes(chosen), chosen.scribbles))
 
     @classmethod
     def from_document(cls, document: Document) -> TracingModel:
         """A model that stands where the document's tracing did."""
         model = cls.__new__(cls)
-        options = document.trace_options
         state = TracingState(
             document.image,
-            replace(options, scribbles=_NO_SCRIBBLES if options.method == "scribbles" else None),
+            _without_strokes(document.trace_options),
             document.scribbles,
             document.cage.loops,
             document.domain,
@@ -167,16 +162,12 @@ class TracingModel:
         # Exactly what tracing gives anew was not edited by hand.
         tracing = model.tracing
         if tracing is not None and tracing.cage.equals(document.cage):
-            model._state = replace(state, loops=None)
+            model._history = History(replace(state, loops=None))
         return model
 
     def _begin(self, state: TracingState) -> None:
-        self._lock = threading.RLock()
-        self._callbacks: list[Callable[[], None]] = []
-        self._past: list[TracingState] = []
-        self._future: list[TracingState] = []
-        self._state = state
-        self._gesture: Any = None
+        super().__init__()
+        self._history = History(state)
         self._tracer: Tracer | None = None
         self._outcomes: OrderedDict[TracingState, TracingOutcome] = OrderedDict()
 
@@ -185,36 +176,36 @@ class TracingModel:
     @property
     def state(self) -> TracingState:
         """What is chosen now."""
-        return self._state
+        return self._history.present
 
     @property
     def image(self) -> NDArray[np.uint8] | None:
         """The picture, (h, w, 4) read-only uint8."""
-        return self._state.image
+        return self.state.image
 
     @property
     def frame(self) -> PixelFrame | None:
         """Pixels to world coordinates and back."""
-        if self._state.image is None:
+        if self.state.image is None:
             return None
-        height, width = self._state.image.shape[:2]
+        height, width = self.state.image.shape[:2]
         return PixelFrame(width=width, height=height)
 
     @property
     def options(self) -> TraceOptions:
         """The options, with the scribbles that they use."""
-        return self._state.trace_options
+        return self.state.trace_options
 
     @property
     def scribbles(self) -> Scribbles | None:
         """What was painted, used or not."""
-        return self._state.scribbles
+        return self.state.scribbles
 
     @property
     def outcome(self) -> TracingOutcome:
         """What follows from the state; computed on first use."""
         with self._lock:
-            state = self._state
+            state = self.state
             if state not in self._outcomes:
                 self._outcomes[state] = self._evaluate(state)
                 while len(self._outcomes) > _KEPT_OUTCOMES:
@@ -256,37 +247,31 @@ class TracingModel:
     @property
     def edited(self) -> bool:
         """Whether vertices were edited by hand since the last tracing."""
-        return self._state.loops is not None
+        return self.state.loops is not None
 
     @property
     def has_discarded_edits(self) -> bool:
         """Whether the last step, such as another option, took edits by hand away."""
-        before = self._past[-1] if self._past else self._state
+        before = self._history.past[-1] if self._history.past else self.state
         return before.loops is not None and not self.edited and before.image is self.image
 
     @property
     def can_undo(self) -> bool:
         """Whether there is a state to go back to."""
-        return bool(self._past)
+        return bool(self._history.past)
 
     @property
     def can_redo(self) -> bool:
         """Whether a state was undone."""
-        return bool(self._future)
+        return bool(self._history.future)
 
     def redo_reaches(self, image: NDArray[np.uint8] | None) -> bool:
         """Whether a picture, this very array, is among what redo brings back."""
-        return any(state.image is image for state in self._future)
+        return any(state.image is image for state in self._history.future)
 
     def on_change(self, callback: Callable[[], None]) -> Callable[[], None]:
         """Call ``callback`` after every change; the result ends that."""
-        self._callbacks.append(callback)
-
-        def stop() -> None:
-            if callback in self._callbacks:
-                self._callbacks.remove(callback)
-
-        return stop
+        return self.observe(lambda _: callback())
 
     # What can be done
 
@@ -298,7 +283,7 @@ class TracingModel:
         TraceError
             It cannot be read; nothing has changed then.
         """
-        self._push(TracingState(image=_pixels(image)))
+        self._step(TracingState(image=_pixels(image)))
 
     def set_options(self, gesture: Any = None, **changes: Any) -> None:
         """Trace with changed options, fields of `TraceOptions`. Edits by hand go; undo brings them.
@@ -308,8 +293,8 @@ class TracingModel:
         TraceError
             An unknown field, or a value out of its range; nothing has changed then.
         """
-        with self._lock:
-            before = self._state
+        with self.locked():
+            before = self.state
             if "scribbles" in changes:
                 raise TraceError("scribbles are painted: use paint(...) and clear_scribbles()")
             if changes.get("method") == "scribbles":
@@ -319,9 +304,7 @@ class TracingModel:
             options = with_changes(before.options, changes)
             if options == before.options and before.loops is None:
                 return
-            state = replace(before, options=options, loops=None)
-            self._replace(state, gesture)
-        self._notify()
+            self._step(replace(before, options=options, loops=None), gesture)
 
     def pick_background(self, point: Point) -> None:
         """Find the foreground by the distance from the colour of a pixel."""
@@ -341,8 +324,8 @@ class TracingModel:
         TraceError
             The stroke is no list of finite points; nothing has changed then.
         """
-        with self._lock:
-            old = self._state.scribbles or _NO_SCRIBBLES
+        with self.locked():
+            old = self.state.scribbles or _NO_SCRIBBLES
             strokes = {"foreground": old.foreground, "background": old.background}
             if brush not in strokes:
                 raise TraceError(f"there is no brush {brush!r}; use foreground or background")
@@ -354,21 +337,21 @@ class TracingModel:
                 raise
             except (TypeError, ValueError) as error:
                 raise TraceError(f"a stroke must be a list of pixels (x, y): {error}") from error
-            options = with_changes(self._state.options, _METHOD_OF_SCRIBBLES)
-            self._replace(replace(self._state, options=options, scribbles=scribbles, loops=None))
-        self._notify()
+            options = with_changes(self.state.options, _METHOD_OF_SCRIBBLES)
+            self._step(replace(self.state, options=options, scribbles=scribbles, loops=None))
 
     def clear_scribbles(self) -> None:
         """Remove all strokes."""
-        if self._state.scribbles is None:
-            return
-        loops = None if self._state.options.method == "scribbles" else self._state.loops
-        self._push(replace(self._state, scribbles=None, loops=loops))
+        with self.locked():
+            state = self.state
+            if state.scribbles is not None:
+                loops = None if state.options.method == "scribbles" else state.loops
+                self._step(replace(state, scribbles=None, loops=loops))
 
     def toggle_hole(self, number: int) -> None:
         """Drop a hole, or keep it if it was dropped. Other loops keep their edits."""
-        with self._lock:
-            state, frame = self._state, self.frame
+        with self.locked():
+            state, frame = self.state, self.frame
             if frame is None or not 0 <= number < len(self.holes):
                 raise TraceError(f"there is no hole {number}; there are {len(self.holes)}")
             hole = self.holes[number]
@@ -381,8 +364,7 @@ class TracingModel:
             new = replace(state, options=replace(state.options, keep_holes=keep, drop_holes=drop))
             if state.loops is not None:
                 new = replace(new, loops=self._loops_with(new, hole))
-            self._replace(new)
-        self._notify()
+            self._step(new)
 
     def move_vertex(self, loop: int, index: int, to: Point, gesture: Any = None) -> None:
         """Move a vertex of a loop that is shown."""
@@ -392,7 +374,7 @@ class TracingModel:
 
     def insert_vertex(self, at: Point) -> tuple[int, int]:
         """Add a vertex on the edge next to a point; its (loop, index)."""
-        with self._lock:
+        with self.locked():
             loops = self.outcome.loops
             if not loops:
                 raise GeometryError("there is no loop yet to add a vertex to")
@@ -414,70 +396,59 @@ class TracingModel:
 
     def discard_edits(self) -> None:
         """Go back to the loops as traced; undo brings the edits back."""
-        if self.edited:
-            self._push(replace(self._state, loops=None))
+        with self.locked():
+            if self.edited:
+                self._step(replace(self.state, loops=None))
 
     def set_loops(self, loops: Loops) -> None:
         """Other loops as if edited by hand, world coordinates, the exterior first."""
         self._edit(lambda _: loops)
 
     def return_to(self, state: TracingState) -> None:
-        """Go to a state of before in a new step."""
-        with self._lock:
-            if state is self._state:
-                return
-            self._replace(state)
-            self._state = state  # with the fallback that it had
-        self._notify()
+        """Go to a state of before, with the fallback that it had, in a new step."""
+        with self.locked():
+            if state is not self.state:
+                self._go_to(self._history.step(state))
 
     def undo(self) -> bool:
         """Go back one step; whether there was one."""
-        return self._travel(self._past, self._future)
+        with self.locked():
+            return self._go_to(self._history.undone())
 
     def redo(self) -> bool:
         """Take back the last undo; whether there was one."""
-        return self._travel(self._future, self._past)
+        with self.locked():
+            return self._go_to(self._history.redone())
 
-    # How it is done
+    def cancel(self, gesture: Any) -> bool:
+        """Go to where a gesture began, as if it had not; whether it was the last thing done."""
+        with self.locked():
+            under_way = gesture is not None and self._history.gesture == gesture
+            return under_way and self._go_to(self._history.cancelled())
 
-    def _push(self, state: TracingState) -> None:
-        with self._lock:
-            self._replace(state)
-        self._notify()
+    # How it is done; the lock is held where these are called
 
-    def _replace(self, state: TracingState, gesture: Any = None) -> None:
-        """Make ``state`` the current one: a step of its own, or part of a gesture under way."""
-        with self._lock:
-            if gesture is None or gesture != self._gesture:
-                self._past.append(self._state)
-                del self._past[:-_MOST_STEPS]
-            same_picture = state.image is self._state.image
-            fallback = self.outcome.domain if same_picture else None
-            if gesture is not None and gesture == self._gesture:
-                # What was valid for a moment, on the way, nobody chose.
-                fallback = self._state.fallback
-            self._future.clear()
-            self._gesture = gesture
-            self._state = replace(state, fallback=fallback)
+    def _step(self, state: TracingState, gesture: Any = None) -> None:
+        """Make ``state`` the present one: a step of its own, or part of a gesture under way."""
+        with self.locked():
+            before, history = self.state, self._history
+            if gesture is not None and gesture == history.gesture:
+                fallback = before.fallback  # what was valid on the way, nobody chose
+            else:
+                fallback = self.outcome.domain if state.image is before.image else None
+            self._go_to(history.step(replace(state, fallback=fallback), gesture))
 
-    def _travel(self, here: list[TracingState], there: list[TracingState]) -> bool:
-        with self._lock:
-            if not here:
-                return False
-            there.append(self._state)
-            self._state = here.pop()
-            self._gesture = None
-        self._notify()
+    def _go_to(self, history: History[TracingState]) -> bool:
+        """Make a history the present one; whether it is another."""
+        if history is self._history:
+            return False
+        self._history = history
+        self._tell("state")
         return True
 
-    def _notify(self) -> None:
-        for callback in tuple(self._callbacks):
-            callback()
-
     def _edit(self, change: Callable[[Loops], Loops], gesture: Any = None) -> None:
-        with self._lock:
-            self._replace(replace(self._state, loops=change(self.outcome.loops)), gesture)
-        self._notify()
+        with self.locked():
+            self._step(replace(self.state, loops=change(self.outcome.loops)), gesture)
 
     def _evaluate(self, state: TracingState) -> TracingOutcome:
         if state.image is None:
@@ -534,6 +505,10 @@ class TracingModel:
             raise TraceError("there is no picture yet; open one first")
         x, y = loop_edits.checked_point(point)
         frame.index_at((float(x), float(y)))
+
+
+def _without_strokes(options: TraceOptions) -> TraceOptions:
+    return replace(options, scribbles=_NO_SCRIBBLES if options.method == "scribbles" else None)
 
 
 def _problem(error: TraceError | GeometryError, frame: PixelFrame) -> TracingProblem:

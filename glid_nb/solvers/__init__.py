@@ -1,15 +1,21 @@
 """Minimising a deformation energy over certified harmonic maps (paper Sections 7 and 9)."""
 
 from glid_nb.solvers.batch import solve_batch
+from glid_nb.solvers.method import Method, MethodError
+from glid_nb.solvers.newton import Newton
 from glid_nb.solvers.options import OptionError, Options
 from glid_nb.solvers.pose import Pose, PoseError
-from glid_nb.solvers.result import Iteration, Result
-from glid_nb.solvers.solve import Progress, solve
+from glid_nb.solvers.result import DeformationMap, Iteration, Progress, Result
+from glid_nb.solvers.solve import solve
 from glid_nb.solvers.start import StartError
 from glid_nb.solvers.status import Status
 
 __all__ = [
+    "DeformationMap",
     "Iteration",
+    "Method",
+    "MethodError",
+    "Newton",
     "OptionError",
     "Options",
     "Pose",

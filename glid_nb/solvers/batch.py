@@ -1,6 +1,6 @@
 """Many poses of one shape at once, spread over all local devices.
 
-The poses are split over the devices and run through :func:`glid_nb.solvers.newton.iterations`, on
+The poses are split over the devices and run through :func:`glid_nb.solvers.step.iterations`, on
 CPUs one after the other, elsewhere vectorised, in lockstep. After every call those that have ended
 leave the batch, and those that need the host, because a panel must be split for one, are set aside,
 so that no device works at a pose longer than that takes; they are finished one by one. The caller
@@ -12,7 +12,7 @@ from __future__ import annotations
 import functools
 import time
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -29,24 +29,25 @@ from glid_nb._runtime import (
 from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import newton, outcome
-from glid_nb.solvers.align import aligned
-from glid_nb.solvers.discretisation import Discretisation, discretise
-from glid_nb.solvers.evaluation import Constraints
-from glid_nb.solvers.history import entries
+from glid_nb.solvers import outcome, step
+from glid_nb.solvers.discretisation import discretise
+from glid_nb.solvers.method import Inputs
+from glid_nb.solvers.newton import (
+    SLOW_ITERATIONS,
+    Newton,
+    descend,
+    entries,
+    ridge_of,
+    settings_of,
+    start_of,
+    variant_of,
+)
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose, PoseError
+from glid_nb.solvers.problem import Problem, constraints_of, map_from, real_coefficients
 from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Iteration, Result
-from glid_nb.solvers.solve import (
-    SLOW_ITERATIONS,
-    capacity_for,
-    constraints_of,
-    descend,
-    map_from,
-    real_coefficients,
-    ridge_of,
-)
+from glid_nb.solvers.start import aligned
 from glid_nb.solvers.status import Status
 from glid_nb.solvers.unknowns import reduced_unknowns
 
@@ -112,7 +113,7 @@ def solve_batch(
     batch = _Batch(domain, poses, energy, options, devices)
     with single_blas_thread():
         batch.run()
-    return tuple(batch.finished(i) for i in range(len(poses)))
+    return tuple(map(batch.finished, batch.poses, batch.inputs))
 
 
 def _poses(handles: ArrayLike, targets: ArrayLike) -> list[Pose]:
@@ -131,8 +132,23 @@ def _poses(handles: ArrayLike, targets: ArrayLike) -> list[Pose]:
     return poses
 
 
+@dataclass(eq=False)
+class _Progress:
+    """How far one pose has come."""
+
+    coefficients: Array
+    targets: Array
+    initial: Iteration | None = None
+    energy_iso: float = np.nan
+    energy_p2p: float = np.nan
+    history: list[Iteration] = field(default_factory=list)
+    status: Status | None = None
+    """None while it goes on, or where the batch cannot end it."""
+    time: float = 0.0
+
+
 class _Batch:
-    """The state of all poses on the host."""
+    """All poses on the host."""
 
     def __init__(
         self,
@@ -142,32 +158,34 @@ class _Batch:
         options: Options,
         devices: tuple[Any, ...],
     ) -> None:
-        self.domain, self.poses, self.energy = domain, poses, energy
-        self.options, self.devices = options, devices
-        self.discretisation: Discretisation = discretise(
-            domain, options.sampling, options.certificate
+        self.options, self.devices, self.compile_time = options, devices, 0.0
+        self.limit = Newton().limit(options)
+        self.inputs = [
+            Inputs(domain=domain, pose=pose, energy=energy, options=options) for pose in poses
+        ]
+        disc = self.discretisation = discretise(domain, options.sampling, options.certificate)
+        constraints = constraints_of(domain, poses[0], options.p2p_weight)
+        self.problem = Problem(
+            matrices=disc.matrices,
+            singularities=disc.basis.singularities,
+            unknowns=reduced_unknowns(disc.basis, options.conformal),
+            constraints=constraints,
+            energy=energy,
         )
-        basis = self.discretisation.basis
-        self.constraints = constraints_of(domain, poses[0], options.p2p_weight)
-        self.unknowns = reduced_unknowns(basis, options.conformal)
         identity = HarmonicMap.identity(domain)
         images = identity(poses[0].handles) if options.align else None
-        starts = [aligned(identity, p, images) if options.align else identity for p in poses]
-        self.coefficients = np.stack([real_coefficients(basis, start) for start in starts])
-        self.targets = np.zeros((len(poses), *self.constraints.targets.shape))
-        for padded, pose in zip(self.targets, poses, strict=True):
-            padded[: len(pose)] = pose.targets
-        self.status: list[Status | None] = [None] * len(poses)
-        self.energies = np.full((len(poses), 2), np.nan)
-        self.start_energy = np.full(len(poses), np.nan)
-        self.histories: list[list[Iteration]] = [[] for _ in poses]
-        self.compile_time, self.time = 0.0, np.zeros(len(poses))
+        self.poses = []
+        for pose in poses:
+            start = aligned(identity, pose, images) if options.align else identity
+            targets = np.zeros(constraints.targets.shape)
+            targets[: len(pose)] = pose.targets
+            self.poses.append(_Progress(real_coefficients(disc.basis, start), targets))
 
     def run(self) -> None:
         """Bring every pose to its end, or to where it needs a solve of its own."""
-        room = _MOST_BYTES // (_COPIES * 8 * len(self.unknowns.free) ** 2)
+        room = _MOST_BYTES // (_COPIES * 8 * len(self.problem.unknowns.free) ** 2)
         sizes = [n for n in _SIZES if n <= max(room, 1)]
-        running = list(range(len(self.poses)))
+        running = self.poses
         while running:
             each = -(-len(running) // len(self.devices))
             per_device = next((n for n in sizes if n >= each), sizes[-1])
@@ -175,39 +193,29 @@ class _Batch:
             goes_on = self._call(now, per_device * len(self.devices))
             running = [*running[len(now) :], *goes_on]
 
-    def _call(self, chosen: list[int], size: int) -> list[int]:
+    def _call(self, chosen: list[_Progress], size: int) -> list[_Progress]:
         """One call for the chosen poses; returns those that go on."""
         options = self.options
         rows = dealt(len(chosen), len(self.devices), size // len(self.devices))
         # What only fills the batch up stays where it is.
-        index, limits = np.full(size, chosen[0]), np.zeros(size, dtype=int)
-        index[rows] = chosen
-        left = [options.max_iterations - len(self.histories[i]) for i in chosen]
-        limits[rows] = np.minimum(options.iterations_per_call, left)
-        settings = newton.Settings(
-            np.asarray(options.tolerance),
-            np.asarray(0),
-            np.asarray(self.discretisation.can_refine),
-            np.asarray(ridge_of(self.poses[0])),
-            np.asarray(False),
-            np.asarray(options.corrections),
+        filled, limits = [chosen[0]] * size, np.zeros(size, dtype=int)
+        for row, pose in zip(rows, chosen, strict=True):
+            filled[row] = pose
+            limits[row] = min(options.iterations_per_call, self.limit - len(pose.history))
+        settings = settings_of(
+            options,
+            iterations=0,
+            may_refine=self.discretisation.can_refine,
+            ridge=ridge_of(self.inputs[0].pose),
+            reuse=False,
         )
-        program = _program(
-            self.devices,
-            options.hessian,
-            capacity_for(options.iterations_per_call),
-        )
-        clock = compilation_clock()
+        program, clock = _program(self.devices, variant_of(options)), compilation_clock()
         began, compiling = time.perf_counter(), clock.seconds
         state = program(
-            self.discretisation.matrices,
-            self.discretisation.basis.singularities,
-            self.unknowns,
-            self.constraints,
-            self.energy,
+            self.problem,
             settings,
-            jnp.asarray(self.targets[index]),
-            jnp.asarray(self.coefficients[index]),
+            jnp.asarray(np.stack([pose.targets for pose in filled])),
+            jnp.asarray(np.stack([pose.coefficients for pose in filled])),
             jnp.asarray(limits),
         )
         state = jax.tree.map(np.asarray, state)
@@ -215,63 +223,66 @@ class _Batch:
         seconds = max(time.perf_counter() - began - compiling, 0.0) / len(chosen)
         self.compile_time += compiling
         return [
-            i
-            for row, i in zip(rows, chosen, strict=True)
-            if self._record(i, jax.tree.map(lambda a, row=row: a[row], state), seconds)
+            pose
+            for row, pose in zip(rows, chosen, strict=True)
+            if self._record(pose, jax.tree.map(lambda a, row=row: a[row], state), seconds)
         ]
 
-    def _record(self, i: int, state: newton.State, seconds: float) -> bool:
-        """Note what a call did for pose ``i``; True when it goes on."""
-        history, end, taken = self.histories[i], int(state.outcome), int(state.iteration)
-        self.coefficients[i] = state.coefficients
-        self.energies[i] = state.energy_iso, state.energy_p2p
-        if not history:
-            self.start_energy[i] = state.start_energy
-        panels = len(self.discretisation.panels)
-        history += entries(state.records, taken, len(history), panels, 0, seconds)
-        self.time[i] += seconds
-        if end == outcome.CONVERGED:
-            self.status[i] = Status.CONVERGED
-        elif len(history) >= self.options.max_iterations:
-            self.status[i] = Status.MAX_ITERATIONS
-        return self.status[i] is None and end == outcome.RUNNING and len(history) < SLOW_ITERATIONS
-
-    def finished(self, i: int) -> Result:
-        """The result of pose ``i``, by a solve of its own where the batch could not end it."""
-        status = self.status[i]
-        iso, p2p = (float(part) for part in self.energies[i])
-        first = Result(
-            map_from(self.discretisation, self.coefficients[i]),
-            Status.STOPPED if status is None else status,
-            iso + p2p,
-            iso,
-            p2p,
-            tuple(self.histories[i]),
-            self.poses[i],
-            self.options,
-            self.energy,
-            self.discretisation,
-            self.compile_time / len(self.poses),
-            float(self.time[i]),
-            start_energy=float(self.start_energy[i]),
+    def _record(self, pose: _Progress, state: step.State, seconds: float) -> bool:
+        """Note what a call did for a pose; True when it goes on."""
+        end, taken = int(state.outcome), int(state.iteration)
+        pose.coefficients = np.asarray(state.point.coefficients)
+        pose.energy_iso, pose.energy_p2p = (
+            float(part) for part in (state.point.energy_iso, state.point.energy_p2p)
         )
-        alone = functools.partial(descend, self.domain)
-        if status is None:
-            done = len(first.history)
-            rest = replace(
-                self.options, align=False, max_iterations=self.options.max_iterations - done
-            )
-            last = alone(self.poses[i], self.energy, rest, first)
-            later = tuple(replace(e, iteration=e.iteration + done) for e in last.history)
-            first = replace(
-                last,
-                options=self.options,
-                history=first.history + later,
-                compile_time=first.compile_time + last.compile_time,
-                solve_time=first.solve_time + last.solve_time,
-                start_energy=first.start_energy,
-            )
-        return improve(first, alone, None)
+        if pose.initial is None:
+            pose.initial = start_of(state)
+        panels = len(self.discretisation.panels)
+        pose.history += entries(state.records, taken, len(pose.history), panels, 0, seconds)
+        pose.time += seconds
+        if end == outcome.CONVERGED:
+            pose.status = Status.CONVERGED
+        elif len(pose.history) >= self.limit:
+            pose.status = Status.MAX_ITERATIONS
+        goes_on = pose.status is None and end == outcome.RUNNING
+        return goes_on and len(pose.history) < SLOW_ITERATIONS
+
+    def finished(self, pose: _Progress, inputs: Inputs) -> Result:
+        """The result of a pose, by a solve of its own where the batch could not end it."""
+        assert pose.initial is not None
+        first = Result(
+            map=map_from(self.discretisation, pose.coefficients),
+            status=Status.STOPPED if pose.status is None else pose.status,
+            energy_iso=pose.energy_iso,
+            energy_p2p=pose.energy_p2p,
+            initial=pose.initial,
+            history=tuple(pose.history),
+            pose=inputs.pose,
+            options=inputs.options,
+            energy_measure=inputs.energy,
+            method=Newton(),
+            compile_time=self.compile_time / len(self.poses),
+            solve_time=pose.time,
+            discretisation=self.discretisation,
+        )
+        if pose.status is None:
+            first = self._continued(first, inputs)
+        return improve(first, inputs, descend)
+
+    def _continued(self, first: Result, inputs: Inputs) -> Result:
+        """A result of the batch, solved to its end."""
+        done = len(first.history)
+        rest = replace(inputs.options, align=False, max_iterations=self.limit - done)
+        last = descend(replace(inputs, options=rest, start=first))
+        later = tuple(replace(e, iteration=e.iteration + done) for e in last.history)
+        return replace(
+            last,
+            options=inputs.options,
+            initial=first.initial,
+            history=first.history + later,
+            compile_time=first.compile_time + last.compile_time,
+            solve_time=first.solve_time + last.solve_time,
+        )
 
 
 def dealt(count: int, devices: int, per_device: int) -> Array:
@@ -281,7 +292,7 @@ def dealt(count: int, devices: int, per_device: int) -> Array:
 
 
 @functools.cache
-def _program(devices: tuple[Any, ...], hessian: Any, capacity: int) -> Any:
+def _program(devices: tuple[Any, ...], variant: step.Variant) -> Any:
     """The compiled program for poses on these devices; each device loops on its own."""
     mesh = jax.sharding.Mesh(np.array(devices), ("poses",))
     # A CPU gains nothing from lockstep, in which every pose takes every branch; and the thread pool
@@ -290,28 +301,15 @@ def _program(devices: tuple[Any, ...], hessian: Any, capacity: int) -> Any:
     each, shared = jax.P("poses"), jax.P()
 
     def together(
-        matrices: Any,
-        singularities: Any,
-        unknowns: Any,
-        constraints: Constraints,
-        energy: Energy,
-        settings: newton.Settings,
-        targets: Any,
-        coefficients: Any,
-        limits: Any,
-    ) -> newton.State:
-        def one(goals: Any, y: Any, limit: Any) -> newton.State:
-            state = newton.iterations(
-                matrices,
-                singularities,
-                unknowns,
-                constraints._replace(targets=goals),
-                energy,
+        problem: Problem, settings: step.Settings, targets: Any, coefficients: Any, limits: Any
+    ) -> step.State:
+        def one(goals: Any, y: Any, limit: Any) -> step.State:
+            state = step.iterations(
+                problem._replace(constraints=problem.constraints._replace(targets=goals)),
                 y,
-                jnp.zeros((len(unknowns.free),) * 2),
+                jnp.zeros((len(problem.unknowns.free),) * 2),
                 settings._replace(iterations=limit),
-                hessian=hessian,
-                capacity=capacity,
+                variant=variant,
             )
             # A factor serves one pose at one time; it need not come back.
             return state._replace(factor=jnp.zeros(()))
@@ -323,7 +321,7 @@ def _program(devices: tuple[Any, ...], hessian: Any, capacity: int) -> Any:
     sharded = jax.shard_map(
         together,
         mesh=mesh,
-        in_specs=(*[shared] * 6, each, each, each),
+        in_specs=(shared, shared, each, each, each),
         out_specs=each,
         check_vma=False,
     )

@@ -15,7 +15,7 @@ import numpy as np
 from glid_nb._jax import jax, jnp
 from glid_nb._runtime import double_precision, in_chunks
 from glid_nb.certificate import PROOFS, CertificateKind, PanelProof, rounding
-from glid_nb.geometry import Domain, graded_panels, panels_between, uniform_boundary_samples
+from glid_nb.geometry import Domain, graded_panels, uniform_panels
 from glid_nb.geometry.panels import Panels, paired
 from glid_nb.harmonic import basis_of, cauchy
 from glid_nb.harmonic.basis import Basis
@@ -184,8 +184,7 @@ def discretise(
     if sampling == "graded":
         panels = graded_panels(domain)
     else:
-        samples = uniform_boundary_samples(domain.cage, UNIFORM_SAMPLES)
-        panels = panels_between(samples.points, samples.loop)
+        panels = uniform_panels(domain.cage, UNIFORM_SAMPLES)
     ends = basis_rows(cauchy.first_derivatives, panels.start, basis)
     graded = sampling == "graded"
     rows = _Rows(

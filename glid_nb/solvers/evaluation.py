@@ -1,4 +1,4 @@
-"""What a map's coefficients say on the panels: values, energy gradient, certificate.
+"""What a map's coefficients say on the panels: values, energies, gradient, certificate.
 
 All methods in the harmonic subspace evaluate maps by these functions.
 """
@@ -7,25 +7,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from glid_nb._arrays import AnyArray
 from glid_nb._jax import jnp, lax
-from glid_nb.certificate import EndValues, PanelBounds
-from glid_nb.energies import Differentials
-from glid_nb.harmonic.cauchy import Singularities
+from glid_nb.certificate import EndValues, PanelBounds, fz_vanishes
+from glid_nb.energies import Differentials, Energy
 from glid_nb.solvers.discretisation import Matrices
+from glid_nb.solvers.problem import Positional, Problem
 
 if TYPE_CHECKING:
     from jaxtyping import Array, Bool, Float
-
-
-class Constraints(NamedTuple):
-    """Handles and targets, padded to a bucket (paper Section 6.1, Appendix F)."""
-
-    handles: Float[AnyArray, "h 2c"]
-    """``C`` at the handles as ``[Re C, -Im C]``."""
-    targets: Float[AnyArray, "h 2"]
-    weights: Float[AnyArray, " h"]
-    """``lambda`` for a handle, 0 for padding."""
 
 
 class Samples(NamedTuple):
@@ -35,19 +24,99 @@ class Samples(NamedTuple):
     slopes: Float[Array, "4 p"]
 
 
-def bounds(
-    matrices: Matrices,
-    singularities: Singularities,
-    coefficients: Float[Array, " 4c"],
+class Point(NamedTuple):
+    """A map, with what is known of it."""
+
+    coefficients: Float[Array, " 4c"]
+    samples: Samples
+    energy_iso: Float[Array, ""]
+    energy_p2p: Float[Array, ""]
+    largest: Float[Array, ""]
+    """Largest modulus of a coefficient since the samples were computed anew."""
+
+    @property
+    def energy(self) -> Float[Array, ""]:
+        """The total energy, (20)."""
+        return self.energy_iso + self.energy_p2p
+
+
+class Line(NamedTuple):
+    """A direction, and how the samples change along it."""
+
+    direction: Float[Array, " 4c"]
+    change: Samples
+    squared_decrement: Float[Array, ""]
+    """``-gradient . direction``."""
+
+
+def evaluated(problem: Problem, positional: Positional, y: Float[Array, " 4c"]) -> Point:
+    """The point with the coefficients ``y``, its samples computed anew."""
+    samples = products(problem.matrices, y)
+    return _point(problem, positional, y, samples, largest_modulus(y))
+
+
+def line_along(problem: Problem, direction: Float[Array, " 4c"], slope: Float[Array, ""]) -> Line:
+    """The line in a direction, along which the energy changes by ``slope`` at first."""
+    return Line(direction, products(problem.matrices, direction), -slope)
+
+
+def moved(
+    problem: Problem, positional: Positional, point: Point, line: Line, step: Float[Array, ""]
+) -> Point:
+    """The point ``step`` along a line; its samples are carried along (G.11)."""
+    samples = Samples(*(a + step * b for a, b in zip(point.samples, line.change, strict=True)))
+    y = point.coefficients + step * line.direction
+    largest = jnp.maximum(point.largest, largest_modulus(y))
+    return _point(problem, positional, y, samples, largest)
+
+
+def _point(
+    problem: Problem,
+    positional: Positional,
+    y: Float[Array, " 4c"],
     samples: Samples,
     largest: Float[Array, ""],
-) -> PanelBounds:
-    """The certificate's bounds on every panel.
+) -> Point:
+    iso = isometric_energy(samples.nodes, problem.matrices.weights, problem.energy)
+    return Point(y, samples, iso, positional.energy(y), largest)
 
-    ``largest`` is the largest modulus of a coefficient since the samples were computed anew.
-    """
-    truncation = _truncation(matrices, singularities, coefficients)
-    remainder = truncation + matrices.rounding * largest
+
+def isometric_energy(
+    nodes: Float[Array, "4 *t s"], weights: Float[Array, " s"], energy: Energy
+) -> Float[Array, "*t"]:
+    """Equation (31), infinite where a sample is inverted; padding (weight 0) counts nothing."""
+    x, y = squares(nodes)
+    valid = x > y
+    density = energy.density(jnp.where(valid, x, 1.0), jnp.where(valid, y, 0.0))
+    density = jnp.where(valid & (density < jnp.inf), density, jnp.inf)
+    return jnp.sum(jnp.where(weights > 0, weights * density, 0), axis=-1)
+
+
+def gradient(problem: Problem, positional: Positional, point: Point) -> Float[Array, " 4c"]:
+    """The gradient of the total energy with respect to all coefficients."""
+    nodes = point.samples.nodes
+    d = problem.energy.differentials(*squares(nodes))
+    isometric = energy_gradient(problem.matrices, nodes, d)
+    return isometric + positional.gradient(point.coefficients)
+
+
+def energy_gradient(
+    matrices: Matrices, nodes: Float[Array, "4 s"], d: Differentials
+) -> Float[Array, " 4c"]:
+    """Gradient of the isometric energy, (G.7) with the last block's sign corrected."""
+    w1, w2 = 2 * matrices.weights * d.alpha1, 2 * matrices.weights * d.alpha2
+    m = matrices.nodes @ (nodes * jnp.stack([w1, w1, w2, w2])).T
+    c = m.shape[0] // 2
+    re, im = m[:c].T, m[c:].T
+    # D^H v = (Re D^T - i Im D^T) v with the stored halves Re D and -Im D.
+    return jnp.concatenate([re[0] - im[1], re[1] + im[0], re[2] - im[3], re[3] + im[2]])
+
+
+def bounds(problem: Problem, point: Point) -> PanelBounds:
+    """The certificate's bounds on every panel."""
+    matrices, samples = problem.matrices, point.samples
+    truncation = _truncation(problem, point.coefficients)
+    remainder = truncation + matrices.rounding * point.largest
     chord = lax.complex(*matrices.chord)
     panels = chord.shape[0]
     f, g = _complex_rows(samples.nodes[:, :panels])
@@ -58,15 +127,15 @@ def bounds(
     return matrices.proof.bounds(fz, fzb_conj, remainder)
 
 
-def tightened_by_splitting(
-    matrices: Matrices,
-    singularities: Singularities,
-    coefficients: Float[Array, " 4c"],
-    largest: Float[Array, ""],
-) -> Bool[Array, " p"]:
+def has_zeros(matrices: Matrices, panel: PanelBounds) -> Bool[Array, ""]:
+    """Whether ``f_z`` has zeros inside (30)."""
+    return fz_vanishes(jnp.where(matrices.real, panel.turning, 0))
+
+
+def tightened_by_splitting(problem: Problem, point: Point) -> Bool[Array, " p"]:
     """Panels whose bounds are loose by more than rounding, which no splitting lessens."""
-    truncation = _truncation(matrices, singularities, coefficients)
-    return jnp.max(truncation, axis=0) > matrices.rounding * largest
+    truncation = _truncation(problem, point.coefficients)
+    return jnp.max(truncation, axis=0) > problem.matrices.rounding * point.largest
 
 
 def largest_modulus(coefficients: Float[Array, " 4c"]) -> Float[Array, ""]:
@@ -93,26 +162,7 @@ def products(matrices: Matrices, y: Float[Array, " 4c"]) -> Samples:
     return Samples(y4 @ matrices.nodes, y4 @ matrices.slopes)
 
 
-def energy_gradient(
-    matrices: Matrices, nodes: Float[Array, "4 s"], d: Differentials
-) -> Float[Array, " 4c"]:
-    """Gradient of the isometric energy, (G.7) with the last block's sign corrected."""
-    w1, w2 = 2 * matrices.weights * d.alpha1, 2 * matrices.weights * d.alpha2
-    m = matrices.nodes @ (nodes * jnp.stack([w1, w1, w2, w2])).T
-    c = m.shape[0] // 2
-    re, im = m[:c].T, m[c:].T
-    # D^H v = (Re D^T - i Im D^T) v with the stored halves Re D and -Im D.
-    return jnp.concatenate([re[0] - im[1], re[1] + im[0], re[2] - im[3], re[3] + im[2]])
-
-
-def constraint_matrix(constraints: Constraints) -> Float[Array, "2h 4c"]:
-    """The matrix of (F.5): first all rows for the real parts, then those for the imaginary."""
-    c = constraints.handles.shape[1] // 2
-    re, minus_im = constraints.handles[:, :c], constraints.handles[:, c:]
-    return jnp.block([[re, minus_im, re, minus_im], [-minus_im, re, minus_im, -re]])
-
-
-def squares(nodes: Float[Array, "4 s"]) -> tuple[Array, Array]:
+def squares(nodes: Float[Array, "4 *t s"]) -> tuple[Array, Array]:
     """``|f_z|^2`` and ``|f_zbar|^2``."""
     return nodes[0] ** 2 + nodes[1] ** 2, nodes[2] ** 2 + nodes[3] ** 2
 
@@ -128,11 +178,10 @@ def directions(nodes: Float[Array, "4 s"]) -> tuple[tuple[Array, Array], tuple[A
     return pairs[0], pairs[1]
 
 
-def _truncation(
-    matrices: Matrices, singularities: Singularities, coefficients: Float[Array, " 4c"]
-) -> Float[Array, "2 p"]:
+def _truncation(problem: Problem, coefficients: Float[Array, " 4c"]) -> Float[Array, "2 p"]:
     """How far the derivatives of ``phi`` and ``psi`` may be from what their ends say."""
-    return matrices.proof.remainder(jnp.stack(_complex_pair(coefficients)), singularities)
+    pair = jnp.stack(_complex_pair(coefficients))
+    return problem.matrices.proof.remainder(pair, problem.singularities)
 
 
 def _complex_pair(y: Float[Array, " 4c"]) -> tuple[Array, Array]:

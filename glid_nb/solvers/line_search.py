@@ -6,14 +6,22 @@ direction cost no further product (G.11) and many candidate steps are tried at o
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 from glid_nb._arrays import AnyArray
 from glid_nb._jax import jnp, lax
-from glid_nb.certificate import PanelBounds, fz_vanishes
-from glid_nb.energies import Energy
+from glid_nb.certificate import PanelBounds
+from glid_nb.solvers.evaluation import (
+    Line,
+    Point,
+    bounds,
+    has_zeros,
+    isometric_energy,
+    moved,
+    turning,
+)
 from glid_nb.solvers.outcome import BLOCKED, NO_DECREASE, PENDING, REFUSED, RUNNING
+from glid_nb.solvers.problem import Positional, Problem
 
 if TYPE_CHECKING:
     from jaxtyping import Array, Bool, Float, Int
@@ -43,18 +51,6 @@ class Search(NamedTuple):
     """The candidate of least energy."""
 
 
-def isometric_energy(
-    nodes: Float[Array, "4 *t s"], weights: Float[Array, " s"], energy: Energy
-) -> Float[Array, "*t"]:
-    """Equation (31), infinite where a sample is inverted; padding (weight 0) counts nothing."""
-    x = nodes[0] ** 2 + nodes[1] ** 2
-    y = nodes[2] ** 2 + nodes[3] ** 2
-    valid = x > y
-    density = energy.density(jnp.where(valid, x, 1.0), jnp.where(valid, y, 0.0))
-    density = jnp.where(valid & (density < jnp.inf), density, jnp.inf)
-    return jnp.sum(jnp.where(weights > 0, weights * density, 0), axis=-1)
-
-
 def largest_step(nodes: Float[Array, "4 s"], change: Float[Array, "4 s"]) -> Float[Array, ""]:
     """The step at which the first sample becomes inverted, or infinity, in closed form.
 
@@ -74,27 +70,21 @@ def _difference_of_squares(a: Float[Array, "4 s"], b: Float[Array, "4 s"]) -> Fl
     return a[0] * b[0] + a[1] * b[1] - a[2] * b[2] - a[3] * b[3]
 
 
-def search(
-    nodes: Float[Array, "4 s"],
-    change: Float[Array, "4 s"],
-    weights: Float[Array, " s"],
-    energy: Energy,
-    residual: Float[Array, " r"],
-    residual_change: Float[Array, " r"],
-    residual_weights: Float[Array, " r"],
-    total: Float[Array, ""],
-    squared_decrement: Float[Array, ""],
-) -> Search:
+def search(problem: Problem, positional: Positional, point: Point, line: Line) -> Search:
     """Energies along the line in batches of candidates, each batch shorter, until one decreases."""
+    nodes, change = point.samples.nodes, line.change.nodes
+    residual = positional.residual(point.coefficients)
+    residual_change = positional.matrix @ line.direction
+    total = point.energy
 
     def along(t: Float[Array, " t"]) -> Float[Array, " t"]:
         r = residual + t[:, None] * residual_change
-        p2p = 0.5 * jnp.sum(residual_weights * r**2, axis=-1)
-        moved = nodes[:, None] + t[:, None] * change[:, None]
-        return isometric_energy(moved, weights, energy) + p2p
+        p2p = 0.5 * jnp.sum(positional.weights * r**2, axis=-1)
+        there = nodes[:, None] + t[:, None] * change[:, None]
+        return isometric_energy(there, problem.matrices.weights, problem.energy) + p2p
 
     def acceptable(steps: Array, energies: Array) -> Array:
-        return energies < total - ARMIJO * steps * squared_decrement
+        return energies < total - ARMIJO * steps * line.squared_decrement
 
     def lower(carry: tuple[Array, Array]) -> tuple[Array, Array]:
         steps = carry[0] * RATIO**CANDIDATES
@@ -113,31 +103,46 @@ def search(
     return Search(steps, energies, acceptable(steps, energies), jnp.argmin(energies))
 
 
+class Backtracking(NamedTuple):
+    """Where backtracking ended."""
+
+    outcome: Int[Array, ""]
+    """RUNNING where ``step`` is certified."""
+    step: Float[Array, ""]
+    panel: PanelBounds
+    """The bounds there."""
+    refused: Bool[Array, " p"]
+    """Panels that refused the first step."""
+
+
 def backtrack(
+    problem: Problem,
+    positional: Positional,
+    point: Point,
+    line: Line,
     found: Search,
-    certified: Callable[[Array], PanelBounds],
-    turning: Float[Array, " p"],
-    real: Bool[Array, " p"],
     may_refine: Bool[AnyArray, ""],
-) -> tuple[Int[Array, ""], Float[Array, ""], PanelBounds, Bool[Array, " p"]]:
+) -> Backtracking:
     """Go from the best candidate to shorter ones until one is certified, or ask for finer panels.
 
-    ``turning`` is how ``f_z`` turns along each panel of the current map. Returns the outcome, the
-    step, the bounds there, and which panels refused the first step.
+    Where Condition (30) fails, ``f_z`` has zeros inside, and no panel refuses, the step jumps over
+    a map with a zero on the boundary; the panels along which ``f_z`` turned most are where.
     """
-    decreases = found.acceptable[found.best]
-    count = found.steps.shape[0]
+    real, count = problem.matrices.real, found.steps.shape[0]
+    before = turning(problem.matrices, point.samples.nodes)
+
+    def refusing(panel: PanelBounds) -> Bool[Array, " p"]:
+        refuses = real & ~panel.injective
+        zeros = has_zeros(problem.matrices, panel)
+        turned = jnp.where(real, jnp.abs(panel.turning - before), 0)
+        jumped = zeros & ~jnp.any(refuses) & (turned >= jnp.max(turned) / 2)
+        return refuses | (jumped & real)
 
     def attempt(carry: tuple[Array, Array, PanelBounds, Array]) -> tuple:
         _, index, _, refused = carry
-        bounds = certified(found.steps[index])
-        refuses = real & ~bounds.injective
-        # Condition (30): zeros of f_z inside show as a sum of turnings that is not 0. The step then
-        # jumps over a map with a zero on the boundary; the panels that turned most are where.
-        zeros = fz_vanishes(jnp.where(real, bounds.turning, 0))
-        turned = jnp.where(real, jnp.abs(bounds.turning - turning), 0)
-        jumped = zeros & ~jnp.any(refuses) & (turned >= jnp.max(turned) / 2)
-        refuses = refuses | (jumped & real)
+        there = moved(problem, positional, point, line, found.steps[index])
+        panel = bounds(problem, there)
+        refuses = refusing(panel)
         fails = jnp.any(refuses)
         first = index == found.best
         refused = jnp.where(first, refuses, refused)
@@ -149,14 +154,14 @@ def backtrack(
         )
         # argmax gives 0 when there is no shorter acceptable candidate.
         ended = (outcome != BLOCKED) | (shorter == 0)
-        return jnp.where(ended, outcome, PENDING), jnp.where(ended, index, shorter), bounds, refused
+        return jnp.where(ended, outcome, PENDING), jnp.where(ended, index, shorter), panel, refused
 
     blank = jnp.zeros(real.shape)
     start = (
-        jnp.where(decreases, PENDING, NO_DECREASE),
+        jnp.where(found.acceptable[found.best], PENDING, NO_DECREASE),
         found.best,
         PanelBounds(blank, blank, blank, real, blank),
         jnp.zeros_like(real),
     )
-    outcome, index, bounds, refused = lax.while_loop(lambda c: c[0] == PENDING, attempt, start)
-    return outcome, found.steps[index], bounds, refused
+    outcome, index, panel, refused = lax.while_loop(lambda c: c[0] == PENDING, attempt, start)
+    return Backtracking(outcome, found.steps[index], panel, refused)

@@ -1,374 +1,338 @@
-"""Newton's method on the device: one compiled call runs several iterations (paper Algorithm 1)."""
+"""Our method: Newton's, several iterations a compiled call, on the host (paper Algorithm 1)."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+import functools
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar
 
-from glid_nb._arrays import AnyArray
-from glid_nb._jax import jax, jit, jnp, lax
-from glid_nb._runtime import COMPILER_OPTIONS
-from glid_nb.certificate import PanelBounds, fz_vanishes
-from glid_nb.energies import Energy
-from glid_nb.harmonic.cauchy import Singularities
-from glid_nb.solvers import cholesky, evaluation, line_search, whitening
-from glid_nb.solvers.discretisation import Matrices
-from glid_nb.solvers.evaluation import Constraints, Samples
-from glid_nb.solvers.hessian import (
-    LocalHessian,
-    assemble,
-    assemble_across_f,
-    local_hessian,
-    positive_part,
+import numpy as np
+from numpy.typing import NDArray
+
+from glid_nb._jax import jit, jnp
+from glid_nb._runtime import compilation_clock, double_precision, single_blas_thread
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.solvers import outcome, step
+from glid_nb.solvers.discretisation import Discretisation, discretise
+from glid_nb.solvers.loop import Advance, Descent, Ending, Reached, follow
+from glid_nb.solvers.method import Family, Inputs, Method
+from glid_nb.solvers.options import Options
+from glid_nb.solvers.pose import Pose
+from glid_nb.solvers.problem import (
+    Problem,
+    constraints_of,
+    handle_images,
+    map_from,
+    real_coefficients,
 )
-from glid_nb.solvers.options import HessianKind
-from glid_nb.solvers.outcome import CONVERGED, INDEFINITE, RUNNING
-from glid_nb.solvers.unknowns import Unknowns, expand, restrict_gradient, restrict_hessian
+from glid_nb.solvers.restarts import improve
+from glid_nb.solvers.result import Iteration, Result
+from glid_nb.solvers.start import aligned, check_conformal, check_proved
+from glid_nb.solvers.status import Status
+from glid_nb.solvers.unknowns import canonical, reduced_unknowns
 
-if TYPE_CHECKING:
-    from jaxtyping import Array, Bool, Float, Int
+Array = NDArray[Any]
 
-# A correction that gains more than this share of what the step before it gained is slow: the
-# Hessian has changed, and a new one gains more for its cost.
-_CONTRACTION = 0.3
-# Far from the minimum, after a step that gains more than this share of the energy, corrections
-# creep along the valley that the next Hessian would cross.
-_CLOSE = 0.1
-LEAST_ENERGY = 1e-6
-"""What a decrease is compared with where the energy is less.
-
-Energies are means over the boundary. ARAP's vanish at rigid motions, where nothing is relative to
-them; below this one nobody sees a distortion.
-"""
-
-
-class Record(NamedTuple):
-    """History of one iteration, the state after its step."""
-
-    energy_iso: Float[AnyArray, ""]
-    energy_p2p: Float[AnyArray, ""]
-    step: Float[AnyArray, ""]
-    decrement: Float[AnyArray, ""]
-    sigma2_lower: Float[AnyArray, ""]
-    modified: Bool[AnyArray, ""]
-    corrections: Int[AnyArray, ""]
+# Without two handles a rotation costs nothing and the Hessian is singular (Appendix I).
+_RIDGE, _LARGEST_RIDGE = 1e-9, 1e-2
+_RIDGE_FACTOR = 100.0
+# When to put the Hessian on all nodes: many iterations, or a short step that gains little.
+SLOW_ITERATIONS = 20
+_SLOW_STEP, _SLOW_GAIN = 0.5, 0.05
+# Steps in a row that together gain less than this fraction of the energy end a solve.
+_STALLED, _STALL_GAIN = 4, 1e-10
+# A decrease promised by the Newton decrement that rounding of the energy can hide.
+_ROUNDING = 1e-8
 
 
-class State(NamedTuple):
-    """State of the loop."""
+@dataclass(frozen=True)
+class Newton(Method):
+    """Newton's method with the exact Hessian where it is positive definite, else the projected one.
 
-    coefficients: Float[Array, " 4c"]
-    samples: Samples
-    energy_iso: Float[Array, ""]
-    energy_p2p: Float[Array, ""]
-    start_energy: Float[Array, ""]
-    """Total energy before the first iteration of this call."""
-    iteration: Int[Array, ""]
-    outcome: Int[Array, ""]
-    decrement: Float[Array, ""]
-    records: Record
-    refused: Bool[Array, " p"]
-    """Panels that refused the last preferred step and may allow it once they are split."""
-    sigma2_lower: Float[Array, " p"]
-    """Certified bound per panel at ``coefficients``, once a step was taken."""
-    factor: Float[Array, "4u 4u"]
-    """Cholesky factor of the last Hessian, in whitened coordinates."""
-    largest: Float[Array, ""]
-    """Largest modulus of a coefficient in this call, through which ``samples`` were carried."""
-
-
-class Settings(NamedTuple):
-    """Numbers that may change without compiling again."""
-
-    tolerance: Float[AnyArray, ""]
-    iterations: Int[AnyArray, ""]
-    may_refine: Bool[AnyArray, ""]
-    """Whether to return as soon as a panel refuses a step, so that it can be split."""
-    ridge: Float[AnyArray, ""]
-    """Added to the Hessian's diagonal, relative to its mean (Section 9.1's epsilon)."""
-    reuse: Bool[AnyArray, ""]
-    """Whether the first iteration takes the factor that it is given instead of a new one."""
-    corrections: Int[AnyArray, ""]
-    """Most corrections of one iteration."""
-
-
-def iterations(
-    matrices: Matrices,
-    singularities: Singularities,
-    unknowns: Unknowns,
-    constraints: Constraints,
-    energy: Energy,
-    coefficients: Float[Array, " 4c"],
-    factor: Float[Array, "4u 4u"],
-    settings: Settings,
-    *,
-    hessian: HessianKind,
-    capacity: int,
-) -> State:
-    """Up to ``settings.iterations`` (at most ``capacity``) Newton iterations, to be compiled.
-
-    Close to the minimum an iteration goes on with corrections: steps by the same factor from
-    gradients of their own (Shamanskii's method), a fraction of the cost of another Hessian.
+    Ours; its settings are the :class:`~glid_nb.Options`.
     """
-    t = matrices.whitening
-    p2p_matrix = evaluation.constraint_matrix(constraints)
-    row_weights = jnp.concatenate([constraints.weights, constraints.weights])
-    p2p_rows = whitening.pulled_back(p2p_matrix, t)
-    p2p_hessian = p2p_rows.T @ (row_weights[:, None] * p2p_rows)
-    p2p_hessian = restrict_hessian(p2p_hessian, unknowns)
 
-    def residual_at(y: Float[Array, " 4c"]) -> Float[Array, " 2h"]:
-        return p2p_matrix @ y - constraints.targets.T.ravel()
-
-    def energies(samples: Samples, y: Float[Array, " 4c"]) -> tuple[Array, Array]:
-        return (
-            line_search.isometric_energy(samples.nodes, matrices.weights, energy),
-            0.5 * jnp.sum(row_weights * residual_at(y) ** 2),
-        )
-
-    def factorise(
-        samples: Samples, given: Float[Array, "4u 4u"], wanted: Bool[Array, ""]
-    ) -> tuple[Float[Array, "4u 4u"], Bool[Array, ""]]:
-        """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected.
-
-        ``given`` where no other is wanted. A loop, for its turns write into the same memory.
-        """
-        nodes = samples.nodes[:, matrices.hessian_index]
-        x, yy = evaluation.squares(nodes)
-        local = local_hessian(energy.differentials(x, yy), x, yy)
-        projected = positive_part(local)
-        dtype = matrices.whitened.dtype
-        weights, f, g = jax.tree.map(
-            lambda a: a.astype(dtype), (matrices.hessian_weights, *evaluation.directions(nodes))
-        )
-
-        def assembled(k: LocalHessian) -> Float[Array, "4u 4u"]:
-            k = LocalHessian(*(part.astype(dtype) for part in k))
-            return assemble(matrices.whitened, weights, f, g, k)
-
-        def factored(h: Float[Array, "4u 4u"]) -> Float[Array, "4u 4u"]:
-            whole = restrict_hessian(h, unknowns, p2p_hessian, settings.ridge)
-            return cholesky.factorise(whole)
-
-        def project(h: Float[Array, "4u 4u"]) -> Float[Array, "4u 4u"]:
-            if not energy.indefinite_across_f_only:
-                return assembled(projected)
-            # The Hessian that was not definite lacks this block alone.
-            across = (projected.across_f - local.across_f).astype(dtype)
-            block = assemble_across_f(matrices.whitened, weights, f, across)
-            return h.at[: block.shape[0], : block.shape[0]].add(block)
-
-        first = projected if hessian == "projected" else local
-        most = 2 if hessian == "adaptive" else 1
-
-        def attempt(carry: tuple) -> tuple:
-            _, h, count = carry
-            h = lax.cond(count == 0, lambda _: assembled(first), project, h)
-            return factored(h), h, count + 1
-
-        def goes_on(carry: tuple) -> Bool[Array, ""]:
-            factor, _, count = carry
-            again = (count < most) & ~jnp.isfinite(factor[-1, -1])
-            return wanted & ((count == 0) | again)
-
-        blank = jnp.zeros(given.shape, dtype)
-        factor, _, count = lax.while_loop(goes_on, attempt, (given, blank, jnp.array(0)))
-        return factor, wanted & ((count == 2) | (hessian == "projected"))
-
-    def line(samples: Samples, y: Float[Array, " 4c"], total: Array, factor: Array) -> _Line:
-        """The line search along the direction that a factor and the gradient give."""
-        nodes, residual = samples.nodes, residual_at(y)
-        d = energy.differentials(*evaluation.squares(nodes))
-        gradient = evaluation.energy_gradient(matrices, nodes, d)
-        gradient = gradient + p2p_matrix.T @ (row_weights * residual)
-        gradient = restrict_gradient(whitening.pulled_back(gradient, t), unknowns)
-        step = -cholesky.solve(factor, gradient)
-        step = jnp.where(jnp.isfinite(factor[-1, -1]), step, 0)
-        squared_decrement = -jnp.dot(gradient, step)
-        direction = whitening.coefficients(expand(step, unknowns), t)
-        change = evaluation.products(matrices, direction)
-        search = line_search.search(
-            nodes,
-            change.nodes,
-            matrices.weights,
-            energy,
-            residual,
-            p2p_matrix @ direction,
-            row_weights,
-            total,
-            squared_decrement,
-        )
-        return _Line(direction, change, squared_decrement, search)
-
-    def bounds(samples: Samples, y: Float[Array, " 4c"], largest: Array) -> PanelBounds:
-        return evaluation.bounds(matrices, singularities, y, samples, largest)
-
-    def corrected(place: _Place, gain: Array, factor: Array) -> tuple:
-        """Go on by corrections while they pay; the place, how many, and whether at the minimum."""
-
-        def correct(carry: tuple) -> tuple:
-            place, gain, count, _, _ = carry
-            total = place.energy_iso + place.energy_p2p
-            found = line(place.samples, place.coefficients, total, factor)
-            minimal = found.squared_decrement / 2 <= settings.tolerance * _scale(total)
-            step = found.search.steps[found.search.best]
-            takes = found.search.acceptable[found.search.best] & ~minimal
-            samples, y = _moved(place.samples, place.coefficients, found, step)
-            largest = jnp.maximum(place.largest, evaluation.largest_modulus(y))
-            there = _Place(y, samples, *energies(samples, y), largest)
-            gained = total - (there.energy_iso + there.energy_p2p)
-            decrement = jnp.sqrt(jnp.maximum(found.squared_decrement, 0))
-            more = takes & (gained < _CONTRACTION * gain) & (count + 1 < settings.corrections)
-            return _where(takes, there, place), gained, count + takes, more, (minimal, decrement)
-
-        more = (gain < _CLOSE * (place.energy_iso + place.energy_p2p)) & (settings.corrections > 0)
-        nothing = (jnp.array(False), jnp.array(jnp.inf))
-        carry = (place, gain, jnp.array(0), more, nothing)
-        place, _, count, _, (minimal, decrement) = lax.while_loop(lambda c: c[3], correct, carry)
-        return place, count, minimal, decrement
-
-    def keep_going(state: State) -> Bool[Array, ""]:
-        return (state.outcome == RUNNING) & (state.iteration < settings.iterations)
-
-    def iterate(state: State) -> State:
-        wanted = jnp.logical_not(settings.reuse) | (state.iteration > 0)
-        factor, modified = factorise(state.samples, state.factor, wanted)
-        total = state.energy_iso + state.energy_p2p
-        found = line(state.samples, state.coefficients, total, factor)
-
-        def certified(step: Float[Array, ""]) -> PanelBounds:
-            samples, y = _moved(state.samples, state.coefficients, found, step)
-            largest = jnp.maximum(state.largest, evaluation.largest_modulus(y))
-            return bounds(samples, y, largest)
-
-        turning = evaluation.turning(matrices, state.samples.nodes)
-        outcome, step, panel, refused = line_search.backtrack(
-            found.search, certified, turning, matrices.real, settings.may_refine
-        )
-        minimal = found.squared_decrement / 2 <= settings.tolerance * _scale(total)
-        outcome = jnp.where(minimal, CONVERGED, outcome)
-        outcome = jnp.where(jnp.isfinite(factor[-1, -1]), outcome, INDEFINITE)
-        stepped = outcome == RUNNING
-        step = jnp.where(stepped, step, 0.0)
-        samples, y = _moved(state.samples, state.coefficients, found, step)
-        largest = jnp.maximum(state.largest, evaluation.largest_modulus(y))
-        place = _Place(y, samples, *energies(samples, y), largest)
-        decrement = jnp.sqrt(jnp.maximum(found.squared_decrement, 0))
-
-        def go_on(place: _Place) -> tuple:
-            gain = total - (place.energy_iso + place.energy_p2p)
-            further, count, minimal, last = corrected(place, gain, factor)
-            proof = lax.cond(
-                count > 0,
-                lambda: bounds(further.samples, further.coefficients, further.largest),
-                lambda: panel,
-            )
-            zeros = fz_vanishes(jnp.where(matrices.real, proof.turning, 0))
-            proved = jnp.all(proof.injective | ~matrices.real) & ~zeros & (count > 0)
-            return (
-                _where(proved, further, place),
-                _where(proved, proof, panel),
-                jnp.where(proved, count, 0),
-                minimal & proved,
-                last,
-            )
-
-        def stay(place: _Place) -> tuple:
-            return place, panel, jnp.array(0), jnp.array(False), decrement
-
-        place, panel, count, minimal, last = lax.cond(stepped, go_on, stay, place)
-        outcome = jnp.where(minimal, CONVERGED, outcome)
-        least = jnp.min(jnp.where(matrices.real, panel.sigma2_lower, jnp.inf))
-        record = Record(place.energy_iso, place.energy_p2p, step, decrement, least, modified, count)
-        records = jax.tree.map(
-            lambda all_, one: all_.at[state.iteration].set(
-                jnp.where(stepped, one, all_[state.iteration])
-            ),
-            state.records,
-            record,
-        )
-        return State(
-            place.coefficients,
-            place.samples,
-            place.energy_iso,
-            place.energy_p2p,
-            state.start_energy,
-            state.iteration + stepped,
-            outcome,
-            jnp.where(minimal, last, decrement),
-            records,
-            refused,
-            jnp.where(stepped, panel.sigma2_lower, state.sigma2_lower),
-            factor,
-            place.largest,
-        )
-
-    samples = evaluation.products(matrices, coefficients)
-    iso, p2p = energies(samples, coefficients)
-    blank = jnp.full(capacity, jnp.nan)
-    flags, counts = jnp.zeros(capacity, bool), jnp.zeros(capacity, int)
-    start = State(
-        coefficients,
-        samples,
-        iso,
-        p2p,
-        iso + p2p,
-        jnp.array(0),
-        jnp.array(RUNNING),
-        jnp.array(jnp.inf),
-        Record(blank, blank, blank, blank, blank, flags, counts),
-        jnp.zeros_like(matrices.real),
-        jnp.full(matrices.real.shape, jnp.nan),
-        factor,
-        evaluation.largest_modulus(coefficients),
+    name: ClassVar[str] = "newton"
+    label: ClassVar[str] = "Newton, ours"
+    family: ClassVar[Family] = "harmonic"
+    summary: ClassVar[str] = (
+        "Newton's method with the exact Hessian where it is positive definite and the paper's "
+        "projected one elsewhere."
     )
-    end = lax.while_loop(keep_going, iterate, start)
+    options: ClassVar[tuple[str, ...]] = tuple(Options.__dataclass_fields__)
 
-    def helped() -> Bool[Array, " p"]:
-        return end.refused & evaluation.tightened_by_splitting(
-            matrices, singularities, end.coefficients, end.largest
+    def run(self, inputs: Inputs) -> Result:
+        """One descent and, where it ends badly without a start, others."""
+        first = descend(inputs, self)
+        return first if inputs.start is not None else improve(first, inputs, descend)
+
+
+@double_precision
+def descend(inputs: Inputs, method: Method | None = None) -> Result:
+    """One descent from one map to the local minimum that it leads to."""
+    clock = compilation_clock()
+    compiling, began = clock.seconds, time.perf_counter()
+    with single_blas_thread():
+        result = follow(NewtonDescent(Newton() if method is None else method, inputs), inputs)
+    elapsed, compiling = time.perf_counter() - began, clock.seconds - compiling
+    return replace(result, compile_time=compiling, solve_time=max(elapsed - compiling, 0.0))
+
+
+class NewtonDescent(Descent):
+    """Newton's method at work."""
+
+    shows_start = False
+
+    def __init__(self, method: Method, inputs: Inputs) -> None:
+        self.method, self.options, self.pose = method, inputs.options, inputs.pose
+        options, domain = inputs.options, inputs.domain
+        map_, self.discretisation = _starting_point(method, inputs)
+        basis = self.discretisation.basis
+        constraints = constraints_of(domain, inputs.pose, options.p2p_weight)
+        self.problem = Problem(
+            matrices=self.discretisation.matrices,
+            singularities=basis.singularities,
+            unknowns=reduced_unknowns(basis, options.conformal),
+            constraints=constraints,
+            energy=inputs.energy,
+        )
+        if options.align:
+            images = handle_images(constraints, basis, map_)[: len(inputs.pose)]
+            map_ = aligned(map_, inputs.pose, images)
+        self.coefficients: Any = real_coefficients(basis, map_)
+        self.ridge = ridge_of(inputs.pose)
+        self.just_split = 0
+        self.full_since: int | None = None
+        self.factor: Any
+        if isinstance(inputs.start, Result) and self._continues(inputs.start):
+            # The result keeps its own.
+            self.factor, self.reuse = jnp.array(inputs.start.factor, copy=True), True
+        else:
+            self.factor, self.reuse = _no_factor(len(self.problem.unknowns.free)), False
+
+    def _continues(self, start: Result) -> bool:
+        """Whether the last Hessian of an earlier solve is one of this problem's."""
+        mine, theirs = self.options, start.options
+        return bool(
+            mine.corrections
+            and start.factor is not None
+            and start.discretisation is self.discretisation
+            and start.energy_measure == self.problem.energy
+            and np.array_equal(start.pose.handles, self.pose.handles)
+            and (theirs.p2p_weight, theirs.conformal) == (mine.p2p_weight, mine.conformal)
         )
 
-    return end._replace(refused=lax.cond(jnp.any(end.refused), helped, lambda: end.refused))
+    def advance(self, before: int, left: int, may_refine: bool) -> Advance:
+        """One compiled call; with nothing left it still evaluates the energies."""
+        options, clock = self.options, compilation_clock()
+        began, compiling = time.perf_counter(), clock.seconds
+        state = self.state = step.run(
+            self.problem,
+            self.coefficients,
+            self.factor,
+            settings_of(
+                options,
+                iterations=min(options.iterations_per_call, left),
+                may_refine=may_refine and self._panels.can_refine,
+                ridge=self.ridge,
+                reuse=self.reuse,
+            ),
+            variant=variant_of(options),
+        )
+        self.outcome, taken = int(state.outcome), int(state.iteration)
+        seconds = time.perf_counter() - began - (clock.seconds - compiling)
+        self.coefficients, self.factor = state.point.coefficients, state.factor
+        if not hasattr(self, "initial"):
+            self.initial = start_of(state)
+        split, panels = self.just_split, len(self._panels.panels)
+        done = entries(state.records, taken, before, panels, split, max(seconds, 0.0))
+        if taken:
+            self.just_split = 0
+        # After a split the map is still where its Hessian was taken.
+        self.reuse = self.outcome == outcome.REFUSED and bool(options.corrections)
+        return Advance(self.outcome, done, state.refused)
+
+    def reached(self) -> Reached:
+        """After the last call."""
+        point, disc, coefficients = self.state.point, self._panels, self.coefficients
+        bounds = np.asarray(self.state.sigma2_lower)[: len(disc.panels)]
+        return Reached(
+            float(point.energy_iso),
+            float(point.energy_p2p),
+            lambda: map_from(disc, coefficients),
+            bounds,
+            factor=self.factor,
+        )
+
+    def adapt(self, done: Advance, history: Sequence[Iteration]) -> Ending | None:
+        """Take the full Hessian or another ridge where that may help; else end."""
+        if done.outcome == outcome.CONVERGED:
+            return Ending(Status.CONVERGED)
+        if done.iterations:
+            self._relax_ridge()
+            if self._has_coarse_hessian() and _is_slow(history):
+                self._take_full_hessian(history)
+        if done.outcome == outcome.INDEFINITE:
+            # Rounding or the nodes may have made it so.
+            return None if self._take_full_hessian(history) else self._raise_ridge()
+        stalled = done.iterations and _has_stalled(history[self.full_since or 0 :])
+        if done.outcome == outcome.NO_DECREASE or stalled:
+            return None if self._take_full_hessian(history) else self._without_decrease()
+        return None
+
+    def split(self, refused: Array) -> int:
+        """Split the panels that refused a step; 0 when none can be."""
+        wanted = self._panels.splittable(refused)
+        count = int(wanted.sum())
+        if count:
+            self.discretisation = self._panels.refined(wanted)
+            self._take_matrices()
+            self.just_split += count
+        return count
+
+    @property
+    def _panels(self) -> Discretisation:
+        assert self.discretisation is not None
+        return self.discretisation
+
+    def _take_matrices(self) -> None:
+        disc, full = self._panels, self.full_since is not None
+        self.problem = self.problem._replace(matrices=disc.full_matrices if full else disc.matrices)
+
+    def _take_full_hessian(self, history: Sequence[Iteration]) -> bool:
+        """From now on the Hessian in double precision on all nodes; False when it is so already."""
+        if self.full_since is not None:
+            return False
+        self.full_since = len(history)
+        self._take_matrices()
+        return True
+
+    def _has_coarse_hessian(self) -> bool:
+        """Whether other nodes may make fewer iterations: not those of K+, which are slow anyway."""
+        return self._panels.can_refine and self.options.hessian != "projected"
+
+    def _relax_ridge(self) -> None:
+        """Lower an epsilon that one place needed: close to the minimum it would make steps short.
+
+        Where a bar is tied into a loop, 1e-9 outweighed the softest direction 200 times.
+        """
+        relaxed = self.ridge / _RIDGE_FACTOR
+        self.ridge = max(relaxed if relaxed >= _RIDGE else 0.0, ridge_of(self.pose))
+
+    def _raise_ridge(self) -> Ending | None:
+        """A larger epsilon where the Hessian is singular to rounding: two handles in one place."""
+        if self.options.hessian == "exact":
+            return Ending(Status.INDEFINITE)
+        self.ridge = max(_RIDGE_FACTOR * self.ridge, _RIDGE)
+        return Ending(Status.BLOCKED) if self.ridge > _LARGEST_RIDGE else None
+
+    def _without_decrease(self) -> Ending:
+        promised = float(self.state.decrement) ** 2 / 2
+        small = promised <= _ROUNDING * abs(float(self.state.point.energy))
+        return Ending(Status.STATIONARY if small else Status.BLOCKED)
 
 
-class _Place(NamedTuple):
-    """A map and its energies; ``largest`` as in :class:`State`."""
-
-    coefficients: Float[Array, " 4c"]
-    samples: Samples
-    energy_iso: Float[Array, ""]
-    energy_p2p: Float[Array, ""]
-    largest: Float[Array, ""]
-
-
-class _Line(NamedTuple):
-    """A direction, what it changes, and what a search along it found."""
-
-    direction: Float[Array, " 4c"]
-    change: Samples
-    squared_decrement: Float[Array, ""]
-    search: line_search.Search
+def _is_slow(history: Sequence[Iteration]) -> bool:
+    """Whether the Hessian's coarser quadrature seems to cost iterations."""
+    *before, last = history
+    if len(history) >= SLOW_ITERATIONS:
+        return True
+    gained = before[-1].energy - last.energy if before else np.inf
+    assert last.step is not None
+    return bool(last.step < _SLOW_STEP and gained < _SLOW_GAIN * last.energy)
 
 
-def _moved(
-    samples: Samples, y: Float[Array, " 4c"], line: _Line, step: Float[Array, ""]
-) -> tuple[Samples, Float[Array, " 4c"]]:
-    moved = (a + step * b for a, b in zip(samples, line.change, strict=True))
-    return Samples(*moved), y + step * line.direction
+def _has_stalled(history: Sequence[Iteration]) -> bool:
+    """Whether the last steps gained nothing: without a barrier, a map can creep to folding."""
+    recent = [entry.energy for entry in history[-1 - _STALLED :]]
+    return len(recent) > _STALLED and recent[0] - recent[-1] <= _STALL_GAIN * abs(recent[-1])
 
 
-def _scale(total: Float[Array, ""]) -> Float[Array, ""]:
-    return jnp.maximum(jnp.abs(total), LEAST_ENERGY)
+def _starting_point(method: Method, inputs: Inputs) -> tuple[HarmonicMap, Discretisation]:
+    """The map to start from, checked, and panels for it."""
+    domain, options, start = inputs.domain, inputs.options, inputs.start
+    fresh = functools.partial(discretise, domain, options.sampling, options.certificate)
+    map_ = method.harmonic_start(inputs)
+    if map_ is None:
+        return HarmonicMap.identity(domain), fresh()
+    if options.conformal:
+        check_conformal(map_)
+    if isinstance(start, Result):
+        disc = start.discretisation
+        same = disc is not None and (disc.sampling, disc.certificate) == (
+            options.sampling,
+            options.certificate,
+        )
+        return canonical(map_), disc if disc is not None and same else fresh()
+    check_proved(map_)
+    return canonical(HarmonicMap(domain, map_.phi, map_.psi)), fresh()
 
 
-def _where(condition: Bool[Array, ""], one: Any, other: Any) -> Any:
-    return jax.tree.map(lambda a, b: jnp.where(condition, a, b), one, other)
+def ridge_of(pose: Pose) -> float:
+    """The multiple of its mean that a Hessian's diagonal is raised by from the start."""
+    return _RIDGE if len(pose) < 2 else 0.0
 
 
-run = jit(
-    iterations,
-    static_argnames=("hessian", "capacity"),
-    donate_argnames=("factor",),
-    compiler_options=COMPILER_OPTIONS,
-)
-""":func:`iterations` compiled, for one pose; the factor that it is given is gone afterwards."""
+def settings_of(
+    options: Options, *, iterations: int, may_refine: bool, ridge: float, reuse: bool
+) -> step.Settings:
+    """The numbers of one call."""
+    return step.Settings(
+        tolerance=np.asarray(options.tolerance),
+        iterations=np.asarray(iterations),
+        may_refine=np.asarray(may_refine),
+        ridge=np.asarray(ridge),
+        reuse=np.asarray(reuse),
+        corrections=np.asarray(options.corrections),
+    )
+
+
+def variant_of(options: Options) -> step.Variant:
+    """The program that these options need; its capacity a power of two, so that there are few."""
+    capacity = 1 << (options.iterations_per_call - 1).bit_length()
+    return step.Variant(options.hessian, capacity)
+
+
+def start_of(state: step.State) -> Iteration:
+    """Where a call began."""
+    iso, p2p = float(state.start_iso), float(state.start_p2p)
+    return Iteration(iteration=0, energy_iso=iso, energy_p2p=p2p, time=0.0)
+
+
+def entries(
+    records: step.Record, taken: int, before: int, panels: int, split: int, seconds: float
+) -> list[Iteration]:
+    """The ``taken`` iterations of one call.
+
+    Parameters
+    ----------
+    records : Record
+        Arrays of at least ``taken`` values.
+    taken, before : int
+        How many iterations the call made, and how many there were before it.
+    panels, split : int
+        Panels of the boundary, and how many of them stem from splits just before the call.
+    seconds : float
+        Of the whole call, compilation left out; shared evenly.
+    """
+    columns = {k: np.asarray(v)[:taken].tolist() for k, v in records._asdict().items()}
+    return [
+        Iteration(
+            iteration=before + i + 1,
+            time=seconds / taken,
+            panels=panels,
+            panels_split=0 if i else split,
+            **{name: values[i] for name, values in columns.items()},
+        )
+        for i in range(taken)
+    ]
+
+
+def _zeros(size: int) -> Any:
+    return jnp.zeros((size, size))
+
+
+_no_factor = jit(_zeros, static_argnames="size")
+"""What a call without a factor is given: compiled, for JAX's own zeros take four times as long."""

@@ -50,11 +50,12 @@ class Options:
     restarts : int
         How many other ways to a minimum (see :mod:`glid_nb.solvers.restarts`) a solve from the
         identity may try when its first one ends blocked or at a high energy; 0 tries none.
-    max_iterations : int
-        Most Newton iterations of one attempt, at least 0.
+    max_iterations : int, optional
+        Most iterations of one attempt, at least 0; by default the method's own, 200 for Newton's.
     tolerance : float
         The solve has converged when the Newton decrement's promise of a decrease,
-        ``decrement^2 / 2``, falls below ``tolerance`` times the energy.
+        ``decrement^2 / 2``, falls below ``tolerance`` times the energy. Other methods have
+        tolerances of their own.
     corrections : int
         Most steps that an iteration close to the minimum adds by the Hessian it has, 0 to 3. They
         save iterations, and a solve that goes on from another takes that one's last Hessian first;
@@ -75,7 +76,7 @@ class Options:
     conformal: bool = False
     align: bool = True
     restarts: int = 3
-    max_iterations: int = 200
+    max_iterations: int | None = None
     tolerance: float = 1e-10
     corrections: int = MOST_CORRECTIONS
     iterations_per_call: int = _MOST_PER_CALL
@@ -95,7 +96,8 @@ class Options:
         _check_number("p2p_weight", self.p2p_weight, 0.0, strict=True)
         _check_number("tolerance", self.tolerance, 0.0, strict=False)
         _check_integer("restarts", self.restarts, 0)
-        _check_integer("max_iterations", self.max_iterations, 0)
+        if self.max_iterations is not None:
+            _check_integer("max_iterations", self.max_iterations, 0)
         _check_integer("corrections", self.corrections, 0, MOST_CORRECTIONS)
         _check_integer("iterations_per_call", self.iterations_per_call, 1, _MOST_PER_CALL)
 
@@ -117,7 +119,8 @@ class Options:
 
 
 def _check_number(name: str, value: Any, least: float, strict: bool) -> None:
-    valid = isinstance(value, numbers.Real) and math.isfinite(value)
+    real = isinstance(value, numbers.Real) and not isinstance(value, bool)
+    valid = real and math.isfinite(value)
     if not valid or (value <= least if strict else value < least):
         relation = "greater than" if strict else "at least"
         raise OptionError(f"{name} must be a finite number {relation} {least:g}, got {value!r}")

@@ -11,7 +11,6 @@ local injectivity far from its targets; it then starts at the symmetric Dirichle
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -19,11 +18,12 @@ from typing import Any
 from glid_nb._jax import jnp
 from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy, SymmetricDirichlet
-from glid_nb.solvers.options import Options
+from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.result import Attempt, Iteration, Result
 from glid_nb.solvers.status import Status
 
-Descend = Callable[..., Result]
+Descend = Callable[[Inputs], Result]
+"""Follows one way down."""
 
 # Energies above this multiple of an isometry's, if that is at least the second number, are worth
 # another attempt.
@@ -35,37 +35,24 @@ STAGES = (1e-5, 1e-3, 1e-1)
 STAGE_ITERATIONS, STAGE_TOLERANCE = 8, 1e-3
 
 
-def improve(first: Result, descend: Descend, callback: Callable[..., Any] | None) -> Result:
+def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
     """The best of ``first`` and, if it is poor, of ``options.restarts`` other attempts.
 
-    ``descend(pose, energy, options, start, callback)`` follows one way down.
+    ``inputs`` are those of ``first``.
     """
-    options = first.options
+    from_identity = _with(inputs, align=False)
     ways = [
-        ("staged weights", lambda: _staged(first, descend, options, callback)),
-        (
-            "staged weights from the identity",
-            lambda: _staged(first, descend, replace(options, align=False), callback),
-        ),
-        (
-            "from the identity",
-            lambda: descend(
-                first.pose, first.energy_measure, replace(options, align=False), None, callback
-            ),
-        ),
+        ("staged weights", lambda: _staged(inputs, descend)),
+        ("staged weights from the identity", lambda: _staged(from_identity, descend)),
+        ("from the identity", lambda: descend(from_identity)),
     ]
-    if not options.align:
+    if not inputs.options.align:
         del ways[1:]
-    if not first.energy_measure.is_barrier:
-        ways.insert(
-            0,
-            (
-                "from the symmetric Dirichlet minimum",
-                lambda: _from_barrier(first, descend, options, callback),
-            ),
-        )
+    if not inputs.energy.is_barrier:
+        barrier = lambda: _from_barrier(first, inputs, descend)  # noqa: E731
+        ways.insert(0, ("from the symmetric Dirichlet minimum", barrier))
     best, tried = first, [("direct", first)]
-    for name, way in ways[: options.restarts]:
+    for name, way in ways[: inputs.options.restarts]:
         if not _is_poor(best):
             break
         result = way()
@@ -84,10 +71,9 @@ def improve(first: Result, descend: Descend, callback: Callable[..., Any] | None
     attempts = tuple(Attempt(name, r.status, r.energy, r.iterations) for name, r in tried)
     return replace(
         best,
-        options=options,
+        options=inputs.options,
         attempts=attempts,
-        compile_time=sum(r.compile_time for _, r in tried),
-        solve_time=sum(r.solve_time for _, r in tried),
+        **_times([result for _, result in tried]),
     )
 
 
@@ -104,57 +90,59 @@ def isometry_energy(energy: Energy) -> float:
     return float(energy.density(jnp.ones(1), jnp.zeros(1))[0])
 
 
-def _staged(
-    first: Result, descend: Descend, options: Options, callback: Callable[..., Any] | None
-) -> Result:
+def _staged(inputs: Inputs, descend: Descend) -> Result:
     """Descend with a rising weight of the targets; the history holds all stages."""
+    options = inputs.options
+    most = STAGE_ITERATIONS if options.max_iterations is None else options.max_iterations
     done: list[Result] = []
     for fraction in STAGES:
-        stage = replace(
-            options,
+        stage = _with(
+            inputs,
             p2p_weight=options.p2p_weight * fraction,
-            max_iterations=min(STAGE_ITERATIONS, options.max_iterations),
+            max_iterations=min(STAGE_ITERATIONS, most),
             tolerance=STAGE_TOLERANCE,
             align=options.align and not done,
         )
-        start = done[-1] if done else None
-        result = descend(first.pose, first.energy_measure, stage, start, callback)
+        result = descend(replace(stage, start=done[-1] if done else None))
         done.append(_at_weight(result, 1 / fraction))
         if result.status is Status.STOPPED:
             return _joined(done)
-    final = replace(options, align=False)
-    done.append(descend(first.pose, first.energy_measure, final, done[-1], callback))
+    done.append(descend(replace(_with(inputs, align=False), start=done[-1])))
     return _joined(done)
 
 
-def _from_barrier(
-    first: Result, descend: Descend, options: Options, callback: Callable[..., Any] | None
-) -> Result:
+def _from_barrier(first: Result, inputs: Inputs, descend: Descend) -> Result:
     """Descend from the symmetric Dirichlet minimum, whose own history is left out."""
-    barrier = descend(first.pose, SymmetricDirichlet(), options, None, callback)
+    barrier = descend(replace(inputs, energy=SymmetricDirichlet()))
     if barrier.status is Status.STOPPED:
         return replace(first, status=Status.STOPPED)
-    plain = replace(options, align=False)
-    result = descend(first.pose, first.energy_measure, plain, barrier, callback)
-    return replace(
-        result,
-        compile_time=barrier.compile_time + result.compile_time,
-        solve_time=barrier.solve_time + result.solve_time,
-    )
+    result = descend(replace(_with(inputs, align=False), start=barrier))
+    return replace(result, **_times([barrier, result]))
+
+
+def _with(inputs: Inputs, **changes: Any) -> Inputs:
+    """The same with other options."""
+    return replace(inputs, options=replace(inputs.options, **changes))
+
+
+def _times(results: list[Result]) -> dict[str, float]:
+    """The times of all together."""
+    return {
+        "compile_time": sum(result.compile_time for result in results),
+        "solve_time": sum(result.solve_time for result in results),
+    }
 
 
 def _at_weight(result: Result, factor: float) -> Result:
     """As the full weight counts it, so that all energies of a staged history compare."""
 
     def weighted(entry: Iteration) -> Iteration:
-        p2p = entry.energy_p2p * factor
-        return replace(entry, energy_p2p=p2p, energy=entry.energy_iso + p2p)
+        return replace(entry, energy_p2p=entry.energy_p2p * factor)
 
-    p2p = result.energy_p2p * factor
     return replace(
         result,
-        energy_p2p=p2p,
-        energy=result.energy_iso + p2p,
+        energy_p2p=result.energy_p2p * factor,
+        initial=weighted(result.initial),
         history=tuple(weighted(entry) for entry in result.history),
     )
 
@@ -164,9 +152,7 @@ def _joined(stages: list[Result]) -> Result:
     entries = [entry for stage in stages for entry in stage.history]
     return replace(
         stages[-1],
+        initial=stages[0].initial,
         history=tuple(replace(entry, iteration=i) for i, entry in enumerate(entries, start=1)),
-        # The first stage's targets weighed less.
-        start_energy=math.nan,
-        compile_time=sum(stage.compile_time for stage in stages),
-        solve_time=sum(stage.solve_time for stage in stages),
+        **_times(stages),
     )

@@ -1,49 +1,101 @@
-"""What a solve returns."""
+"""What a solve shows while it runs, and what it returns, the same for every method."""
 
 from __future__ import annotations
 
 import functools
-import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from glid_nb.certificate import Certificate, certify
 from glid_nb.energies import Energy
+from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers.discretisation import Discretisation
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.status import Status
 
+if TYPE_CHECKING:
+    from glid_nb.solvers.method import Method
 
-@dataclass(frozen=True)
+Array = NDArray[Any]
+DeformationMap = HarmonicMap | MeshMap
+
+
+@dataclass(frozen=True, kw_only=True)
 class Iteration:
-    """One Newton iteration, as it was after its step."""
+    """One iteration of a method, as it was after its step; None for what the method does not have.
+
+    Energies are means: of the density over the boundary, or over the area of a mesh.
+    """
 
     iteration: int
-    """1 for the first."""
-    energy: float
-    """Total energy, (20)."""
+    """1 for the first; 0 for the start."""
     energy_iso: float
-    """Isometric part, the mean of the density along the boundary."""
+    """Isometric part."""
     energy_p2p: float
     """Positional part, ``lambda / 2`` times the sum of squared distances."""
-    step: float
-    """Step length ``t`` along the Newton direction."""
-    decrement: float
-    """Newton decrement before the step: ``sqrt(-gradient . direction)``."""
-    sigma2_lower: float
-    """Certified lower bound on ``sigma_2`` after the step."""
-    hessian_modified: bool
-    """Whether the projected Hessian was used."""
-    corrections: int
-    """Further steps by the same Hessian, from gradients of their own."""
-    panels: int
-    """Panels of the boundary."""
-    panels_split: int
-    """Panels split since the iteration before, because they refused a step."""
     time: float
-    """Seconds without compilation, shared evenly within one compiled call."""
+    """Seconds without compilation, shared evenly within one compiled call, and without what only
+    serves this record; for the start, what its making took beyond preparing the domain."""
+    step: float | None = None
+    """Step length along the method's own direction."""
+    decrement: float | None = None
+    """Newton decrement before the step: ``sqrt(-gradient . direction)``."""
+    sigma2_lower: float | None = None
+    """Certified lower bound on ``sigma_2`` after the step."""
+    hessian_modified: bool | None = None
+    """Whether the projected Hessian was used."""
+    corrections: int | None = None
+    """Further steps by the same Hessian, from gradients of their own."""
+    panels: int | None = None
+    """Panels of the boundary."""
+    panels_split: int | None = None
+    """Panels split since the iteration before, because they refused a step."""
+    flips: int | None = None
+    """Triangles of a mesh that are turned over or flat."""
+
+    @property
+    def energy(self) -> float:
+        """Total energy, (20)."""
+        return self.energy_iso + self.energy_p2p
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Progress:
+    """What a callback sees."""
+
+    method: Method
+    history: tuple[Iteration, ...]
+    """All iterations so far. Empty at the start, and while panels are split before the first."""
+    initial: Iteration
+    """The start, as iteration 0."""
+    energy_iso: float
+    """Isometric part of the energy of :attr:`map`."""
+    energy_p2p: float
+    """Positional part."""
+    make_map: Callable[[], DeformationMap] = field(repr=False)
+    sigma2_lower: Array | None = None
+    """(p,) certified bound per panel, once a step was taken."""
+    discretisation: Discretisation | None = field(default=None, repr=False)
+    """Panels and matrices of a method in the harmonic subspace."""
+
+    @property
+    def energy(self) -> float:
+        """Total energy of :attr:`map`."""
+        return self.energy_iso + self.energy_p2p
+
+    @functools.cached_property
+    def map(self) -> DeformationMap:
+        """The map of this moment; a harmonic one is certified."""
+        return self.make_map()
+
+
+Callback = Callable[[Progress], bool | None]
 
 
 @dataclass(frozen=True)
@@ -56,61 +108,96 @@ class Attempt:
     iterations: int
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Result:
-    """The best certified map that a solve found, and how it got there."""
+    """The best map that a solve found, and how it got there.
 
-    map: HarmonicMap
+    A map of the harmonic subspace is certified; one of a mesh is not, and has no certificate.
+    """
+
+    map: DeformationMap
+    """A HarmonicMap, or a MeshMap where the method works on a mesh."""
     status: Status
-    energy: float
     energy_iso: float
+    """Isometric part of :attr:`energy`."""
     energy_p2p: float
+    """Positional part of :attr:`energy`."""
+    initial: Iteration
+    """The start, as iteration 0."""
     history: tuple[Iteration, ...]
     pose: Pose
     options: Options
     energy_measure: Energy
-    discretisation: Discretisation = field(repr=False)
+    """The isometric energy that was minimised."""
+    method: Method
     compile_time: float
     """Seconds spent compiling during this solve."""
     solve_time: float
     """Seconds of the solve without compilation."""
-    start_energy: float = math.nan
-    """Total energy of the map that the first iteration started from."""
+    detail: str | None = None
+    """The outcome as a full sentence, where that of the status does not say enough."""
+    discretisation: Discretisation | None = field(default=None, repr=False)
+    """Panels and matrices at the end, for a solve that goes on from here."""
     factor: Any = field(default=None, repr=False)
-    """Cholesky factor of the last Hessian, for a solve that goes on from here; None without."""
+    """Cholesky factor of the last Hessian, for a solve that goes on from here."""
     attempts: tuple[Attempt, ...] = ()
     """All ways to a minimum that were tried, when the first was not the only one."""
+    proof: Certificate | None = field(default=None, repr=False)
+    """The certificate, where the method has made it itself."""
+
+    @property
+    def energy(self) -> float:
+        """Total energy of :attr:`map`, (20)."""
+        return self.energy_iso + self.energy_p2p
+
+    @property
+    def start_energy(self) -> float:
+        """Total energy of the map that the first iteration started from."""
+        return self.initial.energy
 
     @property
     def message(self) -> str:
         """The outcome as a full sentence."""
-        return self.status.message
+        return self.detail or self.status.message
 
     @property
     def iterations(self) -> int:
-        """Newton iterations taken."""
+        """Iterations taken."""
         return len(self.history)
 
     @property
-    def n_unknowns(self) -> int:
+    def n_unknowns(self) -> int | None:
         """Real unknowns of the harmonic subspace, ``4 n - 10 N - 2`` unless conformal."""
+        if self.discretisation is None:
+            return None
         basis = self.discretisation.basis
         if not self.options.conformal:
             return basis.n_unknowns
-        return 2 * int(basis.phi_free.sum()) - 2 * self.map.domain.n_holes
+        return 2 * int(basis.phi_free.sum()) - 2 * self.discretisation.domain.n_holes
 
     @property
-    def n_panels(self) -> int:
+    def n_panels(self) -> int | None:
         """Panels of the boundary at the end."""
-        return len(self.discretisation.panels)
+        return None if self.discretisation is None else len(self.discretisation.panels)
 
     @property
-    def panels_split(self) -> int:
+    def panels_split(self) -> int | None:
         """Panels that were split during the solve."""
-        return sum(iteration.panels_split for iteration in self.history)
+        if self.discretisation is None:
+            return None
+        return sum(iteration.panels_split or 0 for iteration in self.history)
+
+    @property
+    def flips(self) -> int | None:
+        """Triangles that are turned over or flat; None for a harmonic map."""
+        return int(np.sum(self.map.flipped)) if isinstance(self.map, MeshMap) else None
 
     @functools.cached_property
-    def certificate(self) -> Certificate:
-        """The proof for :attr:`map`, recomputed from its coefficients alone on first use."""
+    def certificate(self) -> Certificate | None:
+        """The proof for a harmonic map, from its coefficients alone; computed on first use."""
+        if self.proof is not None or isinstance(self.map, MeshMap):
+            return self.proof
         disc = self.discretisation
+        if disc is None:
+            return certify(self.map)
         return certify(self.map, disc.certificate, disc.panels, refine=disc.can_refine)

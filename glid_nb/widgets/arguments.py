@@ -1,9 +1,14 @@
-"""Sizes that were given to a widget, refused by name before anything is made."""
+"""What was given to a widget, refused by name before anything is made."""
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Iterable
 from typing import Any
 
+from ipywidgets import Widget
+
+from glid_nb import _arguments
 from glid_nb._arguments import check_count
 
 LEAST_CANVAS = 100
@@ -19,3 +24,16 @@ def check_vertices(n_vertices: Any) -> int | None:
         As `check_count`.
     """
     return None if n_vertices is None else check_count("n_vertices", n_vertices, 3, "vertices")
+
+
+def check_keywords(widget: type[Widget], given: Iterable[str]) -> None:
+    """Refuse keywords that a widget does not have, neither itself nor from ipywidgets.
+
+    Raises
+    ------
+    TypeError
+        For the first of them; the message has the name that was probably meant.
+    """
+    own = [name for name in inspect.signature(widget.__init__).parameters if name != "self"]
+    traits = [name for name in widget.class_trait_names() if not name.startswith("_")]
+    _arguments.check_keywords(widget.__name__, given, [*own, *traits])

@@ -6,16 +6,15 @@ import re
 from pathlib import Path
 
 _FOLDER = Path(__file__).parent / "js"
-_IMPORT = re.compile(r'^import\s+\{[^}]*\}\s+from\s+"\./([\w./-]+)";\n', re.MULTILINE)
+_IMPORT = re.compile(r'^import\s+\{[^}]*\}\s+from\s+"(\.\.?/[\w./-]+)";\n', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=(?:async )?(?:class|const|function) )", re.MULTILINE)
 
 
 def bundle(entry: str) -> str:
     """The text of ``js/entry`` after that of all modules it imports, each once.
 
-    Modules import by name, ``import { a, b } from "./other.js";``, from their own folder, and share
-    one scope when joined, so their top-level names must differ. Only the entry has a default
-    export.
+    Modules import by name, ``import { a, b } from "./other.js";``, and share one scope when joined,
+    so their top-level names must differ. Only the entry has a default export.
 
     Raises
     ------
@@ -31,7 +30,7 @@ def bundle(entry: str) -> str:
             return
         text = path.read_text(encoding="utf-8")
         for found in _IMPORT.finditer(text):
-            add(path.parent / found[1], (*above, path))
+            add((path.parent / found[1]).resolve(), (*above, path))
         done[str(path)] = _EXPORT.sub("", _IMPORT.sub("", text))
 
     add(_FOLDER / entry, ())

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import ipywidgets
@@ -18,12 +17,14 @@ from glid_nb.geometry import Domain
 from glid_nb.geometry.panels import Panels
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session.deformation import Deformation
-from glid_nb.widgets.arguments import LEAST_CANVAS, check_vertices
-from glid_nb.widgets.gestures import Gestures
+from glid_nb.session.live_solver import Frame
+from glid_nb.session.moment import Moment
+from glid_nb.widgets.arguments import LEAST_CANVAS, check_keywords, check_vertices
+from glid_nb.widgets.gestures import Event, PinGestures
+from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import OVERLAYS
 from glid_nb.widgets.pane import Pane
-from glid_nb.widgets.scene import EvaluatedIn
-from glid_nb.widgets.subshells import answer_during_cells
+from glid_nb.widgets.scene import Drawing, Range
 
 Array = NDArray[Any]
 
@@ -93,6 +94,7 @@ class DeformCanvas(ipywidgets.HBox):
         evaluated_in: EvaluatedIn | None = None,
         **kwargs: Any,
     ) -> None:
+        check_keywords(type(self), kwargs)
         size = (
             check_count("width", width, LEAST_CANVAS, "pixels"),
             check_count("height", height, LEAST_CANVAS, "pixels"),
@@ -108,40 +110,34 @@ class DeformCanvas(ipywidgets.HBox):
         self._evaluated_in: EvaluatedIn | None = evaluated_in
         self.pane = self._pane(size, interactive=True)
         self.source: Pane | None = None
-        self.gestures = Gestures(self.deformation, self.fit)
-        # The page's events that wait for the frame they led to; guarded by their own lock, in
-        # which nothing else is locked.
-        self._waiting: dict[str, int] = {}
-        self._waiting_lock = threading.Lock()
-        # Frames come from the solver's thread, selections and the like from the page's. The model
-        # may be locked when this is taken, and is not locked while it is held.
-        self._drawing = threading.RLock()
-        self._closed = False  # guarded by the lock: a frame may arrive while the canvas closes
-        self._receiving = threading.Lock()
+        self.gestures = PinGestures(self.deformation, self.fit)
+        self._closed = False  # a frame may arrive while the canvas closes
         self._when_drawn: list[Callable[[], None]] = []
         self._panels_at = self._range_at = 0.0
+        # What the panels that are drawn were taken from, and these.
+        self._panels: tuple[PanelCertificate | Frame, tuple[Panels, Array]] | None = None
         super().__init__([self.pane], **kwargs)
         # A box that may scroll would shrink to nothing inside another one.
         self.layout.overflow, self.layout.flex = "visible", "0 0 auto"
         self.layout.align_items = "flex-start"
         self._resize()
         self.pane.stage.observe(self._resize, ["height"])
-        self._stop = self.deformation.observe(self._on_model)
-        self.pane.stage.on_msg(self._receive)
-        answer_during_cells(self.pane.stage)
-        self.observe(self._show_overlay, ["overlay"])
-        self.observe(self._show_lines, ["show_cage", "show_offset_cage"])
-        self.observe(self._on_show_panels, ["show_panels"])
+        # Frames come from the solver's thread, events from the page's: both hold the model's lock.
+        # The solver sets the pace: while it works, its next frame acknowledges events.
+        model = self.deformation
+        with model.locked():
+            self._draw()
+            if len(model.pose):
+                self.fit()
+            self._complete = True
+            self._show_source()  # and what else was given as arguments
+            self._draw(place_legend=True)
+            self.pane.stage.serve(model, self, busy=lambda: model.busy)
+            self._stop = model.observe(self._on_model)
+        self.pane.stage.observe(self._on_drawn, ["drawn"])
+        self.observe(lambda _: self._redraw(), ["show_cage", "show_offset_cage"])
+        self.observe(lambda _: self._redraw(place_legend=True), ["overlay", "show_panels"])
         self.observe(self._show_source, ["show_source"])
-        self._draw()
-        if len(self.deformation.pose):
-            self.fit()
-        self._complete = True
-        # Overlays that were given as arguments.
-        self._show_overlay()
-        self._show_lines()
-        self._show_panels()
-        self._show_source()
 
     def fit(self) -> None:
         """Make the whole shape and all targets visible."""
@@ -156,7 +152,7 @@ class DeformCanvas(ipywidgets.HBox):
         if not self._complete:
             return
         self._stop()
-        with self._drawing:
+        with self.deformation.locked():
             self._closed = True
             for pane in (self.pane, self.source):
                 if pane is not None:
@@ -167,12 +163,10 @@ class DeformCanvas(ipywidgets.HBox):
         super().close()
 
     def _pane(self, size: tuple[int, int], interactive: bool) -> Pane:
-        model = self.deformation
-        map_ = model.map if interactive else model.state.identity
+        state = self.deformation.state
         pane = Pane(
             self.image,
-            map_,
-            model.state.current.energy,
+            state.map if interactive else state.identity,
             size,
             interactive=interactive,
             n_vertices=self._n_vertices,
@@ -182,131 +176,106 @@ class DeformCanvas(ipywidgets.HBox):
         return pane
 
     def _adapt(self, pane: Pane) -> None:
-        with self._drawing:
-            if not self._closed and pane.adapt():
-                self._draw()
-                self._show_panels()
+        with self.deformation.locked():
+            if not self._closed:
+                pane.adapt()
 
     def _resize(self, _: Any = None) -> None:
         self.layout.height = f"{self.pane.stage.height}px"
 
-    # From the model
+    # Drawing; the model is locked
 
     def _on_model(self, what: str) -> None:
         """A change of the model, told in whichever thread made it."""
-        if what in ("state", "frame", "selection"):
-            self._draw()
-        if what == "frame":
-            self._show_panels()
-            if self.deformation.solved:
-                with self._drawing:
-                    if not self._closed:
-                        self.pane.fit_range(widen_only=bool(self.deformation.dragged))
-                        self._place_legend()
-        if what in ("frame", "status"):
-            self._release()
-
-    def _draw(self) -> None:
-        with self._drawing:
+        with self.deformation.locked():
             if self._closed:
                 return
-            state = self.deformation.state
-            comparison = self.deformation.comparison
-            pose, map_ = state.pose, state.map
-            shown = map_ if comparison is None else comparison
-            images = shown(pose.handles) if len(pose) else np.empty((0, 2))
-            self.pane.show(map_, pose.targets, images, self.deformation.selection)
-            self.pane.show_comparison(comparison)
-            self._fit_range()
-            if self.overlay == "energy":
-                self.pane.show_overlay(self.overlay, state.current.energy)
-            if self.source is not None:
-                empty = np.empty((0, 2))
-                self.source.show(state.identity, empty, pose.handles, ())
+            if what in ("state", "frame", "selection"):
+                self._draw(place_legend=what == "frame" and self.deformation.solved)
+            if what in ("frame", "status"):
+                self.pane.stage.acknowledge()
 
-    def _fit_range(self) -> None:
+    def _redraw(self, *, place_legend: bool = False) -> None:
+        """Draw what is seen in another way."""
+        with self.deformation.locked():
+            if not self._closed:
+                self._draw(place_legend=place_legend)
+
+    def _draw(self, *, place_legend: bool = False) -> None:
+        """Draw what the model is at this moment."""
+        moment = self.deformation.moment
+        state, pose = moment.state, moment.state.pose
+        images = moment.shown(pose.handles) if len(pose) else pose.handles
+        cage, offset_cage = self.show_cage, self.show_offset_cage
+        drawing = Drawing(
+            moment.map,
+            moment.comparison,
+            pose.targets,
+            images,
+            moment.selection,
+            self.overlay,
+            state.current.energy,
+            self._color_range(moment),
+            cage,
+            offset_cage,
+            self._panels_of(moment) if self.show_panels else None,
+        )
+        self.pane.show(drawing)
+        if self.source is not None:
+            at_rest = Drawing(
+                state.identity, images=pose.handles, cage=cage, offset_cage=offset_cage
+            )
+            self.source.show(at_rest)
+        if place_legend and not moment.dragged:  # where it would jump
+            self.pane.place_legend()
+
+    def _color_range(self, moment: Moment) -> Range:
         """Colours stay comparable during a drag: a range then only grows."""
-        moving, now = self.deformation.busy or bool(self.deformation.dragged), time.monotonic()
-        if not moving or now - self._range_at > _PANELS_INTERVAL:
-            self._range_at = now
-            self.pane.fit_range(widen_only=moving)
+        moving, now = moment.busy or bool(moment.dragged), time.monotonic()
+        if moving and not moment.solved and now - self._range_at <= _PANELS_INTERVAL:
+            return "keep"
+        self._range_at = now
+        return "widen" if (moment.dragged if moment.solved else moving) else "fit"
 
-    def _release(self) -> None:
-        """Acknowledge: the frame that the events led to is on its way, or none will come."""
-        with self._waiting_lock:
-            waiting, self._waiting = self._waiting, {}
-        for view, number in waiting.items():
-            self.pane.stage.acknowledge(view, number)
+    def _panels_of(self, moment: Moment) -> tuple[Panels, Array]:
+        """The boundary's panels; while the solver works those of not long ago."""
+        frame, now = moment.frame, time.monotonic()
+        if frame is None or frame.panels is None or not len(frame.sigma2_lower):
+            proof = self.deformation.certificate_of(moment.map).panels
+            if self._panels is None or self._panels[0] is not proof:
+                self._panels = (proof, (_as_panels(proof), proof.sigma2_lower))
+        elif (
+            self._panels is None
+            or not isinstance(before := self._panels[0], Frame)
+            or before.map.domain is not frame.map.domain
+            or frame.solution is not None
+            or now - self._panels_at > _PANELS_INTERVAL
+        ):
+            self._panels_at = now
+            self._panels = (frame, (frame.panels, frame.sigma2_lower))
+        return self._panels[1]
 
     # From the page
 
-    def _receive(self, _: Any, message: dict[str, Any], __: Any) -> None:
-        if "drawn" in message:
-            self.deformation.begin()
-            waiting, self._when_drawn = self._when_drawn, []
-            for callback in waiting:
-                callback()
-            return
-        events = message["events"]
+    def handle(self, events: Sequence[Event]) -> str | None:
+        """Act on what the hand does, and show why something was refused."""
         stage = self.pane.stage
         try:
-            with self._receiving:
-                notice = self.gestures.handle(events)
-        except Exception as error:
-            stage.notice = f"{type(error).__name__}: {error}"  # shown, and logged by the kernel
-            raise
-        else:
-            stage.notice = notice
+            stage.notice = self.gestures.handle(events) or ""
             stage.set_trait("cursor", self.gestures.cursor)
-        finally:
-            with self._waiting_lock:
-                self._waiting[message["view"]] = events[-1]["seq"]
-            # The solver paces the hand: while it works, its next frame acknowledges.
-            if not self.deformation.busy:
-                self._release()
+        except Exception as error:
+            stage.notice = f"{type(error).__name__}: {error}"
+            raise
+        return stage.notice or None
 
-    # From code and menus
-
-    def _show_overlay(self, _: Any = None) -> None:
-        with self._drawing:
-            self.pane.show_overlay(self.overlay, self.deformation.state.current.energy)
-            self._place_legend()
-
-    def _place_legend(self) -> None:
-        """Not during a drag, where it would jump."""
-        stage = self.pane.stage
-        if (stage.legend or stage.panel_legend) and not self.deformation.dragged:
-            self.pane.place_legend(self.deformation.shown, self.deformation.pose.targets)
-
-    def _show_lines(self, _: Any = None) -> None:
-        with self._drawing:
-            for pane in (self.pane, self.source):
-                if pane is not None:
-                    pane.show_lines(self.show_cage, self.show_offset_cage)
-
-    def _on_show_panels(self, _: Any) -> None:
-        with self._drawing:
-            self._show_panels()
-            self._place_legend()
-
-    def _show_panels(self) -> None:
-        with self._drawing:
-            if self._closed:
-                return
-            frame = self.deformation.frame
-            if not self.show_panels:
-                self.pane.show_panels(None, np.empty(0))
-                return
-            now = time.monotonic()
-            if frame is None or frame.panels is None or not len(frame.sigma2_lower):
-                panels = self.deformation.certificate.panels
-                self.pane.show_panels(_as_panels(panels), panels.sigma2_lower)
-            elif frame.solution is not None or now - self._panels_at > _PANELS_INTERVAL:
-                self._panels_at = now
-                self.pane.show_panels(frame.panels, frame.sigma2_lower)
+    def _on_drawn(self, _: Any) -> None:
+        self.deformation.begin()
+        waiting, self._when_drawn = self._when_drawn, []
+        for callback in waiting:
+            callback()
 
     def _show_source(self, _: Any = None) -> None:
-        with self._drawing:
+        with self.deformation.locked():
             if self.show_source and self.source is None:
                 self._open_source()
             elif not self.show_source and self.source is not None:
@@ -317,7 +286,6 @@ class DeformCanvas(ipywidgets.HBox):
         stage, width = self.pane.stage, round(_SOURCE_SHARE * self.pane.stage.width)
         stage.width -= width
         self.source = self._pane((width, stage.height), interactive=False)
-        self.source.show_lines(self.show_cage, self.show_offset_cage)
         self.children = [self.source, self.pane]
         self._draw()
         self.fit()

@@ -20,6 +20,8 @@ class EditControls(ipywidgets.VBox):
     :meth:`_watch`.
     """
 
+    _stop: Callable[[], None] | None = None
+
     _refusals: ClassVar[type[Exception]] = ValueError
     """What the model refuses a change with."""
 
@@ -68,5 +70,7 @@ class EditControls(ipywidgets.VBox):
 
     def close(self) -> None:
         """Stop watching; the model lives on."""
+        if self._stop is None:  # it was refused while it was made
+            return
         self._stop()
         super().close()

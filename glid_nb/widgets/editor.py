@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import html
-import threading
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,19 +14,19 @@ from glid_nb._arguments import check_count
 from glid_nb._jax import once_loaded
 from glid_nb._runtime import enable_compilation_cache
 from glid_nb.certificate import Certificate
+from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.imaging.render import View
-from glid_nb.methods import MeshMap
 from glid_nb.session import Document
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditedPose, EditError
 from glid_nb.session.editor_model import Application, EditorModel, find_document
 from glid_nb.session.status_line import StatusLine
 from glid_nb.session.tracing import TracingProblem
-from glid_nb.solvers import Pose
+from glid_nb.solvers import Method, Pose
 from glid_nb.widgets import cells
-from glid_nb.widgets.arguments import check_vertices
+from glid_nb.widgets.arguments import check_keywords, check_vertices
 from glid_nb.widgets.canvas import DeformCanvas
 from glid_nb.widgets.closing import close_with_parts
 from glid_nb.widgets.monitor import SolverMonitor
@@ -122,6 +121,7 @@ class Editor(ipywidgets.VBox):
         n_vertices: int | None = None,
         **kwargs: Any,
     ) -> None:
+        check_keywords(type(self), kwargs)
         self._size = (
             check_count("width", width, _LEAST_SIZE, "pixels"),
             check_count("height", height, _LEAST_SIZE, "pixels"),
@@ -143,7 +143,6 @@ class Editor(ipywidgets.VBox):
         self.canvas: DeformCanvas | None = None
         """The canvas of the Deform tab; None while nothing is traced."""
         self._parts: list[Any] = []
-        self._later = threading.RLock()
         self._tracer: CageTracer | None = None
         self._panels: tuple[SolverPanel, FilePanel] | None = None
         # Boxes that stay: a page to which tabs are given anew chooses another one by itself.
@@ -160,8 +159,7 @@ class Editor(ipywidgets.VBox):
         super().__init__([self.unsaved, self.tabs], **kwargs)
         self.add_class("glid-editor")
         self._build()
-        self.model.on_replaced(self._build)
-        self.model.on_saved(self._show_saving)
+        self.model.observe(self._on_model)
         self.tabs.observe(self._on_tab, ["selected_index"])
         self._complete = True
         if cells.register(self):
@@ -181,7 +179,7 @@ class Editor(ipywidgets.VBox):
     @property
     def tracer(self) -> CageTracer:
         """The Trace tab."""
-        with self._later:
+        with self.model.locked():
             if self._tracer is None:
                 self._check_open()
                 self._tracer = CageTracer(model=self.model.tracing, height=self._size[1])
@@ -264,15 +262,15 @@ class Editor(ipywidgets.VBox):
         """Drag a handle's target; the shape follows in the background."""
         self.deformation.drag(handle, to)
 
-    def set_method(self, name: str, **settings: Any) -> None:
-        """Solve by another of `glid_nb.methods`; those on a mesh are shown for comparison.
+    def set_method(self, method: Method | str, **settings: Any) -> None:
+        """Solve by another of `glid_nb.methods`, or its name; those on a mesh are for comparison.
 
         Raises
         ------
         MethodError
             It is unknown, cannot minimise the energy, or its package is not installed.
         """
-        self.deformation.set_method(name, **settings)
+        self.deformation.set_method(method, **settings)
 
     def solve(self, timeout: float | None = None) -> bool:
         """Wait until the shape has come to rest; whether it did within ``timeout`` seconds."""
@@ -308,7 +306,7 @@ class Editor(ipywidgets.VBox):
         """Take the editor from the page, end its threads and free its renderers."""
         if not self._complete:
             return
-        with self._later:
+        with self.model.locked():
             self._closed = True
         self._take_down()
         self.model.close()
@@ -317,9 +315,12 @@ class Editor(ipywidgets.VBox):
 
     # The widgets
 
+    def _on_model(self, what: str) -> None:
+        self._build() if what == "replaced" else self._show_saving()
+
     def _build(self) -> None:
         """New views of new models."""
-        with self._later:
+        with self.model.locked():
             self._take_down()
             self._tracer = self._panels = self.canvas = None
             if self.model.has_shape:
@@ -334,7 +335,7 @@ class Editor(ipywidgets.VBox):
 
     def _fill(self, _: Any = None) -> None:
         """Make what is still missing, all of it hidden behind other tabs."""
-        with self._later:
+        with self.model.locked():
             if self._closed:
                 return  # meanwhile
             self.tracer  # noqa: B018 - made by asking
@@ -346,7 +347,7 @@ class Editor(ipywidgets.VBox):
             raise RuntimeError("the editor is closed; this part of it was never made")
 
     def _made_panels(self) -> tuple[SolverPanel, FilePanel]:
-        with self._later:
+        with self.model.locked():
             if self._panels is None:
                 self._check_open()
                 from glid_nb.widgets.file_panel import FilePanel  # noqa: PLC0415 - as above
@@ -387,7 +388,7 @@ class Editor(ipywidgets.VBox):
         return body
 
     def _take_down(self) -> None:
-        with self._later:
+        with self.model.locked():
             parts, self._parts = self._parts, []
             shown = (*self._trace_box.children, *self._deform_box.children)
             self._trace_box.children = self._deform_box.children = ()

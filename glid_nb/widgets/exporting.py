@@ -98,12 +98,12 @@ def export(
         When a file cannot be written.
     """
     path = Path(path)
-    contents = dict(zip(files_of(path), _contents(model, path, size, view), strict=True))
+    files = files_of(path)
+    first, *others = _contents(model, path, size, view)
     # What lies beside a file that is there already came with that.
-    if not (replace or path.exists()):
-        _check_free(model, path, {p: data for p, data in contents.items() if p != path})
-    _write(model, path, contents)
-    return tuple(contents)
+    _write(model, path, dict(zip(files[1:], others, strict=True)), replace or path.exists())
+    _write(model, path, {path: first}, replace=True)
+    return files
 
 
 def export_source(model: EditorModel, script: Path, *, replace: bool = False) -> Path:
@@ -117,11 +117,9 @@ def export_source(model: EditorModel, script: Path, *, replace: bool = False) ->
         When it cannot be written.
     """
     _, path = files_of(script)
-    contents = {path: png(model.document.image)}
-    if not replace:
-        _check_free(model, script, contents)
-    if not _holds(path, contents[path]):
-        _write(model, script, contents)
+    picture = png(model.document.image)
+    if not _holds(path, picture):
+        _write(model, script, {path: picture}, replace)
     return path
 
 
@@ -129,38 +127,36 @@ def _contents(
     model: EditorModel, path: Path, size: tuple[int, int] | None, view: View
 ) -> list[bytes]:
     """What is written to `files_of` the path, in that order."""
-    document, map_ = model.document, model.deformation.map
-    image, suffix = document.image, path.suffix.lower()
-    height, width = image.shape[:2]
-    if suffix == ".png":
-        return [picture_png(image, map_, size, view)]
-    if suffix == ".obj":
-        files = mesh_obj(textured_mesh(image, map_), path.stem)
-        return [files[path.stem + rest] for rest in (".obj", *_BESIDE[".obj"])]
-    if suffix == ".glb":
-        return [mesh_glb(textured_mesh(image, map_))]
-    if suffix == ".svg":
-        text = cage_svg(map_, (width, height), source=True, pose=model.deformation.pose)
-        return [text.encode()]
-    if suffix == ".html":
-        page = page_html(image, map_, model.deformation.certificate, path.stem)
-        return [page.encode()]
-    _, picture = files_of(path)
-    return [python_code(document, picture.name).encode(), png(image)]
+    document, deformation = model.document, model.deformation
+    image, map_ = document.image, deformation.map
+    match path.suffix.lower():
+        case ".png":
+            return [picture_png(image, map_, size, view)]
+        case ".obj":
+            files = mesh_obj(textured_mesh(image, map_), path.stem)
+            return [files[path.stem + rest] for rest in (".obj", *_BESIDE[".obj"])]
+        case ".glb":
+            return [mesh_glb(textured_mesh(image, map_))]
+        case ".svg":
+            height, width = image.shape[:2]
+            return [cage_svg(map_, (width, height), source=True, pose=deformation.pose).encode()]
+        case ".html":
+            return [page_html(image, map_, deformation.certificate, path.stem).encode()]
+        case _:
+            _, picture = files_of(path)
+            return [python_code(document, picture.name).encode(), png(image)]
 
 
-def _check_free(model: EditorModel, owner: Path, contents: Mapping[Path, bytes]) -> None:
+def _write(model: EditorModel, owner: Path, contents: Mapping[Path, bytes], replace: bool) -> None:
+    """Write files that belong to ``owner``."""
     strangers = model.own_files.strangers(contents, owner)
     occupied = [path for path in strangers if not _holds(path, contents[path])]
-    if occupied:
+    if occupied and not replace:
         raise OccupiedError(occupied)
+    for path, data in contents.items():
+        write_bytes_atomically(path, data)
+    model.own_files.note(contents, owner)
 
 
 def _holds(path: Path, data: bytes) -> bool:
     return path.is_file() and path.stat().st_size == len(data) and path.read_bytes() == data
-
-
-def _write(model: EditorModel, owner: Path, contents: Mapping[Path, bytes]) -> None:
-    for path, data in contents.items():
-        write_bytes_atomically(path, data)
-    model.own_files.note(contents, owner)

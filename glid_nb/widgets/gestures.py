@@ -1,30 +1,61 @@
-"""What pointers and keys on the canvas mean for a deformation; without a browser."""
+"""What pointers and keys on a canvas mean; without a browser."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._errors import InputError
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
+from glid_nb.session.observed import Observed
 
 Array = NDArray[Any]
 Event = Mapping[str, Any]
 
+LEFT, RIGHT = 0, 2
 _SLOP, _SLOP_ON_SHAPE = 2.0, 5.0  # pixels that a pressed pointer may move without dragging
 _NUDGE, _NUDGE_SHIFT = 0.1, 0.5  # world units
 _CURSOR, _CURSOR_SHIFT = 6.0, 30.0  # pixels
-_ARROWS = {
-    "ArrowLeft": (-1, 0),
-    "ArrowRight": (1, 0),
-    "ArrowUp": (0, 1),
-    "ArrowDown": (0, -1),
-}
-_LEFT, _RIGHT = 0, 2
+_ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowDown": (0, -1)}
+
+
+class Gestures:
+    """Turns events of the page into actions on a model.
+
+    An event is a mapping with its ``type``, the place ``x``, ``y`` in the canvas's own units,
+    ``reach``, the radius of what the pointer hits, and ``unit``, the size of a CSS pixel, both in
+    the same units, ``button``, ``shift``, ``key`` and ``time`` in milliseconds. A subclass has a
+    method ``_down``, ``_move``, ... for each of the types that it takes.
+    """
+
+    takes: ClassVar[frozenset[str]] = frozenset({"down", "move", "up", "cancel", "key"})
+    """The types of events that mean something."""
+
+    def __init__(self, model: Observed) -> None:
+        self._model = model
+        self._press: Any = None
+
+    def handle(self, events: Iterable[Event]) -> str | None:
+        """Act on events in order; returns why something was refused, or None."""
+        refusal: str | None = None
+        with self._model.locked():  # one change, which is drawn once
+            for event in events:
+                kind = event["type"]
+                if kind not in self.takes:
+                    return f"the page asked for {kind!r}, which this canvas cannot do"
+                try:
+                    getattr(self, f"_{kind}")(event)
+                    if kind not in ("move", "up", "cancel"):
+                        refusal = None
+                except InputError as error:
+                    refusal = getattr(error, "plain", str(error))
+                    self._press = None
+        return refusal
 
 
 @dataclass
@@ -39,12 +70,8 @@ class _Press:
     dragging: bool = False
 
 
-class Gestures:
-    """Turns events of the page into actions.
-
-    An event is a mapping with ``type`` ("down", "move", "up", "cancel", "remove" or "key"), the
-    place ``x``, ``y`` in world units, ``reach``, the radius of what the pointer hits, and ``unit``,
-    the size of a pixel, both in world units, ``button``, ``shift``, ``key`` and ``handle``.
+class PinGestures(Gestures):
+    """Pins points of a deformation and drags them.
 
     Parameters
     ----------
@@ -53,25 +80,15 @@ class Gestures:
         Called without arguments to make everything visible.
     """
 
+    takes = Gestures.takes | {"remove"}
+
     def __init__(self, deformation: Deformation, fit: Callable[[], None]) -> None:
+        super().__init__(deformation)
         self.deformation = deformation
         self._fit = fit
         self._press: _Press | None = None
         self.cursor: list[float] | None = None
         """Where the keyboard's cursor is."""
-
-    def handle(self, events: Iterable[Event]) -> str:
-        """Act on events in order; returns why something was refused, or an empty text."""
-        refusal = ""
-        for event in events:
-            try:
-                getattr(self, f"_{event['type']}")(event)
-                if event["type"] in ("down", "key", "remove"):
-                    refusal = ""
-            except EditError as error:
-                refusal = str(error)
-                self._press = None
-        return refusal
 
     def hit(self, point: Array, reach: float) -> int | None:
         """The handle whose target, or else whose image, is nearest within reach."""
@@ -86,16 +103,16 @@ class Gestures:
         return None
 
     def _down(self, event: Event) -> None:
-        model, point = self.deformation, _place(event)
+        model, point = self.deformation, place(event)
         if self._press is not None and self._press.dragging:
             model.end_drag()
         self._press, self.cursor = None, None
         hit = self.hit(point, event["reach"])
-        if event["button"] == _RIGHT:
+        if event["button"] == RIGHT:
             if hit is not None:
                 model.remove_handles(hit)
             return
-        if event["button"] != _LEFT:
+        if event["button"] != LEFT:
             return
         if hit is None:
             source = None if event["shift"] else model.find(point)
@@ -109,7 +126,7 @@ class Gestures:
             self._press = _Press(point, None, model.pose.targets[list(model.selection)])
 
     def _move(self, event: Event) -> None:
-        press, model, point = self._press, self.deformation, _place(event)
+        press, model, point = self._press, self.deformation, place(event)
         if press is None:
             return
         moved = float(np.linalg.norm(point - press.start))
@@ -149,7 +166,9 @@ class Gestures:
         self.deformation.cancel_drag()
 
     def _remove(self, event: Event) -> None:
-        self.deformation.remove_handles(event["handle"])
+        hit = self.hit(place(event), event["reach"])
+        if hit is not None:
+            self.deformation.remove_handles(hit)
 
     def _pin(self, press: _Press) -> None:
         model = self.deformation
@@ -173,7 +192,7 @@ class Gestures:
             else:
                 model.select([])
                 self.cursor = None
-        elif key in ("undo", "redo", "reset"):
+        elif key in ("undo", "redo"):
             getattr(model, key)()
         elif key == "0":
             model.reset()
@@ -190,13 +209,11 @@ class Gestures:
             model.nudge(model.selection, direction * (_NUDGE_SHIFT if event["shift"] else _NUDGE))
             return
         step = (_CURSOR_SHIFT if event["shift"] else _CURSOR) * event["unit"]
-        self.cursor = (
-            np.array(self.cursor or [event["x"], event["y"]]) + step * direction
-        ).tolist()
+        self.cursor = (np.array(self.cursor or place(event)) + step * direction).tolist()
 
     def _enter(self, event: Event) -> None:
         if self.cursor is None:
-            self.cursor = [event["x"], event["y"]]
+            self.cursor = place(event).tolist()
             return
         model, point = self.deformation, np.array(self.cursor)
         hit = self.hit(point, event["reach"])
@@ -217,5 +234,6 @@ class Gestures:
             self.cursor = None
 
 
-def _place(event: Event) -> Array:
+def place(event: Event) -> Array:
+    """Where an event is, (2,)."""
     return np.array([event["x"], event["y"]], dtype=float)

@@ -17,7 +17,8 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.live_solver import Frame
 from glid_nb.session.moment import Moment
 from glid_nb.session.status_line import StatusLine, describe
-from glid_nb.widgets.background import Background
+from glid_nb.session.worker import LatestWins, weakly
+from glid_nb.widgets.arguments import check_keywords
 from glid_nb.widgets.plots_frame import placeholder
 
 if TYPE_CHECKING:
@@ -49,6 +50,9 @@ class SolverMonitor(ipywidgets.VBox):
         Whether there are plots at all.
     """
 
+    # ipywidgets closes also what was refused while it was made.
+    _complete = False
+
     def __init__(
         self,
         deformation: Deformation,
@@ -57,6 +61,7 @@ class SolverMonitor(ipywidgets.VBox):
         plots: bool = True,
         **kwargs: Any,
     ) -> None:
+        check_keywords(type(self), kwargs)
         self.deformation = deformation
         """The model that this is a view of."""
         self.line = ipywidgets.HTML()
@@ -68,7 +73,9 @@ class SolverMonitor(ipywidgets.VBox):
         self._size = (width, height)
         self._plots: LivePlots | None = None
         self._frames: deque[float] = deque()
-        self._background = Background(self._update, INTERVAL)
+        self._worker: LatestWins[None] = LatestWins(
+            weakly(self._update), self, "monitor", interval=INTERVAL
+        )
         self._drawn: Any = None
         self._with_plots = plots
         super().__init__([self.line, self.image] if plots else [self.line], **kwargs)
@@ -76,7 +83,8 @@ class SolverMonitor(ipywidgets.VBox):
         self.image.add_class("glid-plots")
         self.image.layout.width, self.image.layout.height = f"{width}px", f"{height}px"
         self._stop = deformation.observe(self._on_model)
-        self._background.ask()
+        self._complete = True
+        self._worker.submit(None)
 
     @property
     def text(self) -> str:
@@ -86,22 +94,24 @@ class SolverMonitor(ipywidgets.VBox):
 
     def refresh(self, timeout: float | None = None) -> bool:
         """Draw what is still to be drawn; whether that was done within ``timeout`` seconds."""
-        self._background.ask()
-        return self._background.wait(timeout)
+        self._worker.submit(None)
+        return self._worker.wait(timeout)
 
     def close(self) -> None:
         """Stop watching; the model lives on."""
+        if not self._complete:
+            return
         self._stop()
-        self._background.close()
+        self._worker.close()
         super().close()
 
     def _on_model(self, what: str) -> None:
         if what == "frame":
             self._frames.append(time.monotonic())
         if what != "selection":
-            self._background.ask()
+            self._worker.submit(None)
 
-    def _update(self) -> None:
+    def _update(self, *_: Any) -> None:
         """In the background: the line, and the plots if there is something new."""
         moment = self.deformation.moment
         status = self._status(moment)
@@ -113,7 +123,7 @@ class SolverMonitor(ipywidgets.VBox):
         )
         # The solver comes to rest after it has told of its last frame.
         if moment.busy:
-            self._background.ask()
+            self._worker.submit(None)
         # Matplotlib's figures take their time, which the first canvas should have.
         if self._with_plots and self.deformation.begun:
             self._draw(moment)

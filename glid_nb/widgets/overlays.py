@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._jax import jnp
-from glid_nb.energies import AMIPS, ARAP, Energy, ExponentialSymmetricDirichlet, SymmetricDirichlet
+from glid_nb.energies import Energy
 from glid_nb.solvers.restarts import isometry_energy
 
 # Ten evenly spaced colours of `figures.style.distortion_colors`; the first canvas does not wait for
@@ -50,14 +50,6 @@ FULL_MARGIN = 0.5
 # So much of the boundary, where distortion is largest, is within the ends of a colour map.
 _SHARE = 0.98
 
-# The kinds that picture.frag knows.
-_KINDS: dict[type[Energy], int] = {
-    SymmetricDirichlet: 0,
-    ExponentialSymmetricDirichlet: 1,
-    AMIPS: 2,
-    ARAP: 3,
-}
-
 
 @dataclass(frozen=True)
 class Overlay:
@@ -78,12 +70,6 @@ OVERLAYS: dict[str, Overlay] = {
     "energy": Overlay(5, "Energy density"),
 }
 """By the name of the trait ``DeformCanvas.overlay``."""
-
-
-def energy_kind(energy: Energy) -> tuple[float, float] | None:
-    """The kind of an energy in the shader and its parameter; None for a user's own function."""
-    kind = _KINDS.get(type(energy))
-    return None if kind is None else (float(kind), float(getattr(energy, "s", 1.0)))
 
 
 def color_range(
@@ -136,28 +122,29 @@ def _values(
         return np.minimum(r - g, start)
     if name == "k":
         return g / np.maximum(r, 1e-6)
-    if name == "energy" and energy_kind(energy) is not None:
+    if name == "energy" and energy.shader is not None:
         return np.asarray(energy.density(jnp.asarray(r**2), jnp.asarray(g**2)))
     return np.full(len(r), start)
 
 
 def color_stops() -> NDArray[np.float64]:
     """(n, 3) colours, evenly spaced, from isometric to distorted."""
-    return _rgb(_COLORS)
+    return rgb(_COLORS)
 
 
 def margin_stops() -> NDArray[np.float64]:
     """(n, 3) colours of the certificate, evenly spaced, from a wide margin to none."""
-    return _rgb(_MARGIN_COLORS)
+    return rgb(_MARGIN_COLORS)
 
 
-def _rgb(colors: Sequence[str]) -> NDArray[np.float64]:
+def rgb(colors: Sequence[str]) -> NDArray[np.float64]:
+    """(n, 3) colours of ``#rrggbb`` texts."""
     return np.array([[int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)] for color in colors])
 
 
 def legend(name: str, energy: Energy, range_: tuple[float, float]) -> dict[str, Any]:
     """The colour bar as the page draws it; empty where there is nothing to explain."""
-    if OVERLAYS[name].number < 2 or (name == "energy" and energy_kind(energy) is None):
+    if OVERLAYS[name].number < 2 or (name == "energy" and energy.shader is None):
         return {}
     low, high = range_
     ticks = np.linspace(low, high, 5 if name == "energy" else 3)

@@ -8,12 +8,13 @@ import ipywidgets
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb.energies import Energy
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import DeformationMap, MeshMap
+from glid_nb.solvers import DeformationMap
 from glid_nb.widgets.closing import close_with_parts
+from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import legend, panel_legend
-from glid_nb.widgets.scene import N_VERTICES, EvaluatedIn, Scene, renderer
+from glid_nb.widgets.scene import N_VERTICES, Drawing, Scene, renderer
+from glid_nb.widgets.shader import UNIFORM_VECTORS
 from glid_nb.widgets.stage import Stage, emptiest_corner, marks_of
 
 Array = NDArray[Any]
@@ -26,7 +27,22 @@ _DRAWING_TIME, _FEWEST_VERTICES = 40.0, 1500  # ms, vertices
 
 
 class Pane(ipywidgets.GridBox):
-    """A picture under a map, with marks over it; renderer and pad share one grid cell."""
+    """A picture under a map, with marks over it; renderer and pad share one grid cell.
+
+    Parameters
+    ----------
+    image : (h, w, 4) uint8 array
+    map : HarmonicMap
+        The first map.
+    size : (int, int)
+        CSS pixels.
+    interactive : bool
+        Whether it takes pointers and keys.
+    n_vertices : int, optional
+        Vertices of the picture's mesh; by default as many as the page draws quickly.
+    evaluated_in : "shader" or "kernel", optional
+        Who computes the vertices; by default the shader where it can.
+    """
 
     # ipywidgets closes also what was refused while it was made.
     _complete = False
@@ -35,28 +51,28 @@ class Pane(ipywidgets.GridBox):
         self,
         image: Array,
         map: HarmonicMap,
-        energy: Energy,
         size: tuple[int, int],
         *,
         interactive: bool,
         n_vertices: int | None,
         evaluated_in: EvaluatedIn | None,
     ) -> None:
-        self._image, self._energy = image, energy
+        self._image = image
         self._n_vertices = N_VERTICES if n_vertices is None else n_vertices
         self._fewest_vertices = _FEWEST_VERTICES if n_vertices is None else n_vertices
         self._evaluated_in: EvaluatedIn | None = evaluated_in
-        self._overlay, self._lines, self._with_panels = "texture", (False, False), False
-        self._scene = self._new_scene(map)
-        self._renderer, camera = renderer(self._scene, *size)
+        self._drawing = Drawing(map)
+        self.scene = self._new_scene(0)
+        """What pythreejs draws."""
+        self._renderer = renderer(self.scene, *size)
         self.stage = Stage(
             width=size[0],
             height=size[1],
             interactive=interactive,
             renderer=self._renderer,
-            camera=camera,
-            materials=self._materials(),
-            coefficients=self._wire(map),
+            camera=self._renderer.camera,
+            materials=self.scene.materials,
+            coefficients=self._wire(),
         )
         for part in (self._renderer, self.stage):
             part.layout.grid_area = "a"
@@ -69,86 +85,67 @@ class Pane(ipywidgets.GridBox):
         self.fit(map, ())
         self._complete = True
 
-    @property
-    def scene(self) -> Scene:
-        """What pythreejs draws."""
-        return self._scene
+    def show(self, drawing: Drawing) -> None:
+        """Draw this, in one message where only the map and the marks are others."""
+        self._drawing, old = drawing, self.scene
+        if drawing.map.domain is not old.domain:
+            self.scene = self._new_scene(self.stage.uniform_vectors)
+        self._show(old)
 
-    def show(
-        self, map: HarmonicMap, targets: Array, images: Array, selected: tuple[int, ...]
-    ) -> None:
-        """Draw this map and these marks, in one message."""
-        if map.domain is not self._scene.domain:
-            self._replace_scene(map)
-        self._scene.show_map(map)
-        with self.stage.hold_sync():
-            self.stage.coefficients = self._wire(map)
-            self.stage.marks = marks_of(targets, images, selected)
-
-    def adapt(self) -> bool:
-        """To what the page says of itself; whether there is another scene now.
+    def adapt(self) -> None:
+        """Draw anew in the way that the page can, by what it has said of itself.
 
         Where its shaders do not hold the cage, the kernel evaluates the map; where it draws too
         slowly for a drag, it gets a coarser mesh.
         """
-        stage, scene = self.stage, self._scene
+        stage, scene = self.stage, self.scene
         vectors, time = stage.uniform_vectors, stage.drawing_time
         overflows = (
             vectors != 0 and scene.evaluated_in == "shader" and not scene.shader_map.fits(vectors)
         )
         affordable = int(self._n_vertices * _DRAWING_TIME / time) if time else self._n_vertices
         wanted = max(affordable, self._fewest_vertices)
-        if not overflows and wanted >= self._n_vertices:
-            return False
-        self._n_vertices = min(wanted, self._n_vertices)
-        stage.drawing_time = 0.0  # it was that of the scene before
-        self._replace_scene(scene.map)
-        stage.coefficients = self._wire(scene.map)
-        return True
+        if overflows or wanted < self._n_vertices:
+            self._n_vertices = min(wanted, self._n_vertices)
+            stage.drawing_time = 0.0  # it was that of the scene before
+            self.scene = self._new_scene(vectors)
+            self._show(scene)
 
-    def show_comparison(self, map: MeshMap | None) -> None:
-        """Draw a map of a mesh in place of the harmonic one, or this again."""
-        if self._scene.show_comparison(map):
-            self._update_children()
-            self._scene.close_replaced()
-            self._show_legend()
+    def _show(self, old: Scene) -> None:
+        """Draw with the present scene; ``old`` is the one before, or still the same."""
+        drawing, scene, stage = self._drawing, self.scene, self.stage
+        scene.show(drawing)
+        if self._renderer.scene.children != (meshes := scene.meshes):
+            self._renderer.scene.children = meshes
+        panels = drawing.panels is not None and drawing.comparison is None
+        with stage.hold_sync():
+            stage.materials = scene.materials
+            stage.coefficients = self._wire()
+            stage.marks = marks_of(drawing.targets, drawing.images, drawing.selected)
+            stage.legend = legend(drawing.overlay, drawing.energy, scene.color_range)
+            stage.panel_legend = panel_legend() if panels else {}
+        scene.close_replaced()
+        if old is not scene:
+            old.close()
 
-    def show_overlay(self, name: str, energy: Energy) -> None:
-        """Another way to colour the shape."""
-        self._overlay, self._energy = name, energy
-        self._scene.show_overlay(name, energy)
-        self._show_legend()
-
-    def place_legend(self, map: DeformationMap, points: Any) -> None:
-        """Move the colour bar to where it hides least of the shape and of these points."""
-        loops = self._scene.domain.cage.loops
+    def place_legend(self) -> None:
+        """Move the colour bars to where they hide least of the shape and of the targets."""
+        n_bars = bool(self.stage.legend) + bool(self.stage.panel_legend)
+        if not n_bars:
+            return
+        loops = self.scene.domain.cage.loops
         # Edges may be longer than the bar.
         between = [loop + t * (np.roll(loop, -1, axis=0) - loop) for loop in loops for t in _SHARES]
-        outline = map(np.concatenate(between))
+        outline = self._drawing.shown(np.concatenate(between))
         x, y, unit = self.stage.view
         width, height = self.stage.width, self.stage.height
-        seen = np.concatenate([outline, np.reshape(points, (-1, 2))])
+        seen = np.concatenate([outline, self._drawing.targets])
         pixels = (seen - [x, y]) / unit + [width / 2, height / 2]
-        self.stage.legend_corner = emptiest_corner(
-            pixels, width, height, bool(self.stage.legend) + bool(self.stage.panel_legend)
-        )
-
-    def show_lines(self, cage: bool, offset_cage: bool) -> None:
-        """Whether the two cages are drawn."""
-        self._lines = (cage, offset_cage)
-        if self._scene.show_lines(cage, offset_cage):
-            self._update_children()
-
-    def show_panels(self, panels: Any, sigma2_lower: Array) -> None:
-        """The boundary's panels, coloured by margin; None for none."""
-        if self._scene.show_panels(panels, sigma2_lower):
-            self._update_children()
-        self._with_panels = panels is not None
-        self._show_legend()
+        self.stage.legend_corner = emptiest_corner(pixels, width, height, n_bars)
 
     def fit(self, map: DeformationMap, points: Any) -> None:
         """Make the whole shape visible, and these points."""
-        outline = _images(map, np.concatenate(self._scene.domain.cage.loops))
+        outline = _images(map, np.concatenate(self.scene.domain.cage.loops))
         everything = np.concatenate([outline, np.reshape(points, (-1, 2))])
         low, high = everything.min(axis=0), everything.max(axis=0)
         x, y = (low + high) / 2
@@ -160,46 +157,18 @@ class Pane(ipywidgets.GridBox):
         """Free the renderer: a page has only eight."""
         if not self._complete:
             return
-        self._scene.close()
+        self.scene.close()
         close_with_parts(self.stage, self._renderer, self.layout)
         super().close()
 
-    def _new_scene(self, map: HarmonicMap, vectors: int | None = None) -> Scene:
-        extra = {} if vectors is None else {"uniform_vectors": vectors}
-        return Scene(self._image, map, self._energy, self._n_vertices, self._evaluated_in, **extra)
+    def _new_scene(self, uniform_vectors: int) -> Scene:
+        vectors = uniform_vectors or UNIFORM_VECTORS  # 0 while no page has said
+        map_ = self._drawing.map
+        return Scene(self._image, map_, self._n_vertices, self._evaluated_in, vectors)
 
-    def _replace_scene(self, map: HarmonicMap) -> None:
-        old = self._scene
-        vectors = self.stage.uniform_vectors
-        self._scene = self._new_scene(map, None if vectors == 0 else vectors)
-        self._scene.show_overlay(self._overlay, self._energy)
-        self._scene.show_lines(*self._lines)
-        self._show_legend()
-        self._update_children()
-        old.close()
-
-    def fit_range(self, *, widen_only: bool) -> None:
-        """Fit the ends of the overlay's colour map to the map that is shown."""
-        if self._scene.fit_range(widen_only=widen_only):
-            self._show_legend()
-
-    def _show_legend(self) -> None:
-        """The colour bars of the overlay and of the panels, where they are drawn."""
-        panels = self._with_panels and self._scene.comparison is None
-        with self.stage.hold_sync():
-            self.stage.legend = legend(self._overlay, self._energy, self._scene.color_range)
-            self.stage.panel_legend = panel_legend() if panels else {}
-
-    def _update_children(self) -> None:
-        self._renderer.scene.children = self._scene.meshes
-        self.stage.materials = self._materials()
-
-    def _materials(self) -> list[Any]:
-        return self._scene.materials
-
-    def _wire(self, map: HarmonicMap) -> bytes:
-        scene = self._scene
-        return scene.shader_map.wire(map) if scene.evaluated_in == "shader" else b""
+    def _wire(self) -> bytes:
+        scene = self.scene
+        return scene.shader_map.wire(scene.map) if scene.evaluated_in == "shader" else b""
 
     def _resize(self, _: Any = None) -> None:
         width, height = self.stage.width, self.stage.height

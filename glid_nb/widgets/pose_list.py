@@ -9,6 +9,7 @@ import ipywidgets
 
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
+from glid_nb.widgets.arguments import check_keywords
 from glid_nb.widgets.edit_controls import EditControls
 
 
@@ -26,6 +27,7 @@ class PoseList(EditControls):
     _refusals = EditError
 
     def __init__(self, deformation: Deformation, rows: int = 3, **kwargs: Any) -> None:
+        check_keywords(type(self), kwargs)
         self.list = ipywidgets.Select(rows=rows, layout=ipywidgets.Layout(width="auto", flex="1"))
         self.name = ipywidgets.Text(
             placeholder="Name of the pose",

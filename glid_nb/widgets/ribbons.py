@@ -10,8 +10,8 @@ import shapely
 from numpy.typing import NDArray
 
 from glid_nb.geometry import Domain
+from glid_nb.geometry._loops import subdivided
 from glid_nb.geometry.panels import Panels
-from glid_nb.geometry.sampling import subdivided
 
 Array = NDArray[Any]
 

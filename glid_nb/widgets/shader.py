@@ -1,4 +1,4 @@
-"""The map in the vertex shader: what it needs of a domain, and of a map at every frame."""
+"""What the shaders are told: of a domain, of a map at every frame, and of the energies."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb.energies import ENERGIES, Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 
@@ -81,6 +82,25 @@ class ShaderMap:
             "coefficients": {"value": coefficients.ravel().tolist()},
             "holes": {"value": holes.ravel().tolist()},
         }
+
+
+def fragment_shader(name: str) -> str:
+    """The text of a fragment shader; ``picture.frag`` begins with the energies' densities."""
+    energies = energy_defines() + glsl("energy.glsl") if name == "picture.frag" else ""
+    return energies + glsl(name)
+
+
+def energy_defines() -> str:
+    """What stands before ``energy.glsl``: the density of every energy, chosen by its number."""
+    known = [energy.shader for energy in ENERGIES.values()]
+    choices = [f"energy.x < {i + 0.5} ? ({text}) : " for i, text in enumerate(known) if text]
+    return f"#define ENERGY_DENSITY {''.join(choices)}0.0\n"
+
+
+def energy_uniform(energy: Energy) -> list[float]:
+    """The number of an energy and its parameter, as ``energy.glsl`` takes them."""
+    number = list(ENERGIES).index(energy.name) if energy.shader else -1
+    return [float(number), float(getattr(energy, "s", 1.0))]
 
 
 def glsl(name: str) -> str:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-import anywidget
 import ipywidgets
 import numpy as np
 import traitlets
 
 from glid_nb.widgets.bundle import bundle, stylesheet
+from glid_nb.widgets.pad import Pad
 
 _REFERENCE: dict[str, Any] = ipywidgets.widget_serialization
 
@@ -20,7 +20,7 @@ CORNERS = ("bottom right", "bottom left", "top right", "top left")
 _LEGEND_SIZE = np.array([222, 75])  # CSS pixels, with its distance to the border
 
 
-class Stage(anywidget.AnyWidget):
+class Stage(Pad):
     """What lies over a pythreejs renderer in the same place.
 
     It draws handles and targets, hands pointers and keys to the kernel in world coordinates, pans
@@ -70,6 +70,9 @@ class Stage(anywidget.AnyWidget):
     drawing_time = traitlets.Float(0.0).tag(sync=True)
     """Milliseconds that the page needs to draw the renderer once; 0 while no page has said."""
 
+    drawn = traitlets.Bool(False).tag(sync=True)
+    """Whether a page has drawn it: what was put off until then can begin."""
+
     renderer = traitlets.Instance(ipywidgets.Widget).tag(sync=True, **_REFERENCE)
     """The pythreejs renderer below."""
 
@@ -78,10 +81,6 @@ class Stage(anywidget.AnyWidget):
 
     materials = traitlets.List([]).tag(sync=True, **_REFERENCE)
     """The materials that take the coefficients."""
-
-    def acknowledge(self, view: str, number: int) -> None:
-        """Tell the page's view that its events up to ``number`` were dealt with."""
-        self.send({"view": view, "ack": number})
 
 
 def emptiest_corner(points: Any, width: int, height: int, bars: int = 1) -> str:

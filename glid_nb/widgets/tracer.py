@@ -2,27 +2,26 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
-import anywidget
 import numpy as np
 import traitlets
 from numpy.typing import NDArray
 
-from glid_nb.geometry import Cage, Domain, GeometryError
-from glid_nb.imaging import TraceError, TraceOptions, Tracing
-from glid_nb.imaging.read import ImageSource, read_image
+from glid_nb.geometry import Cage, Domain
+from glid_nb.imaging import TraceOptions, Tracing
+from glid_nb.imaging.read import ImageSource
 from glid_nb.session import TracingModel
+from glid_nb.widgets.arguments import check_keywords
 from glid_nb.widgets.bundle import bundle, stylesheet
-from glid_nb.widgets.subshells import answer_during_cells
+from glid_nb.widgets.gestures import Event
+from glid_nb.widgets.pad import Pad
+from glid_nb.widgets.tracer_gestures import TraceGestures
 from glid_nb.widgets.tracer_view import described, displayed
 
-_LARGEST_UPLOAD = 64 << 20
 
-
-class CageTracer(anywidget.AnyWidget):
+class CageTracer(Pad):
     """Traces a cage around the shape in a picture, with the hand and the eye.
 
     The widget is a view of a `TracingModel`, which does the work and can be driven without a
@@ -76,18 +75,18 @@ class CageTracer(anywidget.AnyWidget):
         height: int = 460,
         **kwargs: Any,
     ) -> None:
+        check_keywords(type(self), kwargs)
         if model is not None and (image is not None or options is not None):
             raise ValueError("give a model, or a picture and options, not both")
         self.tracing_model = model if model is not None else TracingModel(image, options)
         """The model that this is a view of."""
-        self._lock = threading.RLock()
+        self.gestures = TraceGestures(self.tracing_model)
+        """What pointers and keys mean here."""
         self._pushed_image: NDArray[np.uint8] | None = None
-        self._upload = _Upload()
         super().__init__(height=height, **kwargs)
-        answer_during_cells(self)
         self._push()
+        self.serve(self.tracing_model, self)
         self._stop = self.tracing_model.on_change(self._push)
-        self.on_msg(self._receive)
 
     @property
     def image(self) -> NDArray[np.uint8] | None:
@@ -124,74 +123,23 @@ class CageTracer(anywidget.AnyWidget):
             self._stop()
         super().close()
 
+    def handle(self, events: Sequence[Event]) -> str | None:
+        """Act on what the hand does."""
+        hand = self.gestures
+        refusal = hand.handle(events)
+        # The model has told of its changes; these two are not its own.
+        if (hand.tool, hand.selected) != (self.shown["tool"], _vertices(self.shown["selected"])):
+            self._push()
+        return refusal
+
     def _push(self) -> None:
         """Bring the page up to date."""
-        with self._lock, self.hold_sync():
+        with self.tracing_model.locked(), self.hold_sync():
             if self.tracing_model.image is not self._pushed_image:
                 self._pushed_image = self.tracing_model.image
                 self.picture = displayed(self._pushed_image)
-            self.shown = described(self.tracing_model)
-
-    def _receive(self, _: Any, message: dict[str, Any], buffers: list[Any]) -> None:
-        """Do what the page asks for, and acknowledge: then it sends the latest that came since."""
-        refusal = None
-        try:
-            self._act(message, buffers)
-        except (TraceError, GeometryError) as error:
-            refusal = error.plain
-        except Exception as error:
-            refusal = f"{type(error).__name__}: {error}"  # shown, and logged by the kernel
-            raise
-        finally:
-            self.send({"view": message.get("view"), "ack": message.get("id"), "refusal": refusal})
-
-    def _act(self, message: dict[str, Any], buffers: list[Any]) -> None:
-        model, action, gesture = self.tracing_model, message.get("action"), message.get("gesture")
-        if action == "set_options":
-            model.set_options(gesture, **message["changes"])
-        elif action == "move_vertex":
-            model.move_vertex(message["loop"], message["index"], message["to"], gesture)
-        elif action == "insert_vertex":
-            model.insert_vertex(message["at"])
-        elif action == "delete_vertices":
-            model.delete_vertices([(loop, index) for loop, index in message["vertices"]])
-        elif action == "toggle_hole":
-            model.toggle_hole(message["number"])
-        elif action == "paint":
-            model.paint(message["brush"], message["stroke"])
-        elif action in ("pick_background", "pick_component"):
-            getattr(model, action)(tuple(message["at"]))
-        elif action in ("clear_scribbles", "discard_edits", "undo", "redo"):
-            getattr(model, action)()
-        elif action == "upload":
-            data = self._upload.add(message, buffers)
-            if data is not None:
-                model.open(read_image(data, message["name"]))
-        else:
-            raise TraceError(f"the page asked for {action!r}, which the tracer cannot do")
+            self.shown = described(self.gestures)
 
 
-class _Upload:
-    """A file that arrives in parts: a websocket message has a largest size."""
-
-    def __init__(self) -> None:
-        self._name: str | None = None
-        self._data = bytearray()
-
-    def add(self, message: dict[str, Any], buffers: list[Any]) -> bytes | None:
-        """Add the part that starts at ``message["start"]``; the file when it is complete."""
-        if message["start"] == 0:
-            self._name, self._data = message["name"], bytearray()
-        if message["name"] != self._name or message["start"] != len(self._data):
-            raise TraceError(f"{message['name']}: the upload was interrupted; try again")
-        if message["size"] > _LARGEST_UPLOAD:
-            raise TraceError(
-                f"{message['name']} has {message['size']:,} bytes; at most {_LARGEST_UPLOAD:,} can "
-                "be uploaded"
-            )
-        for buffer in buffers:
-            self._data += bytes(buffer)
-        if len(self._data) < message["size"]:
-            return None
-        data, self._data = bytes(self._data), bytearray()
-        return data
+def _vertices(listed: list[list[int]]) -> tuple[tuple[int, ...], ...]:
+    return tuple(map(tuple, listed))

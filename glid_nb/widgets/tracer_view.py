@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from glid_nb.imaging import Hole, TraceOptions
-from glid_nb.session import TracingModel
+from glid_nb.widgets.tracer_gestures import TraceGestures
 
 # The page draws the picture no larger than this; the cage is traced on the picture itself.
 _LONGEST_SIDE = 1600
@@ -22,8 +22,9 @@ _LISTED_HOLES = 40
 _MOST_POINTS = 200  # of a hole's outline, and of a stroke
 
 
-def described(model: TracingModel) -> dict[str, Any]:
-    """The state of a tracing. Points are in pixels of the picture, rounded to hundredths."""
+def described(gestures: TraceGestures) -> dict[str, Any]:
+    """The state of a tracing and of the hand; points in pixels, rounded to hundredths."""
+    model = gestures.model
     frame, outcome = model.frame, model.outcome
     tracing = outcome.tracing
     scribbles = model.scribbles
@@ -57,6 +58,8 @@ def described(model: TracingModel) -> dict[str, Any]:
         "can_redo": model.can_redo,
         "edited": model.edited,
         "discarded": model.has_discarded_edits,
+        "tool": gestures.tool,
+        "selected": [list(vertex) for vertex in gestures.selected],
     }
 
 

@@ -1,0 +1,1 @@
+"""How fast the editor and the tracer are."""

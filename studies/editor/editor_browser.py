@@ -18,12 +18,10 @@ from __future__ import annotations
 
 import argparse
 import os
-import platform
 import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +30,7 @@ from playwright.sync_api import Browser
 
 from glid_nb import samples
 from studies.editor.frame_log import N_SAMPLES
+from studies.machine import machine
 from tests.browser import JupyterServer, LabNotebook, launched_chromium, watched_page
 from tests.widgets.editor_page import MANAGER, Hand
 
@@ -80,24 +79,6 @@ RUN_TIMED = """(index) => {
 }"""
 
 
-@dataclass(frozen=True)
-class Drag:
-    """What was measured of one drag; times in milliseconds."""
-
-    latencies: np.ndarray
-    """Of each pointer event: until a frame was drawn that was solved for it or a later one."""
-    frames_per_second: float
-    moves_per_second: float
-    solving: float
-    """Median of a solve."""
-    showing: float
-    """Median of the kernel's work for a frame beside the solve."""
-    canvas_bytes: float
-    """Per frame, on the wire, of the canvas."""
-    all_bytes: float
-    """Per frame, on the wire, of everything: plots, status line, the protocol's own messages."""
-
-
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
@@ -106,8 +87,7 @@ def main() -> None:
     parser.add_argument("--vertices", type=int, nargs="+", default=[10_000, 100_000])
     chosen = parser.parse_args()
     shape = str(Path(chosen.shape).resolve()) if chosen.shape.endswith(".json") else chosen.shape
-    processor = platform.processor() or platform.machine()
-    print(f"{chosen.shape}; {processor}, {os.cpu_count()} CPUs, {platform.platform()}")
+    print(chosen.shape, *machine().values())
     # An installed package has its bytecode; without, each kernel would compile every module.
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     with tempfile.TemporaryDirectory() as folder, launched_chromium() as browser:
@@ -121,33 +101,24 @@ def main() -> None:
                     print(
                         f"first canvas with {state} cache: {seconds:.1f} s after running the cell"
                     )
-            print(HEADER)
+            print(*(f"{name:>12}" for name in COLUMNS))
             for vertices in chosen.vertices:
                 for evaluated_in in ("shader", "kernel"):
                     setup = IMPORTS.format(cache=cache) + CANVAS.format(
                         shape=shape, vertices=vertices, evaluated_in=evaluated_in
                     )
-                    drag = dragged(browser, server, setup, chosen.moves)
-                    print(row(vertices, evaluated_in, drag), flush=True)
+                    numbers = dragged(browser, server, setup, chosen.moves)
+                    cells = (f"{number:12,.1f}" for number in numbers)
+                    print(f"{vertices:12,} {evaluated_in:>12}", *cells, flush=True)
         finally:
             server.close()
 
 
-HEADER = (
-    "vertices  map in    latency: median, 95 %   solver: median, share   kernel beside it   "
-    "frames/s  moves/s   canvas bytes, all bytes per frame"
-)
-
-
-def row(vertices: int, evaluated_in: str, drag: Drag) -> str:
-    """One line of the table."""
-    median, late = np.percentile(drag.latencies, [50, 95])
-    return (
-        f"{vertices:8,}  {evaluated_in:6}  {median:9.1f} ms {late:7.1f} ms   "
-        f"{drag.solving:8.1f} ms {min(drag.solving / median, 1):8.0%}   {drag.showing:13.2f} ms"
-        f"   {drag.frames_per_second:8.1f} {drag.moves_per_second:8.1f}   "
-        f"{drag.canvas_bytes:12,.0f} {drag.all_bytes:14,.0f}"
-    )
+COLUMNS = (
+    "vertices", "map in", "latency", "95 %", "solving", "showing", "frames/s", "moves/s",
+    "canvas bytes", "all bytes",
+)  # fmt: skip
+"""Milliseconds; bytes on the wire for each frame, of the canvas and of everything."""
 
 
 def start_time(browser: Browser, server: JupyterServer, shape: str, cache: str) -> float:
@@ -167,8 +138,13 @@ def start_time(browser: Browser, server: JupyterServer, shape: str, cache: str) 
         return seconds
 
 
-def dragged(browser: Browser, server: JupyterServer, setup: str, n_moves: int) -> Drag:
-    """Drag the last handle on a spiral, once to warm up and once for the measurement."""
+def dragged(browser: Browser, server: JupyterServer, setup: str, n_moves: int) -> list[float]:
+    """Drag the last handle on a spiral, once to warm up and once for the measurement.
+
+    Returns the numbers of :data:`COLUMNS`: how long each pointer event waited until a frame was
+    drawn that was solved for it or a later one (median and 95th percentile), medians of a solve and
+    of the kernel's work for a frame beside it, rates and bytes.
+    """
     with notebook(browser, server, [setup]) as book:
         hand = Hand(book)
         identity, trait, widgets = book.value("[*log.source, log.widgets]")
@@ -188,15 +164,14 @@ def dragged(browser: Browser, server: JupyterServer, setup: str, n_moves: int) -
     moves = np.array(seen["moves"])
     targets = start + unit * (moves[:, 1:] - seen["press"]) * [1, -1]
     latencies, drawn = joined(moves[:, 0], targets, seen["frames"], known[0])
-    return Drag(
-        latencies,
+    return [
+        *np.percentile(latencies, [50, 95]),
+        *(1e3 * float(np.median(seconds_of)) for seconds_of in known[1:]),
         drawn / seconds,
         len(moves) / seconds,
-        1e3 * float(np.median(known[1])),
-        1e3 * float(np.median(known[2])),
         seen["canvasBytes"] / drawn,
         seen["bytes"] / drawn,
-    )
+    ]
 
 
 def spiral(hand: Hand, count: int) -> tuple[np.ndarray, float]:

@@ -3,89 +3,67 @@
     python -m studies.editor.editor_frames [SAMPLE or PROBLEM.json] [--moves N] [--plots]
 
 A handle is dragged on a circle; each move waits for the frame that it leads to, as the page's
-acknowledged batches do. Prints milliseconds (median and 95th percentile), the solver's share, the
-bytes of a frame, and the machine.
+acknowledged batches do. Prints milliseconds (median and 95th percentile), the solver's share, and
+the bytes of a frame.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import os
-import platform
 import threading
 import time
 from pathlib import Path
-from typing import Any
 
 import ipywidgets
 import numpy as np
 
 import glid_nb as glid
-from glid_nb.session import live_solver
+from studies.editor.frame_log import FrameLog
 
 
 def main() -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("shape", nargs="?", default="gecko")
     parser.add_argument("--moves", type=int, default=150)
     parser.add_argument("--plots", action="store_true", help="with the monitor's plots beside it")
     chosen = parser.parse_args()
     glid.enable_compilation_cache()
-    began = time.perf_counter()
     image, domain, pose = load(chosen.shape)
     canvas = glid.DeformCanvas(image, domain)
-    first = time.perf_counter() - began
     model = canvas.deformation
     monitor = glid.SolverMonitor(model) if chosen.plots else None
     model.set_pose(pose.with_targets(pose.handles))
     model.solve()
 
-    solving: list[float] = []
-    solve = live_solver.solve
-
-    def timed(*arguments: Any) -> Any:
-        start = time.perf_counter()
-        try:
-            return solve(*arguments)
-        finally:
-            solving.append(time.perf_counter() - start)
-
-    live_solver.solve = timed
-    sent: list[int] = []
+    log, sent, arrived = FrameLog(canvas), [0], threading.Event()
     ipywidgets.Widget._send = lambda _, message, buffers=None: sent.append(
         len(json.dumps(message, default=str)) + sum(memoryview(b).nbytes for b in buffers or [])
     )
-    arrived = threading.Event()
     model.observe(lambda what: arrived.set() if what == "frame" else None)
-    centre = pose.handles[-1]
     radius = 0.1 * domain.cage.longer_side
     model.begin_drag([len(pose) - 1])
     times = []
-    for k in range(chosen.moves):
-        angle = 2 * np.pi * (k + 1) / 60
+    for angle in 2 * np.pi * np.arange(1, chosen.moves + 1) / 60:
         arrived.clear()
         start = time.perf_counter()
-        model.drag_to([centre + radius * np.array([np.cos(angle) - 1, np.sin(angle)])])
+        model.drag_to([pose.handles[-1] + radius * np.array([np.cos(angle) - 1, np.sin(angle)])])
         if not arrived.wait(30):
             raise TimeoutError("no frame came within 30 s")
         times.append(1e3 * (time.perf_counter() - start))
     model.end_drag()
     model.solve()
-    if monitor is not None:
-        monitor.close()
-    canvas.close()
+    for widget in (monitor, canvas):
+        if widget is not None:
+            widget.close()
 
     median, late = np.percentile(times, [50, 95])
-    share = 1e3 * float(np.median(solving)) / median
+    share = min(1e3 * float(np.median(log.solving)) / median, 1)
     print(f"{chosen.shape}: {domain.n_coefficients} coefficients, {len(pose)} handles")
-    print(f"canvas made after {first:.1f} s")
     print(f"move to frame sent: median {median:.1f} ms, 95th percentile {late:.1f} ms")
-    print(f"solver's share of the median: {min(share, 1):.0%}")
+    print(f"solver's share of the median: {share:.0%}")
     print(f"largest message while dragging: {max(sent)} bytes")
-    machine = platform.processor() or platform.machine()
-    print(f"{machine}, {os.cpu_count()} CPUs, {platform.platform()}")
 
 
 def load(shape: str) -> tuple[np.ndarray, glid.Domain, glid.Pose]:

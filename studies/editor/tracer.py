@@ -1,18 +1,16 @@
 """How fast the outline follows the tracer's controls, on a picture of 2,000 pixels.
 
-Usage: python -m studies.editor.tracer [--picture PATH] [--side 2000] [--repeats 7] [--json]
+    python -m studies.editor.tracer [--picture PATH] [--side 2000] [--repeats 7]
 
 The picture, by default a bundled one on a plain ground, is scaled so that its longer side has SIDE
 pixels. Each control is moved REPEATS times through the tracer's model, as the widget does, with
-what the page is told included; the median and the slowest are printed in milliseconds, and the
-median of the processor's time, which other programs on the machine do not lengthen.
+what the page is told included. Prints the median and the slowest in milliseconds, and the median of
+the processor's time, which other programs on the machine do not lengthen.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
-import statistics
 import time
 from collections.abc import Callable
 
@@ -24,26 +22,21 @@ from glid_nb.widgets.tracer_view import described
 
 
 def main() -> None:
+    """Measure and print."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--picture", help="a picture file (default: the bundled teapot)")
     parser.add_argument("--side", type=int, default=2000, help="pixels of the longer side")
     parser.add_argument("--repeats", type=int, default=7)
-    parser.add_argument("--json", action="store_true")
     chosen = parser.parse_args()
     model = glid_nb.TracingModel(picture(chosen.picture, chosen.side))
-    results = {
-        name: measured(model, move, chosen.repeats) for name, move in controls(model).items()
-    }
-    if chosen.json:
-        print(json.dumps(results))
-        return
-    width = max(map(len, results))
-    for name, times in results.items():
-        median, most, cpu = times["median_ms"], times["most_ms"], times["cpu_ms"]
-        print(f"{name:<{width}}  median {median:6.1f}  most {most:6.1f}  processor {cpu:6.1f} ms")
+    print("control           median    most   processor, ms")
+    for name, move in controls(model).items():
+        wall, cpu = measured(model, move, chosen.repeats).T
+        print(f"{name:16} {np.median(wall):7.1f} {wall.max():7.1f} {np.median(cpu):7.1f}")
 
 
 def picture(path: str | None, side: int) -> np.ndarray:
+    """The picture in its size: a file's, or the bundled teapot on a plain ground."""
     if path is None:
         shape = Image.fromarray(glid_nb.samples.image("teapot"))
         ground = Image.new("RGBA", shape.size, (244, 236, 220, 255))
@@ -55,22 +48,17 @@ def picture(path: str | None, side: int) -> np.ndarray:
     return np.asarray(image.resize(size, Image.Resampling.LANCZOS))
 
 
-def controls(model: glid_nb.TracingModel) -> dict[str, Callable[[int], None]]:
+def controls(model: glid_nb.TracingModel) -> dict[str, Callable[[int], object]]:
     """One movement of each control; the number makes it another one each time."""
 
     def scribble(i: int) -> None:
-        frame = model.frame
-        assert frame is not None
-        x, y = frame.width / 2, frame.height / 2
+        assert model.frame is not None
+        x, y = model.frame.width / 2, model.frame.height / 2
         model.paint("foreground", [[x - 40, y + 9 * i], [x + 40, y + 9 * i]])
 
     def vertex(i: int) -> None:
         x, y = model.loops[0][0]
         model.move_vertex(0, 0, (float(x) + 0.1 + 0.01 * i, float(y)), gesture="drag")
-
-    def back_and_forth(_: int) -> None:
-        model.undo()
-        model.redo()
 
     return {
         "threshold": lambda i: model.set_options(threshold=0.1 + 0.01 * i),
@@ -78,31 +66,27 @@ def controls(model: glid_nb.TracingModel) -> dict[str, Callable[[int], None]]:
         "offset": lambda i: model.set_options(offset=4.0 + i),
         "simplify": lambda i: model.set_options(simplify=3.0 + 0.3 * i),
         "least hole area": lambda i: model.set_options(min_hole_area=100.0 * (1 + i)),
-        "hole": lambda i: model.toggle_hole(0),  # noqa: ARG005
+        "hole": lambda _: model.toggle_hole(0),
         "vertex": vertex,
-        "undo and redo": back_and_forth,
+        "undo and redo": lambda _: (model.undo(), model.redo()),
         "scribble": scribble,
     }
 
 
 def measured(
-    model: glid_nb.TracingModel, move: Callable[[int], None], repeats: int
-) -> dict[str, float]:
+    model: glid_nb.TracingModel, move: Callable[[int], object], repeats: int
+) -> np.ndarray:
+    """(repeats, 2) milliseconds of each movement, by the clock and by the processor."""
     described(model)
-    times, cpu_times = [], []
+    rows = []
     for i in range(repeats):
-        began, cpu_began = time.perf_counter(), time.process_time()
+        began = np.array([time.perf_counter(), time.process_time()])
         move(i)
         described(model)
-        times.append(1000 * (time.perf_counter() - began))
-        cpu_times.append(1000 * (time.process_time() - cpu_began))
+        rows.append(1e3 * (np.array([time.perf_counter(), time.process_time()]) - began))
         if model.problems:
             raise RuntimeError(model.problems[0].message)
-    return {
-        "median_ms": statistics.median(times),
-        "most_ms": max(times),
-        "cpu_ms": statistics.median(cpu_times),
-    }
+    return np.array(rows)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,1 @@
+"""The code that drew the bundled samples."""

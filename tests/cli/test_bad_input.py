@@ -65,6 +65,7 @@ def test_a_problem_that_is_no_json_object(run, problem: Path, text: str) -> None
         (["--energy", "exp", "--s", "0"], "s of the energy 'exp' must be positive"),
         (["--energy", "amips", "--s", "-1"], "s of the energy 'amips' must be positive"),
         (["--s", "2"], "--s is the parameter of exp and amips; iso has none"),
+        (["--energy", "mips", "--s", "2"], "--s is the parameter of exp and amips; mips has none"),
         (["--p2p-weight", "0"], "p2p_weight must be a finite number greater than 0"),
         (["--p2p-weight", "nan"], "p2p_weight must be a finite number greater than 0"),
         (["--max-iterations", "-1"], "max_iterations must be a whole number of at least 0"),

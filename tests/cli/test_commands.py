@@ -267,3 +267,31 @@ def test_a_solve_without_files_says_so(run, problem: Path) -> None:
     outcome = run("solve", problem)
     assert outcome.code == 0
     assert "nothing; name files with --out and --report" in outcome.out
+
+
+def bar_with_a_turned_end() -> dict:
+    """A bar of 20 x 2 units with edges of 1 unit, whose right end is to turn by 180 degrees."""
+    along, up = np.arange(-10.0, 10.0), np.arange(-1.0, 1.0)
+    cage = [[x, -1] for x in along] + [[10, y] for y in up]
+    cage += [[-x, 1] for x in along] + [[-10, -y] for y in up]
+    left, right = [[-9.5, -0.5], [-9.5, 0.5]], [[9.5, -0.5], [9.5, 0.5]]
+    return {"cage": cage, "handles": left + right, "targets": left + right[::-1]}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("--max-iterations", 10),
+        ("--max-iterations", 1, "--restarts", 0, "--conformal"),
+        ("--max-iterations", 10, "--no-align", "--p2p-weight", 1e8),
+    ],
+)
+def test_a_hard_pose_is_solved(run, problem: Path, tmp_path: Path, words: tuple) -> None:
+    """Of conformal maps the first call takes no step, because panels must be split first."""
+    problem.write_text(json.dumps(bar_with_a_turned_end()))
+    out = tmp_path / "map.json"
+    outcome = run("solve", problem, "--out", out, *words)
+    assert outcome.code == 0
+    assert outcome.err == ""
+    assert glid_nb.certify(glid_nb.HarmonicMap.load(out)).certified

@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from glid_nb.cli import samples
-from glid_nb.cli.errors import is_bad_input, one_line
-from glid_nb.cli.main import main
+from glid_nb.cli.main import is_bad_input, main, one_line
 from glid_nb.geometry import GeometryError
 
 

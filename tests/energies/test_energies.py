@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from glid_nb.energies import (
     AMIPS,
     ARAP,
-    ENERGY_NAMES,
+    ENERGIES,
     MIPS,
     CustomEnergy,
     Energy,
@@ -221,7 +221,7 @@ def test_the_isometry_is_a_minimum(energy: Energy) -> None:
         (MIPS(), 1.0),
         (ARAP(), 0.0),
     ],
-    ids=ENERGY_NAMES,
+    ids=list(ENERGIES),
 )
 def test_values_at_the_isometry(energy: Energy, value: float) -> None:
     with jax.enable_x64(True):
@@ -251,7 +251,8 @@ def test_energies_are_values() -> None:
 
 
 def test_energies_by_name() -> None:
-    assert [energy_by_name(name).name for name in ENERGY_NAMES] == list(ENERGY_NAMES)
+    assert list(ENERGIES) == ["iso", "exp", "amips", "mips", "arap"]
+    assert [energy_by_name(name).name for name in ENERGIES] == list(ENERGIES)
     assert energy_by_name("exp") == ExponentialSymmetricDirichlet(1.0)
     assert energy_by_name("exp", 3) == ExponentialSymmetricDirichlet(3.0)
     assert energy_by_name("amips", 0.5) == AMIPS(0.5)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from glid_nb.geometry import graded_panels
-from glid_nb.geometry.panels import distance_to_segments, paired
+from glid_nb.geometry.panels import paired
+from glid_nb.geometry.segments import point_distance
 
 from ..domains import NAMES, domain
 
@@ -21,7 +22,7 @@ def test_pairs_are_halves_of_one_straight_piece_far_enough_away(name: str, ratio
     chords = panels.end - panels.start
     np.testing.assert_allclose(chords[first], chords[second], rtol=1e-8)
     singular = np.concatenate([*d.offset_loops_complex, d.hole_points @ [1, 1j]])
-    nearest = distance_to_segments(singular, panels.start[first], panels.end[second])
+    nearest = point_distance(singular, panels.start[first][:, None], panels.end[second][:, None])
     whole = np.abs(panels.end[second] - panels.start[first])
     assert (whole <= ratio * nearest.min(axis=1, initial=np.inf)).all()
 

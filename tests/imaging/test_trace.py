@@ -498,7 +498,7 @@ class TestOptions:
         assert (changed.offset, changed.simplify) == (2, 1)
 
     def test_an_unknown_option(self):
-        with pytest.raises(TraceError, match="'glue' is no option of trace; there are method"):
+        with pytest.raises(TraceError, match="trace has no argument 'glue'; there are method"):
             trace(with_alpha(disc(30, 80)), glue=0.5)
         with pytest.raises(TraceError, match="did you mean 'threshold'"):
             trace(with_alpha(disc(30, 80)), treshold=0.5)

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses
+from typing import Any
+
 import numpy as np
 
+from glid_nb import methods
+from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
-from glid_nb.solvers import Pose
+from glid_nb.solvers import Options, Pose, Result, solve
 
 from ..domains import domain
 
@@ -18,8 +23,22 @@ POSES = {
     # Bent so far that the exact Hessian is indefinite on the way.
     "bent": Pose(_ELL, [[-5.0, -3.0], [2.5, 2.5], [-2.0, -2.0]]),
 }
+_OPTIONS = {field.name for field in dataclasses.fields(Options)}
 
 
 def problem(name: str) -> tuple[Domain, Pose]:
     """The domain and pose of a name."""
     return domain("ring" if name == "ring" else "ell"), POSES[name]
+
+
+def run_method(
+    name: str, shape: Domain, pose: Pose, energy: Energy | str | None = None, **settings: Any
+) -> Result:
+    """A solve by the method of a name; its settings, options and the rest together as keywords."""
+    own = methods.METHODS[name].kinds()
+    chosen = {k: settings.pop(k) for k in [*settings] if k in own}
+    options = {k: settings.pop(k) for k in [*settings] if k in _OPTIONS}
+    method = methods.by_name(name, **chosen)
+    return solve(
+        shape, pose, energy, Options(**{"restarts": 0, **options}), method=method, **settings
+    )

@@ -9,28 +9,28 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from glid_nb.geometry import graded_panels, triangulate
+from glid_nb.geometry import MeshMap, graded_panels, triangulate
 from glid_nb.harmonic import as_complex
-from glid_nb.methods import MeshMap, methods, run_method
+from glid_nb.methods import METHODS
 from glid_nb.methods.linear.cauchy import cauchy_point_to_point
 from glid_nb.methods.linear.mean_value import mean_value_coordinates
 from glid_nb.methods.linear.moving_least_squares import moving_least_squares
 from glid_nb.solvers import Pose, Status
 
 from ..domains import real
-from .problems import problem
+from .problems import problem, run_method
 
 Array = NDArray[Any]
 
-LINEAR = [name for name, method in methods().items() if method.family == "linear"]
+LINEAR = [name for name, method in METHODS.items() if method.family == "linear"]
 # A half turn of one limb over the other.
 FOLDING = [[2.5, -2.5], [-2.5, 2.5], [-2.0, -2.0]]
 
 
 @pytest.mark.parametrize("name", LINEAR)
 def test_handles_reach_their_targets_and_rest_stays_rest(name: str) -> None:
-    if methods()[name].package:
-        pytest.importorskip(methods()[name].package)
+    if METHODS[name].package:
+        pytest.importorskip(METHODS[name].package)
     domain, pose = problem("ring")
     result = run_method(name, domain, pose, n_vertices=400)
     assert result.status is Status.CONVERGED
@@ -45,8 +45,8 @@ def test_handles_reach_their_targets_and_rest_stays_rest(name: str) -> None:
 
 @pytest.mark.parametrize("name", LINEAR)
 def test_they_fold_and_say_how_much(name: str) -> None:
-    if methods()[name].package:
-        pytest.importorskip(methods()[name].package)
+    if METHODS[name].package:
+        pytest.importorskip(METHODS[name].package)
     domain, pose = problem("ell")
     result = run_method(name, domain, pose.with_targets(FOLDING), n_vertices=600)
     assert result.flips

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from glid_nb.methods import run_method
 from glid_nb.session import Problem
+
+from .problems import run_method
 
 pytestmark = [pytest.mark.slow, pytest.mark.reference]
 

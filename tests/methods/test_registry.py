@@ -10,80 +10,118 @@ from typing import Any
 import numpy as np
 import pytest
 
+from glid_nb import methods
 from glid_nb.energies import ARAP, EnergyError, SymmetricDirichlet
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import MethodChoice, MethodError, methods, run_method
-from glid_nb.solvers import Pose, PoseError, StartError
+from glid_nb.methods import METHODS, available, by_name
+from glid_nb.solvers import MethodError, OptionError, Options, Pose, PoseError, StartError, solve
 
 from ..domains import domain
-from .problems import problem
+from .problems import problem, run_method
 
 
 def test_every_method_says_what_it_is() -> None:
-    for name, method in methods().items():
+    for name, method in METHODS.items():
         assert method.name == name
-        assert method.title
+        assert method.label
         assert method.summary.endswith(".")
         assert method.family in ("harmonic", "mesh", "linear")
         assert method.max_iterations > 0
+        assert method().certified == (method.family == "harmonic")
+        assert set(method.options) <= {*Options.__dataclass_fields__}
+
+
+def test_a_method_is_a_value() -> None:
+    lbfgs = methods.LBFGS(memory=7)
+    assert lbfgs == by_name("lbfgs", memory=7) != methods.LBFGS()
+    assert hash(lbfgs) == hash(methods.LBFGS(memory=7))
+    assert lbfgs.settings == {"memory": 7}
+    assert lbfgs.defaults() == {"memory": 5, "initial": "identity"}
+    for name, method in METHODS.items():
+        assert by_name(name, **method().settings) == method()
 
 
 @pytest.mark.parametrize(
-    ("changes", "message"),
+    ("name", "settings", "message"),
     [
-        ({"name": "magic"}, "unknown method 'magic'; choose one of newton"),
-        ({"name": "gauss-newton", "energy": SymmetricDirichlet()}, "cannot minimise .* 'iso'"),
-        ({"name": "aqp", "energy": ARAP()}, "cannot minimise the energy 'arap'"),
-        ({"name": "slim", "energy": ARAP()}, "ARAP, but that is no barrier: .* arap-mesh"),
-        ({"name": "slim", "energy": "amips"}, "no AMIPS: the closest .* is exp.*without AMIPS' te"),
-        ({"name": "slim", "energy": "exp"}, "minimises exp.sigma_1.2 .* s = 2, .*; got s = 1.0"),
-        ({"name": "lbfgs", "momentum": 2}, "no setting 'momentum'; it has: sampling, certificate"),
-        ({"p2p_weight": 0.0}, "p2p_weight must be a positive finite number"),
-        ({"p2p_weight": np.nan}, "p2p_weight must be a positive finite number"),
-        ({"p2p_weight": True}, "p2p_weight must be a positive finite number"),
-        ({"max_iterations": -1}, "max_iterations must be a whole number"),
-        ({"n_vertices": 100.5}, "n_vertices must be a whole number"),
-        ({"n_vertices": 0}, "n_vertices must be at least 3, got 0"),
-        ({"name": "lbfgs", "memory": -1}, "'memory' of .* a whole number of at least 0"),
-        ({"name": "aqp", "kappa": -1.0}, "'kappa' of .* a finite number of at least 0"),
-        ({"name": "aqp", "kappa": 0.5}, "kappa must be at least 1"),
-        ({"name": "aqp", "arap_iterations": 0}, "arap_iterations must be at least 1"),
-        ({"name": "newton-shift", "beta": 0}, "beta, .* must be positive"),
-        ({"name": "lbfgs", "sampling": np.array(["graded"])}, "'sampling' .* one of graded, uni"),
+        ("magic", {}, "unknown method 'magic'; choose one of newton"),
+        ("lbgfs", {}, "did you mean 'lbfgs'"),
+        (["mls"], {}, r"unknown method \['mls'\]"),
+        ("lbfgs", {"momentum": 2}, "no setting 'momentum'; it has: memory, initial"),
+        ("mls", {"alpha": "much"}, "the setting 'alpha' .* must be a finite number"),
+        ("mls", {"n_vertices": 100.5}, "n_vertices' .* must be a whole number"),
+        ("mls", {"n_vertices": 0}, "n_vertices must be at least 3, got 0"),
+        ("lbfgs", {"memory": -1}, "'memory' of .* a whole number of at least 0"),
+        ("lbfgs", {"initial": np.array(["identity"])}, "'initial' .* one of identity, dirichlet"),
+        ("aqp", {"kappa": -1.0}, "'kappa' of .* a finite number of at least 0"),
+        ("aqp", {"kappa": 0.5}, "kappa must be at least 1"),
+        ("aqp", {"arap_iterations": 0}, "arap_iterations must be at least 1"),
+        ("newton-shift", {"beta": 0}, "beta, .* must be positive"),
+        ("harmonic-weights", {"power": 4}, "'power' .* must be one of 1, 2, 3"),
     ],
 )
-def test_refusals_name_the_culprit(changes: dict, message: str) -> None:
-    shape, pose = problem("ell")
-    arguments = {"name": "mls", "domain": shape, "pose": pose, **changes}
-    if arguments["name"] == "slim":
+def test_bad_settings_are_refused_by_name(name: Any, settings: dict, message: str) -> None:
+    with pytest.raises(MethodError, match=message):
+        by_name(name, **settings)
+
+
+@pytest.mark.parametrize(
+    ("name", "energy", "message"),
+    [
+        ("gauss-newton", SymmetricDirichlet(), "cannot minimise .* 'iso'"),
+        ("aqp", ARAP(), "cannot minimise the energy 'arap'"),
+        ("slim", ARAP(), "ARAP, but that is no barrier: .* arap-mesh"),
+        ("slim", "amips", "no AMIPS: the closest .* is exp.*without AMIPS' te"),
+        ("slim", "exp", "minimises exp.sigma_1.2 .* s = 2, .*; got s = 1.0"),
+    ],
+)
+def test_energies_that_do_not_go_are_refused(name: str, energy: Any, message: str) -> None:
+    if name == "slim":
         pytest.importorskip("igl")
     with pytest.raises(MethodError, match=message):
-        run_method(**arguments)
+        run_method(name, *problem("ell"), energy)
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [
+        ("p2p_weight", 0.0),
+        ("p2p_weight", np.nan),
+        ("p2p_weight", True),
+        ("max_iterations", -1),
+        ("align", "no"),
+        ("align", 1),
+    ],
+)
+def test_options_out_of_range_are_refused_by_name(option: str, value: Any) -> None:
+    with pytest.raises(OptionError, match=option):
+        Options(**{option: value})
 
 
 @pytest.mark.parametrize("name", ["newton", "lbfgs", "slim", "mls"])
 @pytest.mark.parametrize(
     ("argument", "value", "message"),
     [
-        ("name", ["mls"], r"unknown method \['mls'\]"),
-        ("domain", domain("ell").cage, r"domain must be a Domain, not of type Cage; .*from_cage"),
-        ("domain", None, "domain must be a Domain, not of type NoneType"),
-        ("pose", [[1, 1]], r"pose must be a Pose, not of type list; make one with Pose\(handles"),
-        ("align", "no", "align must be True or False, got 'no'"),
-        ("align", 1, "align must be True or False, got 1"),
-        ("start", 3, "start must be a HarmonicMap, a MeshMap or None, not of type int"),
-        ("triangulation", [[0, 1, 2]], "triangulation must be a Triangulation or None, not of ty"),
-        ("callback", 3, "callback must be a function or None, not of type int"),
+        ("domain", domain("ell").cage, r"domain must be Domain, not Cage; .*from_cage"),
+        ("domain", None, "domain must be Domain, not NoneType"),
+        ("pose", [[1, 1]], r"pose must be Pose, not list; make one with Pose\(handles"),
+        ("start", 3, "start must be HarmonicMap, MeshMap, Result or None, not int"),
+        ("callback", 3, "callback must be Callable or None, not int"),
     ],
 )
 def test_arguments_of_the_wrong_type_are_named(
     name: str, argument: str, value: object, message: str
 ) -> None:
     shape, pose = problem("ell")
-    arguments = {"name": name, "domain": shape, "pose": pose, argument: value}
-    with pytest.raises(MethodError, match=message):
-        run_method(**arguments)
+    arguments = {"domain": shape, "pose": pose, "method": METHODS[name](), argument: value}
+    with pytest.raises(TypeError, match=message):
+        solve(**arguments)
+
+
+def test_a_method_is_not_its_name() -> None:
+    with pytest.raises(TypeError, match="method must be Method or None, not str; one of glid_nb"):
+        solve(*problem("ell"), method="lbfgs")  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("name", ["newton", "lbfgs", "aqp"])
@@ -102,19 +140,6 @@ def test_a_start_that_folds_is_refused(name: str) -> None:
         run_method(name, shape, pose, start=mirrored)
 
 
-@pytest.mark.parametrize(
-    ("name", "settings", "message"),
-    [
-        (["mls"], {}, "unknown method"),
-        ("mls", 3, "settings must be a mapping of names to values, got 3"),
-        ("mls", {"alpha": "much"}, "the setting 'alpha' .* must be a finite number"),
-    ],
-)
-def test_a_choice_of_the_wrong_type_is_refused(name: Any, settings: Any, message: str) -> None:
-    with pytest.raises(MethodError, match=message):
-        MethodChoice(name, settings)
-
-
 def test_a_handle_outside_is_refused() -> None:
     shape, _ = problem("ell")
     with pytest.raises(PoseError, match="handle 0"):
@@ -129,13 +154,13 @@ def test_a_missing_package_names_the_extra(monkeypatch: pytest.MonkeyPatch) -> N
 
     monkeypatch.setattr(importlib.util, "find_spec", without)
     shape, pose = problem("ell")
-    needing = [name for name, method in methods().items() if method.package]
+    needing = [name for name, method in METHODS.items() if method.package]
     assert needing
     for name in needing:
         with pytest.raises(MethodError, match=r"pip install 'glid-nb\[compare\]'"):
             run_method(name, shape, pose)
-        assert name not in methods(available=True)
-    assert "newton" in methods(available=True)
+        assert name not in available()
+    assert "newton" in available()
 
 
 def test_a_broken_package_names_the_extra_and_the_cause(
@@ -147,7 +172,7 @@ def test_a_broken_package_names_the_extra_and_the_cause(
         monkeypatch.delitem(sys.modules, package, raising=False)
     monkeypatch.syspath_prepend(tmp_path)
     shape, pose = problem("ell")
-    for name, method in methods().items():
+    for name, method in METHODS.items():
         if method.package is None:
             continue
         with pytest.raises(MethodError, match=r"pip install .*'glid-nb\[compare\]'") as caught:

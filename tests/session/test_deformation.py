@@ -264,7 +264,7 @@ def test_what_is_refused_changes_nothing(ring: Deformation) -> None:
 
 def test_the_thread_dies_with_the_model() -> None:
     deformation = Deformation(domain("ring"))
-    thread = deformation._solver._worker._thread
+    thread = deformation._worker.thread
     assert thread is not None
     gone = weakref.ref(deformation)
     deformation.observe(lambda _: None)

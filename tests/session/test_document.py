@@ -20,10 +20,10 @@ from PIL import Image
 from glid_nb.energies import AMIPS, CustomEnergy, SymmetricDirichlet
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
-from glid_nb.methods import MethodChoice
+from glid_nb.methods import AQP
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.document_file import load_document, save_document
-from glid_nb.solvers import Options, Pose
+from glid_nb.solvers import Newton, Options, Pose
 
 from ..domains import domain, random_map
 
@@ -50,7 +50,7 @@ def document(seed: int = 1, scribbles: Scribbles | None = None) -> Document:
             random_map("ring", 0.01, seed),
             energy=AMIPS(0.1 + 0.2),
             options=Options(p2p_weight=np.float64(1 / 3), conformal=True),
-            method=MethodChoice("aqp", {"kappa": 1 / 3}),
+            method=AQP(kappa=1000 / 3),
         ),
     )
     options = TraceOptions(
@@ -251,7 +251,7 @@ def test_a_document_of_version_1_opens_with_our_method(
     written = {**data, "version": 1, "poses": old}
     path = tmp_path / "old.glid"
     path.write_bytes(zipped({**valid, "document.json": json.dumps(written).encode()}))
-    assert [pose.method for pose in load_document(path).poses] == [MethodChoice()] * 2
+    assert [pose.method for pose in load_document(path).poses] == [Newton()] * 2
     # What version 1 did not have does not belong into one.
     written["poses"] = data["poses"]
     refuse(
@@ -310,6 +310,7 @@ BAD: list[tuple[str, Callable[[Data], Any], str]] = [
     ("too many poses", lambda d: {**d, "poses": d["poses"] * 501}, "1002"),
     ("a pose without phi", lambda d: {**d, "poses": [without("phi")(d["poses"][0])]}, "phi"),
     ("an unknown key in a pose", in_pose(colour="red"), "unknown key 'colour'"),
+    ("a key misspelt", in_pose(methode={}), "'methode'; did you mean 'method'"),
     ("an unknown method", in_pose(method={"name": "magic", "settings": {}}), "method 'magic'"),
     ("a method as text", in_pose(method="aqp"), "method must be an object"),
     (

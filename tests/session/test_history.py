@@ -24,9 +24,19 @@ def test_a_step_forgets_what_was_undone() -> None:
 
 
 def test_many_small_steps_count_as_one() -> None:
-    history = History("a").refined("a1").refined("a2").step_from("a", "b")
+    history = History("a").step("a1", gesture=7).refined("a2").step("b", gesture=7)
     assert history.past == ("a",)
     assert history.undone().present == "a"
+    for other in (history.step("c", gesture=8), history.ended().step("c", gesture=7)):
+        assert other.past == ("a", "b")
+
+
+def test_a_gesture_that_is_cancelled_never_began() -> None:
+    before = History("a").step("b").undone()
+    going = before.step("a1", gesture=7).step("a2", gesture=7)
+    assert going.cancelled().present == "a"
+    assert going.cancelled().redone().present == "b"
+    assert going.ended().cancelled().present == "a2"
 
 
 def test_the_past_is_limited() -> None:

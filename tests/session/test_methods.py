@@ -11,18 +11,19 @@ import pytest
 
 from glid_nb.certificate import certify
 from glid_nb.energies import AMIPS, ARAP, SymmetricDirichlet
+from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import MeshMap, MethodError, methods
+from glid_nb.methods import METHODS
 from glid_nb.session import live_solver
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import MOST_ITERATIONS, EditState
-from glid_nb.solvers import Status
+from glid_nb.solvers import MethodError, Status
 
 from ..domains import domain
 
 TIMEOUT = 120.0
-HARMONIC = [name for name, method in methods().items() if method.family == "harmonic"]
-ON_MESHES = [name for name, method in methods().items() if method.family != "harmonic"]
+HARMONIC = [name for name, method in METHODS.items() if method.family == "harmonic"]
+ON_MESHES = [name for name, method in METHODS.items() if method.family != "harmonic"]
 
 
 @pytest.fixture
@@ -36,9 +37,9 @@ def ring() -> Iterator[Deformation]:
 
 def choose(model: Deformation, name: str) -> None:
     """A method with an energy that it can minimise."""
-    if importlib.util.find_spec(methods()[name].package or "numpy") is None:
+    if importlib.util.find_spec(METHODS[name].package or "numpy") is None:
         pytest.skip("its package is not installed")
-    if "arap" in (methods()[name].energies or ()):
+    if "arap" in (METHODS[name].energies or ()):
         model.set_energy(ARAP())
     model.set_method(name)
 
@@ -188,11 +189,11 @@ def test_too_few_handles_are_said_in_words(ring: Deformation) -> None:
     assert not ring.solved
 
 
-@pytest.mark.parametrize("name", methods())
+@pytest.mark.parametrize("name", METHODS)
 def test_without_handles_nothing_breaks(name: str) -> None:
-    if importlib.util.find_spec(methods()[name].package or "numpy") is None:
+    if importlib.util.find_spec(METHODS[name].package or "numpy") is None:
         pytest.skip("its package is not installed")
-    energy = ARAP() if "arap" in (methods()[name].energies or ()) else SymmetricDirichlet()
+    energy = ARAP() if "arap" in (METHODS[name].energies or ()) else SymmetricDirichlet()
     with Deformation.from_state(EditState.initial(domain("ring"), energy=energy)) as model:
         model.set_method(name)
         assert model.solve(TIMEOUT)
@@ -206,14 +207,14 @@ def test_a_call_without_an_iteration_is_no_frame(
     real: Any = live_solver.solve
     calls = []
 
-    def refusing(*problem: Any) -> object:
+    def refusing(*problem: Any, **method: Any) -> object:
         callback = problem[-1]
 
         def twice(progress: Any) -> bool:
             calls.append(progress)
             return bool(callback(progress) or callback(progress))
 
-        return real(*problem[:5], twice)
+        return real(*problem[:5], twice, **method)
 
     frames: list[int] = []
 

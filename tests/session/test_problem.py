@@ -74,6 +74,7 @@ def test_saving_and_loading_gives_the_same_problem(write: Write, tmp_path: Path)
         ("", "is not a JSON file: Expecting value: line 1 column 1"),
         ("{'cage': 1}", "is not a JSON file: Expecting property name"),
         ("[" * 100_000, "is not a JSON file: "),
+        ('{"cage": [], "cage": []}', 'is not a JSON file: the key "cage" is given twice'),
         ([1, 2], r"must hold a JSON object \{...\}, not a list"),
         ({}, 'the keys "cage", "handles", "targets" must be given'),
         ({**GOOD, "handles": None}, 'the key "handles" must be given'),
@@ -91,6 +92,7 @@ def test_saving_and_loading_gives_the_same_problem(write: Write, tmp_path: Path)
         ({**GOOD, "offset": "0.1"}, '"offset" must be a positive number, not "0.1"'),
         ({**GOOD, "handles": [[-3, -3]]}, "1 handle but 2 targets"),
         ({**GOOD, "targets": [[-3, -3], [float("inf"), 0]]}, r"targets\[1\] must be finite"),
+        ({**GOOD, "targets": [[-3, -3], [10**400, 0]]}, r"targets\[1\] must be finite"),
         ({**GOOD, "targets": [[-3, -3], [None, 0]]}, r"targets\[1\] must be a pair .* \[null, 0\]"),
         ({**GOOD, "handles": [[-3, -3], [-3, -3]]}, r"handles 0 and 1 .*\(-3, -3\)"),
         ({**GOOD, "handles": [[-3, -3], [9, 3]]}, r"handle 1 at \(9, 3\) lies outside"),
@@ -105,6 +107,15 @@ def test_a_bad_problem_is_refused_by_name(write: Write, data: Any, message: str)
     with pytest.raises(InputFileError, match=message) as caught:
         Problem.load(path)
     assert str(caught.value).startswith(str(path))
+
+
+def test_a_file_called_like_the_first_word_of_a_message_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("the").write_text("{}")
+    with pytest.raises(InputFileError, match=r"^the: the keys"):
+        Problem.load("the")
 
 
 def test_a_binary_file_is_refused(tmp_path: Path) -> None:

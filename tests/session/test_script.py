@@ -11,9 +11,9 @@ import pytest
 from PIL import Image
 
 from glid_nb.energies import AMIPS, CustomEnergy, SymmetricDirichlet
-from glid_nb.geometry import Domain
+from glid_nb.geometry import Domain, MeshMap
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods import MeshMap, MethodChoice
+from glid_nb.methods import LBFGS, MovingLeastSquares
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.script import python_code
 from glid_nb.session.tracing import TracingModel
@@ -75,12 +75,13 @@ def test_the_lines_make_the_same_map(solved: Document, picture: str) -> None:
 def test_another_method_is_written_with_its_settings(solved: Document, picture: str) -> None:
     pose = solved.active_pose
     assert pose is not None
-    by_lbfgs = replace(pose, method=MethodChoice("lbfgs", {"memory": 7}))
+    options = replace(pose.options, p2p_weight=2e4, corrections=1)
+    by_lbfgs = replace(pose, method=LBFGS(memory=7), options=options)
     code = python_code(replace(solved, poses=(by_lbfgs,)), picture)
-    assert "glid.run_method('lbfgs', domain, pose, glid.SymmetricDirichlet()" in code
-    assert "memory=7" in code
-    assert "p2p_weight=100000.0" in code
-    on_mesh = replace(pose, method=MethodChoice("mls"))
+    assert "glid.solve(domain, pose, glid.SymmetricDirichlet(), glid.Options(p2p_w" in code
+    # Options that do not count for the method are left out.
+    assert "glid.Options(p2p_weight=20000.0), method=glid.methods.LBFGS(memory=7))" in code
+    on_mesh = replace(pose, method=MovingLeastSquares())
     scope = run(python_code(replace(solved, poses=(on_mesh,)), picture))
     assert isinstance(scope["map"], MeshMap)
     np.testing.assert_allclose(scope["map"](HANDLES), TARGETS, atol=1e-6)

@@ -339,7 +339,7 @@ def test_default_energy_is_symmetric_dirichlet() -> None:
         ({"domain": [[0, 0], [1, 0], [0, 1]]}, "domain must be Domain, not list"),
         ({"pose": [(0, 0)]}, "pose must be Pose, not list; make one with Pose"),
         ({"options": {"align": False}}, "options must be Options or None, not dict"),
-        ({"start": np.zeros(3)}, "start must be HarmonicMap, Result or None, not ndarray"),
+        ({"start": np.zeros(3)}, "start must be HarmonicMap, MeshMap, Result or None, not ndarray"),
         ({"callback": 3}, "callback must be Callable or None, not int"),
     ],
 )

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import basis_of
 from glid_nb.harmonic.cauchy import cauchy_coordinates
-from glid_nb.solvers import Options, Pose, Status, newton, solve
+from glid_nb.solvers import Options, Pose, Status, solve, step
 from glid_nb.solvers.discretisation import basis_rows, discretise
 from glid_nb.solvers.evaluation import products
 from glid_nb.solvers.outcome import INDEFINITE
@@ -128,14 +128,14 @@ def test_a_fine_cage_keeps_the_hessian_definite_in_single_precision(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """More vertices than pairs of panels have nodes for: no second Hessian is tried."""
-    run, outcomes = newton.run, []
+    run, outcomes = step.run, []
 
-    def noted(*arguments: Any, **options: Any) -> newton.State:
+    def noted(*arguments: Any, **options: Any) -> step.State:
         state = run(*arguments, **options)
         outcomes.append(int(state.outcome))
         return state
 
-    monkeypatch.setattr(newton, "run", noted)
+    monkeypatch.setattr(step, "run", noted)
     angles = np.linspace(0, 2 * np.pi, 360, endpoint=False)
     cage = Cage(6 * np.stack([np.cos(angles), np.sin(angles)], axis=1))
     pose = Pose([[-3, 0], [3, 0]], [[-3, 0], [4, 1]])

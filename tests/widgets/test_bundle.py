@@ -14,25 +14,28 @@ from glid_nb.widgets.bundle import bundle, stylesheet
 def test_every_module_comes_once_and_before_its_users() -> None:
     text = bundle("tracer/main.js")
     assert not re.search(r"^import |^export (?!default)", text, re.MULTILINE)
-    assert text.count("class Viewport {") == 1
-    assert text.index("class Viewport {") < text.index("class Stage {")
+    assert text.count("class View {") == 1
+    assert text.index("class View {") < text.index("class Stage {")
     assert text.index("function make(") < text.index("class Panel {")
     assert text.rstrip().endswith("export default { render };")
 
 
-def test_top_level_names_differ() -> None:
-    names = re.findall(r"^(?:const|function|class) (\w+)", bundle("tracer/main.js"), re.MULTILINE)
+@pytest.mark.parametrize("entry", ["tracer/main.js", "canvas/main.js"])
+def test_top_level_names_differ(entry: str) -> None:
+    names = re.findall(r"^(?:const|function|class) (\w+)", bundle(entry), re.MULTILINE)
     assert len(names) == len(set(names))
 
 
 def test_imports_name_what_is_exported() -> None:
-    folder = Path(bundling.__file__).parent / "js" / "tracer"
-    for module in folder.glob("*.js"):
+    folder = Path(bundling.__file__).parent / "js"
+    for module in folder.glob("*/*.js"):
         text = module.read_text()
-        for names, other in re.findall(r'^import \{ ([^}]*) \} from "\./([^"]+)";', text, re.M):
-            exported = (folder / other).read_text()
+        for names, other in re.findall(r'^import \{ ([^}]*) \} from "([^"]+)";', text, re.M):
+            exported = (module.parent / other).read_text()
             for name in names.split(", "):
-                assert re.search(rf"^export (class|const|function) {name}\b", exported, re.M)
+                assert re.search(
+                    rf"^export (?:async )?(class|const|function) {name}\b", exported, re.M
+                )
                 assert len(re.findall(rf"\b{name}\b", text)) > 1, f"{module.name}: {name} unused"
 
 

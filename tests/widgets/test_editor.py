@@ -8,7 +8,6 @@ import shutil
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import SimpleNamespace
@@ -28,7 +27,6 @@ from glid_nb.session.document_file import load_document
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.moment import Moment
 from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
-from glid_nb.widgets.background import Background
 from glid_nb.widgets.exporting import ExportError
 from glid_nb.widgets.open_panel import OpenPanel
 from glid_nb.widgets.overlays import N_COLORS, OVERLAYS, color_range, color_stops
@@ -137,7 +135,7 @@ def test_a_save_that_fails_is_shown(tmp_path: Path) -> None:
     folder.mkdir()
     editor = Editor(bar(), path=folder / "bar.glid", n_vertices=300)
     saved = threading.Event()
-    editor.model.on_saved(saved.set)
+    editor.model.observe(lambda what: saved.set() if what == "saved" else None)
     editor.deformation.paused = True  # nothing here needs a solve
 
     def change() -> None:
@@ -248,7 +246,7 @@ assert clock.programs == 0, clock.programs
 assert editor.monitor.image.format == "svg+xml"
 assert b"time per iteration" in bytes(editor.monitor.image.value)
 assert len(widget._instances) <= 100, len(widget._instances)
-editor.canvas._receive(None, {"drawn": True}, [])
+editor.canvas.pane.stage.drawn = True
 boxes = [editor.tabs.children[0], *editor._side.children[1:]]
 made = [type(box.children[0]).__name__ for box in boxes]
 assert made == ["CageTracer", "SolverPanel", "FilePanel"]
@@ -516,33 +514,6 @@ def test_colour_ranges_fit_the_map_in_round_steps() -> None:
     assert [end("k", s) for s in (1, 1.3, 2)] == [0.1, 0.2, 0.5]
     np.testing.assert_allclose([end("energy", s) for s in (1, 1.5, 2)], [2.2, 2.5, 4.0])
     assert end("sigma1", 1.2, least=(1.0, 2.0)) == 2  # it only widens
-
-
-def test_background_work_is_rare_but_always_done() -> None:
-    class Counter:
-        times: list[float]
-
-        def __init__(self) -> None:
-            self.times = []
-
-        def work(self) -> None:
-            self.times.append(time.monotonic())
-
-    counter = Counter()
-    background = Background(counter.work, 0.05)
-    end = time.monotonic() + 0.3
-    while time.monotonic() < end:
-        background.ask()
-    assert background.wait(TIMEOUT)
-    assert (np.diff(counter.times) >= 0.049).all()
-    assert counter.times[-1] >= end - 0.1
-    thread = background._worker._thread
-    assert thread is not None
-    del counter
-    gc.collect()
-    background.ask()
-    thread.join(TIMEOUT)
-    assert not thread.is_alive()
 
 
 @pytest.mark.slow

@@ -10,7 +10,7 @@ import pytest
 
 from glid_nb.certificate import certify
 from glid_nb.session.deformation import Deformation
-from glid_nb.widgets.gestures import Gestures
+from glid_nb.widgets.gestures import PinGestures
 
 from ..domains import domain
 
@@ -22,7 +22,7 @@ class Hand:
 
     def __init__(self, model: Deformation) -> None:
         self.fitted = 0
-        self.gestures = Gestures(model, self._fit)
+        self.gestures = PinGestures(model, self._fit)
         self.model = model
 
     def _fit(self) -> None:
@@ -30,7 +30,7 @@ class Hand:
 
     def send(self, type: str, x: float = 0, y: float = 0, **more: Any) -> str:
         event = {"type": type, "x": x, "y": y, "id": 1, "button": 0, "shift": False}
-        return self.gestures.handle([{**event, "reach": 0.26, "unit": 0.02, **more}])
+        return self.gestures.handle([{**event, "reach": 0.26, "unit": 0.02, **more}]) or ""
 
     def click(self, x: float, y: float, **more: Any) -> str:
         return self.send("down", x, y, **more) or self.send("up", x, y, **more)
@@ -117,7 +117,7 @@ def test_removing_by_button_and_key(hand: Hand) -> None:
     assert len(hand.model.pose) == 0
     hand.key("undo")
     assert len(hand.model.pose) == 2
-    hand.send("remove", handle=1)
+    hand.send("remove", 0, 2)
     assert len(hand.model.pose) == 1
 
 

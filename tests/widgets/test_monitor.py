@@ -17,7 +17,6 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.status_line import rounded_down
 from glid_nb.widgets import SolverMonitor
-from glid_nb.widgets.background import Background
 from glid_nb.widgets.live_plots import LivePlots
 
 from ..domains import domain
@@ -62,7 +61,7 @@ def test_what_is_drawn_belongs_together(
     without, with_holes = (Domain.from_cage(Cage(square.exterior, h)) for h in ([], holes))
     caught: list[Any] = []
     monkeypatch.setattr(threading, "excepthook", caught.append)
-    monitor._background.close()  # only one thread may draw
+    monitor._worker.close()  # only one thread may draw
     model.paused = True
     model.begin()
     for domain_ in (with_holes, without):  # compiled before the time counts
@@ -85,30 +84,6 @@ def test_what_is_drawn_belongs_together(
     drawing.clear()
     other.join()
     assert not caught
-
-
-def test_background_work_goes_on_after_an_exception(monkeypatch: pytest.MonkeyPatch) -> None:
-    caught: list[Any] = []
-    monkeypatch.setattr(threading, "excepthook", caught.append)
-
-    class Failing:
-        count = 0
-
-        def work(self) -> None:
-            self.count += 1
-            if self.count == 1:
-                raise RuntimeError("no more magic smoke")
-
-    failing = Failing()
-    background = Background(failing.work, 0.01)
-    for expected in (1, 2):
-        background.ask()
-        assert background.wait(10)
-        assert failing.count == expected
-    (report,) = caught
-    assert "magic smoke" in str(report.exc_value)
-    assert report.thread is background._worker._thread
-    background.close()
 
 
 def test_at_rest_all_say_what_the_final_certificate_proves(
@@ -146,8 +121,7 @@ def test_the_last_drawing_is_that_at_rest(
     moments = [working, rest, rest]
     monkeypatch.setattr(Deformation, "moment", property(lambda _: moments.pop(0)))
     monitor._drawn = None
-    monitor._background.ask()
-    assert monitor._background.wait(TIMEOUT)
+    assert monitor.refresh(TIMEOUT)
     assert len(moments) == 1
     assert "Converged" in monitor.line.value
     assert (

@@ -9,23 +9,23 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page
 
-from glid_nb.energies import SymmetricDirichlet
+from glid_nb.energies import ENERGIES
 from glid_nb.geometry import triangulate
-from glid_nb.widgets.scene import Scene, drawing_order
-from glid_nb.widgets.shader import ShaderMap, glsl
+from glid_nb.widgets.scene import Drawing, Scene, drawing_order
+from glid_nb.widgets.shader import ShaderMap, energy_defines, energy_uniform, glsl
 
 from ..domains import NAMES, domain, random_map
 
 PICTURE = np.full((40, 40, 4), 255, np.uint8)
 
-# Runs the very file that the canvas uses and reads the positions back.
-_RUN = """async ({head, cage, coefficients, holes, points}) => {
+# Runs the very files that the canvas uses at points z and reads the outputs back, six numbers each.
+_RUN = """async ({head, main, uniforms, points}) => {
   const gl = document.createElement('canvas').getContext('webgl2');
   const text = `#version 300 es
     precision highp float;
     in vec2 z; out vec2 f; out vec2 fz; out vec2 fzb_conj;
     ${head}
-    void main() { harmonic_map(z, f, fz, fzb_conj); gl_Position = vec4(0); gl_PointSize = 1.0; }`;
+    void main() { ${main} gl_Position = vec4(0); gl_PointSize = 1.0; }`;
   const program = gl.createProgram();
   const fragment = `#version 300 es
     precision highp float;
@@ -43,8 +43,9 @@ _RUN = """async ({head, cage, coefficients, holes, points}) => {
   gl.linkProgram(program);
   check(gl.getProgramParameter(program, gl.LINK_STATUS), gl.getProgramInfoLog(program));
   gl.useProgram(program);
-  for (const [name, value] of Object.entries({cage, coefficients, holes})) {
-    gl.uniform4fv(gl.getUniformLocation(program, name), new Float32Array(value));
+  for (const [name, value] of Object.entries(uniforms)) {
+    const set = value.length === 2 ? 'uniform2fv' : 'uniform4fv';
+    gl[set](gl.getUniformLocation(program, name), new Float32Array(value));
   }
   const count = points.length / 2;
   gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
@@ -66,6 +67,40 @@ _RUN = """async ({head, cage, coefficients, holes, points}) => {
 }"""
 
 
+def shaded_points(
+    page: Page, head: str, main: str, uniforms: dict[str, Any], points: np.ndarray
+) -> np.ndarray:
+    """(k, 6) outputs of a shader at (k, 2) points."""
+    values = {name: np.ravel(value).tolist() for name, value in uniforms.items()}
+    arguments = {"head": head, "main": main, "uniforms": values, "points": points.ravel().tolist()}
+    return np.reshape(page.evaluate(_RUN, arguments), (-1, 6))
+
+
+@pytest.mark.browser
+@pytest.mark.slow
+def test_the_energies_in_the_shader_agree_with_the_python_ones(page: Page) -> None:
+    """Every energy that has a name, MIPS too, at distortions from none to strong."""
+    sigma1, sigma2 = (a.ravel() for a in np.meshgrid(np.linspace(1, 3, 9), np.linspace(0.4, 1, 7)))
+    points = np.stack([((sigma1 + sigma2) / 2) ** 2, ((sigma1 - sigma2) / 2) ** 2], axis=1)
+    points = points.astype(np.float32)
+    head = energy_defines() + glsl("energy.glsl")
+    page.goto("about:blank")
+    for name, kind in ENERGIES.items():
+        energy = kind(*[0.3 for _ in kind.parameters()])
+        main = "f = vec2(energy_density(z.x, z.y), 0.0); fz = z; fzb_conj = z;"
+        seen = shaded_points(page, head, main, {"energy": energy_uniform(energy)}, points)
+        exact = energy.density(*points.astype(float).T)
+        np.testing.assert_allclose(seen[:, 0], exact, rtol=2e-4, atol=1e-5, err_msg=name)
+
+
+def test_every_named_energy_has_a_shader_expression_of_its_own() -> None:
+    shaders = [energy.shader for energy in ENERGIES.values()]
+    assert all(shaders)
+    assert len(set(shaders)) == len(shaders)
+    numbers = [energy_uniform(energy())[0] for energy in ENERGIES.values()]
+    assert numbers == list(range(len(ENERGIES)))
+
+
 @pytest.mark.browser
 @pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
@@ -75,17 +110,10 @@ def test_the_shader_agrees_with_numpy(page: Page, name: str) -> None:
     points = triangulate(map_.domain.cage, 1500).vertices.astype(np.float32)
     coefficients, holes = shader.coefficients(map_)
     page.goto("about:blank")
-    seen = page.evaluate(
-        _RUN,
-        {
-            "head": shader.defines() + glsl("harmonic.glsl"),
-            "cage": shader.cage.ravel().tolist(),
-            "coefficients": coefficients.ravel().tolist(),
-            "holes": holes.ravel().tolist(),
-            "points": points.ravel().tolist(),
-        },
-    )
-    f, fz, fzb_conj = np.split(np.reshape(seen, (-1, 6)), 3, axis=1)
+    uniforms = {"cage": shader.cage, "coefficients": coefficients, "holes": holes}
+    head = shader.defines() + glsl("harmonic.glsl")
+    seen = shaded_points(page, head, "harmonic_map(z, f, fz, fzb_conj);", uniforms, points)
+    f, fz, fzb_conj = np.split(seen, 3, axis=1)
     exact = points.astype(float)
     np.testing.assert_allclose(f, map_(exact), atol=1e-4)
     a, b = map_.wirtinger(exact)
@@ -129,7 +157,6 @@ def test_a_frame_is_small_at_any_resolution(n_vertices: int, sent: list[Any]) ->
     pane = Pane(
         PICTURE,
         map_,
-        SymmetricDirichlet(),
         (300, 300),
         interactive=True,
         n_vertices=n_vertices,
@@ -139,27 +166,27 @@ def test_a_frame_is_small_at_any_resolution(n_vertices: int, sent: list[Any]) ->
     sent.clear()
     moved = random_map("annulus", 0.01, seed=3)
     handles = np.zeros((8, 2)) + np.arange(8)[:, None]
-    pane.show(moved, handles, handles, (1,))
+    pane.show(Drawing(moved, targets=handles, images=handles, selected=(1,)))
     assert 0 < _wire_size(sent) < 4_000
     pane.close()
 
 
 def test_the_kernel_evaluates_what_a_shader_cannot_hold(sent: list[Any]) -> None:
     map_ = random_map("annulus", 0.01, seed=2)
-    scene = Scene(PICTURE, map_, SymmetricDirichlet(), 500, uniform_vectors=100)
+    scene = Scene(PICTURE, map_, 500, uniform_vectors=100)
     assert scene.evaluated_in == "kernel"
     image = scene.picture.attributes["image"].array
     points = scene.picture.attributes["position"].array[:, :2]
     np.testing.assert_allclose(image, map_(points), atol=1e-5)
     moved = random_map("annulus", 0.01, seed=3)
     sent.clear()
-    scene.show_map(moved)
+    scene.show(Drawing(moved))
     image = scene.picture.attributes["image"].array
     np.testing.assert_allclose(image, moved(points), atol=1e-5)
     assert _wire_size(sent) > 24 * len(points)
     # A pointer's move before the next frame is solved moves marks, not vertices.
     sent.clear()
-    scene.show_map(moved)
+    scene.show(Drawing(moved))
     assert _wire_size(sent) == 0
     scene.close()
 

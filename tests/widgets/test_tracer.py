@@ -30,16 +30,36 @@ class Page:
         self.answers: list[dict[str, Any]] = []
         tracer.send = lambda content, buffers=None: self.answers.append(content)  # noqa: ARG005
 
-    def ask(self, action: str, buffers: tuple[bytes, ...] = (), **content: Any) -> str | None:
-        """Send a message, through JSON; the refusal."""
+    def ask(self, kind: str, buffers: tuple[bytes, ...] = (), **content: Any) -> str | None:
+        """Send an event, through JSON; the refusal."""
         self.sent += 1
-        message = {"action": action, "view": self.name, "id": self.sent, **content}
+        event = {"type": kind, "seq": self.sent, **content, "buffered": bool(buffers)}
         self.tracer._handle_custom_msg(
-            json.loads(json.dumps(message)), [memoryview(b) for b in buffers]
+            json.loads(json.dumps({"view": self.name, "events": [event]})),
+            [memoryview(b) for b in buffers],
         )
         answer = self.answers[-1]
         assert (answer["view"], answer["ack"]) == (self.name, self.sent)
         return answer["refusal"]
+
+    def point(self, kind: str, x: float, y: float, **more: Any) -> str | None:
+        """An event of the pointer at a pixel of the picture; the stage shows one in one."""
+        event = {"x": float(x), "y": float(y), "reach": 9, "unit": 1, "button": 0}
+        return self.ask(kind, **{**event, "shift": False, "time": 1e6 * self.sent, **more})
+
+    def click(self, x: float, y: float, **more: Any) -> str | None:
+        return self.point("down", x, y, **more) or self.point("up", x, y, **more)
+
+    def drag(self, *points: tuple[float, float]) -> str | None:
+        self.point("down", *points[0])
+        refusals = [self.point("move", *point) for point in points[1:]]
+        self.point("up", *points[-1])
+        return next(filter(None, refusals), None)
+
+    def use(self, tool: str, x: float, y: float, **more: Any) -> str | None:
+        """Click with a tool."""
+        self.ask("tool", name=tool)
+        return self.click(x, y, **more)
 
 
 def cage_of(tracer: CageTracer) -> Cage:
@@ -86,7 +106,9 @@ def test_without_a_picture() -> None:
     assert tracer.picture == b""
     assert tracer.shown["size"] is None
     assert tracer.cage is None
-    assert Page(tracer).ask("move_vertex", loop=0, index=0, to=[1, 1]) is not None
+    assert Page(tracer).ask("toggle_hole", number=0) is not None
+    assert Page(tracer).drag((1, 1), (2, 2)) is None
+    assert not tracer.shown["edited"]
 
 
 def test_every_action_reaches_the_model(tracer: CageTracer, page: Page) -> None:
@@ -97,26 +119,28 @@ def test_every_action_reaches_the_model(tracer: CageTracer, page: Page) -> None:
     assert cage_of(tracer).n_holes == 1
     n = cage_of(tracer).n_vertices
     x, y = model.loops[0][3]
-    assert page.ask("move_vertex", loop=0, index=3, to=[x + 1, y]) is None
-    np.testing.assert_allclose(model.loops[0][3], [x + 1, y])
-    assert page.ask("insert_vertex", at=list(model.loops[0][:2].mean(axis=0))) is None
+    assert page.drag((x, y), (x + 9, y), (x + 5, y)) is None
+    np.testing.assert_allclose(model.loops[0][3], [x + 5, y])
+    middle = model.loops[0][:2].mean(axis=0)
+    assert page.click(*middle, reach=1, time=1e9) is None
+    assert page.click(*middle, reach=1, time=1e9 + 200) is None
     assert cage_of(tracer).n_vertices == n + 1
-    assert page.ask("delete_vertices", vertices=[[0, 1]]) is None
+    assert page.point("down", *model.loops[0][1], button=2) is None
     assert cage_of(tracer).n_vertices == n
     assert tracer.shown["edited"]
     assert page.ask("discard_edits") is None
     assert not tracer.shown["edited"]
-    assert page.ask("pick_component", at=list(IN_SMALL_DISC)) is None
+    assert page.use("component", *IN_SMALL_DISC) is None
     assert tracer.shown["component"] == 1
     assert page.ask("undo") is None
     assert tracer.shown["component"] == 0
     assert page.ask("redo") is None
     assert tracer.shown["component"] == 1
-    assert page.ask("paint", brush="foreground", stroke=[[60, 20], [60, 100]]) is None
+    assert page.use("foreground", 60, 100, path=[[60, 20], [60, 100]]) is None
     assert tracer.shown["strokes"]["foreground"] == [[[60, 20], [60, 100]]]
     assert page.ask("clear_scribbles") is None
     assert tracer.shown["strokes"]["foreground"] == []
-    assert page.ask("pick_background", at=[2, 2]) is None
+    assert page.use("color", 2, 2) is None
     assert tracer.options.background_at == (2, 2)
 
 
@@ -125,10 +149,8 @@ def test_every_action_reaches_the_model(tracer: CageTracer, page: Page) -> None:
     [
         ("set_options", {"changes": {"offset": -1}}, "offset"),
         ("set_options", {"changes": {"ofset": 1}}, "did you mean"),
-        ("move_vertex", {"loop": 9, "index": 0, "to": [1, 1]}, "no loop 9"),
         ("toggle_hole", {"number": 99}, "no hole 99"),
-        ("paint", {"brush": "foreground", "stroke": []}, "stroke"),
-        ("pick_background", {"at": [-5, 0]}, "That place lies outside the picture"),
+        ("tool", {"name": "axe"}, "no tool 'axe'"),
         ("format_disk", {}, "cannot do"),
     ],
 )
@@ -143,16 +165,34 @@ def test_a_refusal_is_a_sentence_and_changes_nothing(
     assert tracer.shown == shown
 
 
+@pytest.mark.parametrize(
+    ("tool", "place", "path", "culprit"),
+    [
+        ("foreground", (60, 20), [[1, 2, 3]], "stroke"),
+        ("color", (-5, 0), [], "That place lies outside the picture"),
+    ],
+)
+def test_a_tool_is_refused_in_a_sentence(
+    tracer: CageTracer, page: Page, tool: str, place: tuple[float, float], path: Any, culprit: str
+) -> None:
+    state = tracer.tracing_model.state
+    refusal = page.use(tool, *place, path=path)
+    assert refusal is not None
+    assert culprit in refusal
+    assert tracer.tracing_model.state is state
+
+
 def test_a_bug_is_shown_acknowledged_and_not_swallowed(tracer: CageTracer, page: Page) -> None:
     with pytest.raises(KeyError):
-        tracer._receive(tracer, {"view": "a", "id": 1, "action": "toggle_hole"}, [])
+        tracer._receive(tracer, {"view": "a", "events": [{"type": "toggle_hole", "seq": 1}]}, [])
     assert page.answers[-1] == {"view": "a", "ack": 1, "refusal": "KeyError: 'number'"}
 
 
 def test_a_problem_is_shown_with_its_place(tracer: CageTracer, page: Page) -> None:
     cage = tracer.cage
     i = int(np.argmin(tracer.tracing_model.loops[0][:, 0]))
-    assert page.ask("move_vertex", loop=0, index=i, to=[150, 60]) is None
+    start = tracer.tracing_model.loops[0][i]
+    assert page.drag(start, (150, 60)) is None
     (problem,) = tracer.shown["problems"]
     assert problem["message"].startswith("The outline crosses itself; move")
     assert 0 < problem["point"][0] < 160

@@ -15,21 +15,11 @@ _UNIFORM = 0.6
 
 @dataclass(frozen=True)
 class BorderColor:
-    """The most frequent colour of the border.
+    """The most frequent colour of the border."""
 
-    Attributes
-    ----------
-    color
-        (red, green, blue) in [0, 1].
-    share
-        The part of the border that has it, nearly.
-    spread
-        99th percentile of the distances of that part from `color`.
-    """
-
-    color: tuple[float, float, float]
-    share: float
-    spread: float
+    color: tuple[float, float, float]  # (red, green, blue) in [0, 1]
+    share: float  # the part of the border that has it, nearly
+    spread: float  # 99th percentile of the distances of that part from `color`
 
     @property
     def is_uniform(self) -> bool:

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.imaging.errors import TraceError
+from glid_nb.imaging.foreground import fields
 from glid_nb.imaging.foreground.border import border_color, border_is_bright
-from glid_nb.imaging.foreground.fields import (
-    alpha,
-    alpha_is_informative,
-    brightness,
-    check_alpha,
-    color_distance,
-    is_opaque,
-    scaled_picture,
-)
 from glid_nb.imaging.foreground.levels import color_threshold, histogram, otsu
 from glid_nb.imaging.foreground.score import Foreground
 from glid_nb.imaging.frame import PixelFrame
@@ -25,17 +19,16 @@ from glid_nb.imaging.options import Method, Point, Scribbles
 def find_foreground(
     image: NDArray[np.unsignedinteger],
     method: Method = "auto",
-    *,
     invert: bool | None = None,
     background: tuple[float, float, float] | None = None,
     background_at: Point | None = None,
     scribbles: Scribbles | None = None,
-    scaled: NDArray[np.float64] | None = None,
+    scaled: Callable[[], NDArray[np.float64]] | None = None,
 ) -> Foreground:
     """Rate every pixel of an (h, w, 4) RGBA image; the parameters are those of `TraceOptions`.
 
-    The field is not smoothed yet: see `smoothed`. ``scaled``, the image's `scaled_picture`, saves
-    making it anew for every scribble.
+    The field is not smoothed yet: see `smoothed`. ``scaled`` gives the image's `scaled_picture`, so
+    that it need not be made anew for every scribble.
 
     Raises
     ------
@@ -49,20 +42,20 @@ def find_foreground(
         notes.append(f"foreground by {why}")
     inverted, threshold, spread = bool(invert), 0.5, 0.0
     if method == "alpha":
-        check_alpha(image)
-        score = alpha(image)
+        fields.check_alpha(image)
+        score = fields.alpha(image)
     elif method == "scribbles":
         if scribbles is None:
             raise TraceError("the method 'scribbles' needs scribbles")
         # Imported when there are scribbles: scikit-image's segmentation takes a while to import.
         from glid_nb.imaging.foreground.scribbles import scribble_score  # noqa: PLC0415
 
-        scaled = scaled if scaled is not None else scaled_picture(image)
-        score, more = scribble_score(scaled, scribbles, (image.shape[0], image.shape[1]))
+        small = fields.scaled_picture(image) if scaled is None else scaled()
+        score, more = scribble_score(small, scribbles, (image.shape[0], image.shape[1]))
         notes += more
     elif method == "threshold":
-        score = brightness(image)
-        visible = score if is_opaque(image) else score[image[..., 3] > 0][np.newaxis]
+        score = fields.brightness(image)
+        visible = score if fields.is_opaque(image) else score[image[..., 3] > 0][np.newaxis]
         threshold = otsu(histogram(visible))
         if invert is None:
             inverted = border_is_bright(image, score, threshold)
@@ -71,11 +64,11 @@ def find_foreground(
     else:
         color, spread, more = _background(image, background, background_at)
         notes += more
-        score = color_distance(image, color)
+        score = fields.color_distance(image, color)
     if inverted:
         score = 1 - score
-    if method in ("threshold", "color") and not is_opaque(image):
-        score = score * alpha(image)  # what is transparent is background, inverted or not
+    if method in ("threshold", "color") and not fields.is_opaque(image):
+        score = score * fields.alpha(image)  # what is transparent is background, inverted or not
     if method == "color":
         # Inverted, the colour is the shape's own and tells nothing of the background's.
         threshold = otsu(histogram(1 - score)) if inverted else color_threshold(score, spread)
@@ -108,7 +101,7 @@ def _choose_method(
         return "scribbles", "scribbles, which were given"
     if background is not None or background_at is not None:
         return "color", "colour distance, for a background colour was given"
-    if alpha_is_informative(image):
+    if fields.alpha_is_informative(image):
         return "alpha", "alpha, for part of the image is transparent"
     border = border_color(image)
     if border is not None and border.is_uniform:

@@ -70,26 +70,13 @@ class Foreground:
 
     It is kept, rather than a mask, for two reasons: its level set has sub-pixel accuracy, and
     another threshold needs no new field.
-
-    Attributes
-    ----------
-    score
-        (h, w) read-only float32, in [0, 1], sampled at the pixels' centres.
-    method
-        The method used, never ``"auto"``.
-    automatic_threshold
-        The threshold that was found, in the terms of `TraceOptions.threshold`.
-    inverted
-        Whether low values of what the method measures are foreground. The score is 1 minus them.
-    notes
-        Sentences about what was chosen.
     """
 
-    score: NDArray[np.float32]
-    method: str
-    automatic_threshold: float
-    inverted: bool
-    notes: tuple[str, ...]
+    score: NDArray[np.float32]  # (h, w) read-only, in [0, 1], sampled at the pixels' centres
+    method: str  # never "auto"
+    automatic_threshold: float  # the one that was found, in the terms of `TraceOptions.threshold`
+    inverted: bool  # low values of what the method measures are foreground; score is 1 minus them
+    notes: tuple[str, ...]  # what was chosen
 
     def threshold(self, threshold: float | None = None) -> float:
         """`threshold`, or the automatic one."""

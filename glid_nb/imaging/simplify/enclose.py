@@ -7,55 +7,53 @@ from numpy.typing import NDArray
 
 from glid_nb.geometry._loops import signed_area
 from glid_nb.imaging.simplify.conflicts import edges_in_conflict
-from glid_nb.imaging.simplify.significance import Loop, dropped_between
+from glid_nb.imaging.simplify.loops import Loops, Points, passed_over
 
 
-def enclosing(
-    loops: tuple[Loop, ...], kept: list[NDArray[np.bool_]], margin: float, gap: float
-) -> list[Loop]:
+def enclosing(loops: Loops, kept: NDArray[np.bool_], margin: float, gap: float) -> Loops:
     """The simplified loops, with edges moved outwards that cut off more than `margin`.
 
     A chord of a convex arc cuts off a part of the shape. The edge is moved in parallel by that
     much; where this would make loops meet, it stays.
     """
-    simplified = [loop[keep] for loop, keep in zip(loops, kept, strict=True)]
-    shifts = []
-    for number, (loop, keep) in enumerate(zip(loops, kept, strict=True)):
-        outwards = 1.0 if (signed_area(simplified[number]) > 0) == (number == 0) else -1.0
-        shifts.append(_shifts(loop, np.flatnonzero(keep), outwards, margin))
+    simplified = loops[kept]
+    areas = _areas(simplified)
+    shifts = _shifts(loops, kept, areas, margin)
+    # How much an area may change: a hole may neither vanish nor turn inside out.
+    low, high = np.full(len(areas), 0.3), np.full(len(areas), 1.2)
+    low[0], high[0] = 0.5, np.inf
     while True:
-        moved = [loop + shift for loop, shift in zip(simplified, shifts, strict=True)]
-        changed = False
-        for number, (before, after) in enumerate(zip(simplified, moved, strict=True)):
-            # A hole may neither vanish nor turn inside out.
-            low, high = (0.3, 1.2) if number > 0 else (0.5, np.inf)
-            ratio = signed_area(after) / signed_area(before)
-            if not low < ratio < high and shifts[number].any():
-                shifts[number][:] = 0
-                changed = True
-        for number, edge in [] if changed else edges_in_conflict(moved, gap):
-            ends = [edge, (edge + 1) % len(moved[number])]
-            if shifts[number][ends].any():
-                shifts[number][ends] = 0
-                changed = True
-        if not changed:
-            return moved
+        moved = Loops(simplified.points + shifts, simplified.number)
+        ratio = _areas(moved) / areas
+        still = (~((low < ratio) & (ratio < high)))[simplified.number]
+        if not shifts[still].any():
+            edges = edges_in_conflict(moved, gap)
+            still = np.concatenate([edges, simplified.after[edges]])
+            if not shifts[still].any():
+                return moved
+        shifts[still] = 0
+
+
+def _areas(loops: Loops) -> NDArray[np.float64]:
+    return np.array([signed_area(loop) for loop in loops.split(loops.points)])
 
 
 def _shifts(
-    loop: Loop, index: NDArray[np.intp], outwards: float, margin: float
-) -> NDArray[np.float64]:
-    """(k, 2) how to move the vertices `index` so that no edge cuts off more than `margin`."""
-    corners = loop[index]
-    edge = np.roll(corners, -1, axis=0) - corners
-    normal = outwards * np.stack([edge[:, 1], -edge[:, 0]], axis=1)
-    normal /= np.hypot(*edge.T)[:, np.newaxis]
-    cut = np.zeros(len(index))
-    for k in range(len(index)):
-        between = dropped_between(index, k, len(loop))
-        if len(between):
-            cut[k] = max(0.0, float(((loop[between] - corners[k]) @ normal[k]).max()) - margin)
-    before, cut_before = np.roll(normal, 1, axis=0), np.roll(cut, 1)
+    loops: Loops, kept: NDArray[np.bool_], areas: NDArray[np.float64], margin: float
+) -> Points:
+    """(k, 2) how to move the vertices that are kept so that no edge cuts off more than `margin`."""
+    corners = loops[kept]
+    outwards = np.where((areas > 0) == (np.arange(len(areas)) == 0), 1.0, -1.0)[corners.number]
+    x, y = corners.edges.T
+    normal = outwards[:, np.newaxis] * np.stack([y, -x], axis=1)
+    normal /= np.hypot(x, y)[:, np.newaxis]
+    cut = np.zeros(len(normal))
+    for k, over in enumerate(passed_over(loops, kept)):
+        if len(over):
+            beyond = (loops.points[over] - corners.points[k]) @ normal[k]
+            cut[k] = max(0.0, float(beyond.max()) - margin)
+    preceding = np.argsort(corners.after)
+    before, cut_before = normal[preceding], cut[preceding]
     # A vertex moves to where the two moved edges meet, but not farther than twice their moves.
     middle = before + normal
     square = np.maximum(np.sum(middle**2, axis=1), 1e-12)

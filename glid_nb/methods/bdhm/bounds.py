@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.certificate import Certificate
-from glid_nb.methods.method import MethodError
+from glid_nb.solvers import MethodError
 
 Array = NDArray[Any]
 

@@ -14,8 +14,8 @@ from glid_nb.certificate import Certificate, certify
 from glid_nb.geometry import Domain, graded_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.solvers import Pose
-from glid_nb.solvers.align import aligned
 from glid_nb.solvers.discretisation import basis_rows
+from glid_nb.solvers.start import aligned
 from glid_nb.solvers.unknowns import canonical, unknowns_of
 
 Array = NDArray[Any]

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,8 +24,9 @@ from glid_nb.methods.bdhm.bounds import DistortionBounds
 from glid_nb.methods.bdhm.problem import BoundedProblem
 from glid_nb.methods.bdhm.program import Step, solve_program
 from glid_nb.methods.bdhm.samples import MARGIN, ActiveSet
-from glid_nb.methods.recording import Ending, Run, Snapshot
-from glid_nb.solvers import Pose, Status
+from glid_nb.solvers import Iteration, Method, Pose, Result, Status
+from glid_nb.solvers.loop import Ending, GeneratedDescent, Snapshot, Steps, follow
+from glid_nb.solvers.method import Family, Inputs
 
 Array = NDArray[Any]
 
@@ -45,6 +46,71 @@ _NOTHING = 1e-10
 _GAP, _LEAST_GAP, _MOST_GAP = 0.01, 1e-12, 1e-6
 
 
+TOLERANCE = 1e-5
+"""The share of the energy that a program may still promise to gain where the method has converged.
+
+The energy itself may be some twenty times that above its least, for the method is of first order.
+"""
+
+
+@dataclass(frozen=True)
+class BDHM(Method):
+    """Bounded distortion harmonic maps: ARAP within bounds by cone programs (Chen & Weber 2015).
+
+    ``k``, ``sigma1`` and ``sigma2`` bound the distortion of the whole map; an isometry must satisfy
+    them with room to spare. The energy never rises, and every map is proved to keep the bounds. A
+    start that is not gives way to the identity. The method has converged when the program at the
+    current map can, by its dual, lower the energy by no more than ``tolerance`` of it: the map is
+    then stationary within bounds at samples that are stricter than those asked for by `MARGIN` or,
+    where it uses more, by less.
+    """
+
+    name: ClassVar[str] = "bdhm"
+    label: ClassVar[str] = "Bounded distortion harmonic maps"
+    family: ClassVar[Family] = "harmonic"
+    summary: ClassVar[str] = (
+        "ARAP within given bounds on k, sigma_1 and sigma_2 by cone programs (Clarabel)."
+    )
+    energies: ClassVar[tuple[str, ...] | None] = ("arap",)
+    package: ClassVar[str | None] = "clarabel"
+
+    k: float = 0.8
+    sigma1: float = 5.0
+    sigma2: float = 0.3
+    tolerance: float = TOLERANCE
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _ = self.bounds  # refuses what is out of range
+
+    @property
+    def bounds(self) -> DistortionBounds:
+        """The bounds."""
+        return DistortionBounds(self.k, self.sigma1, self.sigma2)
+
+    def run(self, inputs: Inputs) -> Result:
+        """Alternate between frames and cone programs until none lowers the energy."""
+        return follow(GeneratedDescent(self, self._steps(inputs)), inputs)
+
+    def _steps(self, inputs: Inputs) -> Steps:
+        domain, options = inputs.domain, inputs.options
+        problem = _problem(domain, inputs.pose, options.p2p_weight)
+        descent = _Descent(problem, self.bounds, self.tolerance)
+        identity, start = HarmonicMap.identity(domain), self.harmonic_start(inputs)
+        now = descent.started(identity if start is None else start, options.align)
+        if not self.bounds.hold(now.certificate):
+            now = descent.started(identity, options.align)
+        seconds = 0.0
+        while True:
+            yield descent.snapshot(now, seconds)
+            began = time.perf_counter()
+            with single_blas_thread():
+                outcome = descent.advance(now)
+            if isinstance(outcome, Ending):
+                return outcome
+            now, seconds = outcome, time.perf_counter() - began
+
+
 @dataclass(frozen=True, eq=False)
 class Iterate:
     """A map that is proved to keep the bounds."""
@@ -52,40 +118,7 @@ class Iterate:
     v: Array
     energy: float
     certificate: Certificate
-    step: float = np.nan
-
-
-def bdhm(
-    domain: Domain,
-    pose: Pose,
-    p2p_weight: float,
-    bounds: DistortionBounds,
-    align: bool,
-    tolerance: float,
-    start: HarmonicMap | None = None,
-) -> Run:
-    """Alternate between frames and cone programs (Chen & Weber 2015) until none lowers the energy.
-
-    The energy never rises, and every map is proved to keep the bounds. The method has converged
-    when the program at the current map can, by its dual, lower the energy by no more than
-    ``tolerance`` of it: the map is then stationary within bounds at samples that are stricter than
-    those asked for by `MARGIN` or, where it uses more, by less. A start that is not proved to keep
-    the bounds gives way to the identity.
-    """
-    descent = _Descent(_problem(domain, pose, p2p_weight), bounds, tolerance)
-    identity = HarmonicMap.identity(domain)
-    now = descent.started(identity if start is None else start, align)
-    if not bounds.hold(now.certificate):
-        now = descent.started(identity, align)
-    seconds = 0.0
-    while True:
-        yield descent.snapshot(now, seconds)
-        began = time.perf_counter()
-        with single_blas_thread():
-            outcome = descent.advance(now)
-        if isinstance(outcome, Ending):
-            return outcome
-        now, seconds = outcome, time.perf_counter() - began
+    step: float | None = None
 
 
 class _Descent:
@@ -106,7 +139,7 @@ class _Descent:
         self.active = self.active.around(now.v)
         if self.far:
             outcome = self._attempt(now, 1)
-            self.far = isinstance(outcome, Iterate) and _SHORT <= outcome.step < 1
+            self.far = isinstance(outcome, Iterate) and _SHORT <= (outcome.step or 0.0) < 1
             if isinstance(outcome, Iterate) or outcome.status is Status.CONVERGED:
                 return outcome
         outcome = self._attempt(now, _ROUNDS)
@@ -182,15 +215,15 @@ class _Descent:
 
     def snapshot(self, now: Iterate, seconds: float) -> Snapshot:
         iso, p2p = self.problem.energies(now.v)
-        return Snapshot(
-            iso,
-            p2p,
-            seconds,
-            lambda: self.problem.map_of(now.v),
+        entry = Iteration(
+            iteration=0,
+            energy_iso=iso,
+            energy_p2p=p2p,
+            time=seconds,
             step=now.step,
             sigma2_lower=now.certificate.sigma2_lower,
-            certificate=now.certificate,
         )
+        return Snapshot(entry, lambda: self.problem.map_of(now.v), now.certificate)
 
 
 def _blocked(why: str) -> Ending:

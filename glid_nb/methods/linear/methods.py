@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, ClassVar, Literal
 
 from numpy.typing import NDArray
 
@@ -14,142 +14,160 @@ from glid_nb.methods.linear import weights
 from glid_nb.methods.linear.cauchy import cauchy_point_to_point
 from glid_nb.methods.linear.mean_value import handle_polygon, mean_value_coordinates
 from glid_nb.methods.linear.moving_least_squares import Kind, moving_least_squares
-from glid_nb.methods.mesh.setup import MeshProblem
-from glid_nb.methods.method import Inputs, Method, MethodError
-from glid_nb.methods.recording import Ending, Run, record
-from glid_nb.methods.result import MethodResult
-from glid_nb.solvers import Status
+from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
+from glid_nb.solvers import MethodError, Result, Status
+from glid_nb.solvers.loop import Ending, GeneratedDescent, Steps, follow
+from glid_nb.solvers.method import Family, Inputs
 
 Array = NDArray[Any]
 
 _FLAT = 1e-12  # an area relative to the square of the shape's longer side: none
 
 
-def _once(inputs: Inputs, images: Callable[[MeshProblem], Array]) -> MethodResult:
-    problem = MeshProblem.of(inputs)
+@dataclass(frozen=True)
+class LinearMethod(MeshMethod):
+    """A method that solves once; its images are shown on a mesh."""
 
-    def run() -> Run:
-        yield problem.snapshot(problem.start, 0.0)
-        began = time.perf_counter()
-        w = images(problem)
-        state = problem.snapshot(w, time.perf_counter() - began)
-        yield state
-        over = "no triangle is" if not state.flips else f"{state.flips} triangles are"
-        return Ending(Status.CONVERGED, f"A linear method, solved at once: {over} turned over.")
+    family: ClassVar[Family] = "linear"
+    options: ClassVar[tuple[str, ...]] = ("align", "max_iterations")
 
-    return record(inputs.method, run(), inputs.pose, inputs.max_iterations, inputs.callback)
+    def images(self, problem: MeshProblem, inputs: Inputs) -> Array:
+        """(v,) complex images of the mesh's vertices."""
+        raise NotImplementedError
+
+    def check_handles(self, inputs: Inputs) -> None:
+        """Raise :class:`MethodError` where these handles do not do."""
+        if self.needs_handles and not len(inputs.pose):
+            raise MethodError(f"the method {self.name!r} needs at least one handle")
+
+    def run(self, inputs: Inputs) -> Result:
+        """The one solve."""
+        self.check_handles(inputs)
+        problem = MeshProblem.of(inputs, self.n_vertices)
+
+        def steps() -> Steps:
+            yield problem.snapshot(problem.start, 0.0)
+            began = time.perf_counter()
+            w = self.images(problem, inputs)
+            state = problem.snapshot(w, time.perf_counter() - began)
+            yield state
+            flips = state.entry.flips
+            over = f"{flips} triangles are" if flips else "no triangle is"
+            return Ending(Status.CONVERGED, f"A linear method, solved at once: {over} turned over.")
+
+        return follow(GeneratedDescent(self, steps()), inputs)
 
 
-def mls(inputs: Inputs, kind: Kind = "rigid", alpha: float = 1.0) -> MethodResult:
-    if kind not in ("rigid", "similarity"):
-        raise MethodError(f"kind must be rigid or similarity, got {kind!r}")
+@dataclass(frozen=True)
+class MovingLeastSquares(LinearMethod):
+    """Image deformation by moving least squares (Schaefer, McPhail & Warren 2006)."""
 
-    def images(problem: MeshProblem) -> Array:
-        rest = problem.operators.rest
-        return moving_least_squares(rest, rest[problem.handles], problem.targets, kind, alpha)
+    name: ClassVar[str] = "mls"
+    label: ClassVar[str] = "Moving least squares"
+    summary: ClassVar[str] = (
+        "At each point the rigid motion that fits the handles best; it may fold."
+    )
 
-    return _once(inputs, images)
+    kind: Kind = "rigid"
+    alpha: float = 1.0
 
-
-def mean_value(inputs: Inputs) -> MethodResult:
-    if len(inputs.pose) < 3:
-        raise MethodError(
-            f"mean value coordinates take the handles as their cage and need at least 3 of them; "
-            f"there are {len(inputs.pose)}"
-        )
-    points = inputs.pose.handles
-    order = handle_polygon(as_complex(points))
-    if abs(signed_area(points[order])) <= _FLAT * inputs.domain.cage.longer_side**2:
-        raise MethodError(
-            "mean value coordinates take the handles as their cage, and these lie on one line; "
-            "add a handle beside it"
-        )
-
-    def images(problem: MeshProblem) -> Array:
+    def images(self, problem: MeshProblem, inputs: Inputs) -> Array:  # noqa: ARG002
+        """Of the vertices."""
         rest = problem.operators.rest
         handles = rest[problem.handles]
-        return mean_value_coordinates(rest, handles[order]) @ problem.targets[order]
-
-    return _once(inputs, images)
+        return moving_least_squares(rest, handles, problem.targets, self.kind, self.alpha)
 
 
-def cauchy(inputs: Inputs) -> MethodResult:
-    def images(problem: MeshProblem) -> Array:
-        map_ = cauchy_point_to_point(inputs.domain, inputs.pose, inputs.p2p_weight)
+@dataclass(frozen=True)
+class BoundedBiharmonicWeights(LinearMethod):
+    """Translations blended by bounded biharmonic weights (Jacobson et al. 2011)."""
+
+    name: ClassVar[str] = "bbw"
+    label: ClassVar[str] = "Bounded biharmonic weights"
+    summary: ClassVar[str] = (
+        "Translations blended by bounded biharmonic weights; it may fold (libigl)."
+    )
+    package: ClassVar[str | None] = "igl"
+    needs_handles: ClassVar[bool] = True
+
+    iterations: int = 20
+
+    def images(self, problem: MeshProblem, inputs: Inputs) -> Array:  # noqa: ARG002
+        """Of the vertices."""
+        mesh = problem.operators.mesh
+        w = weights.bounded_biharmonic_weights(mesh, problem.handles, self.iterations)
+        return _blended(problem, w)
+
+
+@dataclass(frozen=True)
+class HarmonicWeights(LinearMethod):
+    """Translations blended by weights of which a power of the Laplacian vanishes."""
+
+    name: ClassVar[str] = "harmonic-weights"
+    label: ClassVar[str] = "Harmonic weights"
+    summary: ClassVar[str] = (
+        "Translations blended by weights of which a power of the Laplacian vanishes: 1 harmonic, 2 "
+        "(default) biharmonic, 3 triharmonic; it may fold (libigl)."
+    )
+    package: ClassVar[str | None] = "igl"
+    needs_handles: ClassVar[bool] = True
+
+    power: Literal[1, 2, 3] = 2
+
+    def images(self, problem: MeshProblem, inputs: Inputs) -> Array:  # noqa: ARG002
+        """Of the vertices."""
+        mesh = problem.operators.mesh
+        return _blended(problem, weights.harmonic_weights(mesh, problem.handles, self.power))
+
+
+@dataclass(frozen=True)
+class MeanValueCoordinates(LinearMethod):
+    """Mean value coordinates with the handles as cage (Floater 2003)."""
+
+    name: ClassVar[str] = "mean-value"
+    label: ClassVar[str] = "Mean value coordinates"
+    summary: ClassVar[str] = "Mean value coordinates with the handles as cage; it may fold."
+
+    def check_handles(self, inputs: Inputs) -> None:
+        """They must make a polygon."""
+        points = inputs.pose.handles
+        if len(points) < 3:
+            raise MethodError(
+                f"mean value coordinates take the handles as their cage and need at least 3 of "
+                f"them; there are {len(points)}"
+            )
+        polygon = points[handle_polygon(as_complex(points))]
+        if abs(signed_area(polygon)) <= _FLAT * inputs.domain.cage.longer_side**2:
+            raise MethodError(
+                "mean value coordinates take the handles as their cage, and these lie on one line; "
+                "add a handle beside it"
+            )
+
+    def images(self, problem: MeshProblem, inputs: Inputs) -> Array:
+        """Of the vertices."""
+        rest = problem.operators.rest
+        order = handle_polygon(as_complex(inputs.pose.handles))
+        polygon = rest[problem.handles][order]
+        return mean_value_coordinates(rest, polygon) @ problem.targets[order]
+
+
+@dataclass(frozen=True)
+class CauchyCoordinates(LinearMethod):
+    """Point-to-point deformation by Cauchy coordinates (Weber, Ben-Chen & Gotsman 2009)."""
+
+    name: ClassVar[str] = "cauchy"
+    label: ClassVar[str] = "Cauchy coordinates"
+    summary: ClassVar[str] = "The smoothest conformal map through the handles; it may fold."
+    options: ClassVar[tuple[str, ...]] = ("p2p_weight", "align", "max_iterations")
+
+    def images(self, problem: MeshProblem, inputs: Inputs) -> Array:
+        """Of the vertices."""
+        weight = inputs.options.p2p_weight
+        map_ = cauchy_point_to_point(inputs.domain, inputs.pose, weight)
         return as_complex(map_(problem.operators.mesh.vertices))
-
-    return _once(inputs, images)
 
 
 def _blended(problem: MeshProblem, w: Array) -> Array:
     """Linear blend skinning by translations."""
     rest = problem.operators.rest
     return rest + w @ (problem.targets - rest[problem.handles])
-
-
-def bbw(inputs: Inputs, iterations: int = 20) -> MethodResult:
-    inputs.need_handles()
-
-    def images(problem: MeshProblem) -> Array:
-        mesh, handles = problem.operators.mesh, problem.handles
-        return _blended(problem, weights.bounded_biharmonic_weights(mesh, handles, iterations))
-
-    return _once(inputs, images)
-
-
-def harmonic(inputs: Inputs, power: int = 2) -> MethodResult:
-    inputs.need_handles()
-    if power not in (1, 2, 3):
-        raise MethodError(f"power must be 1, 2 or 3, got {power!r}")
-
-    def images(problem: MeshProblem) -> Array:
-        mesh, handles = problem.operators.mesh, problem.handles
-        return _blended(problem, weights.harmonic_weights(mesh, handles, power))
-
-    return _once(inputs, images)
-
-
-METHODS = (
-    Method(
-        "mls",
-        "Moving least squares",
-        "linear",
-        "At each point the rigid motion that fits the handles best; it may fold.",
-        mls,
-        weighted=False,
-    ),
-    Method(
-        "bbw",
-        "Bounded biharmonic weights",
-        "linear",
-        "Translations blended by bounded biharmonic weights; it may fold (libigl).",
-        bbw,
-        weighted=False,
-        package="igl",
-    ),
-    Method(
-        "harmonic-weights",
-        "Harmonic weights",
-        "linear",
-        "Translations blended by weights of which a power of the Laplacian vanishes: 1 harmonic, 2 "
-        "(default) biharmonic, 3 triharmonic; it may fold (libigl).",
-        harmonic,
-        weighted=False,
-        package="igl",
-    ),
-    Method(
-        "mean-value",
-        "Mean value coordinates",
-        "linear",
-        "Mean value coordinates with the handles as cage; it may fold.",
-        mean_value,
-        weighted=False,
-    ),
-    Method(
-        "cauchy",
-        "Cauchy coordinates",
-        "linear",
-        "The smoothest conformal map through the handles; it may fold.",
-        cauchy,
-    ),
-)

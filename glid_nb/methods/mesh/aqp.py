@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -11,9 +12,9 @@ from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.methods.mesh.local_global import local_global
 from glid_nb.methods.mesh.operators import MeshOperators, Pinned, flips, largest_step
 from glid_nb.methods.mesh.projection import Array, project
-from glid_nb.methods.mesh.setup import MeshProblem
-from glid_nb.methods.recording import Ending, Run
-from glid_nb.solvers import Status
+from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
+from glid_nb.solvers import MethodError, Status
+from glid_nb.solvers.loop import Ending, Steps
 
 _ARMIJO = 1e-4
 _SAFETY = 0.9
@@ -32,55 +33,84 @@ class _State:
     energy: float
 
 
-def aqp(
-    problem: MeshProblem,
-    kappa: float = 1000.0,
-    tolerance: float = 1e-9,
-    arap_iterations: int = 5,
-) -> Run:
+@dataclass(frozen=True)
+class AQP(MeshMethod):
     """Steps with the Laplacian in place of the Hessian, from extrapolated points.
 
     Started from ARAP that is projected onto maps without inverted triangles, as in the paper
     (Section 10). An extrapolated step that does not lower the energy is taken again without
     extrapolation, so the energy decreases throughout.
     """
-    operators, energy = problem.operators, problem.energy
-    pinned = Pinned(operators, problem.handles)
-    theta = (1 - np.sqrt(1 / kappa)) / (1 + np.sqrt(1 / kappa))
-    began = time.perf_counter()
-    w = problem.start
-    if np.abs(w[problem.handles] - problem.targets).max(initial=0) > 0:
-        w = local_global(operators, pinned, w, problem.targets, arap_iterations)
-        w, _ = project(operators, pinned, w)
-    now = _state(operators, energy, w)
-    if energy.name != "iso":
-        # The projection leaves slender triangles, where an exponential energy overflows.
-        now = _state(operators, energy, _smoothed(operators, pinned, w, theta))
-    yield problem.snapshot(now.w, time.perf_counter() - began)
-    if not np.isfinite(now.energy):
-        left = flips(now.fz, now.fzb)
-        return Ending(
-            Status.BLOCKED,
-            f"No start was found: the projection left {left} triangles turned over or nearly "
-            "flat, where the energy is not finite.",
-        )
-    before, step = now, 1.0
-    energies = [now.energy]
-    while True:
-        began = time.perf_counter()
-        found = _iterated(operators, energy, pinned, now, before, step, theta)
-        if found is None:
-            return _without_decrease(operators, energy, pinned, now)
-        before, (now, step) = now, found
-        yield problem.snapshot(now.w, time.perf_counter() - began, step)
-        energies.append(now.energy)
-        recent = energies[-1 - _WINDOW :]
-        if len(recent) > _WINDOW and recent[0] - recent[-1] <= tolerance * abs(recent[-1]):
-            return Ending(
-                Status.CONVERGED,
-                f"The solver converged: {_WINDOW} iterations together lower the energy by less "
-                f"than {tolerance:g} of it.",
+
+    name: ClassVar[str] = "aqp"
+    label: ClassVar[str] = "AQP"
+    summary: ClassVar[str] = "Accelerated Quadratic Proxy on a triangle mesh, hard constraints."
+    max_iterations: ClassVar[int] = 1000
+    energies: ClassVar[tuple[str, ...] | None] = ("iso", "exp", "amips", "mips", "custom")
+    options: ClassVar[tuple[str, ...]] = ("align", "max_iterations")
+
+    kappa: float = 1000.0
+    tolerance: float = 1e-9
+    arap_iterations: int = 5
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.kappa < 1:
+            raise MethodError(
+                f"kappa must be at least 1, at which AQP does not extrapolate; got {self.kappa!r}"
             )
+        if self.arap_iterations < 1:
+            raise MethodError(
+                "arap_iterations must be at least 1: the first brings the handles to their targets"
+            )
+
+    def steps(self, problem: MeshProblem) -> Steps:
+        """Extrapolated steps while they lower the energy."""
+        # Hard constraints: a positional part that is 0 but for rounding would be noise times
+        # lambda.
+        problem = replace(problem, p2p_weight=1.0)
+        operators, energy = problem.operators, problem.energy
+        pinned = Pinned(operators, problem.handles)
+        theta = (1 - np.sqrt(1 / self.kappa)) / (1 + np.sqrt(1 / self.kappa))
+        began = time.perf_counter()
+        now = self._started(problem, pinned, theta)
+        yield problem.snapshot(now.w, time.perf_counter() - began)
+        if not np.isfinite(now.energy):
+            left = flips(now.fz, now.fzb)
+            return Ending(
+                Status.BLOCKED,
+                f"No start was found: the projection left {left} triangles turned over or nearly "
+                "flat, where the energy is not finite.",
+            )
+        before, step = now, 1.0
+        energies = [now.energy]
+        while True:
+            began = time.perf_counter()
+            found = _iterated(operators, energy, pinned, now, before, step, theta)
+            if found is None:
+                return _without_decrease(operators, energy, pinned, now)
+            before, (now, step) = now, found
+            yield problem.snapshot(now.w, time.perf_counter() - began, step)
+            energies.append(now.energy)
+            recent = energies[-1 - _WINDOW :]
+            gain = recent[0] - recent[-1]
+            if len(recent) > _WINDOW and gain <= self.tolerance * abs(recent[-1]):
+                return Ending(
+                    Status.CONVERGED,
+                    f"The solver converged: {_WINDOW} iterations together lower the energy by less "
+                    f"than {self.tolerance:g} of it.",
+                )
+
+    def _started(self, problem: MeshProblem, pinned: Pinned, theta: float) -> _State:
+        """ARAP, projected, and smoothed for other energies than the symmetric Dirichlet energy."""
+        operators, energy, w = problem.operators, problem.energy, problem.start
+        if np.abs(w[problem.handles] - problem.targets).max(initial=0) > 0:
+            w = local_global(operators, pinned, w, problem.targets, self.arap_iterations)
+            w, _ = project(operators, pinned, w)
+        if energy.name != "iso":
+            # The projection leaves slender triangles, where an exponential energy overflows.
+            w = _smoothed(operators, pinned, w, theta)
+        return _state(operators, energy, w)
 
 
 def _iterated(

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import time
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import numpy as np
 
 from glid_nb.energies import AMIPS, ARAP, Energy, ExponentialSymmetricDirichlet
 from glid_nb.methods.mesh.operators import flips
-from glid_nb.methods.mesh.setup import MeshProblem
-from glid_nb.methods.method import MethodError
-from glid_nb.methods.recording import Ending, Run
-from glid_nb.solvers import Status
+from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
+from glid_nb.solvers import MethodError, Status
+from glid_nb.solvers.loop import Ending, Steps
 
 _WINDOW = 5
 
@@ -52,12 +52,59 @@ def slim_energy(energy: Energy) -> tuple[str, float]:
     }[energy.name]
 
 
-def slim(problem: MeshProblem, tolerance: float = 1e-9) -> Run:
+@dataclass(frozen=True)
+class SLIM(MeshMethod):
     """Scalable Locally Injective Mappings (Rabinovich et al. 2017), soft constraints.
 
     libigl minimises ``sum_t 2 area_t E_t + soft_p sum |f(p_i) - q_i|^2``; ``soft_p`` is chosen so
-    that this is a multiple of our energy with the same ``lambda``.
+    that this is a multiple of our energy with the same ``lambda``. A start with triangles turned
+    over is left out.
     """
+
+    name: ClassVar[str] = "slim"
+    label: ClassVar[str] = "SLIM"
+    summary: ClassVar[str] = (
+        "Scalable Locally Injective Mappings on a triangle mesh, soft constraints (libigl)."
+    )
+    max_iterations: ClassVar[int] = 300
+    energies: ClassVar[tuple[str, ...] | None] = ("iso", "exp", "mips")
+    package: ClassVar[str | None] = "igl"
+
+    tolerance: float = 1e-9
+
+    def check_energy(self, energy: Energy) -> None:
+        """Where libigl has something close, say what."""
+        if energy.name in ("amips", "arap", "exp"):
+            slim_energy(energy)
+        super().check_energy(energy)
+
+    def steps(self, problem: MeshProblem) -> Steps:
+        """libigl's iterations."""
+        return _slim(problem, self.tolerance)
+
+
+@dataclass(frozen=True)
+class ARAPLocalGlobal(MeshMethod):
+    """As-rigid-as-possible by local and global steps (Liu et al. 2008), hard constraints."""
+
+    name: ClassVar[str] = "arap-mesh"
+    label: ClassVar[str] = "ARAP, local/global"
+    summary: ClassVar[str] = (
+        "As-rigid-as-possible on a triangle mesh, hard constraints; it may fold (libigl)."
+    )
+    energies: ClassVar[tuple[str, ...] | None] = ("arap",)
+    package: ClassVar[str | None] = "igl"
+    options: ClassVar[tuple[str, ...]] = ("align", "max_iterations")
+    needs_handles: ClassVar[bool] = True
+
+    tolerance: float = 1e-9
+
+    def steps(self, problem: MeshProblem) -> Steps:
+        """libigl's iterations."""
+        return _arap(problem, self.tolerance)
+
+
+def _slim(problem: MeshProblem, tolerance: float) -> Steps:
     import igl  # noqa: PLC0415
 
     name, factor = slim_energy(problem.energy)
@@ -81,7 +128,7 @@ def slim(problem: MeshProblem, tolerance: float = 1e-9) -> Run:
     while True:
         state = problem.snapshot(w, seconds)
         yield state
-        energies.append(state.energy_iso + state.energy_p2p)
+        energies.append(state.entry.energy)
         if _stalled(energies, tolerance):
             return _converged(tolerance)
         began = time.perf_counter()
@@ -90,8 +137,7 @@ def slim(problem: MeshProblem, tolerance: float = 1e-9) -> Run:
         w = _complex(images)
 
 
-def arap(problem: MeshProblem, tolerance: float = 1e-9) -> Run:
-    """As-rigid-as-possible by local and global steps (Liu et al. 2008), hard constraints."""
+def _arap(problem: MeshProblem, tolerance: float) -> Steps:
     import igl  # noqa: PLC0415
 
     assert isinstance(problem.energy, ARAP)
@@ -109,8 +155,8 @@ def arap(problem: MeshProblem, tolerance: float = 1e-9) -> Run:
         state = problem.snapshot(_complex(images), seconds)
         yield state
         # The start misses the hard constraints, so its energy does not count.
-        if energies or state.energy_p2p == 0:
-            energies.append(state.energy_iso)
+        if energies or state.entry.energy_p2p == 0:
+            energies.append(state.entry.energy_iso)
         else:
             energies.append(np.inf)
         if _stalled(energies, tolerance):

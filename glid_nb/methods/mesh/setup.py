@@ -1,23 +1,27 @@
-"""A deformation problem on a mesh."""
+"""A deformation problem on a mesh, and the methods that solve it."""
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy
+from glid_nb.geometry import MeshMap, Triangulation, triangulate
 from glid_nb.harmonic import as_complex
-from glid_nb.methods.mesh.map import MeshMap
 from glid_nb.methods.mesh.operators import MeshOperators, flips
-from glid_nb.methods.method import Inputs
-from glid_nb.methods.recording import Snapshot
-from glid_nb.methods.result import DeformationMap
+from glid_nb.solvers import DeformationMap, Iteration, Method, MethodError, Result
+from glid_nb.solvers.loop import GeneratedDescent, Snapshot, Steps, follow
+from glid_nb.solvers.method import Family, Inputs
+from glid_nb.solvers.start import RigidMotion
 
 Array = NDArray[Any]
+
+_TRIANGLE = 3
+_AT_VERTEX = 1e-9  # of the shape's longer side
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,47 +39,100 @@ class MeshProblem:
     """(v,) complex: the images to start from, rigidly moved if that was asked for."""
 
     @classmethod
-    def of(cls, inputs: Inputs) -> MeshProblem:
-        """The mesh problem of a method's inputs."""
-        mesh, handles = inputs.mesh()
+    def of(cls, inputs: Inputs, n_vertices: int) -> MeshProblem:
+        """The problem on the start's mesh, or on a new one of about ``n_vertices`` vertices.
+
+        Raises
+        ------
+        MethodError
+            When a handle is no vertex of the start's mesh.
+        """
+        pose, start = inputs.pose, inputs.start_map
+        if isinstance(start, MeshMap):
+            mesh = start.triangulation
+        else:
+            mesh = triangulate(inputs.domain.cage, n_vertices, points=pose.handles)
+        handles = _vertices_at(mesh, pose.handles, _AT_VERTEX * inputs.domain.cage.longer_side)
         operators = MeshOperators(mesh)
-        targets = inputs.pose.targets @ np.array([1, 1j])
-        start = _images(inputs.start, operators)
-        if inputs.align and len(handles):
-            start = _aligned(start, handles, targets)
-        return cls(operators, handles, targets, inputs.energy, inputs.p2p_weight, start)
+        targets = pose.targets @ np.array([1, 1j])
+        images = _images(start, operators)
+        if inputs.options.align and len(handles):
+            turn, middle, aim = RigidMotion.closest(images[handles], targets)
+            images = aim + turn * (images - middle)
+        weight = inputs.options.p2p_weight
+        return cls(operators, handles, targets, inputs.energy, weight, images)
 
     def map_of(self, w: Array) -> MeshMap:
         """The map with these images."""
         return MeshMap(self.operators.mesh, np.stack([np.real(w), np.imag(w)], axis=-1))
 
-    def snapshot(self, w: Array, seconds: float, step: float = math.nan) -> Snapshot:
-        """The state of the record; none of this work is timed."""
+    def snapshot(self, w: Array, seconds: float, step: float | None = None) -> Snapshot:
+        """The state for the record; none of this work is timed."""
         fz, fzb = self.operators.wirtinger(w)
         miss = w[self.handles] - self.targets
-        return Snapshot(
-            self.operators.energy(self.energy, fz, fzb),
-            self.p2p_weight / 2 * float((np.abs(miss) ** 2).sum()),
-            seconds,
-            lambda: self.map_of(w),
+        entry = Iteration(
+            iteration=0,
+            energy_iso=self.operators.energy(self.energy, fz, fzb),
+            energy_p2p=self.p2p_weight / 2 * float((np.abs(miss) ** 2).sum()),
+            time=seconds,
             step=step,
             flips=flips(fz, fzb),
         )
+        return Snapshot(entry, lambda: self.map_of(w))
+
+
+def _vertices_at(mesh: Triangulation, points: Array, tolerance: float) -> Array:
+    """(h,) indices of the vertices at points."""
+    if not len(points):
+        return np.empty(0, dtype=np.int32)
+    gap = np.linalg.norm(mesh.vertices[:, None] - points, axis=2)
+    index = gap.argmin(axis=0)
+    missing = np.flatnonzero(gap.min(axis=0) > tolerance)
+    if missing.size:
+        i = int(missing[0])
+        x, y = points[i]
+        raise MethodError(
+            f"handle {i} at ({x:.6g}, {y:.6g}) is no vertex of the triangulation of the map to "
+            "start from; make it with triangulate(cage, points=handles), or give no start"
+        )
+    return index.astype(np.int32)
 
 
 def _images(map: DeformationMap | None, operators: MeshOperators) -> Array:
     """The images of the vertices, (v,) complex; by default they stay where they are."""
     if map is None:
         return operators.rest
-    if isinstance(map, MeshMap) and map.triangulation is operators.mesh:
+    if isinstance(map, MeshMap):
         return as_complex(map.images)
     return as_complex(map(operators.mesh.vertices))
 
 
-def _aligned(w: Array, handles: Array, targets: Array) -> Array:
-    """The rigid motion that brings the handles closest to their targets."""
-    images = w[handles]
-    middle, aim = images.mean(), targets.mean()
-    correlation = np.vdot(images - middle, targets - aim)
-    turn = correlation / abs(correlation) if abs(correlation) > 0 else 1.0
-    return aim + turn * (w - middle)
+@dataclass(frozen=True)
+class MeshMethod(Method):
+    """A method on a triangle mesh of about ``n_vertices`` vertices, handles among them.
+
+    To choose the mesh, start from a map of it: ``MeshMap(triangulation, triangulation.vertices)``.
+    What it returns has no certificate.
+    """
+
+    family: ClassVar[Family] = "mesh"
+    needs_handles: ClassVar[bool] = False
+
+    n_vertices: int = field(default=10_000, kw_only=True)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.n_vertices < _TRIANGLE:
+            raise MethodError(f"n_vertices must be at least {_TRIANGLE}, got {self.n_vertices!r}")
+
+    def steps(self, problem: MeshProblem) -> Steps:
+        """The method itself."""
+        raise NotImplementedError
+
+    @double_precision
+    def run(self, inputs: Inputs) -> Result:
+        """Its steps, recorded."""
+        if self.needs_handles and not len(inputs.pose):
+            raise MethodError(f"the method {self.name!r} needs at least one handle")
+        steps = self.steps(MeshProblem.of(inputs, self.n_vertices))
+        return follow(GeneratedDescent(self, steps), inputs)

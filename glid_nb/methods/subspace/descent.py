@@ -1,8 +1,8 @@
-"""One loop for all descent methods in the harmonic subspace; they differ in their direction."""
+"""Methods in the harmonic subspace that choose a direction on the host, one step at a time."""
 
 from __future__ import annotations
 
-import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Protocol
 
@@ -10,16 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._runtime import double_precision, single_blas_thread
-from glid_nb.methods.recording import Ending, Run, Snapshot
-from glid_nb.methods.subspace.evaluation import Move, Point
 from glid_nb.methods.subspace.problem import SubspaceProblem
-from glid_nb.solvers import Status, outcome
-from glid_nb.solvers.newton import LEAST_ENERGY
+from glid_nb.solvers import Iteration, Method, Result, Status, outcome
+from glid_nb.solvers.evaluation import Point
+from glid_nb.solvers.loop import Advance, Descent, Ending, Reached, follow
+from glid_nb.solvers.method import Family, Inputs
+from glid_nb.solvers.problem import map_from
+from glid_nb.solvers.step import LEAST_ENERGY
 
 Array = NDArray[Any]
 
-_PATIENCE = 3
-_MOST_ROUNDS = 40
 # A decrease promised by the direction that rounding of the energy can hide.
 _ROUNDING = 1e-8
 # The same for a first-order direction, which promises far more than a step can hold.
@@ -50,15 +50,12 @@ class View:
     point: Point
     gradient: Array
     """(4c,) with respect to the unknowns, 0 elsewhere."""
-    step: float
-    """Length of the last step, NaN at first."""
+    step: float | None = None
+    """Length of the last step."""
 
 
 class Direction(Protocol):
     """How a method chooses where to go; it may remember what it has seen."""
-
-    second_order: ClassVar[bool]
-    """Whether ``-gradient . direction`` is a Newton decrement, whose size tells of convergence."""
 
     def __call__(self, view: View) -> Array | Ending:
         """A descent direction (4c,), or the end of the method."""
@@ -69,108 +66,204 @@ class Direction(Protocol):
         ...
 
 
-@double_precision
-def _first(problem: SubspaceProblem) -> Point:
-    return problem.evaluate(problem.start)
+class Memoryless:
+    """What a direction that remembers nothing shares with others of the kind."""
+
+    def forget(self) -> bool:
+        """There is nothing to drop."""
+        return False
 
 
-def descend(problem: SubspaceProblem, choose: Direction) -> Run:
-    """Follow a method's directions by Newton's own line search and certificate."""
-    point = _first(problem)
-    seconds, compiling = problem.watch.lap()
-    yield _snapshot(problem, point, seconds, compiling)
-    energies = [_total(point)]
-    step = np.nan
-    while True:
-        taken = _step(problem, choose, point, step)
-        if isinstance(taken, Ending):
-            return taken
-        point, step = taken.point, float(taken.step)
-        seconds, compiling = problem.watch.lap()
-        yield _snapshot(
-            problem, point, seconds, compiling, step=step, sigma2_lower=float(taken.sigma2_lower)
-        )
-        energies.append(_total(point))
-        gain = energies[-2] - energies[-1]
-        if choose.second_order and max(step, gain / _scale(point)) < _CREEPING:
-            return Ending(Status.BLOCKED, _CREPT)
-        recent = energies[-1 - _WINDOW :]
-        stalled = len(recent) > _WINDOW and recent[0] - recent[-1] <= _GAIN * abs(recent[-1])
-        if stalled and not choose.second_order:
-            return Ending(
-                Status.CONVERGED,
-                f"The solver converged: {_WINDOW} iterations together lower the energy by less "
-                f"than {_GAIN:g} of it.",
-            )
+@dataclass(frozen=True)
+class SubspaceMethod(Method):
+    """A method in the harmonic subspace; its maps are certified."""
 
-
-@double_precision
-def _step(
-    problem: SubspaceProblem, choose: Direction, point: Point, last_step: float
-) -> Move | Ending:
-    """The next certified step, panels split where that needs it, or why there is none."""
-    rounds = total_rounds = 0
-    with single_blas_thread():
-        direction: Array | None = None
-        while True:
-            if direction is None:
-                gradient = np.asarray(point.gradient)
-                chosen = _timed(problem, choose, View(problem, point, gradient, last_step))
-                if isinstance(chosen, Ending):
-                    return chosen
-                length = np.linalg.norm(chosen) / max(np.linalg.norm(point.coefficients), 1e-300)
-                direction = chosen if length <= _LONGEST else chosen * (_LONGEST / length)
-            promised = -float(gradient @ direction)
-            scale = _scale(point)
-            if choose.second_order and promised / 2 <= problem.options.tolerance * scale:
-                return Ending(Status.CONVERGED)
-            move = problem.advance(point, direction, rounds < _PATIENCE)
-            end = int(move.outcome)
-            if end == outcome.RUNNING:
-                return move
-            if end == outcome.NO_DECREASE:
-                if choose.forget():
-                    direction = None
-                    continue
-                hidden = _ROUNDING if choose.second_order else _SMALL_SLOPE
-                if promised <= 2 * hidden * scale:
-                    return Ending(Status.STATIONARY)
-                return Ending(Status.BLOCKED, _JAMMED)
-            total_rounds += 1
-            rounds = 0 if end == outcome.BLOCKED else rounds + 1
-            if total_rounds > _MOST_ROUNDS or not problem.refine(np.asarray(move.refused)):
-                return Ending(Status.BLOCKED)
-            point = problem.evaluate(np.asarray(point.coefficients))
-            gradient = np.asarray(point.gradient)
-
-
-def _timed(problem: SubspaceProblem, choose: Direction, view: View) -> Array | Ending:
-    """The direction, its host work counted; device calls within count themselves."""
-    watch = problem.watch
-    counted, began = watch.seconds + watch.compile_time, time.perf_counter()
-    chosen = choose(view)
-    elapsed = time.perf_counter() - began
-    watch.seconds += max(elapsed - (watch.seconds + watch.compile_time - counted), 0.0)
-    return chosen
-
-
-def _snapshot(
-    problem: SubspaceProblem, point: Point, seconds: float, compiling: float, **more: Any
-) -> Snapshot:
-    coefficients = np.asarray(point.coefficients)
-    return Snapshot(
-        float(point.energy_iso),
-        float(point.energy_p2p),
-        seconds,
-        lambda: problem.map_of(coefficients),
-        compile_time=compiling,
-        **more,
+    family: ClassVar[Family] = "harmonic"
+    options: ClassVar[tuple[str, ...]] = (
+        "sampling",
+        "certificate",
+        "p2p_weight",
+        "conformal",
+        "align",
+        "max_iterations",
     )
 
+    def direction(self) -> Direction:
+        """What chooses the directions of one solve."""
+        raise NotImplementedError
 
-def _scale(point: Point) -> float:
-    return max(abs(_total(point)), LEAST_ENERGY)
+    def problem(self, inputs: Inputs) -> SubspaceProblem:
+        """The problem on the device."""
+        start = self.harmonic_start(inputs)
+        return SubspaceProblem(inputs.domain, inputs.pose, inputs.energy, inputs.options, start)
+
+    @double_precision
+    def run(self, inputs: Inputs) -> Result:
+        """Follow the directions by Newton's own line search and certificate."""
+        descent = DirectedDescent(self, self.problem(inputs), self.direction(), self.decrement)
+        return follow(descent, inputs)
+
+    @property
+    def decrement(self) -> float | None:
+        """The share of the energy that half of ``-gradient . direction`` falls below at a minimum;
+        None for first-order directions, where that is no Newton decrement."""
+        return None
 
 
-def _total(point: Point) -> float:
-    return float(point.energy_iso) + float(point.energy_p2p)
+@dataclass(frozen=True)
+class SecondOrderMethod(SubspaceMethod):
+    """A variant of Newton's method; it has converged where ``decrement^2 / 2`` falls below
+    ``tolerance`` times the energy."""
+
+    tolerance: float = 1e-10
+
+    @property
+    def decrement(self) -> float | None:
+        """The tolerance."""
+        return self.tolerance
+
+
+class DirectedDescent(Descent):
+    """Follows a method's directions by Newton's own line search and certificate.
+
+    ``tolerance`` is None for first-order directions.
+    """
+
+    def __init__(
+        self,
+        method: Method,
+        problem: SubspaceProblem,
+        choose: Direction,
+        tolerance: float | None,
+    ) -> None:
+        self.method, self.subspace, self.choose = method, problem, choose
+        self.tolerance = tolerance
+        self.point, self.gradient = problem.evaluate(problem.start)
+        self.step: float | None = None
+        self.sigma2_lower: Array | None = None
+        self.chosen: Array | None = None
+        self.ending: Ending | None = None
+        self.just_split = 0
+        self.initial = self._entry(0)
+
+    @property
+    def discretisation(self) -> Any:
+        """The panels."""
+        return self.subspace.discretisation
+
+    @property
+    def compile_time(self) -> float:
+        """Seconds so far."""
+        return self.subspace.watch.compile_time
+
+    def advance(self, before: int, left: int, may_refine: bool) -> Advance:
+        """The next certified step, or why there is none."""
+        if not left:
+            return Advance()
+        with single_blas_thread():
+            if self.chosen is None:
+                self._choose()
+            if self.ending is not None or self._is_minimal():
+                return Advance()
+            assert self.chosen is not None
+            move = self.subspace.advance(self.point, self.gradient, self.chosen, may_refine)
+            end = int(move.outcome)
+            if end != outcome.RUNNING:
+                return Advance(end, refused=np.asarray(move.refused))
+        self.point, self.gradient = move.point, np.asarray(move.gradient)
+        self.step, self.chosen = float(move.step), None
+        panels = len(self.discretisation.panels)
+        self.sigma2_lower = np.asarray(move.sigma2_lower)[:panels]
+        least = float(self.sigma2_lower.min())
+        entry = self._entry(before + 1, self.step, least, self.just_split)
+        self.just_split = 0
+        return Advance(iterations=[entry])
+
+    def reached(self) -> Reached:
+        """After the last step."""
+        disc, coefficients = self.discretisation, np.asarray(self.point.coefficients)
+        return Reached(
+            float(self.point.energy_iso),
+            float(self.point.energy_p2p),
+            lambda: map_from(disc, coefficients),
+            self.sigma2_lower,
+        )
+
+    def adapt(self, done: Advance, history: Sequence[Iteration]) -> Ending | None:
+        """End where steps gain nothing; try without memory where none lowers the energy."""
+        if self.ending is not None:
+            return self.ending
+        if done.outcome == outcome.NO_DECREASE:
+            if self.choose.forget():
+                self.chosen = None
+                return None
+            hidden = _SMALL_SLOPE if self.tolerance is None else _ROUNDING
+            hides = self._promised() <= 2 * hidden * self._scale()
+            return Ending(Status.STATIONARY) if hides else Ending(Status.BLOCKED, _JAMMED)
+        return self._crept(history) if done.iterations else None
+
+    def split(self, refused: Array) -> int:
+        """Split panels; the direction stays, the values are computed anew."""
+        count = self.subspace.split(refused)
+        self.just_split += count
+        if count:
+            coefficients = np.asarray(self.point.coefficients)
+            self.point, self.gradient = self.subspace.evaluate(coefficients)
+        return count
+
+    def _choose(self) -> None:
+        view = View(self.subspace, self.point, self.gradient, self.step)
+        chosen = self.subspace.watch.host(self.choose, view)
+        if isinstance(chosen, Ending):
+            self.ending = chosen
+            return
+        length = np.linalg.norm(chosen) / max(np.linalg.norm(self.point.coefficients), 1e-300)
+        self.chosen = chosen if length <= _LONGEST else chosen * (_LONGEST / length)
+
+    def _is_minimal(self) -> bool:
+        if self.tolerance is None or self._promised() / 2 > self.tolerance * self._scale():
+            return False
+        self.ending = Ending(Status.CONVERGED)
+        return True
+
+    def _crept(self, history: Sequence[Iteration]) -> Ending | None:
+        """The end, where the last steps gain next to nothing."""
+        energies = [entry.energy for entry in (self.initial, *history)]
+        if self.tolerance is not None:
+            gain = (energies[-2] - energies[-1]) / self._scale()
+            assert self.step is not None
+            creeps = max(self.step, gain) < _CREEPING
+            return Ending(Status.BLOCKED, _CREPT) if creeps else None
+        recent = energies[-1 - _WINDOW :]
+        if len(recent) <= _WINDOW or recent[0] - recent[-1] > _GAIN * abs(recent[-1]):
+            return None
+        return Ending(
+            Status.CONVERGED,
+            f"The solver converged: {_WINDOW} iterations together lower the energy by less "
+            f"than {_GAIN:g} of it.",
+        )
+
+    def _promised(self) -> float:
+        assert self.chosen is not None
+        return -float(self.gradient @ self.chosen)
+
+    def _scale(self) -> float:
+        return max(abs(float(self.point.energy)), LEAST_ENERGY)
+
+    def _entry(
+        self,
+        number: int,
+        step: float | None = None,
+        sigma2_lower: float | None = None,
+        split: int | None = None,
+    ) -> Iteration:
+        return Iteration(
+            iteration=number,
+            energy_iso=float(self.point.energy_iso),
+            energy_p2p=float(self.point.energy_p2p),
+            time=self.subspace.watch.lap(),
+            step=step,
+            sigma2_lower=sigma2_lower,
+            panels=len(self.discretisation.panels),
+            panels_split=split,
+        )

@@ -1,15 +1,16 @@
-"""First-order directions: L-BFGS and gradient descent."""
+"""First-order methods: L-BFGS and gradient descent."""
 
 from __future__ import annotations
 
 from collections import deque
+from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from glid_nb.methods.subspace.descent import View
+from glid_nb.methods.subspace.descent import Direction, Memoryless, SubspaceMethod, View
 
 Array = NDArray[Any]
 
@@ -22,22 +23,9 @@ MEMORY = 5
 _SAMPLES = 1e4
 
 
-class GradientDescent:
-    """The negative gradient, scaled to the size of the coefficients for the line search's sake."""
-
-    second_order: ClassVar[bool] = False
-
-    def __call__(self, view: View) -> Array:
-        slope = float(np.linalg.norm(view.gradient))
-        size = float(np.linalg.norm(view.point.coefficients))
-        return -(size / slope if slope > 0 else 1.0) * view.gradient
-
-    def forget(self) -> bool:
-        return False
-
-
-class LBFGS:
-    """L-BFGS with ``k`` pairs (Nocedal & Wright 2006, Algorithm 7.4).
+@dataclass(frozen=True)
+class LBFGS(SubspaceMethod):
+    """L-BFGS with ``memory`` pairs (Nocedal & Wright 2006, Algorithm 7.4).
 
     The Hessian that it starts from is the exact one of the positional energy plus, for the
     isometric energy, a multiple of the identity, as in the published code, or the Hessian of the
@@ -52,7 +40,46 @@ class LBFGS:
     1e-4, and thousands of iterations change little. The certificate has no part in that.
     """
 
-    second_order: ClassVar[bool] = False
+    name: ClassVar[str] = "lbfgs"
+    label: ClassVar[str] = "L-BFGS"
+    summary: ClassVar[str] = (
+        "L-BFGS with five pairs, started from the identity plus the positional Hessian."
+    )
+    max_iterations: ClassVar[int] = 3000
+
+    memory: int = MEMORY
+    initial: Initial = "identity"
+
+    def direction(self) -> Direction:
+        """L-BFGS' direction."""
+        return LBFGSDirection(self.memory, self.initial)
+
+
+@dataclass(frozen=True)
+class GradientDescent(SubspaceMethod):
+    """Steepest descent."""
+
+    name: ClassVar[str] = "gradient-descent"
+    label: ClassVar[str] = "Gradient descent"
+    summary: ClassVar[str] = "Steepest descent."
+    max_iterations: ClassVar[int] = 1000
+
+    def direction(self) -> Direction:
+        """The negative gradient."""
+        return GradientDirection()
+
+
+class GradientDirection(Memoryless):
+    """The negative gradient, scaled to the size of the coefficients for the line search's sake."""
+
+    def __call__(self, view: View) -> Array:
+        slope = float(np.linalg.norm(view.gradient))
+        size = float(np.linalg.norm(view.point.coefficients))
+        return -(size / slope if slope > 0 else 1.0) * view.gradient
+
+
+class LBFGSDirection:
+    """L-BFGS' approximation of Newton's direction."""
 
     def __init__(self, memory: int = MEMORY, initial: Initial = "identity") -> None:
         self.initial: Initial = initial
@@ -61,13 +88,13 @@ class LBFGS:
         self._factor: Any = None
 
     def __call__(self, view: View) -> Array:
+        free = view.problem.free
         if self._factor is None:
-            iso = np.diag(np.where(view.problem.unknowns.free > 0, 2 / _SAMPLES, 1.0))
+            iso = np.diag(np.where(free > 0, 2 / _SAMPLES, 1.0))
             if self.initial == "dirichlet":
                 # Handles in one place leave the Dirichlet Hessian singular.
                 iso = view.problem.hessian(view.point, "dirichlet") + 1e-9 * np.eye(len(iso))
             self._factor = scipy.linalg.cho_factor(view.problem.p2p_hessian + iso, lower=True)
-        free = view.problem.unknowns.free
         x = np.asarray(view.point.coefficients) * free
         if self._last is not None:
             s, y = x - self._last[0], view.gradient - self._last[1]

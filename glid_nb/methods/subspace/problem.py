@@ -1,4 +1,8 @@
-"""A deformation problem in the harmonic subspace, on the host."""
+"""What every method in the harmonic subspace computes on the device, and the state of its panels.
+
+Three programs: values and gradient at a map, the Hessian, and the step along a direction with
+Newton's own line search and certificate. The direction itself is the method's affair, on the host.
+"""
 
 from __future__ import annotations
 
@@ -6,27 +10,106 @@ import functools
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._jax import jax, jnp
-from glid_nb._runtime import compilation_clock, double_precision
+from glid_nb._arrays import AnyArray
+from glid_nb._jax import jax, jit, jnp
+from glid_nb._runtime import COMPILER_OPTIONS, compilation_clock, double_precision
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods.subspace import evaluation
-from glid_nb.methods.subspace.evaluation import Curvature, Move, Point, Setting
-from glid_nb.solvers import OptionError, Options, Pose
-from glid_nb.solvers.align import aligned
+from glid_nb.solvers import OptionError, Options, Pose, evaluation, line_search
 from glid_nb.solvers.discretisation import discretise
-from glid_nb.solvers.solve import constraints_of, map_from, real_coefficients
-from glid_nb.solvers.start import check_proved
-from glid_nb.solvers.unknowns import restrict_hessian, unknowns_of
+from glid_nb.solvers.evaluation import Point
+from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
+from glid_nb.solvers.problem import Positional, Problem, constraints_of, real_coefficients
+from glid_nb.solvers.start import aligned, check_conformal, check_proved
+from glid_nb.solvers.unknowns import expand, restrict_gradient, restrict_hessian, unknowns_of
 
-Array = NDArray[Any]
+if TYPE_CHECKING:
+    from jaxtyping import Array, Bool, Float, Int
+
 T = TypeVar("T")
+
+Curvature = Literal["exact", "projected", "gauss-newton", "dirichlet"]
+
+
+class Move(NamedTuple):
+    """The outcome of one step."""
+
+    outcome: Int[AnyArray, ""]
+    point: Point
+    gradient: Float[Array, " 4c"]
+    step: Float[AnyArray, ""]
+    sigma2_lower: Float[AnyArray, " p"]
+    """Certified bound per panel."""
+    refused: Bool[AnyArray, " p"]
+
+
+@functools.partial(jit, compiler_options=COMPILER_OPTIONS)
+def evaluate(
+    problem: Problem, coefficients: Float[Array, " 4c"]
+) -> tuple[Point, Float[Array, " 4c"]]:
+    """A map's energies, and their gradient with respect to the unknowns, 0 elsewhere."""
+    return _evaluated(problem, Positional.of(problem.constraints), coefficients)
+
+
+def _evaluated(problem: Problem, positional: Positional, y: Float[Array, " 4c"]) -> Any:
+    point = evaluation.evaluated(problem, positional, y)
+    gradient = evaluation.gradient(problem, positional, point)
+    return point, restrict_gradient(gradient, problem.unknowns)
+
+
+@functools.partial(jit, static_argnames="curvature", compiler_options=COMPILER_OPTIONS)
+def hessian(problem: Problem, point: Point, *, curvature: Curvature) -> Float[Array, "4c 4c"]:
+    """Hessian of the isometric energy alone with respect to the unknowns (33).
+
+    ``gauss-newton`` is for ARAP, whose density is ``2 (|f_z| - 1)^2 + 2 |f_zbar|^2``, a sum of
+    squares: second derivatives of the residuals are left out. ``dirichlet`` is the Hessian of the
+    Dirichlet energy ``|f_z|^2 + |f_zbar|^2``.
+    """
+    matrices = problem.matrices
+    nodes = point.samples.nodes[:, matrices.hessian_index]
+    x, y = evaluation.squares(nodes)
+    if curvature == "gauss-newton":
+        zero, four = jnp.zeros_like(x), jnp.full_like(x, 4.0)
+        local = LocalHessian(zero, four, four, four, zero)
+    elif curvature == "dirichlet":
+        two, zero = jnp.full_like(x, 2.0), jnp.zeros_like(x)
+        local = LocalHessian(two, two, two, two, zero)
+    else:
+        local = local_hessian(problem.energy.differentials(x, y), x, y)
+        if curvature == "projected":
+            local = positive_part(local)
+    f, g = evaluation.directions(nodes)
+    basis = matrices.nodes[:, matrices.hessian_index]
+    h = assemble(basis, matrices.hessian_weights, f, g, local)
+    upper = jnp.triu(restrict_hessian(h, problem.unknowns))
+    return upper + jnp.triu(upper, 1).T
+
+
+@functools.partial(jit, compiler_options=COMPILER_OPTIONS)
+def advance(
+    problem: Problem,
+    point: Point,
+    gradient: Float[Array, " 4c"],
+    direction: Float[Array, " 4c"],
+    may_refine: Bool[AnyArray, ""],
+) -> Move:
+    """The best certified step along ``direction``, a change of the unknowns."""
+    positional = Positional.of(problem.constraints)
+    slope = jnp.dot(gradient, direction)
+    line = evaluation.line_along(problem, expand(direction, problem.unknowns), slope)
+    found = line_search.search(problem, positional, point, line)
+    end = line_search.backtrack(problem, positional, point, line, found, may_refine)
+    # Values anew from the coefficients: their rounding errors must not add up over thousands of
+    # iterations, for which the certificate makes no allowance.
+    y = point.coefficients + end.step * line.direction
+    after, gradient = _evaluated(problem, positional, y)
+    return Move(end.outcome, after, gradient, end.step, end.panel.sigma2_lower, end.refused)
 
 
 @dataclass
@@ -50,11 +133,18 @@ class Stopwatch:
         self.seconds += elapsed
         return result
 
-    def lap(self) -> tuple[float, float]:
-        """Seconds and compilation since the last lap."""
-        result = self.seconds, self.compile_time
-        self.seconds = self.compile_time = 0.0
+    def host(self, function: Callable[..., T], *arguments: Any) -> T:
+        """Call a function on the host; device calls within it count themselves."""
+        counted, began = self.seconds + self.compile_time, time.perf_counter()
+        result = function(*arguments)
+        elapsed = time.perf_counter() - began
+        self.seconds += max(elapsed - (self.seconds + self.compile_time - counted), 0.0)
         return result
+
+    def lap(self) -> float:
+        """Seconds since the last lap."""
+        seconds, self.seconds = self.seconds, 0.0
+        return seconds
 
 
 class SubspaceProblem:
@@ -72,7 +162,8 @@ class SubspaceProblem:
     OptionError
         When ``hessian_samples`` is out of range.
     StartError
-        When the map to start from is not proved locally injective.
+        When the map to start from is not proved locally injective, or not conformal though the
+        options ask for it.
     """
 
     @double_precision
@@ -86,70 +177,74 @@ class SubspaceProblem:
         *,
         hessian_samples: int | None = None,
     ) -> None:
-        self.pose, self.energy, self.options = pose, energy, options
-        self.watch = Stopwatch()
+        self.options, self.watch = options, Stopwatch()
         self.discretisation = discretise(domain, options.sampling, options.certificate)
         self.hessian_samples = hessian_samples
         if hessian_samples is not None:
             self._check_hessian_samples(hessian_samples)
         basis = self.discretisation.basis
-        self.unknowns = unknowns_of(basis, options.conformal)
-        self.constraints = constraints_of(domain, pose, options.p2p_weight)
-        self.setting = self._setting()
+        self.problem = Problem(
+            matrices=self._matrices(),
+            singularities=basis.singularities,
+            unknowns=unknowns_of(basis, options.conformal),
+            constraints=constraints_of(domain, pose, options.p2p_weight),
+            energy=energy,
+        )
         map_ = HarmonicMap.identity(domain)
         if start is not None:
             check_proved(start)
+            if options.conformal:
+                check_conformal(start)
             map_ = start
         if options.align:
             map_ = aligned(map_, pose)
         self.start = real_coefficients(basis, map_)
 
     @property
-    def can_refine(self) -> bool:
-        """Whether panels may be split."""
-        return self.discretisation.can_refine
+    def free(self) -> NDArray[Any]:
+        """(4c,) 1 for an unknown, 0 for what is fixed or tied."""
+        return np.asarray(self.problem.unknowns.free)
 
     @functools.cached_property
-    def p2p_hessian(self) -> Array:
+    def p2p_hessian(self) -> NDArray[Any]:
         """(4c, 4c) Hessian of the positional energy, fixed and tied unknowns left out."""
-        matrix, weights = evaluation.p2p_rows(self.constraints)
-        h = restrict_hessian(matrix.T @ (weights[:, None] * matrix), self.unknowns)
+        positional = Positional.of(self.problem.constraints)
+        h = positional.matrix.T @ (positional.weights[:, None] * positional.matrix)
         # The identity on what is fixed is already in the isometric Hessian.
-        return np.asarray(h) - np.diag(1 - self.unknowns.free)
+        return np.asarray(restrict_hessian(h, self.problem.unknowns)) - np.diag(1 - self.free)
 
-    def evaluate(self, coefficients: Array) -> Point:
-        """The point with these coefficients."""
-        return self.watch.run(evaluation.evaluate, self.setting, jnp.asarray(coefficients))
+    def evaluate(self, coefficients: NDArray[Any]) -> tuple[Point, NDArray[Any]]:
+        """The point with these coefficients, and the gradient there."""
+        point, gradient = self.watch.run(evaluate, self.problem, jnp.asarray(coefficients))
+        return point, np.asarray(gradient)
 
-    def hessian(self, point: Point, curvature: Curvature) -> Array:
+    def hessian(self, point: Point, curvature: Curvature) -> NDArray[Any]:
         """(4c, 4c) Hessian of the isometric energy; the identity on what is fixed or tied."""
-        h = self.watch.run(evaluation.hessian, self.setting, point, curvature=curvature)
-        return np.asarray(h)
+        return np.asarray(self.watch.run(hessian, self.problem, point, curvature=curvature))
 
-    def advance(self, point: Point, direction: Array, may_refine: bool) -> Move:
+    def advance(
+        self, point: Point, gradient: NDArray[Any], direction: NDArray[Any], may_refine: bool
+    ) -> Move:
         """One step of the line search."""
         return self.watch.run(
-            evaluation.advance,
-            self.setting,
+            advance,
+            self.problem,
             point,
+            jnp.asarray(gradient),
             jnp.asarray(direction),
-            np.asarray(may_refine and self.can_refine),
+            np.asarray(may_refine and self.discretisation.can_refine),
         )
 
-    def refine(self, refused: Array) -> bool:
-        """Split the panels that refused a step; False when none can be."""
+    def split(self, refused: NDArray[Any]) -> int:
+        """Split the panels that refused a step; 0 when none can be."""
         wanted = self.discretisation.splittable(refused)
-        if not wanted.any():
-            return False
-        began = time.perf_counter()
-        self.discretisation = self.discretisation.refined(wanted)
-        self.setting = self._setting()
-        self.watch.seconds += time.perf_counter() - began
-        return True
+        if wanted.any():
+            self.watch.host(self._refine, wanted)
+        return int(wanted.sum())
 
-    def map_of(self, coefficients: Any) -> HarmonicMap:
-        """The map with these padded coefficients."""
-        return map_from(self.discretisation, coefficients)
+    def _refine(self, wanted: NDArray[Any]) -> None:
+        self.discretisation = self.discretisation.refined(wanted)
+        self.problem = self.problem._replace(matrices=self._matrices())
 
     def _check_hessian_samples(self, count: int) -> None:
         panels = len(self.discretisation.panels)
@@ -158,21 +253,13 @@ class SubspaceProblem:
         if not 1 <= count <= panels:
             raise OptionError(f"hessian_samples must be from 1 to {panels}, got {count}")
 
-    @double_precision
-    def _setting(self) -> Setting:
-        disc = self.discretisation
-        matrices = disc.matrices
-        if self.hessian_samples is not None:
-            index = np.linspace(0, len(disc.panels), self.hessian_samples, endpoint=False)
-            index = index.astype(int)
-            matrices = matrices._replace(
-                hessian_index=jnp.asarray(index),
-                hessian_weights=jnp.full(len(index), 1 / len(index)),
-            )
-        return Setting(
-            matrices,
-            disc.basis.singularities,
-            self.unknowns,
-            self.constraints,
-            self.energy,
+    def _matrices(self) -> Any:
+        matrices = self.discretisation.matrices
+        if self.hessian_samples is None:
+            return matrices
+        panels = len(self.discretisation.panels)
+        index = np.linspace(0, panels, self.hessian_samples, endpoint=False).astype(int)
+        return matrices._replace(
+            hessian_index=jnp.asarray(index),
+            hessian_weights=jnp.full(len(index), 1 / len(index)),
         )

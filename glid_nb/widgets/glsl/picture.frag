@@ -3,7 +3,6 @@
 precision highp float;
 
 uniform float overlay;       // 0 picture, 1 picture and grid, 2 sigma_1, 3 sigma_2, 4 k, 5 energy
-uniform vec2 energy;         // which energy, and its parameter s
 uniform vec2 color_range;    // values at the ends of the colour map
 uniform vec3 colors[N_COLORS];
 uniform float pixel;         // world units of one pixel on the screen
@@ -24,15 +23,6 @@ vec3 color_at(float t) {
     color = mix(color, colors[i], clamp(place - float(i - 1), 0.0, 1.0));
   }
   return color;
-}
-
-// E(x, y) of Table 1, x = |f_z|^2 and y = |f_zbar|^2.
-float energy_density(float x, float y) {
-  float isometric = (x + y) * (1.0 + 1.0 / ((x - y) * (x - y)));
-  if (energy.x < 0.5) return isometric;
-  if (energy.x < 1.5) return exp(energy.y * isometric);
-  if (energy.x < 2.5) return exp((2.0 * energy.y * (x + y) + 1.0) / (x - y) + x - y);
-  return 2.0 * (x + y) - 4.0 * sqrt(x) + 2.0;
 }
 
 // How much of this pixel a line of the grid covers, from the distance that a step on the screen

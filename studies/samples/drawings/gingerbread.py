@@ -6,37 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely import Polygon, box
 
-from studies.samples.bezier import (
-    Shape,
-    blend,
-    brush,
-    disc,
-    ellipse,
-    loop,
-    mirrored,
-    moved,
-    symmetric,
-    tube,
-)
+from studies.samples import bezier as form
+from studies.samples import palette as hue
 from studies.samples.faces import blush, eye
 from studies.samples.ink import Linear, Sheet
-from studies.samples.palette import (
-    AMBER,
-    BRICK,
-    COOKIE,
-    CORAL,
-    CREAM,
-    CRUST,
-    DEEP,
-    HONEY,
-    INK,
-    MUSTARD,
-    PAPER,
-    TEAL,
-)
 
 SIZE = (1400, 1400)
-DOUGH = Linear((-4, 6), (4, -6), ("#dca15e", COOKIE, "#b9773a"))
+DOUGH = Linear((-4, 6), (4, -6), ("#dca15e", hue.COOKIE, "#b9773a"))
 # right halves; the left ones are their mirror images
 ARM = [(0.6, 0.9, 1.15), (2.6, 1.15, 1.0), (4.3, 1.55, 0.92), (5.5, 2.0, 0.98)]
 LEG = [(0.75, -2.2, 1.35), (1.55, -4.2, 1.15), (2.1, -5.7, 1.08), (2.35, -6.5, 1.12)]
@@ -57,83 +33,92 @@ PEARLS = [(3.3, 1.9), (3.35, 1.3), (3.3, 0.7), (5.55, 2.55), (5.75, 1.95), (5.5,
 def draw() -> NDArray[np.uint8]:
     """The picture as RGBA (h, w, 4)."""
     sheet = Sheet(*SIZE)
-    torso = symmetric(TORSO)
-    limbs = [tube(ARM), mirrored(tube(ARM)), tube(LEG), mirrored(tube(LEG))]
-    whole = blend([torso, ellipse(0, 4.3, 2.6, 2.4), *limbs], 0.45)
+    torso = form.symmetric(TORSO)
+    limbs = [
+        form.tube(ARM),
+        form.mirrored(form.tube(ARM)),
+        form.tube(LEG),
+        form.mirrored(form.tube(LEG)),
+    ]
+    whole = form.blend([torso, form.ellipse(0, 4.3, 2.6, 2.4), *limbs], 0.45)
 
     sheet.fill(whole, DOUGH)
     crumbs(sheet, whole)
-    sheet.shade(whole, CRUST, depth=0.75, opacity=0.8)
-    sheet.shade(whole, HONEY, depth=0.45, opacity=0.7, towards_light=True)
+    sheet.shade(whole, hue.CRUST, depth=0.75, opacity=0.8)
+    sheet.shade(whole, hue.HONEY, depth=0.45, opacity=0.7, towards_light=True)
     waistcoat(sheet, torso, whole)
     icing(sheet, whole)
     face(sheet, whole)
-    sheet.outline(whole, INK, 0.13)
-    return sheet.image(INK)
+    sheet.outline(whole, hue.INK, 0.13)
+    return sheet.image(hue.INK)
 
 
-def crumbs(sheet: Sheet, whole: Shape) -> None:
+def crumbs(sheet: Sheet, whole: form.Shape) -> None:
     """Pores of the dough, spread by the golden angle."""
     for i in range(150):
         angle, r = 2.399963 * i, 0.62 * np.sqrt(i + 0.5)
         x, y = 1.05 * r * np.cos(angle), 1.2 * r * np.sin(angle) - 0.4
-        pore = ellipse(x, y, 0.045 + 0.02 * (i % 3), 0.04, 40 * i)
-        sheet.fill(pore, CRUST, opacity=0.45, within=whole)
+        pore = form.ellipse(x, y, 0.045 + 0.02 * (i % 3), 0.04, 40 * i)
+        sheet.fill(pore, hue.CRUST, opacity=0.45, within=whole)
 
 
-def lay(sheet: Sheet, piece: Shape, colour: str, dark: str, line: float, whole: Shape) -> None:
+def lay(
+    sheet: Sheet, piece: form.Shape, colour: str, dark: str, line: float, whole: form.Shape
+) -> None:
     """Lay a piece on the dough: its shadow, its colour, its outline."""
-    sheet.fill(moved(piece, 0.05, -0.13), CRUST, opacity=0.7, blur=0.07, within=whole)
+    sheet.fill(form.moved(piece, 0.05, -0.13), hue.CRUST, opacity=0.7, blur=0.07, within=whole)
     sheet.fill(piece, colour, within=whole)
     sheet.shade(piece, dark, depth=0.3, opacity=0.65)
-    sheet.outline(piece, INK, line)
+    sheet.outline(piece, hue.INK, line)
 
 
-def waistcoat(sheet: Sheet, torso: Shape, whole: Shape) -> None:
+def waistcoat(sheet: Sheet, torso: form.Shape, whole: form.Shape) -> None:
     """Checked cloth, two buttons and a bow tie."""
     front = Polygon(FRONT)
-    cloth = torso.buffer(-0.06).intersection(front.union(mirrored(front)))
-    sheet.fill(moved(cloth, 0.06, -0.14), CRUST, opacity=0.7, blur=0.08, within=torso)
-    sheet.fill(cloth, CREAM, within=torso)
+    cloth = torso.buffer(-0.06).intersection(front.union(form.mirrored(front)))
+    sheet.fill(form.moved(cloth, 0.06, -0.14), hue.CRUST, opacity=0.7, blur=0.08, within=torso)
+    sheet.fill(cloth, hue.CREAM, within=torso)
     for i in range(-5, 5):
         for j in range(-6, 6):
             if (i + j) % 2:
                 x, y = i * CHECK, j * CHECK
-                sheet.fill(box(x, y, x + CHECK, y + CHECK), TEAL, within=cloth)
-    sheet.shade(cloth, DEEP, depth=0.7, opacity=0.55)
-    sheet.outline(cloth, INK, 0.09)
+                sheet.fill(box(x, y, x + CHECK, y + CHECK), hue.TEAL, within=cloth)
+    sheet.shade(cloth, hue.DEEP, depth=0.7, opacity=0.55)
+    sheet.outline(cloth, hue.INK, 0.09)
 
-    for y, colour in ((0.75, MUSTARD), (0.05, CORAL)):
-        button = disc(0, y, 0.27)
-        lay(sheet, button, colour, BRICK, 0.07, whole)
-        sheet.fill(ellipse(-0.08, y + 0.1, 0.08, 0.05, 35), PAPER, opacity=0.9, within=button)
-    wing = loop([(0, 1.78), (0.5, 2.2), (1.15, 2.25), (1.15, 1.35), (0.5, 1.4)])
-    for piece in (wing, mirrored(wing), ellipse(0, 1.8, 0.3, 0.34)):
-        lay(sheet, piece, CORAL, BRICK, 0.08, whole)
+    for y, colour in ((0.75, hue.MUSTARD), (0.05, hue.CORAL)):
+        button = form.disc(0, y, 0.27)
+        lay(sheet, button, colour, hue.BRICK, 0.07, whole)
+        sheet.fill(
+            form.ellipse(-0.08, y + 0.1, 0.08, 0.05, 35), hue.PAPER, opacity=0.9, within=button
+        )
+    wing = form.loop([(0, 1.78), (0.5, 2.2), (1.15, 2.25), (1.15, 1.35), (0.5, 1.4)])
+    for piece in (wing, form.mirrored(wing), form.ellipse(0, 1.8, 0.3, 0.34)):
+        lay(sheet, piece, hue.CORAL, hue.BRICK, 0.08, whole)
 
 
-def icing(sheet: Sheet, whole: Shape) -> None:
+def icing(sheet: Sheet, whole: form.Shape) -> None:
     """Waves round wrists and ankles, pearls beside them."""
-    waves = [tube([(x, y, 0.13) for x, y in wave]) for wave in WAVES]
-    pearls = [disc(x, y, 0.13) for x, y in PEARLS]
+    waves = [form.tube([(x, y, 0.13) for x, y in wave]) for wave in WAVES]
+    pearls = [form.disc(x, y, 0.13) for x, y in PEARLS]
     for right in (*waves, *pearls):
-        for piece in (right, mirrored(right)):
+        for piece in (right, form.mirrored(right)):
             squeeze(sheet, piece, whole)
 
 
-def squeeze(sheet: Sheet, piece: Shape, whole: Shape) -> None:
+def squeeze(sheet: Sheet, piece: form.Shape, whole: form.Shape) -> None:
     """White icing with a shadow beside it."""
-    sheet.fill(moved(piece, 0.05, -0.1), CRUST, opacity=0.7, blur=0.05, within=whole)
-    sheet.fill(piece, PAPER, within=whole)
-    sheet.shade(piece, AMBER, depth=0.15, opacity=0.4, within=piece.intersection(whole))
+    sheet.fill(form.moved(piece, 0.05, -0.1), hue.CRUST, opacity=0.7, blur=0.05, within=whole)
+    sheet.fill(piece, hue.PAPER, within=whole)
+    sheet.shade(piece, hue.AMBER, depth=0.15, opacity=0.4, within=piece.intersection(whole))
 
 
-def face(sheet: Sheet, whole: Shape) -> None:
+def face(sheet: Sheet, whole: form.Shape) -> None:
     """Eyes, brows and a smile of icing."""
     for s in (-1, 1):
-        eye(sheet, s * 0.95, 4.6, 0.62, look=(0.2, 0.1), iris=(CRUST, AMBER), within=whole)
+        eye(sheet, s * 0.95, 4.6, 0.62, look=(0.2, 0.1), iris=(hue.CRUST, hue.AMBER), within=whole)
         blush(sheet, s * 1.65, 3.7, 0.42, 0.3, whole)
-        brow = brush([(s * 0.55, 5.5), (s * 0.95, 5.68), (s * 1.4, 5.5)], 0.2, tip=0.5)
+        brow = form.brush([(s * 0.55, 5.5), (s * 0.95, 5.68), (s * 1.4, 5.5)], 0.2, tip=0.5)
         squeeze(sheet, brow, whole)
     smile = [(-1.15, 3.55), (-0.65, 3.05), (0.0, 2.88), (0.65, 3.05), (1.15, 3.55)]
-    squeeze(sheet, brush(smile, 0.26, tip=0.6), whole)
+    squeeze(sheet, form.brush(smile, 0.26, tip=0.6), whole)

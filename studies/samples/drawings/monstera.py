@@ -9,61 +9,20 @@ import shapely
 from numpy.typing import NDArray
 from shapely import affinity
 
-from studies.samples.bezier import (
-    Limb,
-    Points,
-    Shape,
-    along,
-    blend,
-    brush,
-    disc,
-    ellipse,
-    moved,
-    tube,
-    turned,
-)
+from studies.samples import bezier as form
+from studies.samples import palette as hue
 from studies.samples.faces import eye
 from studies.samples.ink import Linear, Sheet
-from studies.samples.palette import (
-    BRICK,
-    CORAL,
-    INK,
-    LEAF,
-    LIME,
-    MOSS,
-    PALE,
-    PAPER,
-    PINE,
-    ROSE,
-    TEAL,
-)
 
 SIZE = (1350, 1350)
-STEM = [
-    (-1.9, -7.15, 0.48),
-    (-1.4, -6.15, 0.45),
-    (-0.65, -4.9, 0.42),
-    (-0.15, -3.4, 0.42),
-    (0.0, -1.5, 0.45),
-]
-MIDRIB: Limb = [
-    (-1.2, -5.8, 0.02),
-    (-0.15, -3.4, 0.12),
-    (0.0, -1.5, 0.2),
-    (0.05, 1.0, 0.2),
-    (0.2, 4.0, 0.17),
-    (0.35, 6.0, 0.11),
-    (0.7, 7.1, 0.03),
-]
-HEART: Limb = [
-    (0.0, -1.7, 0.9),
-    (0.05, 1.0, 1.2),
-    (0.15, 3.6, 1.2),
-    (0.3, 5.4, 1.2),
-    (0.65, 6.85, 0.42),
-]
+STEM = [(-1.9, -7.15, 0.48), (-1.4, -6.15, 0.45), (-0.65, -4.9, 0.42), (-0.15, -3.4, 0.42),
+        (0.0, -1.5, 0.45)]  # fmt: skip
+MIDRIB: form.Limb = [(-1.2, -5.8, 0.02), (-0.15, -3.4, 0.12), (0.0, -1.5, 0.2), (0.05, 1.0, 0.2),
+                (0.2, 4.0, 0.17), (0.35, 6.0, 0.11), (0.7, 7.1, 0.03)]  # fmt: skip
+HEART: form.Limb = [(0.0, -1.7, 0.9), (0.05, 1.0, 1.2), (0.15, 3.6, 1.2), (0.3, 5.4, 1.2),
+               (0.65, 6.85, 0.42)]  # fmt: skip
 # side veins of either half from the midrib to the end of the lobe, base first
-HALVES: list[list[Points]] = [
+HALVES: list[list[form.Points]] = [
     [
         [(-0.05, -2.2), (1.35, -3.1), (2.3, -4.4), (2.4, -5.6)],
         [(0.0, -1.7), (2.5, -1.75), (4.7, -2.5), (5.6, -2.6)],
@@ -86,82 +45,86 @@ def draw() -> NDArray[np.uint8]:
     """The picture as RGBA (h, w, 4)."""
     sheet = Sheet(*SIZE)
     veins = [vein for half in HALVES for vein in half]
-    heart = tube(HEART)
-    blade = blend([heart, *(lobe(vein) for vein in veins)], 0.3)
+    heart = form.tube(HEART)
+    blade = form.blend([heart, *(lobe(vein) for vein in veins)], 0.3)
     blade = shapely.Polygon(shapely.get_parts(blade)[0].exterior)
     for half in HALVES:
         for low, high in pairwise(half):
             blade = blade.difference(window(low, high))
-    stem = tube(STEM)
-    whole = blend([blade, stem], 0.15)
+    stem = form.tube(STEM)
+    whole = form.blend([blade, stem], 0.15)
 
-    sheet.fill(whole, Linear((-4, 6.5), (3.5, -6), (LIME, LEAF, MOSS, TEAL)))
+    sheet.fill(whole, Linear((-4, 6.5), (3.5, -6), (hue.LIME, hue.LEAF, hue.MOSS, hue.TEAL)))
     for vein in veins:
         fold(sheet, vein, blade)
-    sheet.shade(whole, PINE, depth=0.6, opacity=0.6)
-    sheet.shade(whole, PALE, depth=0.4, opacity=0.6, towards_light=True)
+    sheet.shade(whole, hue.PINE, depth=0.6, opacity=0.6)
+    sheet.shade(whole, hue.PALE, depth=0.4, opacity=0.6, towards_light=True)
     for vein in veins:
-        sheet.fill(moved(brush(vein, 0.16), 0.03, -0.05), PINE, opacity=0.5, within=whole)
-        sheet.fill(brush(vein, 0.14), PALE, within=whole)
-    rib = tube(MIDRIB)
-    sheet.fill(moved(rib, 0.06, -0.04), PINE, opacity=0.5, within=whole)
-    sheet.fill(rib, PALE, within=whole)
-    sheet.outline(whole, INK, 0.13)
+        sheet.fill(
+            form.moved(form.brush(vein, 0.16), 0.03, -0.05), hue.PINE, opacity=0.5, within=whole
+        )
+        sheet.fill(form.brush(vein, 0.14), hue.PALE, within=whole)
+    rib = form.tube(MIDRIB)
+    sheet.fill(form.moved(rib, 0.06, -0.04), hue.PINE, opacity=0.5, within=whole)
+    sheet.fill(rib, hue.PALE, within=whole)
+    sheet.outline(whole, hue.INK, 0.13)
     ladybird(sheet, whole)
-    return sheet.image(INK)
+    return sheet.image(hue.INK)
 
 
-def lobe(vein: Points) -> Shape:
+def lobe(vein: form.Points) -> form.Shape:
     """The part of the blade about a side vein, widest before its end."""
-    places, _, _ = along(vein, [0.0, 0.25, 0.5, 0.75, 0.9, 0.98])
-    return tube(np.column_stack([places, [0.5, 0.85, 0.95, 0.92, 0.72, 0.42]]))
+    places, _, _ = form.along(vein, [0.0, 0.25, 0.5, 0.75, 0.9, 0.98])
+    return form.tube(np.column_stack([places, [0.5, 0.85, 0.95, 0.92, 0.72, 0.42]]))
 
 
-def window(low: Points, high: Points) -> Shape:
+def window(low: form.Points, high: form.Points) -> form.Shape:
     """A hole half way between two veins, drawn out along them."""
     at = [0.3, 0.4, 0.47]
-    middle = (along(low, at)[0] + along(high, at)[0]) / 2
-    return tube(np.column_stack([middle, [0.38, 0.47, 0.4]]))
+    middle = (form.along(low, at)[0] + form.along(high, at)[0]) / 2
+    return form.tube(np.column_stack([middle, [0.38, 0.47, 0.4]]))
 
 
-def fold(sheet: Sheet, vein: Points, blade: Shape) -> None:
+def fold(sheet: Sheet, vein: form.Points, blade: form.Shape) -> None:
     """The blade falls off on the lower side of a vein and catches light on the upper."""
     widths = [0.1, 0.3, 0.3, 0.1]
     dark = [(x + 0.1, y - 0.34, r) for (x, y), r in zip(vein, widths, strict=True)]
     light = [(x - 0.1, y + 0.34, r) for (x, y), r in zip(vein, widths, strict=True)]
-    sheet.fill(tube(dark), PINE, opacity=0.38, blur=0.13, within=blade)
-    sheet.fill(tube(light), LIME, opacity=0.5, blur=0.14, within=blade)
+    sheet.fill(form.tube(dark), hue.PINE, opacity=0.38, blur=0.13, within=blade)
+    sheet.fill(form.tube(light), hue.LIME, opacity=0.5, blur=0.14, within=blade)
 
 
-def ladybird(sheet: Sheet, whole: Shape) -> None:
+def ladybird(sheet: Sheet, whole: form.Shape) -> None:
     """A ladybird on its way to the tip, drawn facing right and then turned."""
     x, y, heading = LADYBIRD
 
-    def placed(shape: Shape) -> Shape:
+    def placed(shape: form.Shape) -> form.Shape:
         small = affinity.scale(shape, 0.88, 0.88, origin=(0, 0))
-        return moved(turned(small, heading, (0, 0)), x, y)
+        return form.moved(form.turned(small, heading, (0, 0)), x, y)
 
-    shell = placed(ellipse(0, 0, 0.88, 0.74))
-    sheet.fill(moved(shell, 0.15, -0.3), PINE, opacity=0.6, blur=0.12, within=whole)
-    sheet.fill(placed(ellipse(0.78, 0, 0.42, 0.5)), INK, within=whole)
+    shell = placed(form.ellipse(0, 0, 0.88, 0.74))
+    sheet.fill(form.moved(shell, 0.15, -0.3), hue.PINE, opacity=0.6, blur=0.12, within=whole)
+    sheet.fill(placed(form.ellipse(0.78, 0, 0.42, 0.5)), hue.INK, within=whole)
     for s in (-1, 1):
         for u in (-0.42, 0.05, 0.5):
-            leg = brush([(u, 0.4 * s), (u + 0.05, 0.85 * s), (1.2 * u, s)], 0.15, tip=0.6)
-            sheet.fill(placed(leg), INK, within=whole)
-        feeler = brush([(1.05, 0.2 * s), (1.35, 0.3 * s), (1.5, 0.55 * s)], 0.1, tip=0.7)
-        sheet.fill(placed(feeler), INK, within=whole)
+            leg = form.brush([(u, 0.4 * s), (u + 0.05, 0.85 * s), (1.2 * u, s)], 0.15, tip=0.6)
+            sheet.fill(placed(leg), hue.INK, within=whole)
+        feeler = form.brush([(1.05, 0.2 * s), (1.35, 0.3 * s), (1.5, 0.55 * s)], 0.1, tip=0.7)
+        sheet.fill(placed(feeler), hue.INK, within=whole)
 
-    red = Linear((x - 0.5, y + 0.7), (x + 0.4, y - 0.7), (ROSE, CORAL, BRICK))
+    red = Linear((x - 0.5, y + 0.7), (x + 0.4, y - 0.7), (hue.ROSE, hue.CORAL, hue.BRICK))
     sheet.fill(shell, red, within=whole)
     for u in (-0.35, 0.28):
         for v in (-0.37, 0.37):
-            sheet.fill(placed(disc(u, v, 0.165)), INK, within=shell)
-    sheet.fill(placed(disc(0.62, 0, 0.14)), INK, within=shell)
-    sheet.fill(placed(brush([(-0.9, 0), (0, 0), (0.8, 0)], 0.09, tip=0.8)), INK, within=shell)
-    sheet.shade(shell, BRICK, depth=0.4, opacity=0.6)
-    gleam = placed(ellipse(-0.1, 0.5, 0.3, 0.09, 8))
-    sheet.fill(gleam, PAPER, opacity=0.7, blur=0.03, within=shell)
-    sheet.outline(shell, INK, 0.09)
+            sheet.fill(placed(form.disc(u, v, 0.165)), hue.INK, within=shell)
+    sheet.fill(placed(form.disc(0.62, 0, 0.14)), hue.INK, within=shell)
+    sheet.fill(
+        placed(form.brush([(-0.9, 0), (0, 0), (0.8, 0)], 0.09, tip=0.8)), hue.INK, within=shell
+    )
+    sheet.shade(shell, hue.BRICK, depth=0.4, opacity=0.6)
+    gleam = placed(form.ellipse(-0.1, 0.5, 0.3, 0.09, 8))
+    sheet.fill(gleam, hue.PAPER, opacity=0.7, blur=0.03, within=shell)
+    sheet.outline(shell, hue.INK, 0.09)
     for s in (-1, 1):
         place = placed(shapely.Point(0.92, 0.26 * s)).centroid
         eye(sheet, place.x, place.y, 0.24, look=(0.4, 0.3), within=whole)

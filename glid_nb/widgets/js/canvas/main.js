@@ -1,11 +1,18 @@
-// The pad over the renderer: takes what the hand does and draws handles, colour bar and notices.
+// The pad over the renderer: takes what the hand does and draws handles, colour bars and notices.
 
-import { Input } from "./input.js";
-import { Link } from "./link.js";
-import { drawMarks } from "./marks.js";
-import { Shapes, uniformVectors } from "./shapes.js";
-import { drawingTime } from "./speed.js";
-import { View } from "./view.js";
+import { Link } from "../pad/link.js";
+import { Pad } from "../pad/pad.js";
+import { View } from "../pad/view.js";
+import { drawMarks, markAt } from "./marks.js";
+import { Shapes, drawingTime, uniformVectors } from "./shapes.js";
+
+const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
+const KEYS = new Set([
+  "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Delete", "Backspace", "Escape", "Enter",
+  "0", "f", "F", ",", ".", "a", "A",
+]);
+const SAVE_VIEW_AFTER = 250; // ms
+const LEAST_SIZE = 240; // CSS pixels
 
 function element(parent, tag, name, text) {
   const made = document.createElement(tag);
@@ -13,31 +20,6 @@ function element(parent, tag, name, text) {
   if (text !== undefined) made.textContent = text;
   parent.appendChild(made);
   return made;
-}
-
-// What is drawn, beside the model's traits: where the hand is, before the kernel knows.
-class State {
-  constructor(model) {
-    this.model = model;
-    this.held = new Map();
-    this.hovered = -1;
-    this.focus = false;
-  }
-
-  marks() {
-    return this.model.get("marks");
-  }
-
-  release() {
-    // The kernel's answer to the last move may be on its way; it replaces these.
-    this.held = new Map();
-  }
-}
-
-function legend(box, contents) {
-  box.replaceChildren();
-  box.hidden = !contents.length;
-  for (const content of contents) colorBar(element(box, "div", "legend-part"), content);
 }
 
 function colorBar(box, content) {
@@ -48,112 +30,135 @@ function colorBar(box, content) {
   for (const tick of content.ticks) element(ticks, "span", "legend-tick", tick);
 }
 
+// Changes traits, and tells the kernel.
+function save(model, changes) {
+  for (const [name, value] of Object.entries(changes)) model.set(name, value);
+  model.save_changes();
+}
+
 function resizeGrip(pad, model) {
   const grip = element(pad, "div", "resize");
   grip.title = "Drag to resize";
   let from = null;
-  grip.addEventListener("pointerdown", (e) => {
-    e.stopPropagation();
+  const on = (name, act) =>
+    grip.addEventListener(name, (e) => {
+      e.stopPropagation();
+      act(e);
+    });
+  on("pointerdown", (e) => {
     e.preventDefault();
     grip.setPointerCapture(e.pointerId);
-    from = { x: e.clientX, y: e.clientY, width: model.get("width"), height: model.get("height") };
+    from = [model.get("width") - e.clientX, model.get("height") - e.clientY];
   });
-  grip.addEventListener("pointermove", (e) => {
-    e.stopPropagation();
+  on("pointermove", (e) => {
     if (!from) return;
-    model.set("width", Math.max(240, Math.round(from.width + e.clientX - from.x)));
-    model.set("height", Math.max(240, Math.round(from.height + e.clientY - from.y)));
-    model.save_changes();
+    const [width, height] = [from[0] + e.clientX, from[1] + e.clientY];
+    save(model, {
+      width: Math.max(LEAST_SIZE, Math.round(width)),
+      height: Math.max(LEAST_SIZE, Math.round(height)),
+    });
   });
-  const end = (e) => { e.stopPropagation(); from = null; };
-  grip.addEventListener("pointerup", end);
-  grip.addEventListener("pointercancel", end);
+  for (const name of ["pointerup", "pointercancel"]) on(name, () => (from = null));
 }
 
 function render({ model, el }) {
   el.classList.add("glid-pad-host");
-  const pad = element(el, "div", "pad");
-  pad.tabIndex = 0;
-  pad.setAttribute("role", "application");
-  pad.setAttribute("aria-label", "Deformation canvas: arrow keys move, Enter adds a handle");
-  pad.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
-  const paper = element(pad, "canvas", "paper");
-  const bar = element(pad, "div", "legend");
-  const notice = element(pad, "div", "notice");
+  const box = element(el, "div", "pad");
+  box.setAttribute("role", "application");
+  box.setAttribute("aria-label", "Deformation canvas: arrow keys move, Enter adds a handle");
+  box.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
+  const paper = element(box, "canvas", "paper");
+  const bars = element(box, "div", "legend");
+  const notice = element(box, "div", "notice");
   notice.setAttribute("role", "status");
 
-  const state = new State(model);
   const shapes = new Shapes(model);
-  let drawn = 0;
+  let due = 0;
   const draw = () => {
-    drawn = 0;
+    due = 0;
     const ratio = window.devicePixelRatio || 1;
-    const [width, height] = [model.get("width"), model.get("height")];
+    const { width, height } = view;
     const size = [Math.round(width * ratio), Math.round(height * ratio)];
     if (paper.width !== size[0] || paper.height !== size[1]) [paper.width, paper.height] = size;
     const pen = paper.getContext("2d");
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, width, height);
-    drawMarks(pen, view, model.get("marks"), {
-      hovered: state.hovered, held: state.held, focus: state.focus, cursor: model.get("cursor"),
-    });
+    const { found, held, focused } = pad ?? { held: new Map() };
+    const cursor = focused ? model.get("cursor") : null;
+    drawMarks(pen, view, model.get("marks"), { hovered: found?.mark, held, cursor });
   };
-  const soon = () => { drawn = drawn || requestAnimationFrame(draw); };
+  const soon = () => { due = due || requestAnimationFrame(draw); };
+
+  let saving;
+  const view = new View(() => {
+    look();
+    clearTimeout(saving);
+    saving = setTimeout(() => save(model, { view: [view.x, view.y, view.unit] }), SAVE_VIEW_AFTER);
+  }, { nearest: 1e-4, farthest: 1 });
   const look = () => {
-    shapes.look(view.frame, view.unit);
+    shapes.look(view);
     soon();
   };
-  const view = new View(model, look);
   const link = new Link(model);
-  const interactive = model.get("interactive");
-  const input = interactive ? new Input(pad, view, link, state, soon) : null;
-  if (interactive) resizeGrip(pad, model);
+  const marks = () => model.get("marks");
+  const pad = model.get("interactive") ? new Pad(box, view, link, {
+    reach: REACH,
+    keys: KEYS,
+    removesByLongPress: true,
+    find: (point, reach) => markAt(marks(), point, reach),
+    held: ({ mark }) => {
+      const { selected, targets } = marks();
+      return new Map((selected.includes(mark) ? selected : [mark]).map((i) => [i, targets[i]]));
+    },
+    pans: () => false,
+    paints: () => false,
+    cursor: (found) => (found ? "grab" : "crosshair"),
+    changed: soon,
+  }) : null;
+  if (pad) resizeGrip(box, model);
 
   const fit = () => {
-    pad.style.width = `${model.get("width")}px`;
-    pad.style.height = `${model.get("height")}px`;
+    Object.assign(view, { width: model.get("width"), height: model.get("height") });
+    [view.x, view.y, view.unit] = model.get("view");
+    Object.assign(box.style, { width: `${view.width}px`, height: `${view.height}px` });
     look();
   };
   const tell = () => {
-    const text = model.get("notice");
-    notice.textContent = text;
-    notice.hidden = !text;
+    notice.textContent = model.get("notice");
+    notice.hidden = !notice.textContent;
   };
-  const frame = () => shapes.refresh();
   const showLegend = () => {
-    legend(bar, [model.get("legend"), model.get("panel_legend")].filter((bar) => bar.title));
-    bar.dataset.corner = model.get("legend_corner");
+    const shown = [model.get("legend"), model.get("panel_legend")].filter((bar) => bar.title);
+    bars.replaceChildren();
+    bars.hidden = !shown.length;
+    for (const content of shown) colorBar(element(bars, "div", "legend-part"), content);
+    bars.dataset.corner = model.get("legend_corner");
   };
-  const listeners = [
-    ["change:width change:height", fit],
-    ["change:coefficients", frame],
-    ["change:marks change:cursor", soon],
-    ["change:legend change:panel_legend change:legend_corner", showLegend],
-    ["change:notice", tell],
-  ];
-  for (const [names, listener] of listeners) model.on(names, listener);
+  const listeners = {
+    "change:width change:height change:view": fit,
+    "change:coefficients": () => shapes.refresh(),
+    "change:marks change:cursor": soon,
+    "change:legend change:panel_legend change:legend_corner": showLegend,
+    "change:notice": tell,
+  };
+  for (const [names, listener] of Object.entries(listeners)) model.on(names, listener);
   fit();
   showLegend();
   tell();
   let gone = false;
-  shapes.load().then(() => drawingTime(pad, shapes)).then((time) => {
+  shapes.load().then(() => drawingTime(box, shapes)).then((time) => {
     if (gone) return;
-    link.drawn();
-    model.set("drawing_time", time);
-    model.save_changes();
+    save(model, { drawn: true, drawing_time: time });
   });
-  if (model.get("uniform_vectors") === 0) {
-    model.set("uniform_vectors", uniformVectors() || -1);
-    model.save_changes();
-  }
+  if (model.get("uniform_vectors") === 0) save(model, { uniform_vectors: uniformVectors() || -1 });
 
   return () => {
     gone = true;
-    cancelAnimationFrame(drawn);
-    for (const [names, listener] of listeners) model.off(names, listener);
-    if (input) input.close();
+    cancelAnimationFrame(due);
+    clearTimeout(saving);
+    for (const [names, listener] of Object.entries(listeners)) model.off(names, listener);
+    pad?.close();
     link.close();
-    view.close();
     shapes.close();
   };
 }

@@ -5,31 +5,31 @@ const SPECK = 12; // CSS pixels; dropped holes smaller than this show under the 
 const CHECK = 8; // CSS pixels per square of the checkerboard under transparent pictures
 
 export function drawStage(ctx, scene) {
-  const { width, height, ratio, viewport, colors } = scene;
+  const { width, height, ratio, view, colors } = scene;
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   ctx.clearRect(0, 0, width, height);
   if (!scene.size) return;
-  const corner = viewport.toStage([0, 0]);
-  const extent = scene.size.map((n) => n * viewport.scale);
+  const corner = view.toScreen([0, 0]);
+  const extent = scene.size.map((n) => n / view.unit);
   drawChecks(ctx, colors, corner, extent, width, height);
   if (scene.bitmap) {
-    ctx.imageSmoothingEnabled = viewport.scale < 6;
+    ctx.imageSmoothingEnabled = 6 * view.unit > 1;
     ctx.imageSmoothingQuality = "high";
     ctx.drawImage(scene.bitmap, ...corner, ...extent);
   }
-  const loops = scene.loops.map((loop) => loop.map((p) => viewport.toStage(p)));
+  const loops = scene.loops.map((loop) => loop.map((p) => view.toScreen(p)));
   if (loops.length && scene.veil) drawVeil(ctx, loops, colors, corner, extent);
   scene.holes.forEach((hole, i) => {
-    const loop = hole.loop.map((p) => viewport.toStage(p));
+    const loop = hole.loop.map((p) => view.toScreen(p));
     const hovered = scene.hover?.hole === i;
     if (hovered) fillPath(ctx, [loop], hole.kept ? colors.warnSoft : colors.accentSoft);
-    const visible = Math.sqrt(hole.area) * viewport.scale > SPECK;
+    const visible = Math.sqrt(hole.area) > SPECK * view.unit;
     if (hovered || (!hole.kept && visible)) strokePath(ctx, [loop], colors.faint, 1.25, [4, 3]);
   });
-  drawStrokes(ctx, scene, viewport);
+  drawStrokes(ctx, scene);
   if (loops.length) drawCage(ctx, scene, loops);
   for (const problem of scene.problems) {
-    if (problem.point) drawProblem(ctx, viewport.toStage(problem.point), colors);
+    if (problem.point) drawProblem(ctx, view.toScreen(problem.point), colors);
   }
 }
 
@@ -90,9 +90,9 @@ function drawVeil(ctx, loops, colors, [x, y], [w, h]) {
   ctx.fill("evenodd");
 }
 
-function drawStrokes(ctx, scene, viewport) {
+function drawStrokes(ctx, scene) {
   if (!scene.showStrokes) return;
-  const { foreground, background } = scene.strokes;
+  const { view, strokes: { foreground, background } } = scene;
   const pairs = [
     [background, scene.colors.background],
     [foreground, scene.colors.foreground],
@@ -103,11 +103,11 @@ function drawStrokes(ctx, scene, viewport) {
     for (const stroke of strokes) {
       ctx.beginPath();
       stroke.forEach((p, i) => {
-        const [x, y] = viewport.toStage(p);
+        const [x, y] = view.toScreen(p);
         if (i) ctx.lineTo(x, y);
         else ctx.moveTo(x, y);
       });
-      if (stroke.length === 1) ctx.lineTo(...viewport.toStage(stroke[0]));
+      if (stroke.length === 1) ctx.lineTo(...view.toScreen(stroke[0]));
       ctx.strokeStyle = HALO;
       ctx.lineWidth = 8;
       ctx.stroke();
@@ -142,7 +142,7 @@ function drawCage(ctx, scene, loops) {
       ctx.stroke();
     }),
   );
-  if (hover?.edge) drawPlus(ctx, scene.viewport.toStage(hover.edge.foot), color);
+  if (hover?.edge) drawPlus(ctx, scene.view.toScreen(hover.edge.foot), color);
 }
 
 // Smaller where vertices are close together on the stage.

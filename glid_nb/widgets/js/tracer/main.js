@@ -1,7 +1,8 @@
 // The cage tracer's page: a toolbar, the stage with picture and cage, the panel, a status line.
 
+import { Link } from "../pad/link.js";
+import { isUndo, undoOrRedo } from "../pad/pad.js";
 import { iconButton, make } from "./dom.js";
-import { Link } from "./link.js";
 import { Panel } from "./panel.js";
 import { Stage } from "./stage.js";
 
@@ -18,56 +19,35 @@ function render({ model, el }) {
   let refusal = null;
   let busy = false;
   const root = make("div", { className: "glid-tracer" });
-  const link = new Link(
-    model,
-    (report) => {
-      busy = report.busy;
-      if (report.refusal !== null || !report.busy) refusal = report.refusal;
-      showStatus();
-    },
-    (idle) => (root.dataset.idle = idle),
-  );
+  const link = new Link(model, (report) => {
+    busy = report.busy;
+    if (report.refusal || !busy) refusal = report.refusal;
+    showStatus();
+  }, (idle) => {
+    root.dataset.idle = idle;
+    if (idle) showTool(model.get("shown").tool);
+  });
+  root.dataset.idle = true;
 
-  const act = {
-    gesture: () => link.gesture(),
-    get idle() {
-      return link.idle;
-    },
-    setOptions: (changes, gesture = null) => link.send({ action: "set_options", changes, gesture }),
-    moveVertex: (loop, index, to, gesture, done) => link.send({ action: "move_vertex", loop, index, to, gesture }, { done }),
-    insertVertex: (at) => link.send({ action: "insert_vertex", at }),
-    deleteVertices: (vertices) => link.send({ action: "delete_vertices", vertices }),
-    toggleHole: (number) => link.send({ action: "toggle_hole", number }),
-    paint: (brush, stroke, done) => link.send({ action: "paint", brush, stroke }, { done }),
-    pick: (what, at) => link.send({ action: what === "color" ? "pick_background" : "pick_component", at }),
-    simple: (action) => link.send({ action }),
-    undo: (done) => link.send({ action: "undo" }, { done }),
-    upload,
-  };
+  // Has the kernel do something, after all that was asked before.
+  const act = (type, content = {}, buffers = []) => link.put({ type, ...content }, buffers);
 
-  function upload(file) {
+  async function upload(file) {
     const name = file.name || "the picture";
-    refusal = null;
-    const sendPart = async (start) => {
+    let start = 0, refused = null;
+    do {
       const data = await file.slice(start, start + PART).arrayBuffer();
-      const done = (problem) => problem === null && start + PART < file.size && sendPart(start + PART);
-      link.send({ action: "upload", name, size: file.size, start }, { buffers: [data], done });
-    };
-    sendPart(0);
+      refused = await act("upload", { name, size: file.size, start, buffered: true }, [data]);
+      start += PART;
+    } while (!refused && start < file.size);
   }
 
-  const stage = new Stage(root, act, (tool) => {
-    tools.forEach((button, i) => {
-      button.classList.toggle("glid-on", TOOLS[i][0] === tool);
-      button.setAttribute("aria-pressed", TOOLS[i][0] === tool);
-    });
-    panel.updateTool(tool);
-  });
-  const panel = new Panel(act, stage);
-  const tools = TOOLS.map(([name, label]) => iconButton(name, label, () => stage.setTool(name)));
-  const undo = iconButton("undo", "Undo (Ctrl+Z)", () => act.simple("undo"));
-  const redo = iconButton("redo", "Redo (Ctrl+Shift+Z)", () => act.simple("redo"));
-  const discard = make("button", { type: "button", title: "Go back to the outline as traced", onclick: () => act.simple("discard_edits") }, "Discard edits");
+  const stage = new Stage(root, link, upload);
+  const panel = new Panel(act, stage, chooseTool);
+  const tools = TOOLS.map(([name, label]) => iconButton(name, label, () => chooseTool(name)));
+  const undo = iconButton("undo", "Undo (Ctrl+Z)", () => act("undo"));
+  const redo = iconButton("redo", "Redo (Ctrl+Shift+Z)", () => act("redo"));
+  const discard = make("button", { type: "button", title: "Go back to the outline as traced", onclick: () => act("discard_edits") }, "Discard edits");
   const input = make("input", { type: "file", accept: "image/*", hidden: true, onchange: () => input.files[0] && upload(input.files[0]) });
   const open = iconButton("open", "Open a picture", () => {
     input.value = "";
@@ -86,8 +66,8 @@ function render({ model, el }) {
     redo,
     discard,
     make("span", { className: "glid-grow" }),
-    iconButton("minus", "Zoom out (-)", () => stage.zoom(0.8)),
-    iconButton("plus", "Zoom in (+)", () => stage.zoom(1.25)),
+    iconButton("minus", "Zoom out (-)", () => stage.zoom(false)),
+    iconButton("plus", "Zoom in (+)", () => stage.zoom(true)),
     iconButton("fit", "Fit the picture (F)", () => stage.fit()),
   );
   const status = make("div", { className: "glid-status", role: "status", "aria-live": "polite" });
@@ -95,17 +75,31 @@ function render({ model, el }) {
   // JupyterLab's shortcuts for single keys (b: new cell, d d: delete cell) are not for keys typed
   // here; those with Ctrl, such as saving, are, but for undo and redo. It asks for this attribute
   // before any listener of ours on the page's elements.
-  const undoes = (e) => (e.ctrlKey || e.metaKey) && ["z", "y"].includes(e.key.toLowerCase());
-  const guard = (e) => root.toggleAttribute("data-lm-suppress-shortcuts", undoes(e) || !(e.ctrlKey || e.metaKey));
+  const guard = (e) => root.toggleAttribute("data-lm-suppress-shortcuts", isUndo(e) || !(e.ctrlKey || e.metaKey));
   window.addEventListener("keydown", guard, true);
   root.addEventListener("keydown", (e) => {
-    if (undoes(e) && !e.altKey) {
-      act.simple(e.key.toLowerCase() === "z" && !e.shiftKey ? "undo" : "redo");
+    if (isUndo(e) && !e.altKey) {
+      act(undoOrRedo(e));
       e.preventDefault();
     } else if (e.ctrlKey || e.metaKey) return;
     e.stopPropagation(); // the notebook moves between cells by arrow keys
   });
   el.append(root);
+
+  // Here at once, and in the kernel after what was done with the tool before.
+  function chooseTool(name) {
+    showTool(name);
+    act("tool", { name });
+  }
+
+  function showTool(name) {
+    if (name !== stage.tool) stage.setTool(name);
+    tools.forEach((button, i) => {
+      button.classList.toggle("glid-on", TOOLS[i][0] === name);
+      button.setAttribute("aria-pressed", TOOLS[i][0] === name);
+    });
+    panel.updateTool(name);
+  }
 
   function showStatus() {
     const { size, loops, problems, n_components: count, discarded } = model.get("shown");
@@ -132,6 +126,7 @@ function render({ model, el }) {
     redo.disabled = !shown.can_redo;
     discard.hidden = !shown.edited;
     tools.forEach((button) => (button.disabled = !shown.size));
+    if (link.idle) showTool(shown.tool);
     showStatus();
   }
 
@@ -144,19 +139,16 @@ function render({ model, el }) {
   }
 
   const setHeight = () => root.style.setProperty("--glid-height", `${model.get("height")}px`);
-  model.on("change:shown", showState);
-  model.on("change:picture", showPicture);
-  model.on("change:height", setHeight);
+  const listeners = {
+    "change:shown": showState, "change:picture": showPicture, "change:height": setHeight,
+  };
+  for (const [name, listener] of Object.entries(listeners)) model.on(name, listener);
   setHeight();
   showState();
   showPicture();
-  stage.setTool("edit");
-  root.dataset.idle = true;
 
   return () => {
-    model.off("change:shown", showState);
-    model.off("change:picture", showPicture);
-    model.off("change:height", setHeight);
+    for (const [name, listener] of Object.entries(listeners)) model.off(name, listener);
     window.removeEventListener("keydown", guard, true);
     link.close();
     stage.close();

@@ -13,10 +13,9 @@ const STEPS = 1000;
 
 // A slider with a number beside it; null, shown as "auto", lets the tracer choose.
 class NumberControl {
-  constructor(name, label, unit, title, { choose, gesture }) {
+  constructor(name, label, unit, title, choose) {
     this.name = name;
     this.choose = choose;
-    this.gesture = gesture;
     this.range = { least: 0, most: 1, power: 1, digits: 2 };
     this.slider = make("input", { type: "range", min: 0, max: STEPS, step: 1, "aria-label": label, oninput: () => this.slide(), onchange: () => (this.current = null) });
     this.number = make("input", { type: "number", className: "glid-number", min: 0, step: "any", placeholder: "auto", "aria-label": `${label} (${unit})`, onchange: () => this.type() });
@@ -35,7 +34,7 @@ class NumberControl {
   }
 
   slide() {
-    this.current ??= this.gesture();
+    this.current ??= Math.random().toString(36); // a gesture that no other view and slider has
     const rounded = this.slid;
     this.number.value = rounded;
     this.auto.classList.remove("glid-on");
@@ -61,11 +60,12 @@ class NumberControl {
 }
 
 export class Panel {
-  constructor(act, stage) {
+  constructor(act, stage, chooseTool) {
     this.act = act;
     this.stage = stage;
-    const parts = { choose: (changes, gesture) => act.setOptions(changes, gesture), gesture: () => act.gesture() };
-    const number = (...args) => new NumberControl(...args, parts);
+    const choose = (changes, gesture = null) =>
+      act("set_options", { changes, gesture, ...(gesture && { replaces: gesture }) });
+    const number = (...args) => new NumberControl(...args, choose);
     this.numbers = {
       threshold: number("threshold", "Threshold", "0–1", "Least value of what is foreground"),
       smoothing: number("smoothing", "Smoothing", "px", "Blur before the outline is taken"),
@@ -74,18 +74,18 @@ export class Panel {
       min_hole_area: number("min_hole_area", "Least hole", "px²", "Smaller holes are filled"),
     };
     this.methods = METHODS.map(([value, label, title]) =>
-      make("button", { type: "button", title, role: "radio", "data-value": value, onclick: () => act.setOptions({ method: value }) }, label),
+      make("button", { type: "button", title, role: "radio", "data-value": value, onclick: () => choose({ method: value }) }, label),
     );
-    this.invert = make("input", { type: "checkbox", onchange: () => act.setOptions({ invert: this.invert.checked }) });
+    this.invert = make("input", { type: "checkbox", onchange: () => choose({ invert: this.invert.checked }) });
     this.invertRow = make("label", { className: "glid-row" }, this.invert, "Swap foreground and background");
-    this.pickColor = make("button", { type: "button", onclick: () => stage.setTool("color") }, "Pick the background's colour");
+    this.pickColor = make("button", { type: "button", onclick: () => chooseTool("color") }, "Pick the background's colour");
     this.paint = ["foreground", "background"].map((brush) =>
-      make("button", { type: "button", className: `glid-brush glid-${brush}`, onclick: () => stage.setTool(brush) }, brush === "foreground" ? "Shape" : "Background"),
+      make("button", { type: "button", className: `glid-brush glid-${brush}`, onclick: () => chooseTool(brush) }, brush === "foreground" ? "Shape" : "Background"),
     );
-    this.clear = make("button", { type: "button", onclick: () => act.simple("clear_scribbles") }, "Clear");
+    this.clear = make("button", { type: "button", onclick: () => act("clear_scribbles") }, "Clear");
     this.scribbleRow = make("div", { className: "glid-row" }, ...this.paint, this.clear);
-    this.component = make("select", { "aria-label": "Component", onchange: () => act.setOptions({ component: Number(this.component.value), component_at: null }) });
-    this.pickComponent = make("button", { type: "button", onclick: () => stage.setTool("component") }, "Pick");
+    this.component = make("select", { "aria-label": "Component", onchange: () => choose({ component: Number(this.component.value), component_at: null }) });
+    this.pickComponent = make("button", { type: "button", onclick: () => chooseTool("component") }, "Pick");
     this.componentRow = make("div", { className: "glid-row" }, make("span", { className: "glid-grow" }, "Component"), this.component, this.pickComponent);
     this.holes = make("div", { className: "glid-holes" });
     this.holesTitle = make("h4");
@@ -157,7 +157,7 @@ export class Panel {
     const none = automatic ? "Holes: none" : "Holes";
     this.holesTitle.textContent = count ? `Holes: ${kept} of ${count} kept` : none;
     const rows = holes.map((hole, i) => {
-      const box = make("input", { type: "checkbox", checked: hole.kept, onchange: () => this.act.toggleHole(i) });
+      const box = make("input", { type: "checkbox", checked: hole.kept, onchange: () => this.act("toggle_hole", { number: i }) });
       const area = hole.area >= 1e4 ? `${(hole.area / 1e3).toFixed(0)}k px²` : `${hole.area.toFixed(0)} px²`;
       return make(
         "label",

@@ -1,0 +1,143 @@
+"""The flags of the energy, the solver and the tracing, called as the fields that they set.
+
+A flag that is not given is None, and its field is left to the library, which also checks the
+values and says what there is to choose from.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+from pathlib import Path
+from typing import Any
+
+import glid_nb
+from glid_nb.energies import ENERGIES
+
+_WITH_S = " and ".join(name for name, energy in ENERGIES.items() if "s" in energy.parameters())
+
+
+def add_solver_flags(parser: argparse.ArgumentParser) -> None:
+    """Add the flags of the energy and the solver."""
+    add = parser.add_argument_group("energy and solver").add_argument
+    add(
+        "--energy",
+        metavar=f"{{{','.join(ENERGIES)}}}",
+        default="iso",
+        help="; ".join(f"{name}: {energy.label}" for name, energy in ENERGIES.items()),
+    )
+    add("--s", type=float, metavar="S", help=f"parameter of {_WITH_S}, above 0 (default 1)")
+    add("--p2p-weight", type=float, metavar="L", help="weight of the targets (default 1e5)")
+    add(
+        "--conformal",
+        action="store_const",
+        const=True,
+        help="allow conformal maps only (no shear)",
+    )
+    add(
+        "--sampling",
+        metavar="{graded,uniform}",
+        help="where the energy is integrated: graded panels (default) or the paper's samples",
+    )
+    add(
+        "--certificate",
+        metavar="{hermite,lipschitz,bdhm}",
+        help="how injectivity is proved: ours (default), the paper's Lipschitz bounds, or BDHM's "
+        "looser ones",
+    )
+    add(
+        "--hessian",
+        metavar="{adaptive,projected,exact}",
+        help="exact where positive definite (default), the paper's projection, or always exact",
+    )
+    add(
+        "--no-align",
+        dest="align",
+        action="store_const",
+        const=False,
+        help="begin at the identity itself, not at its best rigid motion to the targets",
+    )
+    add(
+        "--restarts",
+        type=int,
+        metavar="N",
+        help="other ways to try where the first ends at a high energy (default 3)",
+    )
+    add("--max-iterations", type=int, metavar="K", help="most Newton iterations (default 200)")
+
+
+def add_trace_flags(parser: argparse.ArgumentParser) -> None:
+    """Add the flags of the tracing."""
+    add = parser.add_argument_group("tracing").add_argument
+    pixel: dict[str, Any] = {"type": float, "nargs": 2, "metavar": ("X", "Y")}
+    add(
+        "--method",
+        metavar="{auto,alpha,threshold,color,scribbles}",
+        help="how the foreground is found (default: what suits the picture)",
+    )
+    add(
+        "--scribbles",
+        type=Path,
+        metavar="FILE.json",
+        help="strokes, as lists of [x, y] pixels, under the keys foreground and background",
+    )
+    add("--invert", action=argparse.BooleanOptionalAction, help="swap foreground and background")
+    add("--threshold", type=float, metavar="T", help="least value of the foreground, 0 to 1")
+    add(
+        "--background",
+        type=float,
+        nargs=3,
+        metavar=("R", "G", "B"),
+        help="background colour, each 0 to 1 (default: estimated from the border)",
+    )
+    add("--background-at", help="a pixel that shows the background's colour", **pixel)
+    add("--smoothing", type=float, metavar="PX", help="blur before the outline is taken")
+    add("--component", type=int, metavar="I", help="which component, 0 being the largest")
+    add("--component-at", help="a pixel in the component to trace", **pixel)
+    add("--min-hole-area", type=float, metavar="PX2", help="smaller holes are filled")
+    add("--offset", type=float, metavar="PX", help="distance of the cage from the outline")
+    add("--simplify", type=float, metavar="PX", help="how far simplification may move it")
+    add("--max-vertices", type=int, metavar="N", help="most vertices of the cage")
+    add("--min-edge", type=float, metavar="PX", help="shorter edges are merged")
+    add("--max-edge", type=float, metavar="PX", help="longer edges are divided")
+    for verb, done in (("keep", "kept"), ("drop", "filled")):
+        add(
+            f"--{verb}-hole",
+            dest=f"{verb}_holes",
+            action="append",
+            help=f"a pixel in a hole that is {done} whatever its size; may be repeated",
+            **pixel,
+        )
+
+
+def energy_of(chosen: argparse.Namespace) -> glid_nb.Energy:
+    """The energy that the flags name.
+
+    Raises
+    ------
+    InputError
+        It is unknown, its parameter is not positive, or it has none and one is given.
+    """
+    energy = glid_nb.energy_by_name(chosen.energy, chosen.s)
+    if chosen.s is not None and not hasattr(energy, "s"):
+        raise glid_nb.InputError(f"--s is the parameter of {_WITH_S}; {energy.name} has none")
+    return energy
+
+
+def options_of(chosen: argparse.Namespace) -> glid_nb.Options:
+    """The solver's options that the flags name."""
+    return glid_nb.Options(**_given(chosen, glid_nb.Options))
+
+
+def trace_options_of(chosen: argparse.Namespace) -> glid_nb.TraceOptions:
+    """The options of the tracing that the flags name."""
+    options = _given(chosen, glid_nb.TraceOptions)
+    if "scribbles" in options:
+        options["scribbles"] = glid_nb.Scribbles.load(chosen.scribbles)
+    return glid_nb.TraceOptions(**options)
+
+
+def _given(chosen: argparse.Namespace, kind: Any) -> dict[str, Any]:
+    """The fields of a dataclass for which there are values."""
+    values = {field.name: getattr(chosen, field.name, None) for field in dataclasses.fields(kind)}
+    return {name: value for name, value in values.items() if value is not None}

@@ -1,0 +1,74 @@
+"""Solving with progress that can be stopped, and the report of it."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import glid_nb
+from glid_nb.cli.progress import Progress
+
+
+def run_solver(
+    domain: glid_nb.Domain,
+    pose: glid_nb.Pose,
+    energy: glid_nb.Energy,
+    options: glid_nb.Options,
+    progress: Progress,
+    start: glid_nb.HarmonicMap | None = None,
+) -> tuple[glid_nb.Result, dict[str, Any]]:
+    """The result and its report.
+
+    Ctrl-C ends the solve with the last certified map, whose files are then written as usual; a
+    second one abandons it.
+    """
+    glid_nb.enable_compilation_cache()
+    with (
+        progress.step("solving (new shapes are compiled first; Ctrl-C stops)") as detail,
+        _interruptible() as interrupted,
+    ):
+
+        def show(state: glid_nb.Progress) -> bool:
+            detail(_in_words(state))
+            return interrupted()
+
+        result = glid_nb.solve(domain, pose, energy, options, start=start, callback=show)
+    with progress.step("proving the result"):
+        report = glid_nb.build_report(result)
+    return result, report
+
+
+def check_interrupted(result: glid_nb.Result) -> None:
+    """Raise KeyboardInterrupt after a solve that Ctrl-C stopped, once its files are written."""
+    if result.status is glid_nb.Status.STOPPED:
+        raise KeyboardInterrupt
+
+
+def _in_words(state: glid_nb.Progress) -> str:
+    if not state.history:  # the first step was refused: panels are split before it is tried again
+        return "before the first iteration, splitting panels"
+    last = state.history[-1]
+    return f"iteration {last.iteration}, energy {last.energy:.6g}"
+
+
+@contextmanager
+def _interruptible() -> Iterator[Callable[[], bool]]:
+    """Make the first Ctrl-C a request, which the function yielded tells of."""
+    asked = threading.Event()
+    if threading.current_thread() is not threading.main_thread():
+        yield asked.is_set
+        return
+
+    def ask(signal_number: int, frame: Any) -> None:
+        if asked.is_set():
+            signal.default_int_handler(signal_number, frame)
+        asked.set()
+
+    previous = signal.signal(signal.SIGINT, ask)
+    try:
+        yield asked.is_set
+    finally:
+        signal.signal(signal.SIGINT, previous)

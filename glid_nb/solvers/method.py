@@ -1,0 +1,201 @@
+"""What a method is: a value whose fields are its settings."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import importlib.util
+import math
+import numbers
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, fields
+from typing import Any, ClassVar, Literal, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+from glid_nb._errors import InputError
+from glid_nb.energies import Energy
+from glid_nb.geometry import Domain
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.solvers.options import Options
+from glid_nb.solvers.pose import Pose
+from glid_nb.solvers.result import Callback, DeformationMap, Result
+
+Family = Literal["harmonic", "mesh", "linear"]
+
+_EXTRA = "compare"
+_DISTRIBUTIONS = {"igl": "libigl"}
+"""Names under which packages are installed, where they are imported under another."""
+
+
+class MethodError(InputError):
+    """A method is unknown, cannot minimise the energy, lacks its package or a setting is wrong."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Inputs:
+    """What every method is given."""
+
+    domain: Domain
+    pose: Pose
+    energy: Energy
+    options: Options
+    start: DeformationMap | Result | None = None
+    callback: Callback | None = None
+
+    @property
+    def start_map(self) -> DeformationMap | None:
+        """The map to start from."""
+        return self.start.map if isinstance(self.start, Result) else self.start
+
+
+@dataclass(frozen=True)
+class Method:
+    """A way to deform a domain, for the argument ``method`` of :func:`glid_nb.solve`.
+
+    Subclasses are frozen dataclasses; their fields are the method's own settings.
+
+    Raises
+    ------
+    MethodError
+        When a setting is of another kind than its annotation says, or out of its range.
+    """
+
+    name: ClassVar[str]
+    """A short name, for files and the shell."""
+    label: ClassVar[str]
+    """What menus call it."""
+    summary: ClassVar[str]
+    """One sentence."""
+    family: ClassVar[Family]
+    """Where its maps live: in the harmonic subspace, where they are certified, or on a mesh; a
+    linear method is one on a mesh that solves once."""
+    max_iterations: ClassVar[int] = 200
+    """Unless the options say otherwise."""
+    energies: ClassVar[tuple[str, ...] | None] = None
+    """Names of the energies that it can minimise; None for any."""
+    package: ClassVar[str | None] = None
+    """The optional package that it needs."""
+    options: ClassVar[tuple[str, ...]] = ("p2p_weight", "align", "max_iterations")
+    """Names of the :class:`~glid_nb.Options` that count."""
+
+    def __post_init__(self) -> None:
+        for name, kind in self.kinds().items():
+            expected = _unmet(kind, getattr(self, name))
+            if expected:
+                raise MethodError(
+                    f"the setting {name!r} of the method {self.name!r} must be {expected}, "
+                    f"got {getattr(self, name)!r:.60}"
+                )
+
+    def run(self, inputs: Inputs) -> Result:
+        """Deform; :func:`glid_nb.solve` has checked what it gives."""
+        raise NotImplementedError
+
+    @classmethod
+    def kinds(cls) -> Mapping[str, Any]:
+        """What each setting may be, as an annotation."""
+        return _kinds(cls)
+
+    @classmethod
+    def defaults(cls) -> Mapping[str, Any]:
+        """The settings' defaults."""
+        return {f.name: f.default for f in fields(cls) if f.default is not MISSING}
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """The settings that are not the defaults."""
+        values = {name: getattr(self, name) for name in self.defaults()}
+        return {k: v for k, v in values.items() if v != self.defaults()[k]}
+
+    @property
+    def certified(self) -> bool:
+        """Whether its maps are proved locally injective."""
+        return self.family == "harmonic"
+
+    @classmethod
+    def available(cls) -> bool:
+        """Whether its package is installed."""
+        return cls.package is None or importlib.util.find_spec(cls.package) is not None
+
+    def limit(self, options: Options) -> int:
+        """Its most iterations."""
+        most = options.max_iterations
+        return self.max_iterations if most is None else most
+
+    def check(self, energy: Energy) -> None:
+        """Raise :class:`MethodError` if it cannot run with this energy, saying what to do."""
+        self._import_package()
+        self.check_energy(energy)
+
+    def check_energy(self, energy: Energy) -> None:
+        """Raise :class:`MethodError` if it cannot minimise this energy."""
+        if self.energies is not None and energy.name not in self.energies:
+            raise MethodError(
+                f"the method {self.name!r} cannot minimise the energy {energy.name!r}; "
+                f"choose one of {', '.join(self.energies)}"
+            )
+
+    def _import_package(self) -> None:
+        """Import the optional package, or say why not and what to do."""
+        if self.package is None:
+            return
+        distribution = _DISTRIBUTIONS.get(self.package, self.package)
+        needs = f"the method {self.name!r} needs the package {distribution}"
+        if not self.available():
+            raise MethodError(
+                f"{needs}, which is not installed; install it with: pip install 'glid-nb[{_EXTRA}]'"
+            )
+        try:
+            importlib.import_module(self.package)
+        except ImportError as error:
+            raise MethodError(
+                f"{needs}, which is installed but cannot be imported ({error}); install it again "
+                f"with: pip install --force-reinstall {distribution}, or all of its extra with: "
+                f"pip install --force-reinstall 'glid-nb[{_EXTRA}]'"
+            ) from error
+
+    def harmonic_start(self, inputs: Inputs) -> HarmonicMap | None:
+        """The map to start from in the harmonic subspace.
+
+        Raises
+        ------
+        MethodError
+            When it is a map of a mesh.
+        """
+        start = inputs.start_map
+        if start is None or isinstance(start, HarmonicMap):
+            return start
+        raise MethodError(
+            f"the method {self.name!r} works in the harmonic subspace and cannot start from a "
+            "map of a mesh; give a HarmonicMap, or none"
+        )
+
+
+@functools.cache
+def _kinds(method: type[Method]) -> dict[str, Any]:
+    hints = get_type_hints(method)
+    return {f.name: hints[f.name] for f in fields(method)}
+
+
+def _unmet(kind: Any, value: Any) -> str:
+    """What a value of an annotated kind must be, if this one is not; empty if it is."""
+    if get_origin(kind) is Literal:
+        allowed = get_args(kind)
+        known = any(type(value) is type(one) and value == one for one in allowed)
+        return "" if known else f"one of {', '.join(map(str, allowed))}"
+    if get_args(kind):
+        each = [_unmet(one, value) for one in get_args(kind)]
+        return "" if "" in each else " or ".join(each)
+    if kind is type(None):
+        return "" if value is None else "None"
+    if kind is bool:
+        return "" if isinstance(value, bool | np.bool_) else "True or False"
+    if kind not in (int, float):
+        return "" if isinstance(value, kind) else f"a {kind.__name__}"
+    whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
+    if kind is int:
+        return "" if whole and int(value) >= 0 else "a whole number of at least 0"
+    real = whole or (isinstance(value, numbers.Real) and not isinstance(value, bool))
+    fits = real and math.isfinite(value) and float(value) >= 0
+    return "" if fits else "a finite number of at least 0"

@@ -1,0 +1,364 @@
+"""Newton's method on the device: one compiled call runs several iterations (paper Algorithm 1)."""
+
+from __future__ import annotations
+
+import functools
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from glid_nb._arrays import AnyArray
+from glid_nb._jax import jax, jit, jnp, lax
+from glid_nb._runtime import COMPILER_OPTIONS
+from glid_nb.certificate import PanelBounds
+from glid_nb.solvers import cholesky, evaluation, line_search, whitening
+from glid_nb.solvers.evaluation import Line, Point
+from glid_nb.solvers.hessian import (
+    LocalHessian,
+    assemble,
+    assemble_across_f,
+    local_hessian,
+    positive_part,
+)
+from glid_nb.solvers.options import HessianKind
+from glid_nb.solvers.outcome import CONVERGED, INDEFINITE, RUNNING
+from glid_nb.solvers.problem import Positional, Problem
+from glid_nb.solvers.unknowns import expand, restrict_gradient, restrict_hessian
+
+if TYPE_CHECKING:
+    from jaxtyping import Array, Bool, Float, Int
+
+# A correction that gains more than this share of what the step before it gained is slow: the
+# Hessian has changed, and a new one gains more for its cost.
+_CONTRACTION = 0.3
+# Far from the minimum, after a step that gains more than this share of the energy, corrections
+# creep along the valley that the next Hessian would cross.
+_CLOSE = 0.1
+LEAST_ENERGY = 1e-6
+"""What a decrease is compared with where the energy is less.
+
+Energies are means over the boundary. ARAP's vanish at rigid motions, where nothing is relative to
+them; below this one nobody sees a distortion.
+"""
+
+
+class Variant(NamedTuple):
+    """What a program is compiled for, besides the sizes of its arrays."""
+
+    hessian: HessianKind
+    capacity: int
+    """Room in the history, at least the iterations of a call."""
+
+
+class Settings(NamedTuple):
+    """Numbers that may change without compiling again."""
+
+    tolerance: Float[AnyArray, ""]
+    iterations: Int[AnyArray, ""]
+    may_refine: Bool[AnyArray, ""]
+    """Whether to return as soon as a panel refuses a step, so that it can be split."""
+    ridge: Float[AnyArray, ""]
+    """Added to the Hessian's diagonal, relative to its mean (Section 9.1's epsilon)."""
+    reuse: Bool[AnyArray, ""]
+    """Whether the first iteration takes the factor that it is given instead of a new one."""
+    corrections: Int[AnyArray, ""]
+    """Most corrections of one iteration."""
+
+
+class Record(NamedTuple):
+    """History of one iteration, the state after its step."""
+
+    energy_iso: Float[AnyArray, ""]
+    energy_p2p: Float[AnyArray, ""]
+    step: Float[AnyArray, ""]
+    decrement: Float[AnyArray, ""]
+    sigma2_lower: Float[AnyArray, ""]
+    hessian_modified: Bool[AnyArray, ""]
+    corrections: Int[AnyArray, ""]
+
+
+class State(NamedTuple):
+    """State of the loop."""
+
+    point: Point
+    start_iso: Float[Array, ""]
+    """Energies before the first iteration of this call."""
+    start_p2p: Float[Array, ""]
+    iteration: Int[Array, ""]
+    outcome: Int[Array, ""]
+    decrement: Float[Array, ""]
+    records: Record
+    refused: Bool[Array, " p"]
+    """Panels that refused the last preferred step and may allow it once they are split."""
+    sigma2_lower: Float[Array, " p"]
+    """Certified bound per panel at ``point``, once a step was taken."""
+    factor: Float[Array, "4u 4u"]
+    """Cholesky factor of the last Hessian, in whitened coordinates."""
+
+
+class _Call(NamedTuple):
+    """What a call is given, and what it computes of that once."""
+
+    problem: Problem
+    settings: Settings
+    variant: Variant
+    positional: Positional
+    p2p_hessian: Float[Array, "4u 4u"]
+    """Of the positional energy, in whitened coordinates."""
+
+
+def iterations(
+    problem: Problem,
+    coefficients: Float[Array, " 4c"],
+    factor: Float[Array, "4u 4u"],
+    settings: Settings,
+    *,
+    variant: Variant,
+) -> State:
+    """Up to ``settings.iterations`` (at most the capacity) Newton iterations, to be compiled."""
+    positional = Positional.of(problem.constraints)
+    rows = whitening.pulled_back(positional.matrix, problem.matrices.whitening)
+    p2p_hessian = rows.T @ (positional.weights[:, None] * rows)
+    p2p_hessian = restrict_hessian(p2p_hessian, problem.unknowns)
+    call = _Call(problem, settings, variant, positional, p2p_hessian)
+
+    def goes_on(state: State) -> Bool[Array, ""]:
+        return (state.outcome == RUNNING) & (state.iteration < settings.iterations)
+
+    start = _start(call, coefficients, factor)
+    end = lax.while_loop(goes_on, functools.partial(_iteration, call), start)
+
+    def helped() -> Bool[Array, " p"]:
+        return end.refused & evaluation.tightened_by_splitting(problem, end.point)
+
+    return end._replace(refused=lax.cond(jnp.any(end.refused), helped, lambda: end.refused))
+
+
+def _start(call: _Call, coefficients: Float[Array, " 4c"], factor: Float[Array, "4u 4u"]) -> State:
+    """Before the first iteration."""
+    point = evaluation.evaluated(call.problem, call.positional, coefficients)
+    real, capacity = call.problem.matrices.real, call.variant.capacity
+    blank = jnp.full(capacity, jnp.nan)
+    return State(
+        point=point,
+        start_iso=point.energy_iso,
+        start_p2p=point.energy_p2p,
+        iteration=jnp.array(0),
+        outcome=jnp.array(RUNNING),
+        decrement=jnp.array(jnp.inf),
+        records=Record(
+            energy_iso=blank,
+            energy_p2p=blank,
+            step=blank,
+            decrement=blank,
+            sigma2_lower=blank,
+            hessian_modified=jnp.zeros(capacity, bool),
+            corrections=jnp.zeros(capacity, int),
+        ),
+        refused=jnp.zeros_like(real),
+        sigma2_lower=jnp.full(real.shape, jnp.nan),
+        factor=factor,
+    )
+
+
+def _iteration(call: _Call, state: State) -> State:
+    """One iteration of Algorithm 1; close to the minimum, with corrections."""
+    problem, positional, point = call.problem, call.positional, state.point
+    # The Hessian and its factor, projected where it is not positive definite.
+    factor, modified = _factorised(call, state)
+    definite = jnp.isfinite(factor[-1, -1])
+    # The direction.
+    line = _newton_line(call, point, factor)
+    decrement = jnp.sqrt(jnp.maximum(line.squared_decrement, 0))
+    # Line search and certificate.
+    found = line_search.search(problem, positional, point, line)
+    outcome, step, panel, refused = line_search.backtrack(
+        problem, positional, point, line, found, call.settings.may_refine
+    )
+    # Stop on the decrement.
+    outcome = jnp.where(_is_minimal(call, point, line), CONVERGED, outcome)
+    outcome = jnp.where(definite, outcome, INDEFINITE)
+    stepped = outcome == RUNNING
+    # Step.
+    step = jnp.where(stepped, step, 0.0)
+    after = _After(
+        point=evaluation.moved(problem, positional, point, line, step),
+        panel=panel,
+        corrections=jnp.array(0),
+        minimal=jnp.array(False),
+        decrement=decrement,
+    )
+    go_on = functools.partial(_corrected, call, factor, point.energy)
+    after = lax.cond(stepped, go_on, lambda a: a, after)
+    least = jnp.min(jnp.where(problem.matrices.real, after.panel.sigma2_lower, jnp.inf))
+    record = Record(
+        energy_iso=after.point.energy_iso,
+        energy_p2p=after.point.energy_p2p,
+        step=step,
+        decrement=decrement,
+        sigma2_lower=least,
+        hessian_modified=modified,
+        corrections=after.corrections,
+    )
+    return state._replace(
+        point=after.point,
+        iteration=state.iteration + stepped,
+        outcome=jnp.where(after.minimal, CONVERGED, outcome),
+        decrement=jnp.where(after.minimal, after.decrement, decrement),
+        records=_recorded(state.records, state.iteration, record, stepped),
+        refused=refused,
+        sigma2_lower=jnp.where(stepped, after.panel.sigma2_lower, state.sigma2_lower),
+        factor=factor,
+    )
+
+
+def _factorised(call: _Call, state: State) -> tuple[Float[Array, "4u 4u"], Bool[Array, ""]]:
+    """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected.
+
+    The factor that the call was given, where its first iteration is to take that. A loop, for its
+    turns write into the same memory.
+    """
+    problem, settings, kind = call.problem, call.settings, call.variant.hessian
+    matrices, energy = problem.matrices, problem.energy
+    wanted = jnp.logical_not(settings.reuse) | (state.iteration > 0)
+    nodes = state.point.samples.nodes[:, matrices.hessian_index]
+    x, y = evaluation.squares(nodes)
+    local = local_hessian(energy.differentials(x, y), x, y)
+    projected = positive_part(local)
+    dtype = matrices.whitened.dtype
+    weights, f, g = jax.tree.map(
+        lambda a: a.astype(dtype), (matrices.hessian_weights, *evaluation.directions(nodes))
+    )
+
+    def assembled(k: LocalHessian) -> Float[Array, "4u 4u"]:
+        k = LocalHessian(*(part.astype(dtype) for part in k))
+        return assemble(matrices.whitened, weights, f, g, k)
+
+    def project(h: Float[Array, "4u 4u"]) -> Float[Array, "4u 4u"]:
+        if not energy.indefinite_across_f_only:
+            return assembled(projected)
+        # The Hessian that was not definite lacks this block alone.
+        across = (projected.across_f - local.across_f).astype(dtype)
+        block = assemble_across_f(matrices.whitened, weights, f, across)
+        return h.at[: block.shape[0], : block.shape[0]].add(block)
+
+    first = projected if kind == "projected" else local
+    most = 2 if kind == "adaptive" else 1
+
+    def attempt(carry: tuple) -> tuple:
+        _, h, count = carry
+        h = lax.cond(count == 0, lambda _: assembled(first), project, h)
+        whole = restrict_hessian(h, problem.unknowns, call.p2p_hessian, settings.ridge)
+        return cholesky.factorise(whole), h, count + 1
+
+    def goes_on(carry: tuple) -> Bool[Array, ""]:
+        factor, _, count = carry
+        again = (count < most) & ~jnp.isfinite(factor[-1, -1])
+        return wanted & ((count == 0) | again)
+
+    blank = jnp.zeros(state.factor.shape, dtype)
+    factor, _, count = lax.while_loop(goes_on, attempt, (state.factor, blank, jnp.array(0)))
+    return factor, wanted & ((count == 2) | (kind == "projected"))
+
+
+def _newton_line(call: _Call, point: Point, factor: Float[Array, "4u 4u"]) -> Line:
+    """The line in the direction ``-H^-1 gradient``, computed in whitened coordinates."""
+    unknowns, t = call.problem.unknowns, call.problem.matrices.whitening
+    gradient = evaluation.gradient(call.problem, call.positional, point)
+    gradient = restrict_gradient(whitening.pulled_back(gradient, t), unknowns)
+    step = -cholesky.solve(factor, gradient)
+    step = jnp.where(jnp.isfinite(factor[-1, -1]), step, 0)
+    direction = whitening.coefficients(expand(step, unknowns), t)
+    return evaluation.line_along(call.problem, direction, jnp.dot(gradient, step))
+
+
+def _is_minimal(call: _Call, point: Point, line: Line) -> Bool[Array, ""]:
+    """Whether a step promises next to no decrease of the energy."""
+    scale = jnp.maximum(jnp.abs(point.energy), LEAST_ENERGY)
+    return line.squared_decrement / 2 <= call.settings.tolerance * scale
+
+
+class _After(NamedTuple):
+    """Where an iteration ends."""
+
+    point: Point
+    panel: PanelBounds
+    corrections: Int[Array, ""]
+    minimal: Bool[Array, ""]
+    """Whether a correction found that the point is the minimum."""
+    decrement: Float[Array, ""]
+    """Of the last correction."""
+
+
+def _corrected(
+    call: _Call, factor: Float[Array, "4u 4u"], total: Float[Array, ""], stepped: _After
+) -> _After:
+    """Go on by corrections while they pay, provided that the last one is certified.
+
+    Corrections are steps by the same factor from gradients of their own (Shamanskii's method), for
+    a fraction of the cost of another Hessian. ``total`` is the energy before the iteration's step.
+    """
+    gain = total - stepped.point.energy
+    point, count, minimal, decrement = _corrections(call, stepped.point, gain, factor)
+    panel = lax.cond(
+        count > 0,
+        lambda: evaluation.bounds(call.problem, point),
+        lambda: stepped.panel,
+    )
+    matrices = call.problem.matrices
+    zeros = evaluation.has_zeros(matrices, panel)
+    proved = jnp.all(panel.injective | ~matrices.real) & ~zeros & (count > 0)
+    return _After(
+        point=_where(proved, point, stepped.point),
+        panel=_where(proved, panel, stepped.panel),
+        corrections=jnp.where(proved, count, 0),
+        minimal=minimal & proved,
+        decrement=decrement,
+    )
+
+
+def _corrections(
+    call: _Call, point: Point, gain: Float[Array, ""], factor: Float[Array, "4u 4u"]
+) -> tuple[Point, Int[Array, ""], Bool[Array, ""], Float[Array, ""]]:
+    """Where corrections lead, how many there were, whether to the minimum, the last decrement."""
+    problem, positional, settings = call.problem, call.positional, call.settings
+
+    def correct(carry: tuple) -> tuple:
+        point, gain, count, _, _ = carry
+        line = _newton_line(call, point, factor)
+        found = line_search.search(problem, positional, point, line)
+        minimal = _is_minimal(call, point, line)
+        takes = found.acceptable[found.best] & ~minimal
+        there = evaluation.moved(problem, positional, point, line, found.steps[found.best])
+        gained = point.energy - there.energy
+        decrement = jnp.sqrt(jnp.maximum(line.squared_decrement, 0))
+        more = takes & (gained < _CONTRACTION * gain) & (count + 1 < settings.corrections)
+        return _where(takes, there, point), gained, count + takes, more, (minimal, decrement)
+
+    more = (gain < _CLOSE * point.energy) & (settings.corrections > 0)
+    nothing = (jnp.array(False), jnp.array(jnp.inf))
+    carry = (point, gain, jnp.array(0), more, nothing)
+    point, _, count, _, (minimal, decrement) = lax.while_loop(lambda c: c[3], correct, carry)
+    return point, count, minimal, decrement
+
+
+def _recorded(
+    records: Record, iteration: Int[Array, ""], record: Record, stepped: Bool[Array, ""]
+) -> Record:
+    """The records with one more, where a step was taken."""
+    return jax.tree.map(
+        lambda all_, one: all_.at[iteration].set(jnp.where(stepped, one, all_[iteration])),
+        records,
+        record,
+    )
+
+
+def _where(condition: Bool[Array, ""], one: Any, other: Any) -> Any:
+    return jax.tree.map(lambda a, b: jnp.where(condition, a, b), one, other)
+
+
+run = jit(
+    iterations,
+    static_argnames=("variant",),
+    donate_argnames=("factor",),
+    compiler_options=COMPILER_OPTIONS,
+)
+""":func:`iterations` compiled, for one pose; the factor that it is given is gone afterwards."""

@@ -1,0 +1,262 @@
+// Pointers, wheel and keys over a picture. What they mean is decided by the kernel; panning and
+// zooming are done here, and what the hand holds is drawn where it is before the kernel answers.
+
+const WHEEL_SPEED = 0.0015, WHEEL_LINE = 33;
+const CLICK = 4; // CSS pixels that a click may move
+const LONG_PRESS = 600, LONG_PRESS_GRACE = 100, LONG_PRESS_SLACK = 8; // ms, ms, CSS pixels
+const PATH_STEP = 3; // CSS pixels between the points of a path
+
+export function isUndo(e) {
+  return (e.ctrlKey || e.metaKey) && ["z", "y"].includes(e.key.toLowerCase());
+}
+
+export function undoOrRedo(e) {
+  return e.key.toLowerCase() === "z" && !e.shiftKey ? "undo" : "redo";
+}
+
+export class Pad {
+  // canvas says what is special to it:
+  //   reach: how near the pointer must come, CSS pixels, by its type
+  //   keys: those that the kernel acts on; the others go on to the notebook
+  //   actions: those that the page acts on, functions by their key
+  //   find(point, reach): what is there, null for nothing; with `mark` where it can be held
+  //   held(found): points by their marks that go with the hand
+  //   pans(found), paints(): whether the left button moves the view, or leaves a path
+  //   cursor(found): the pointer's shape
+  //   removesByLongPress, wheelNeedsFocus: whether a finger that rests removes what it is on, and
+  //     whether the wheel zooms only where the keys go
+  //   changed(): what is drawn has changed
+  constructor(element, view, link, canvas) {
+    Object.assign(this, { element, view, link, canvas });
+    this.pointers = new Map(); // id -> last place, of touches and of the mouse while pressed
+    this.mode = null; // what the pressed pointer does: "hand", "pan" or "pinch"
+    this.grip = null; // where it took hold of which marks
+    this.held = new Map(); // marks that are drawn where the hand has them
+    this.path = []; // of a pointer that paints, world points
+    this.found = this.rests = null; // what is below a pointer that rests, and where that is
+    this.space = this.focused = false;
+    element.tabIndex = 0;
+    this.on("pointerdown", (e) => this.down(e));
+    this.on("pointermove", (e) => this.move(e));
+    this.on("pointerup", (e) => this.up(e, "up"));
+    this.on("pointercancel", (e) => this.up(e, "cancel"));
+    this.on("lostpointercapture", (e) => this.up(e, "cancel"));
+    this.on("pointerleave", () => this.hover(null));
+    this.on("wheel", (e) => this.wheel(e), { passive: false });
+    // The right button removes; neither the browser's nor JupyterLab's menu may open.
+    this.on("contextmenu", (e) => {
+      e.preventDefault();
+      e.stopPropagation();
+    });
+    this.on("keydown", (e) => this.keydown(e));
+    this.on("keyup", (e) => e.key === " " && this.setSpace(false));
+    this.on("focus", () => this.setFocus(true));
+    this.on("blur", () => this.setFocus(false));
+  }
+
+  on(name, handler, options) {
+    this.element.addEventListener(name, handler, options);
+  }
+
+  close() {
+    clearTimeout(this.longPress);
+  }
+
+  place(e) {
+    const box = this.element.getBoundingClientRect();
+    return [e.clientX - box.left, e.clientY - box.top];
+  }
+
+  reach(type) {
+    return this.canvas.reach[type] ?? this.canvas.reach.mouse;
+  }
+
+  send(type, place, e, more = {}) {
+    const [x, y] = this.view.toWorld(place);
+    const { unit } = this.view;
+    return this.link.put({
+      type, x, y, unit, reach: this.reach(e.pointerType) * unit, button: e.button ?? 0,
+      shift: e.shiftKey, time: e.timeStamp, ...more,
+    });
+  }
+
+  find(place, type) {
+    return this.canvas.find(this.view.toWorld(place), this.reach(type) * this.view.unit);
+  }
+
+  down(e) {
+    if (this.pointers.has(e.pointerId) || this.pointers.size > 1) return;
+    e.preventDefault();
+    this.element.focus({ preventScroll: true });
+    const place = this.place(e);
+    this.pointers.set(e.pointerId, place);
+    this.element.setPointerCapture(e.pointerId);
+    if (this.pointers.size === 2) return this.beginPinch(e);
+    this.start = place;
+    if (e.button === 1 || (e.button === 0 && this.space)) {
+      this.mode = "pan";
+      return this.shape();
+    }
+    this.mode = "hand";
+    const found = this.find(place, e.pointerType), left = e.button === 0;
+    const mark = found?.mark;
+    if (left && !e.shiftKey && mark !== undefined) {
+      this.grip = { from: this.view.toWorld(place), points: this.canvas.held(found) };
+    }
+    this.pans = left && this.canvas.pans(found);
+    this.path = left && this.canvas.paints() ? [this.view.toWorld(place)] : [];
+    this.send("down", place, e);
+    if (this.canvas.removesByLongPress && e.pointerType === "touch" && mark !== undefined) {
+      this.longPress = setTimeout(() => this.pressedLong(e, place), LONG_PRESS);
+    }
+    this.shape();
+    this.canvas.changed();
+  }
+
+  pressedLong(e, place) {
+    // A busy page may have moves waiting that were made in time; they cancel this.
+    this.longPress = setTimeout(() => {
+      this.takeBack(e);
+      this.mode = null;
+      this.send("remove", place, e);
+    }, LONG_PRESS_GRACE);
+  }
+
+  // What the hand has begun in the kernel never was.
+  takeBack(e) {
+    if (this.mode === "hand") this.send("cancel", this.start, e);
+    this.letGo();
+    this.held.clear();
+  }
+
+  move(e) {
+    const place = this.place(e);
+    if (!this.pointers.has(e.pointerId)) {
+      if (e.pointerType !== "touch") this.hover(place);
+      return;
+    }
+    const before = this.pointers.get(e.pointerId);
+    if (e.pointerType !== "touch") this.rests = place;
+    this.pointers.set(e.pointerId, place);
+    const far = Math.hypot(place[0] - this.start[0], place[1] - this.start[1]);
+    if (far > LONG_PRESS_SLACK) clearTimeout(this.longPress);
+    if (this.mode === "hand" && this.pans && far > CLICK) {
+      this.takeBack(e);
+      this.mode = "pan";
+      this.shape();
+    }
+    if (this.mode === "pan") this.view.pan(place[0] - before[0], place[1] - before[1]);
+    else if (this.mode === "pinch") this.pinch();
+    else if (this.mode === "hand") this.handMoved(place, e);
+  }
+
+  handMoved(place, e) {
+    const point = this.view.toWorld(place);
+    if (this.path.length) {
+      const [x, y] = this.view.toScreen(this.path.at(-1));
+      if (Math.hypot(place[0] - x, place[1] - y) >= PATH_STEP) this.path.push(point);
+    } else {
+      this.send("move", place, e, { replaces: `move ${e.pointerId}` });
+    }
+    if (this.grip) {
+      const [dx, dy] = [point[0] - this.grip.from[0], point[1] - this.grip.from[1]];
+      for (const [mark, [x, y]] of this.grip.points) this.held.set(mark, [x + dx, y + dy]);
+    }
+    this.canvas.changed();
+  }
+
+  up(e, type) {
+    if (!this.pointers.has(e.pointerId)) return;
+    const place = this.place(e);
+    this.pointers.delete(e.pointerId);
+    if (this.mode === "hand") {
+      const { path } = this;
+      this.send(type, place, e, path.length ? { path } : {}).then(() => {
+        if (!this.grip) this.held.clear(); // what the kernel says counts from here on
+        if (this.path === path) this.path = [];
+        this.canvas.changed();
+      });
+    }
+    this.letGo();
+    if (this.mode !== "pinch" || !this.pointers.size) this.mode = null;
+    this.shape();
+  }
+
+  letGo() {
+    clearTimeout(this.longPress);
+    this.grip = null;
+    this.canvas.changed();
+  }
+
+  beginPinch(e) {
+    this.takeBack(e); // two fingers were meant from the start
+    this.mode = "pinch";
+    this.span = this.spread();
+  }
+
+  spread() {
+    const [[ax, ay], [bx, by]] = [...this.pointers.values()];
+    return { x: (ax + bx) / 2, y: (ay + by) / 2, length: Math.hypot(ax - bx, ay - by) };
+  }
+
+  pinch() {
+    if (this.pointers.size < 2) return;
+    const now = this.spread();
+    this.view.pan(now.x - this.span.x, now.y - this.span.y);
+    if (now.length > 0) this.view.zoom(this.span.length / now.length, [now.x, now.y]);
+    this.span = now;
+  }
+
+  wheel(e) {
+    // Without focus, where the canvas wants it, the page scrolls on past the picture.
+    if (this.canvas.wheelNeedsFocus && !this.focused && !e.ctrlKey) return;
+    e.preventDefault();
+    e.stopPropagation();
+    const step = e.deltaMode === 1 ? e.deltaY * WHEEL_LINE : e.deltaY;
+    this.view.zoom(Math.exp(step * WHEEL_SPEED * (e.ctrlKey ? 5 : 1)), this.place(e));
+  }
+
+  keydown(e) {
+    const command = e.ctrlKey || e.metaKey;
+    const action = !command && this.canvas.actions?.[e.key];
+    if (!isUndo(e) && !action && e.key !== " ") {
+      if (e.altKey || !this.canvas.keys.has(e.key) || (command && e.key !== "a")) return;
+    }
+    e.preventDefault();
+    e.stopPropagation();
+    if (e.key === " ") return this.setSpace(true);
+    if (action) return action();
+    if (e.key === "Escape" || isUndo(e)) {
+      this.letGo();
+      this.held.clear();
+      this.path = [];
+    }
+    const middle = [this.view.width / 2, this.view.height / 2];
+    this.send("key", middle, e, { key: isUndo(e) ? undoOrRedo(e) : e.key });
+  }
+
+  // Look again for what is below the pointer, at a new place or after a change.
+  hover(place = this.rests) {
+    this.rests = place;
+    if (this.mode !== null) return;
+    this.found = place && this.find(place, "mouse");
+    this.shape();
+    this.canvas.changed();
+  }
+
+  setFocus(focused) {
+    this.focused = focused;
+    if (!focused) this.setSpace(false);
+    this.canvas.changed();
+  }
+
+  setSpace(pressed) {
+    this.space = pressed;
+    this.shape();
+  }
+
+  shape() {
+    const held = this.mode === "pan" || this.grip;
+    this.element.style.cursor = held ? "grabbing" : this.space ? "grab" : this.canvas.cursor(this.found);
+  }
+}

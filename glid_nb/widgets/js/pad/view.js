@@ -1,0 +1,35 @@
+// What part of the world is seen: a centre, and the world's units of a CSS pixel. Kept by the page, so
+// that panning and zooming need no kernel.
+
+export class View {
+  // up: 1 where y points up in the world, -1 where it points down. changed(): after every change.
+  constructor(changed, { up = 1, nearest, farthest }) {
+    Object.assign(this, { changed, up, nearest, farthest, x: 0, y: 0, unit: 1, width: 1, height: 1 });
+  }
+
+  toWorld([px, py]) {
+    const { x, y, unit, up } = this;
+    return [x + (px - this.width / 2) * unit, y - up * (py - this.height / 2) * unit];
+  }
+
+  toScreen([x, y]) {
+    const { unit, up } = this;
+    return [(x - this.x) / unit + this.width / 2, (up * (this.y - y)) / unit + this.height / 2];
+  }
+
+  pan(dx, dy) {
+    this.x -= dx * this.unit;
+    this.y += this.up * dy * this.unit;
+    this.changed();
+  }
+
+  // By a factor; the world stays where it is at a place of the screen, by default in the middle.
+  zoom(factor, place = [this.width / 2, this.height / 2]) {
+    const [x, y] = this.toWorld(place);
+    const unit = Math.min(this.farthest, Math.max(this.nearest, this.unit * factor));
+    this.x = x + (this.x - x) * (unit / this.unit);
+    this.y = y + (this.y - y) * (unit / this.unit);
+    this.unit = unit;
+    this.changed();
+  }
+}

@@ -1,0 +1,253 @@
+"""What pointers and keys on the tracer mean; without a browser."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from glid_nb.imaging import TraceError, read_image
+from glid_nb.session import loop_edits
+from glid_nb.session.tracing import TracingModel
+from glid_nb.widgets.gestures import LEFT, RIGHT, Array, Event, Gestures, place
+
+Vertex = tuple[int, int]
+"""Which loop, and which of its vertices."""
+
+_CLICK = 4.0  # CSS pixels that a click may move
+_DOUBLE, _DOUBLE_SLACK = 380.0, 12.0  # ms between two clicks, CSS pixels
+_BURST = 900.0  # ms without a key that end a burst of nudges
+_NUDGE, _NUDGE_SHIFT = 1.0, 10.0  # pixels of the picture
+_IN_HOLE, _EDGE = 0.6, 0.8  # of the reach
+_ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, -1), "ArrowDown": (0, 1)}
+_TOOLS = {"v": "edit", "b": "foreground", "n": "background", "i": "color", "c": "component"}
+_LARGEST_UPLOAD = 64 << 20
+
+
+@dataclass(frozen=True)
+class Found:
+    """What is at a place: a vertex, else whether there is an edge, and the hole around it."""
+
+    vertex: Vertex | None = None
+    edge: bool = False
+    hole: int | None = None
+
+
+@dataclass(eq=False)
+class _Press:
+    """A pressed pointer; it names the gesture of what it does to the model."""
+
+    tool: str
+    start: Array
+    found: Found
+    offset: Array = field(default_factory=lambda: np.zeros(2))
+    """From the pointer to the vertex that it holds."""
+    moved: bool = False
+
+
+class TraceGestures(Gestures):
+    """Edits and paints a tracing; what the panel beside the picture asks for is done here too.
+
+    Places are in pixels of the picture.
+    """
+
+    takes = Gestures.takes | {
+        *("tool", "upload", "set_options", "toggle_hole"),
+        *("clear_scribbles", "discard_edits", "undo", "redo"),
+    }
+
+    def __init__(self, model: TracingModel) -> None:
+        super().__init__(model)
+        self.model = model
+        self.tool = "edit"
+        """What the left button does: "edit", "foreground", "background", "color", "component"."""
+        self._selected: tuple[Vertex, ...] = ()
+        self._press: _Press | None = None
+        self._last_click = (-np.inf, np.zeros(2))
+        self._last_nudge = -np.inf
+        self._burst: object = None
+        self._incoming = _Upload()
+
+    @property
+    def selected(self) -> tuple[Vertex, ...]:
+        """The vertices that keys act on."""
+        sizes = [len(loop) for loop in self.model.outcome.loops]
+        return tuple((i, j) for i, j in self._selected if i < len(sizes) and j < sizes[i])
+
+    def find(self, point: Array, reach: float) -> Found:
+        """What is at a point."""
+        # In a small hole nothing is far from the loop around it; the middle stays the hole's.
+        holes = self.model.holes
+        around = [i for i, hole in enumerate(holes) if loop_edits.contains(hole.loop, point)]
+        hole = min(around, key=lambda i: holes[i].area) if around else None
+        reach = reach if hole is None else _IN_HOLE * reach
+        loops = self.model.loops
+        gaps = [np.hypot(*(loop - point).T) for loop in loops]
+        nearest = [(float(gap.min()), (i, int(gap.argmin()))) for i, gap in enumerate(gaps)]
+        least, vertex = min(nearest, default=(np.inf, None))
+        if vertex is not None and least <= reach:
+            return Found(vertex, hole=hole)
+        foot = loop_edits.nearest_edge(loops, point)[2] if loops else point + np.inf
+        return Found(edge=bool(np.hypot(*(foot - point)) <= _EDGE * reach), hole=hole)
+
+    # Pointers
+
+    def _down(self, event: Event) -> None:
+        if self.model.image is None:
+            return
+        point = place(event)
+        found = self.find(point, event["reach"]) if self.tool == "edit" else Found()
+        vertex = found.vertex
+        if event["button"] == RIGHT:
+            if vertex is not None:
+                self._delete(vertex)
+        elif event["button"] == LEFT:
+            if vertex is None:
+                self._press = _Press(self.tool, point, found)
+            elif event["shift"] and vertex in self.selected:
+                self._selected = tuple(v for v in self.selected if v != vertex)
+            else:
+                self._selected = (*self.selected, vertex) if event["shift"] else (vertex,)
+                offset = self.model.loops[vertex[0]][vertex[1]] - point
+                self._press = _Press(self.tool, point, found, offset)
+
+    def _move(self, event: Event) -> None:
+        press, point = self._press, place(event)
+        if press is None or press.found.vertex is None:
+            return  # the page moves the view, or leaves a path
+        press.moved |= np.hypot(*(point - press.start)) > _CLICK * event["unit"]
+        if press.moved:
+            x, y = point + press.offset
+            self.model.move_vertex(*press.found.vertex, (x, y), press)
+
+    def _up(self, event: Event) -> None:
+        press, self._press = self._press, None
+        if press is None or press.found.vertex is not None:
+            return
+        if press.tool in ("foreground", "background"):
+            self.model.paint(press.tool, event.get("path") or [place(event)])
+        elif press.tool in ("color", "component"):
+            what = "background" if press.tool == "color" else "component"
+            getattr(self.model, f"pick_{what}")(tuple(place(event)))
+            self.tool = "edit"
+        else:
+            self._click(press.found, event)
+
+    def _click(self, found: Found, event: Event) -> None:
+        point, (before, at) = place(event), self._last_click
+        near = np.hypot(*(point - at)) < _DOUBLE_SLACK * event["unit"]
+        double = near and event["time"] - before < _DOUBLE
+        self._last_click = (-np.inf if double else event["time"], point)
+        if found.edge:
+            if double:
+                self.model.insert_vertex(tuple(point))
+        elif found.hole is not None:
+            self.model.toggle_hole(found.hole)
+        else:
+            self._selected = ()
+
+    def _cancel(self, _: Event) -> None:
+        press, self._press = self._press, None
+        self.model.cancel(press)
+
+    def _delete(self, *vertices: Vertex) -> None:
+        self._selected = ()
+        self.model.delete_vertices(vertices)
+
+    # Keys
+
+    def _key(self, event: Event) -> None:
+        key = event["key"]
+        if key == "Escape":
+            if self._press is not None:
+                self._cancel(event)
+            elif self.tool != "edit":
+                self.tool = "edit"
+            else:
+                self._selected = ()
+        elif key in ("Delete", "Backspace"):
+            self._delete(*self.selected)
+        elif key in _ARROWS:
+            self._nudge(event)
+        elif key in ("[", "]"):
+            self._select_next(1 if key == "]" else -1)
+        elif key in ("undo", "redo"):
+            getattr(self, f"_{key}")(event)
+        elif key.lower() in _TOOLS:
+            self.tool = _TOOLS[key.lower()]
+
+    def _nudge(self, event: Event) -> None:
+        """Move the selected vertex; keys soon after one another are one step."""
+        if len(self.selected) != 1:
+            return
+        if event["time"] - self._last_nudge >= _BURST:
+            self._burst = object()
+        self._last_nudge = event["time"]
+        ((loop, index),) = self.selected
+        step = np.array(_ARROWS[event["key"]]) * (_NUDGE_SHIFT if event["shift"] else _NUDGE)
+        self.model.move_vertex(loop, index, self.model.loops[loop][index] + step, self._burst)
+
+    def _select_next(self, step: int) -> None:
+        every = [(i, j) for i, loop in enumerate(self.model.loops) for j in range(len(loop))]
+        if every:
+            now = every.index(self.selected[-1]) if self.selected else min(-step, 0)
+            self._selected = (every[(now + step) % len(every)],)
+
+    # The toolbar and the panel
+
+    def _tool(self, event: Event) -> None:
+        if event["name"] not in _TOOLS.values():
+            raise TraceError(f"there is no tool {event['name']!r}")
+        self.tool = event["name"]
+
+    def _set_options(self, event: Event) -> None:
+        self.model.set_options(event.get("gesture"), **event["changes"])
+
+    def _toggle_hole(self, event: Event) -> None:
+        self.model.toggle_hole(event["number"])
+
+    def _clear_scribbles(self, _: Event) -> None:
+        self.model.clear_scribbles()
+
+    def _discard_edits(self, _: Event) -> None:
+        self.model.discard_edits()
+
+    def _undo(self, event: Event) -> None:
+        """One step back; during a drag, to where that began."""
+        if self._press is not None:
+            self._cancel(event)
+        else:
+            self.model.undo()
+
+    def _redo(self, _: Event) -> None:
+        self.model.redo()
+
+    def _upload(self, event: Event) -> None:
+        data = self._incoming.add(event)
+        if data is not None:
+            self.model.open(read_image(data, event["name"]))
+
+
+class _Upload:
+    """A file that arrives in parts: a websocket message has a largest size."""
+
+    def __init__(self) -> None:
+        self._name: str | None = None
+        self._data = bytearray()
+
+    def add(self, part: Event) -> bytes | None:
+        """Add the part that begins at ``part["start"]``; the file when it is complete."""
+        name, size = part["name"], part["size"]
+        if part["start"] == 0:
+            self._name, self._data = name, bytearray()
+        if name != self._name or part["start"] != len(self._data):
+            raise TraceError(f"{name}: the upload was interrupted; try again")
+        if size > _LARGEST_UPLOAD:
+            raise TraceError(
+                f"{name} has {size:,} bytes; at most {_LARGEST_UPLOAD:,} can be uploaded"
+            )
+        self._data += bytes(part["data"])
+        if len(self._data) < size:
+            return None
+        data, self._data = bytes(self._data), bytearray()
+        return data

@@ -1,0 +1,75 @@
+"""Measure, and write tables and figures: ``python -m studies compare`` or ``... bench``.
+
+``bench`` times the solver on this machine: the paper's settings and ours, drag steps, first solves,
+growth with sizes, batches. ``compare`` measures the other methods on the same problems and makes
+the paper's figures anew; SLIM and the bounded distortion maps need the extra ``compare``.
+
+Tables (CSV) and figures go into the folder OUT, the raw measurements into OUT/data. The tables in
+the page OUT.md are replaced, its text is left alone. A run that was interrupted goes on where it
+stopped. On a machine with a GPU, after `pip install "jax[cuda12]"`, the same commands measure it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+from collections.abc import Sequence
+from pathlib import Path
+
+import glid_nb
+from glid_nb.cli.output import check_folder
+from glid_nb.cli.progress import Progress
+from studies.cases import reference_cases
+from studies.study import Plan, run_studies
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command."""
+    parser = argparse.ArgumentParser(
+        prog="python -m studies",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("what", choices=("compare", "bench"))
+    parser.add_argument(
+        "--out", type=Path, metavar="OUT", help="default: glid-nb-compare or glid-nb-bench"
+    )
+    parser.add_argument(
+        "--reference",
+        type=Path,
+        metavar="DIR",
+        help="folder of problems with the paper's shapes (default: the bundled samples)",
+    )
+    parser.add_argument(
+        "--only", action="append", metavar="STUDY", help="one study, may be repeated (default: all)"
+    )
+    parser.add_argument(
+        "--repeats", type=int, default=9, metavar="N", help="timings of each kind (default 9)"
+    )
+    parser.add_argument("--quick", action="store_true", help="small sizes only, to try it out")
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument("--fresh", action="store_true", help="measure again what is there already")
+    how.add_argument(
+        "--render", action="store_true", help="measure nothing: tables and figures from OUT/data"
+    )
+    chosen = parser.parse_args(arguments)
+    out = chosen.out or Path(f"glid-nb-{chosen.what}")
+    check_folder(out)
+    studies = importlib.import_module(f"studies.{chosen.what}").STUDIES
+    cases = {} if chosen.reference is None else reference_cases(chosen.reference)
+    glid_nb.enable_compilation_cache()
+    with Progress().step("measuring") as detail:
+        plan = Plan(cases, chosen.repeats, chosen.quick, detail)
+        page = run_studies(
+            studies,
+            out,
+            plan,
+            only=chosen.only,
+            fresh=chosen.fresh,
+            measuring=not chosen.render,
+        )
+    print(page)
+
+
+if __name__ == "__main__":
+    main()

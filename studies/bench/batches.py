@@ -1,0 +1,71 @@
+"""Poses per second of ``solve_batch`` against the size of the batch and the number of devices.
+
+XLA shows a CPU as two devices when the process is started with
+``XLA_FLAGS=--xla_force_host_platform_device_count=2``.
+"""
+
+from __future__ import annotations
+
+import jax
+import numpy as np
+
+from glid_nb.solvers import Options, Pose, solve, solve_batch
+from studies.bench.solving import bench_cases
+from studies.cases import Case
+from studies.store import Measurement
+from studies.study import Plan, Study, Task
+from studies.tables import Row
+from studies.timing import timed
+
+SIZES = (1, 4, 16, 64, 256)
+OPTIONS = Options(restarts=0)
+
+_REPEATS = 3
+_SHAPE = "rex"
+_SPREAD = 0.05  # standard deviation of what targets are moved by, world units
+
+
+def measure(case: Case, plan: Plan) -> Measurement:
+    """Poses per second, targets moved a little at random: one by one, and in batches by size."""
+    domain, pose = case.problem.domain, case.problem.pose
+    sizes, repeats = (SIZES[:1], 1) if plan.quick else (SIZES, _REPEATS)
+    moves = np.random.default_rng(0).normal(scale=_SPREAD, size=(max(sizes), *pose.targets.shape))
+    poses = pose.targets + moves
+
+    def one_by_one(count: int) -> None:
+        for targets in poses[:count]:
+            solve(domain, Pose(pose.handles, targets), None, OPTIONS)
+
+    def together(count: int) -> None:
+        solve_batch(domain, pose.handles, poses[:count], options=OPTIONS)
+
+    alone = min(max(sizes), 64)
+    rates = {"one by one": alone / timed(lambda: one_by_one(alone), repeats)["median"]}
+    for n in sizes:
+        rates[str(n)] = n / timed(lambda n=n: together(n), repeats)["median"]
+    return {"name": case.name, "devices": len(jax.local_devices()), "rates": rates}
+
+
+def tables(found: list[Measurement]) -> dict[str, list[Row]]:
+    """Poses per second by the size of the batch."""
+    counts = dict.fromkeys(count for data in found for count in data["rates"])
+    return {
+        "batches": [
+            {
+                "poses": count,
+                **{f"{d['devices']} device(s)": d["rates"].get(count) for d in found},
+            }
+            for count in counts
+        ]
+    }
+
+
+def _tasks(plan: Plan) -> list[Task]:
+    """Of rex, or else of the first shape."""
+    known = bench_cases(plan)
+    case = plan.case(_SHAPE if _SHAPE in known else known[0])
+    name = f"{case.name}-{len(jax.local_devices())}"
+    return [Task(name, f"{case.digest}, quick {plan.quick}", lambda: measure(case, plan))]
+
+
+STUDY = Study("batches", _tasks, tables)

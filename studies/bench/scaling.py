@@ -1,0 +1,126 @@
+"""How time and memory grow with the cage, its holes and the handles.
+
+As a script it measures one size: a process of its own, whose peak memory is that size's.
+"""
+
+from __future__ import annotations
+
+import functools
+import json
+import resource
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from glid_nb.solvers import Options, solve
+from studies.bench.shapes import flower, ring_of_handles
+from studies.processes import in_new_process
+from studies.store import Measurement
+from studies.study import Plan, Study, Task
+from studies.tables import Row
+from studies.timing import summary, timed
+
+
+class Size(NamedTuple):
+    """One shape of :mod:`studies.bench.shapes`, with its handles."""
+
+    vertices: int
+    holes: int = 0
+    handles: int = 4
+
+
+SERIES = {
+    "vertices": tuple(Size(n) for n in (50, 100, 200, 400, 700, 1000)),
+    "holes": tuple(Size(40, holes=n) for n in (0, 5, 10, 20, 35, 50)),
+    "handles": tuple(Size(100, handles=n) for n in (1, 4, 16, 64, 200, 500)),
+}
+"""What grows in each series, all else being equal."""
+
+_QUICK = Size(50)
+# What the exponents are of.
+_AGAINST = {"holes": "unknowns"}
+_OPTIONS = Options(restarts=0)
+_REPEATS = 3
+_BUDGET = 10.0  # seconds of one kind of timing, after which three are enough
+
+
+@functools.cache
+def _measured(size: Size, repeats: int) -> dict[str, Any]:
+    given = {**size._asdict(), "repeats": repeats}
+    return {**size._asdict(), **in_new_process("-m", "studies.bench.scaling", given)}
+
+
+def _tasks(plan: Plan) -> list[Task]:
+    def measure(series: str) -> Measurement:
+        sizes = (_QUICK,) if plan.quick else SERIES[series]
+        rows = [_measured(size, plan.repeats) for size in sizes]
+        return {"series": series, "rows": rows}
+
+    of = f"repeats {plan.repeats}, quick {plan.quick}"
+    return [Task(name, of, lambda name=name: measure(name)) for name in SERIES]
+
+
+def measure_here(given: dict[str, Any]) -> dict[str, Any]:
+    """``step`` and ``before``: one iteration, and a call that takes none; ``memory`` in bytes.
+
+    The iterations are those without corrections, which are equal work: one Hessian each.
+    """
+    domain, pose = flower(given["vertices"], given["holes"]), ring_of_handles(given["handles"])
+    first = solve(domain, pose, None, _OPTIONS)  # compiles, and splits panels
+    options = replace(_OPTIONS, corrections=0)
+    results = [solve(domain, pose, None, options) for _ in range(1 + _REPEATS)][1:]
+    nothing = replace(_OPTIONS, max_iterations=0)
+    return {
+        "unknowns": first.n_unknowns,
+        "panels": first.n_panels,
+        "step": summary([entry.time for result in results for entry in result.history]),
+        "before": timed(lambda: solve(domain, pose, None, nothing), given["repeats"], 1, _BUDGET),
+        "memory": peak_memory(),
+    }
+
+
+def peak_memory() -> int:
+    """Bytes of memory that this process held at most."""
+    # getrusage starts from what the parent process had; Linux counts this one alone in VmHWM.
+    status = Path("/proc/self/status")
+    lines = status.read_text(encoding="utf-8").splitlines() if status.exists() else []
+    own = [int(line.split()[1]) for line in lines if line.startswith("VmHWM")]
+    return 1024 * (own[0] if own else resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+
+
+def tables(found: list[Measurement]) -> dict[str, list[Row]]:
+    """One table for each series."""
+    made: dict[str, list[Row]] = {}
+    for data in found:
+        series, rows = data["series"], data["rows"]
+        x = np.array([row[_AGAINST.get(series, series)] for row in rows])
+        y = np.array([row["step"]["median"] for row in rows])
+        made[f"scaling-{series}"] = [
+            {
+                **{name: row[name] for name in (series, "panels", "unknowns")},
+                "iteration, ms": 1e3 * row["step"]["median"],
+                "exponent": "" if np.isnan(power) else f"{power:.1f}",
+                "call, ms": 1e3 * row["before"]["median"],
+                "memory, GB": f"{row['memory'] / 1e9:.2f}",
+            }
+            for row, power in zip(rows, [np.nan, *local_exponents(x, y)], strict=True)
+        ]
+    return made
+
+
+def local_exponents(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """The power by which ``y`` grows from each size to the next.
+
+    NaN beside what is not positive, a difference of two timings that noise outweighs.
+    """
+    y = np.where(y > 0, y, np.nan)
+    return np.diff(np.log(y)) / np.diff(np.log(x))
+
+
+STUDY = Study("scaling", _tasks, tables)
+
+if __name__ == "__main__":
+    print(json.dumps(measure_here(json.load(sys.stdin))))

@@ -1,0 +1,90 @@
+"""Where the time of an iteration goes: its stages, each run by itself (paper Figure 9)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+
+from glid_nb._runtime import COMPILER_OPTIONS, double_precision, single_blas_thread
+from glid_nb.solvers import Result, cholesky, evaluation, line_search
+from glid_nb.solvers.evaluation import Line, Point
+from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
+from glid_nb.solvers.problem import Positional, Problem, constraints_of, real_coefficients
+from glid_nb.solvers.unknowns import reduced_unknowns, restrict_hessian
+from studies.timing import timed
+
+STAGES = ("gradient", "hessian", "factor", "search", "certificate")
+
+# Enough to make a Hessian without its targets positive definite, whose nullspace is the motions.
+_RIDGE = 1e-3
+_SMALL = 1e-3
+
+
+@double_precision
+def measure_stages(result: Result, repeats: int) -> dict[str, float]:
+    """Median seconds of each of :data:`STAGES` at a solve's last map, warm.
+
+    The matrices have the padded sizes that the solver runs on.
+    """
+    disc, options = result.discretisation, result.options
+    assert disc is not None
+    constraints = constraints_of(disc.domain, result.pose, options.p2p_weight)
+    unknowns = reduced_unknowns(disc.basis, options.conformal)
+    singularities = disc.basis.singularities
+    energy = result.energy_measure
+    problem = Problem(disc.matrices, singularities, unknowns, constraints, energy)
+    y = jnp.asarray(real_coefficients(disc.basis, result.map))
+
+    def evaluated(problem: Problem, y: Any) -> Point:
+        return evaluation.evaluated(problem, Positional.of(problem.constraints), y)
+
+    def gradient(problem: Problem, y: Any) -> Any:
+        point = evaluated(problem, y)
+        return evaluation.gradient(problem, Positional.of(problem.constraints), point)
+
+    def hessian(problem: Problem, point: Point) -> Any:
+        return _hessian(problem, point, options.hessian == "projected")
+
+    def factor(h: Any, b: Any) -> Any:
+        return cholesky.solve(cholesky.factorise(h), b)
+
+    def search(problem: Problem, point: Point, line: Line) -> Any:
+        return line_search.search(problem, Positional.of(problem.constraints), point, line)
+
+    point = _compiled(evaluated)(problem, y)
+    line = _compiled(evaluation.line_along)(problem, -_SMALL * y, jnp.array(-1.0))
+    h = _compiled(hessian)(problem, point).astype(float)
+    h = _compiled(lambda h, unknowns: restrict_hessian(h, unknowns, ridge=_RIDGE))(h, unknowns)
+    stages: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
+        "gradient": (gradient, (problem, y)),
+        "hessian": (hessian, (problem, point)),
+        "factor": (factor, (h, jnp.ones(len(h)))),
+        "search": (search, (problem, point, line)),
+        "certificate": (evaluation.bounds, (problem, point)),
+    }
+    with single_blas_thread():
+        return {name: _seconds(*stage, repeats) for name, stage in stages.items()}
+
+
+def _hessian(problem: Problem, point: Point, projected: bool) -> Any:
+    matrices = problem.matrices
+    nodes = point.samples.nodes[:, matrices.hessian_index]
+    x, y = evaluation.squares(nodes)
+    k = local_hessian(problem.energy.differentials(x, y), x, y)
+    given = (matrices.hessian_weights, *evaluation.directions(nodes))
+    local = tuple(positive_part(k) if projected else k)
+    dtype = matrices.whitened.dtype
+    given, local = jax.tree.map(lambda a: a.astype(dtype), (given, local))
+    return assemble(matrices.whitened, *given, LocalHessian(*local))
+
+
+def _compiled(function: Callable[..., Any]) -> Callable[..., Any]:
+    return jax.jit(function, compiler_options=COMPILER_OPTIONS)
+
+
+def _seconds(function: Callable[..., Any], arguments: tuple[Any, ...], repeats: int) -> float:
+    program = _compiled(function)
+    return timed(lambda: jax.block_until_ready(program(*arguments)), repeats)["median"]

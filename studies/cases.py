@@ -1,0 +1,73 @@
+"""The shapes and poses on which methods are compared."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import shapely
+
+from glid_nb import samples
+from glid_nb._json import read_object
+from glid_nb.geometry import Domain
+from glid_nb.imaging import read_image, trace
+from glid_nb.samples import PoseKind
+from glid_nb.session import InputFileError, Problem, load_pose
+
+
+@dataclass(frozen=True)
+class Case:
+    """One problem with a name."""
+
+    name: str
+    problem: Problem
+
+    @property
+    def unknowns(self) -> int:
+        """Number of real unknowns, ``4 n - 10 N - 2`` with ``n`` coefficients (Section 5)."""
+        domain = self.problem.domain
+        return 4 * domain.n_coefficients - 10 * domain.n_holes - 2
+
+    @property
+    def digest(self) -> str:
+        """Of the cage, the handles and their targets, to the last bit."""
+        digest = hashlib.sha256()
+        pose = self.problem.pose
+        for array in (*self.problem.domain.cage.loops, pose.handles, pose.targets):
+            digest.update(np.ascontiguousarray(array, dtype=float).tobytes())
+        return digest.hexdigest()
+
+    @property
+    def perimeter(self) -> float:
+        """Length of the boundary, world units."""
+        return sum(shapely.LinearRing(loop).length for loop in self.problem.domain.cage.loops)
+
+
+@functools.cache
+def sample_case(name: str, kind: PoseKind) -> Case:
+    """A bundled picture, traced, with one of its poses."""
+    domain = Domain.from_cage(trace(read_image(samples.path(name))).cage)
+    return Case(f"{name}-{kind}", Problem(domain, load_pose(samples.pose_path(name, kind))))
+
+
+def reference_cases(folder: Path) -> dict[str, Case]:
+    """The problems in a folder's JSON files by name in lower case; other files are left out.
+
+    Raises
+    ------
+    InputFileError
+        When no file there holds a problem, or one that has handles is not valid.
+    """
+    cases = {}
+    for path in sorted(folder.glob("*.json")):
+        data = read_object(path)
+        if "handles" in data and "cage" in data:
+            name = re.sub(r"[^a-z0-9]+", "-", path.stem.lower())
+            cases[name] = Case(name, Problem.load(path))
+    if not cases:
+        raise InputFileError(f"{folder}: no JSON file there holds a cage and handles")
+    return cases

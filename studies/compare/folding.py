@@ -1,0 +1,139 @@
+"""Where linear methods fold, beside ours, which does not."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.collections import PolyCollection
+from numpy.typing import NDArray
+
+from glid_nb.figures.style import CYAN, HAIRLINE, INK, SKY, SMALL, VERMILION
+from glid_nb.geometry import MeshMap, Triangulation, triangulate
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import available
+from studies import figures
+from studies.cases import Case
+from studies.compare.shapes import all_shapes
+from studies.runs import MESH_VERTICES, run
+from studies.store import Measurement
+from studies.study import Plan, Study, on_cases
+from studies.tables import Row, percent
+
+Array = NDArray[Any]
+
+METHODS: Mapping[str, tuple[str, str, Mapping[str, Any]]] = {
+    "newton": ("ours", "newton", {}),
+    "mls": ("moving least squares", "mls", {}),
+    "bbw": ("bounded biharmonic weights", "bbw", {}),
+    "harmonic": ("harmonic weights", "harmonic-weights", {"power": 1}),
+    "biharmonic": ("biharmonic weights", "harmonic-weights", {"power": 2}),
+    "mean-value": ("mean value coordinates", "mean-value", {}),
+    "cauchy": ("Cauchy coordinates", "cauchy", {}),
+}
+"""What the page calls it, the method, and its settings."""
+
+
+def measure(case: Case, plan: Plan) -> Measurement:
+    """Every method's images of one mesh, and what of it is turned over."""
+    problem = case.problem
+    mesh = triangulate(problem.domain.cage, MESH_VERTICES, points=problem.pose.handles)
+    rest = MeshMap(mesh, mesh.vertices).areas
+    known = available()
+    measured: dict[str, Any] = {}
+    arrays = {
+        "mesh": mesh.vertices,
+        "triangles": mesh.triangles,
+        "targets": problem.pose.targets,
+    }
+    for name, (title, method, settings) in METHODS.items():
+        if method not in known:
+            continue
+        plan.detail(f"{case.name}: {title}")
+        result = run(method, case, mesh=mesh, **settings)
+        map_ = on_mesh(result.map, mesh)
+        measured[name] = {
+            "flips": int(map_.flipped.sum()),
+            "share": float(rest[map_.flipped].sum() / rest.sum()),
+            "proved": result.certificate.certified if result.certificate else None,
+        }
+        arrays[f"images_{name}"] = map_.images
+    return {
+        "name": case.name,
+        "triangles": len(mesh.triangles),
+        "methods": measured,
+        "arrays": arrays,
+    }
+
+
+def on_mesh(map_: HarmonicMap | MeshMap, mesh: Triangulation) -> MeshMap:
+    """A map of the mesh, piecewise linear."""
+    return map_ if isinstance(map_, MeshMap) else MeshMap(mesh, map_(mesh.vertices))
+
+
+def draw(cases: list[Measurement], folder: Path) -> None:
+    """A row for each shape, a column for each method; what is turned over stands out."""
+    names = [name for name in METHODS if all(name in data["methods"] for data in cases)]
+    figure = figures.figure(1.75 * len(names), 1.9 * len(cases))
+    grid = figure.subplots(len(cases), len(names), squeeze=False)
+    for row, data in zip(grid, cases, strict=True):
+        for axes, name in zip(row, names, strict=True):
+            _draw_folds(axes, data, name)
+            found = data["methods"][name]
+            count = f"{found['flips']:,} flipped, {percent(found['share'])}"
+            title = f"{METHODS[name][0]}\n" if data is cases[0] else ""
+            axes.set_title(title + (count if found["flips"] else "none flipped"), fontsize=SMALL)
+        row[0].text(
+            -0.04, 0.5, data["name"], transform=row[0].transAxes, fontsize=SMALL, rotation=90,
+            ha="right", va="center",
+        )  # fmt: skip
+    figures.save(figure, folder / "folding.png")
+
+
+def _draw_folds(axes: Any, data: Measurement, name: str) -> None:
+    arrays = data["arrays"]
+    images, triangles = arrays[f"images_{name}"], arrays["triangles"]
+    map_ = MeshMap(Triangulation(arrays["mesh"], triangles, 0), images)
+    corners = images[triangles]
+    # Sheets show through one another; the turned-over ones lie on top, dark in grey as in colour.
+    axes.add_collection(
+        PolyCollection(list(corners[~map_.flipped]), facecolors=SKY, lw=0, alpha=0.45)
+    )
+    if map_.flipped.any():
+        # Folds can be slivers: their edges are wide enough not to be overlooked.
+        turned = list(corners[map_.flipped])
+        axes.add_collection(PolyCollection(turned, facecolors=INK, edgecolors=VERMILION, lw=1.2))
+    outline = _outline(triangles)
+    axes.add_collection(
+        PolyCollection(list(images[outline]), facecolors="none", edgecolors=INK, lw=HAIRLINE)
+    )
+    targets = arrays["targets"]
+    axes.scatter(targets[:, 0], targets[:, 1], s=9, color=CYAN, edgecolors=INK, lw=0.4, zorder=3)
+    # The box stays as it is, so that titles stand in a line.
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.autoscale_view()
+    axes.set_axis_off()
+
+
+def _outline(triangles: Array) -> Array:
+    """(e, 2) edges that belong to one triangle."""
+    edges = np.sort(np.concatenate([triangles[:, [a, b]] for a, b in ((0, 1), (1, 2), (2, 0))]))
+    unique, counts = np.unique(edges, axis=0, return_counts=True)
+    return unique[counts == 1]
+
+
+def tables(found: list[Measurement]) -> dict[str, list[Row]]:
+    """Triangles turned over, and their share of the area."""
+    rows: list[Row] = []
+    for data in found:
+        folds = {
+            METHODS[name][0]: f"{one['flips']:,} ({percent(one['share'])})" if one["flips"] else "0"
+            for name, one in data["methods"].items()
+        }
+        rows.append({"shape": data["name"], "triangles": f"{data['triangles']:,}", **folds})
+    return {"folding": rows}
+
+
+STUDY = Study("folding", on_cases(all_shapes, measure), tables, draw)

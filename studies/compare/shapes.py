@@ -1,0 +1,20 @@
+"""Which shapes a comparison takes: the paper's where they are given, else our own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from studies.study import Plan
+
+_PAPER = ("deer", "archery", "giraffe", "rex", "racoon", "raptor", "colorbar")
+_SAMPLES = ("gecko-extreme", "teapot-extreme", "frog-extreme", "gingerbread-extreme")
+
+
+def all_shapes(plan: Plan) -> tuple[str, ...]:
+    """The paper's shapes, or some samples in their extreme poses."""
+    return tuple(name for name in _PAPER if name in plan.references) or _SAMPLES
+
+
+def some(names: tuple[str, ...], otherwise: str) -> Callable[[Plan], tuple[str, ...]]:
+    """Those of the names that are given, or else a sample."""
+    return lambda plan: tuple(n for n in names if n in plan.references) or (otherwise,)

@@ -1,0 +1,43 @@
+"""The machine that measurements were taken on, and the best rates it was seen to reach."""
+
+from __future__ import annotations
+
+import os
+import platform
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import jax
+
+_PRODUCTS = (512, 1024)  # sizes of the matrix products whose best rate counts
+_READING = 1 << 25  # numbers, more than any cache holds
+_LIBRARIES = ("jax", "jaxlib", "numpy", "scipy", "glid-nb")
+
+
+def machine() -> dict[str, Any]:
+    """What to say about a machine beside its numbers."""
+    return {
+        "processor": _processor(),
+        "cores": cores(),
+        "system": platform.platform(),
+        "python": platform.python_version(),
+        "devices": [f"{d.platform}: {d.device_kind}" for d in jax.local_devices()],
+        "versions": {name: version(name) for name in _LIBRARIES},
+    }
+
+
+def cores() -> int:
+    """CPU cores that this process may run on."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def _processor() -> str:
+    info = Path("/proc/cpuinfo")
+    if info.exists():
+        for line in info.read_text(encoding="utf-8").splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    return platform.processor() or platform.machine()

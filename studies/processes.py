@@ -1,0 +1,48 @@
+"""Measurements in a process of their own: its memory, its devices, its first compilation."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from typing import Any, Literal
+
+from glid_nb import InputError
+
+
+class StudyError(InputError):
+    """A measurement is missing or could not be taken, or there is no such study."""
+
+
+def in_new_process(how: Literal["-m", "-c"], program: str, given: Any, **environment: str) -> Any:
+    """What a program prints as JSON on its last line.
+
+    Parameters
+    ----------
+    how, program : str
+        Python's flag and what follows it: ``-m`` and a module's name, or ``-c`` and a script.
+    given : JSON value
+        Written to its standard input.
+    **environment
+        Variables to set beside those of this process.
+
+    Raises
+    ------
+    StudyError
+        When the process fails; the message ends with its last words.
+    """
+    run = subprocess.run(
+        [sys.executable, how, program],
+        input=json.dumps(given),
+        # A GPU's memory is shared with the process that waits.
+        env={"XLA_PYTHON_CLIENT_PREALLOCATE": "false", **os.environ, **environment},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if run.returncode:
+        last = (run.stderr.strip().splitlines() or ["no message"])[-1]
+        called = program if how == "-m" else "a measurement's script"
+        raise StudyError(f"{called} ended with exit code {run.returncode}: {last}")
+    return json.loads(run.stdout.splitlines()[-1])

@@ -1,0 +1,180 @@
+"""Running one method and keeping what figures and tables need of it.
+
+Every method is run twice or more. The first run is watched, and its iterates are kept; the times
+that count are those of the last, which nothing looks at and which finds its programs compiled and
+in memory.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glid_nb import methods
+from glid_nb.energies import Energy
+from glid_nb.geometry import MeshMap, Triangulation, triangulate
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.solvers import Iteration, Options, Progress, Result, solve
+from studies.cases import Case
+
+Array = NDArray[Any]
+
+VISIBLE = 0.04
+"""World units: one pixel of a picture whose longer side, 20 units, is 500 pixels."""
+NEAR = 0.01
+"""An energy this close to its minimum, relatively, is near it."""
+CRITERIA = ("energy", "rest", "map")
+"""When a method is there: its energy is near the minimum; no iteration moves its map visibly any
+more; its map is visibly at the minimum."""
+ENDED = ("converged", "stationary")
+"""How a run ends that got to its minimum."""
+
+P2P_WEIGHT = 1e5
+"""``lambda`` throughout."""
+LIGHT_WEIGHT = 20.0
+"""``lambda`` of the published code, whose 1e5 is for a sum over 10^4 samples, without a half."""
+MESH_VERTICES = 10_000
+_DISPLAY_VERTICES = 1_500
+_DEFAULTS = {"newton-staged": {"sampling": "uniform", "certificate": "lipschitz"}}
+_ALL_KEPT, _APART = 128, 1.01
+
+
+class Watcher:
+    """A callback that keeps the images of points: the first 128 iterates, then ones 1 % apart.
+
+    It stops a method whose own steps have taken ``seconds`` together.
+    """
+
+    def __init__(self, points: Array, seconds: float = math.inf) -> None:
+        self.points, self.seconds = points, seconds
+        self.images: dict[int, Array] = {0: points}
+        self.moved = [0.0]
+        """Largest distance of a point from where the iterate before had it."""
+        self._last = points
+        self._taken = 0.0
+
+    def __call__(self, progress: Progress) -> bool:
+        count = len(progress.history)
+        if 0 < count < len(self.moved):  # panels were split, nothing moved
+            return False
+        map_, step = progress.map, (progress.initial, *progress.history)[-1]
+        images = map_.images if isinstance(map_, MeshMap) else map_(self.points)
+        if count:
+            self.moved.append(apart(images, self._last))
+        if count < _ALL_KEPT or count >= _APART * max(self.images):
+            self.images[count] = images
+        self._last = images
+        self._taken += step.time
+        return self._taken > self.seconds
+
+    def distance(self, goal: Array) -> dict[int, float]:
+        """How far the kept iterates are from a goal, images of the same points."""
+        return {iteration: apart(images, goal) for iteration, images in self.images.items()}
+
+
+def apart(images: Array, others: Array) -> float:
+    """Largest distance between corresponding points, world units."""
+    return float(np.linalg.norm(images - others, axis=1).max())
+
+
+def display_mesh(case: Case, count: int = _DISPLAY_VERTICES) -> Triangulation:
+    """The mesh on which a harmonic map is drawn."""
+    return triangulate(case.problem.domain.cage, count, points=case.problem.pose.handles)
+
+
+def run(
+    method: str,
+    case: Case,
+    energy: Energy | None = None,
+    *,
+    mesh: Triangulation | None = None,
+    callback: Callable[[Progress], bool | None] | None = None,
+    runs: int = 1,
+    **settings: Any,
+) -> Result:
+    """The last of so many runs, started at the identity unless ``align`` is set.
+
+    ``settings`` are the method's own and the options'. Methods on a mesh work on ``mesh``. The
+    callback is called after every iteration.
+    """
+    own = methods.METHODS[method].kinds()
+    value = methods.by_name(method, **{k: v for k, v in settings.items() if k in own})
+    options = {"align": False, "p2p_weight": P2P_WEIGHT, "restarts": 0, **_DEFAULTS.get(method, {})}
+    options |= {k: v for k, v in settings.items() if k not in own}
+    if callback is not None:
+        options["iterations_per_call"] = 1
+    on_mesh = mesh is not None and not value.certified
+    start = MeshMap(mesh, mesh.vertices) if on_mesh else None
+    arguments = (case.problem.domain, case.problem.pose, energy, Options(**options), start)
+    return [solve(*arguments, callback, method=value) for _ in range(runs)][-1]
+
+
+def entries(result: Result) -> tuple[Iteration, ...]:
+    """The start, then one entry per iteration."""
+    return (result.initial, *result.history)
+
+
+def outcome(result: Result) -> dict[str, Any]:
+    """History and ending as plain values."""
+    certificate = result.certificate if isinstance(result.map, HarmonicMap) else None
+    flips = [step.flips for step in entries(result) if step.flips is not None]
+    return {
+        "status": result.status.value,
+        "message": result.message,
+        "iterations": result.iterations,
+        "energy": [step.energy for step in entries(result)],
+        "step": [step.step for step in entries(result)],
+        "step_time": [step.time for step in entries(result)],
+        "time": np.cumsum([step.time for step in entries(result)]).tolist(),
+        "most_flips": max(flips) if flips else None,
+        "certified": certificate.certified if certificate else None,
+        "bounds": [certificate.k_upper, certificate.sigma1_upper, certificate.sigma2_lower]
+        if certificate
+        else None,
+    }
+
+
+def reached(
+    distance: dict[int, float],
+    moved: list[float],
+    energy: list[float],
+    least: float,
+    converged: bool,
+) -> dict[str, int | None]:
+    """For each of :data:`CRITERIA` the iteration from which on it holds, or ``None``.
+
+    Of the iterates ``distance`` has the largest distance from the map of the minimum, for some,
+    ``moved`` that from the iterate before, and ``energy`` the energy, of which ``least`` is the
+    minimum's. After the last of a method that has ``converged`` no movement comes.
+    """
+    near = {i: e <= (1 + NEAR) * least for i, e in enumerate(energy)}
+    visible = np.flatnonzero(np.array(moved) > VISIBLE)
+    rest = int(visible[-1]) if visible.size else 0
+    return {
+        "energy": _first_lasting(near),
+        "rest": rest if converged or rest < len(moved) - 1 else None,
+        "map": _first_lasting({i: d <= VISIBLE for i, d in distance.items()}),
+    }
+
+
+def _first_lasting(holds: dict[int, bool]) -> int | None:
+    """The first key from which on all values are true."""
+    last = max((i for i, so in holds.items() if not so), default=-1)
+    return min((i for i in holds if i > last), default=None)
+
+
+def thumbnails(images: dict[int, Array], count: int) -> tuple[list[int], Array]:
+    """A few iterations up to the last, the first ones closer together, and their images."""
+    left = sorted(images)[1:] or sorted(images)
+    chosen = []
+    for wanted in left[-1] * np.linspace(0, 1, count + 1)[:0:-1] ** 2:
+        if left:
+            nearest = min(left, key=lambda i, w=wanted: (abs(i - w), -i))
+            chosen.append(nearest)
+            left = [i for i in left if i < nearest]
+    chosen.reverse()
+    return chosen, np.stack([images[i] for i in chosen])

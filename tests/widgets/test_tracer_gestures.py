@@ -1,0 +1,183 @@
+"""What pointers and keys on the tracer mean, without a browser."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from glid_nb.session import TracingModel
+from glid_nb.widgets.tracer_gestures import TraceGestures
+
+from ..session.test_tracing import DRAWING, IN_LARGE_HOLE, IN_SMALL_DISC, far_vertex
+
+
+class Hand:
+    """Sends events as the page does: pixels of the picture, seen two in one of the screen."""
+
+    def __init__(self, model: TracingModel) -> None:
+        self.model, self.gestures = model, TraceGestures(model)
+        self.time = 0.0
+
+    def send(self, kind: str, x: float = 0, y: float = 0, **more: Any) -> str | None:
+        self.time += 1000
+        event = {"type": kind, "x": x, "y": y, "button": 0, "shift": False, "time": self.time}
+        return self.gestures.handle([{**event, "reach": 4.5, "unit": 0.5, **more}])
+
+    def click(self, x: float, y: float, **more: Any) -> str | None:
+        return self.send("down", x, y, **more) or self.send("up", x, y, **more)
+
+    def key(self, key: str, **more: Any) -> str | None:
+        return self.send("key", key=key, **more)
+
+    def vertex(self, index: int, loop: int = 0) -> Any:
+        return self.model.loops[loop][index]
+
+
+@pytest.fixture
+def hand() -> Hand:
+    return Hand(TracingModel(DRAWING))
+
+
+def test_a_drag_takes_the_vertex_along_as_one_step(hand: Hand) -> None:
+    model, before = hand.model, hand.model.state
+    i = far_vertex(model)
+    x, y = hand.vertex(i)
+    hand.send("down", x + 1, y)
+    assert hand.gestures.selected == ((0, i),)
+    hand.send("move", x + 2, y)  # a trembling hand
+    assert model.state is before
+    for k in range(3, 9):
+        hand.send("move", x - k, y + 1)
+    hand.send("up", x - 8, y + 1)
+    np.testing.assert_allclose(hand.vertex(i), [x - 9, y + 1])
+    hand.key("undo")
+    assert model.state is before
+
+
+@pytest.mark.parametrize("how", ["Escape", "undo", "cancel"])
+def test_a_drag_that_is_cancelled_never_was(hand: Hand, how: str) -> None:
+    model = hand.model
+    model.set_options(offset=6)
+    model.undo()
+    before, i = model.state, far_vertex(model)
+    x, y = hand.vertex(i)
+    hand.send("down", x, y)
+    hand.send("move", x - 9, y)
+    assert model.state is not before
+    hand.send("cancel") if how == "cancel" else hand.key(how)
+    assert model.state is before
+    hand.send("move", x - 12, y)
+    hand.send("up", x - 12, y)
+    assert model.state is before
+    assert not model.can_undo
+    assert model.redo()  # not even what was undone is gone
+    assert model.options.offset == 6
+
+
+def test_escape_takes_nothing_back_that_is_over(hand: Hand) -> None:
+    i = far_vertex(hand.model)
+    x, y = hand.vertex(i)
+    hand.send("down", x, y)
+    hand.send("move", x - 9, y)
+    hand.send("up", x - 9, y)
+    after = hand.model.state
+    hand.key("Escape")
+    assert hand.model.state is after
+    assert hand.gestures.selected == ()
+    # A click on a vertex, and Escape while it is pressed: there is nothing to take back.
+    hand.send("down", *hand.vertex(i))
+    hand.key("Escape")
+    assert hand.model.state is after
+
+
+def test_shift_selects_several_that_a_key_deletes(hand: Hand) -> None:
+    n = len(hand.model.loops[0])
+    hand.click(*hand.vertex(0))
+    hand.click(*hand.vertex(2), shift=True)
+    hand.click(*hand.vertex(4), shift=True)
+    hand.click(*hand.vertex(2), shift=True)
+    assert hand.gestures.selected == ((0, 0), (0, 4))
+    hand.key("Delete")
+    assert len(hand.model.loops[0]) == n - 2
+    assert hand.gestures.selected == ()
+
+
+def test_the_right_button_deletes(hand: Hand) -> None:
+    n = len(hand.model.loops[0])
+    hand.send("down", *hand.vertex(0), button=2)
+    assert len(hand.model.loops[0]) == n - 1
+
+
+def test_a_double_click_adds_a_vertex_and_two_clicks_do_not(hand: Hand) -> None:
+    n = len(hand.model.loops[0])
+    middle = hand.model.loops[0][:2].mean(axis=0)
+    for time in (0, 500, 800):
+        hand.click(*middle, time=time, reach=1.0)
+        assert len(hand.model.loops[0]) == n + (time == 800)
+
+
+def test_a_click_drops_a_hole_and_a_moved_view_does_not(hand: Hand) -> None:
+    hand.send("down", *IN_LARGE_HOLE)
+    hand.send("cancel")  # the page moves its view
+    hand.send("up", *IN_LARGE_HOLE)
+    assert hand.model.holes[0].kept
+    hand.click(*IN_LARGE_HOLE)
+    assert not hand.model.holes[0].kept
+    hand.click(*IN_LARGE_HOLE)
+    assert hand.model.holes[0].kept
+
+
+def test_arrows_nudge_and_soon_after_one_another_are_one_step(hand: Hand) -> None:
+    i = far_vertex(hand.model)
+    x, y = hand.vertex(i)
+    hand.click(x, y)
+    before = hand.model.state
+    hand.key("ArrowLeft", time=1e6)
+    hand.key("ArrowUp", time=1e6 + 100, shift=True)
+    np.testing.assert_allclose(hand.vertex(i), [x - 1, y - 10])
+    hand.key("ArrowLeft", time=1e6 + 2000)
+    hand.key("undo")
+    np.testing.assert_allclose(hand.vertex(i), [x - 1, y - 10])
+    hand.key("undo")
+    assert hand.model.state is before
+
+
+def test_brackets_walk_through_the_vertices(hand: Hand) -> None:
+    last = len(hand.model.loops) - 1
+    hand.key("[")
+    assert hand.gestures.selected == ((last, len(hand.model.loops[last]) - 1),)
+    hand.key("]")
+    assert hand.gestures.selected == ((0, 0),)
+    hand.key("]")
+    assert hand.gestures.selected == ((0, 1),)
+
+
+def test_tools_by_keys(hand: Hand) -> None:
+    hand.key("c")
+    assert hand.gestures.tool == "component"
+    hand.click(*IN_SMALL_DISC)
+    assert hand.gestures.tool == "edit"
+    assert hand.model.tracing is not None
+    assert hand.model.tracing.component.rank == 1
+    hand.model.undo()
+    hand.key("B")
+    hand.send("down", 60, 20)
+    hand.send("up", 60, 100, path=[[60, 20], [60, 60], [60, 100]])
+    scribbles = hand.model.scribbles
+    assert scribbles is not None
+    assert len(scribbles.foreground[0]) == 3
+    hand.send("down", 60, 20)
+    hand.key("Escape")  # the stroke, and not the tool
+    hand.send("up", 60, 100, path=[[60, 20], [60, 100]])
+    assert hand.model.scribbles is scribbles
+    assert hand.gestures.tool == "foreground"
+    hand.key("Escape")
+    assert hand.gestures.tool == "edit"
+
+
+def test_a_refusal_is_told_in_plain_words(hand: Hand) -> None:
+    hand.key("i")
+    assert hand.click(-5, 0) == "That place lies outside the picture"
+    assert hand.gestures.handle([{"type": "format_disk"}]) is not None
