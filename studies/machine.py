@@ -1,4 +1,4 @@
-"""The machine that measurements were taken on, and the best rates it was seen to reach."""
+"""The machine that measurements were taken on."""
 
 from __future__ import annotations
 
@@ -10,8 +10,6 @@ from typing import Any
 
 import jax
 
-_PRODUCTS = (512, 1024)  # sizes of the matrix products whose best rate counts
-_READING = 1 << 25  # numbers, more than any cache holds
 _LIBRARIES = ("jax", "jaxlib", "numpy", "scipy", "glid-nb")
 
 

@@ -15,17 +15,14 @@ _RUNS = 2
 
 
 def measure(case: Case, plan: Plan) -> Measurement:
-    """A run for each number of samples, and how well its Hessian fits at the minimum."""
+    """A run for each number of samples."""
     runs = {}
     for count in SAMPLES:
         plan.detail(f"{case.name}: {count} Hessian samples")
         settings = {"hessian_samples": count, "max_iterations": _MOST_ITERATIONS}
         result = run("newton-staged", case, runs=_RUNS, **settings)
         runs[str(count)] = outcome(result)
-    return {
-        "perimeter": case.perimeter,
-        "runs": runs,
-    }
+    return {"perimeter": case.perimeter, "runs": runs}
 
 
 def tables(found: list[Measurement]) -> dict[str, list[Row]]:
