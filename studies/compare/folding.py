@@ -10,16 +10,14 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from numpy.typing import NDArray
 
-from glid_nb.certificate import certify
 from glid_nb.figures.style import CYAN, HAIRLINE, INK, SKY, SMALL, VERMILION
 from glid_nb.geometry import MeshMap, Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import available
-from glid_nb.methods.linear.cauchy import cauchy_point_to_point
 from studies import figures
 from studies.cases import Case
 from studies.compare.shapes import all_shapes
-from studies.runs import MESH_VERTICES, P2P_WEIGHT, run
+from studies.runs import MESH_VERTICES, run
 from studies.store import Measurement
 from studies.study import Plan, Study, on_cases
 from studies.tables import Row, percent
@@ -62,25 +60,12 @@ def measure(case: Case, plan: Plan) -> Measurement:
             "proved": result.certificate.certified if result.certificate else None,
         }
         arrays[f"images_{name}"] = map_.images
-    measured["cauchy"]["zeros"] = _zeros(case)
     return {
         "name": case.name,
         "triangles": len(mesh.triangles),
         "methods": measured,
         "arrays": arrays,
     }
-
-
-def _zeros(case: Case) -> int | None:
-    """Zeros of the derivative of the Cauchy coordinates' map, which is holomorphic.
-
-    Its determinant ``|f'|^2`` is never negative: where it is not injective ``f'`` vanishes. The
-    turns of ``f'`` along the boundary count them; ``None`` where it is not proved not to vanish on
-    the boundary itself.
-    """
-    problem = case.problem
-    proof = certify(cauchy_point_to_point(problem.domain, problem.pose, P2P_WEIGHT))
-    return proof.winding if (proof.panels.sigma2_lower > 0).all() else None
 
 
 def on_mesh(map_: HarmonicMap | MeshMap, mesh: Triangulation) -> MeshMap:

@@ -10,7 +10,7 @@ from glid_nb.figures.style import BLUE, GREEN, GREY, INK, LINE, ORANGE, SKY, SMA
 from studies import figures
 from studies.cases import Case
 from studies.compare.shapes import some
-from studies.runs import last_of, outcome
+from studies.runs import outcome, run
 from studies.store import Measurement
 from studies.study import Plan, Study, on_cases
 from studies.tables import Row, digits, seconds
@@ -26,9 +26,8 @@ def measure(case: Case, plan: Plan) -> Measurement:
     runs = {}
     for count in SAMPLES:
         plan.detail(f"{case.name}: {count} Hessian samples")
-        result = last_of(
-            _RUNS, "newton-staged", case, hessian_samples=count, max_iterations=_MOST_ITERATIONS
-        )
+        settings = {"hessian_samples": count, "max_iterations": _MOST_ITERATIONS}
+        result = run("newton-staged", case, runs=_RUNS, **settings)
         runs[str(count)] = outcome(result)
     return {
         "name": case.name,
@@ -40,27 +39,18 @@ def measure(case: Case, plan: Plan) -> Measurement:
 def draw(found: list[Measurement], folder: Path) -> None:
     """Energy above the least against iterations and time."""
     data = found[0]
-    figure = figures.figure(9.0, 3.0)
-    axes = figure.subplots(1, 2, sharey=True)
+    figure = figures.figure(6.0, 3.0)
+    axes = figure.subplots()
     least = min(figures.values_of(run["energy"]).min() for run in data["runs"].values())
     # The first are the widest, so that of curves on one another each is seen.
     widths = np.linspace(2.5 * LINE, 0.7 * LINE, len(_COLORS))
     for (count, run_), color, width in zip(data["runs"].items(), _COLORS, widths, strict=False):
         excess = figures.values_of(run_["energy"]) / least - 1
         keep = excess > 1e-12
-        label = f"{int(count):,}"
-        axes[0].semilogy(np.flatnonzero(keep), excess[keep], color=color, lw=width, label=label)
-        axes[1].semilogy(
-            1e3 * np.array(run_["time"])[keep], excess[keep], color=color, lw=width, label=label
-        )
-    axes[1].set_xscale("log")
-    figures.label_axes(axes[0], "iteration", "energy above its minimum, relative", data["name"])
-    figures.label_axes(axes[1], "milliseconds", "")
-    handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(
-        handles, labels, loc="outside right center", fontsize=SMALL, frameon=False,
-        title="Hessian samples", title_fontsize=SMALL,
-    )  # fmt: skip
+        label = f"{int(count):,} samples"
+        axes.semilogy(np.flatnonzero(keep), excess[keep], color=color, lw=width, label=label)
+    figures.label_axes(axes, "iteration", "energy above its minimum, relative", data["name"])
+    figure.legend(loc="outside right center", fontsize=SMALL, frameon=False)
     figures.save(figure, folder / "hessian-samples.png")
 
 

@@ -27,7 +27,6 @@ from studies.runs import (
     apart,
     display_mesh,
     entries,
-    last_of,
     outcome,
     reached,
     run,
@@ -112,7 +111,7 @@ def _harmonic(
     limit: dict[str, Any] = {"max_iterations": LIMITS.get(method)}
     watcher = Watcher(display.vertices)
     watched = run(method, case, callback=watcher, **limit) if method in _FOLLOWED else None
-    result = last_of(1 if method == "lbfgs" else _UNWATCHED, method, case, **limit)
+    result = run(method, case, runs=1 if method == "lbfgs" else _UNWATCHED, **limit)
     map_ = result.map
     assert isinstance(map_, HarmonicMap)
     measured, end = outcome(result), map_(display.vertices)
@@ -134,7 +133,7 @@ def _on_mesh(
     That is returned last, ``None`` where there is none; ``other`` is that of another method.
     """
     plan.detail(f"{case.name}: {method}, followed for {MESH_SECONDS:.0f} s")
-    settings: dict[str, Any] = {"triangulation": mesh, "max_iterations": 1_000_000}
+    settings: dict[str, Any] = {"mesh": mesh, "max_iterations": 1_000_000}
     watcher = Watcher(mesh.vertices, MESH_SECONDS)
     result = run(method, case, callback=watcher, **settings)
     map_ = result.map
