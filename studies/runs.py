@@ -124,10 +124,8 @@ def outcome(result: Result) -> dict[str, Any]:
     flips = [step.flips for step in entries(result) if step.flips is not None]
     return {
         "status": result.status.value,
-        "message": result.message,
         "iterations": result.iterations,
         "energy": [step.energy for step in entries(result)],
-        "step": [step.step for step in entries(result)],
         "step_time": [step.time for step in entries(result)],
         "time": np.cumsum([step.time for step in entries(result)]).tolist(),
         "most_flips": max(flips) if flips else None,
@@ -169,12 +167,9 @@ def _first_lasting(holds: dict[int, bool]) -> int | None:
 
 def thumbnails(images: dict[int, Array], count: int) -> tuple[list[int], Array]:
     """A few iterations up to the last, the first ones closer together, and their images."""
-    left = sorted(images)[1:] or sorted(images)
-    chosen = []
-    for wanted in left[-1] * np.linspace(0, 1, count + 1)[:0:-1] ** 2:
-        if left:
-            nearest = min(left, key=lambda i, w=wanted: (abs(i - w), -i))
-            chosen.append(nearest)
-            left = [i for i in left if i < nearest]
-    chosen.reverse()
+    # From the last, so that of two equally near ones the later is taken.
+    kept = np.array(sorted(images)[1:] or sorted(images))[::-1]
+    wanted = kept[0] * np.linspace(0, 1, count + 1)[1:] ** 2
+    nearest = np.abs(kept[:, None] - wanted).argmin(axis=0)
+    chosen = [int(i) for i in np.unique(kept[nearest])]
     return chosen, np.stack([images[i] for i in chosen])

@@ -62,8 +62,3 @@ def summary(seconds: list[float]) -> Timing:
         "least": min(seconds),
         "runs": len(seconds),
     }
-
-
-def scaled(timing: Timing, factor: float) -> Timing:
-    """The timing of a part, a fraction ``factor`` of the whole."""
-    return {key: v if key == "runs" else v * factor for key, v in timing.items()}

@@ -284,9 +284,12 @@ def _composed(
     """(n_places, 4) premultiplied colours of samples (k, 4), the higher ones over the lower."""
     canvas = np.zeros((n_places, 4), np.float32)
     place = samples.place
-    several = np.bincount(place, minlength=n_places)[place] > 1
-    canvas[place[~several]] = colours[~several]
-    rest = np.flatnonzero(several)
+    canvas[place] = colours
+    count = np.bincount(place, minlength=n_places)
+    if count.max() <= 1:
+        return canvas
+    rest = np.flatnonzero(count[place] > 1)
+    canvas[place[rest]] = 0
     height = height_at(Samples(*(values[rest] for values in samples)))
     rest = rest[np.lexsort((height, place[rest]))]
     first = np.flatnonzero(np.diff(place[rest], prepend=-1))

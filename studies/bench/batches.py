@@ -21,7 +21,6 @@ SIZES = (1, 4, 16, 64, 256)
 OPTIONS = Options(restarts=0)
 
 _REPEATS = 3
-_SHAPE = "rex"
 _SPREAD = 0.05  # standard deviation of what targets are moved by, world units
 
 
@@ -62,8 +61,7 @@ def tables(found: list[Measurement]) -> dict[str, list[Row]]:
 
 def _tasks(plan: Plan) -> list[Task]:
     """Of rex, or else of the first shape."""
-    known = bench_cases(plan)
-    case = plan.case(_SHAPE if _SHAPE in known else known[0])
+    case = plan.case("rex" if "rex" in plan.references else bench_cases(plan)[0])
     name = f"{case.name}-{len(jax.local_devices())}"
     return [Task(name, f"{case.digest}, quick {plan.quick}", lambda: measure(case, plan))]
 

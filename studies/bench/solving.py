@@ -20,7 +20,7 @@ from studies.cases import Case
 from studies.store import Measurement
 from studies.study import Plan, Study, on_cases
 from studies.tables import Row, digits, percent
-from studies.timing import Timing, scaled, timed, timed_in_turn
+from studies.timing import Timing, timed, timed_in_turn
 
 GAP, DRAG_GAP = 1e-6, 1e-4
 """Relative distances to the converged energy at which a solve and a drag step count as done."""
@@ -54,7 +54,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
     """From the identity until the energy is within :data:`GAP` of its minimum by mode; a drag step.
 
     The modes are timed in turn. ``to_gap`` is the time of a whole call of ``solve`` for so many
-    iterations, with the domain's matrices at hand; ``per_iteration`` is that time shared evenly.
+    iterations, with the domain's matrices at hand.
     ``making`` is that of making the matrices, ``before`` that of a call that takes no iteration,
     ``stages`` the stages' by themselves. The gap is to the minimum of each mode's own discrete
     energy.
@@ -74,7 +74,6 @@ def measure(case: Case, plan: Plan) -> Measurement:
     modes = {
         mode: {
             "to_gap": to_gap[mode],
-            "per_iteration": scaled(to_gap[mode], 1 / counts[mode]),
             "before": before[mode],
             **_about(case, mode, result, counts[mode], repeats),
         }
@@ -97,7 +96,6 @@ def _about(case: Case, mode: str, whole: Result, count: int, repeats: int) -> di
         "mode": mode,
         "unknowns": whole.n_unknowns,
         "panels": whole.n_panels,
-        "status": whole.status.value,
         "iterations": count,
         "corrections": corrections,
         "energy": whole.energy,
@@ -116,6 +114,11 @@ def tables(found: list[Measurement]) -> dict[str, list[Row]]:
     }
 
 
+def _per_iteration(solve: Measurement, part: str = "median") -> float:
+    """Seconds of an iteration: those of a solve, shared evenly."""
+    return solve["to_gap"][part] / solve["iterations"]
+
+
 def _solve_row(data: Measurement) -> Row:
     paper, default, aligned = (data[mode] for mode in (PAPER, DEFAULT, ALIGNED))
     time = {mode: 1e3 * data[mode]["to_gap"]["median"] for mode in MODES}
@@ -131,7 +134,7 @@ def _solve_row(data: Measurement) -> Row:
         "ratio": digits(time[PAPER] / time[DEFAULT], 2),
         "ratio, paper aligned": digits(time[ALIGNED] / time[DEFAULT], 2),
         "per iteration, paper / default, ms": " / ".join(
-            digits(1e3 * solve["per_iteration"]["median"]) for solve in (paper, default)
+            digits(1e3 * _per_iteration(solve)) for solve in (paper, default)
         ),
         "matrices, ms": 1e3 * default["making"]["median"],
         "drag step, ms": digits(1e3 * data["drag"]["time"]["median"], 2),
@@ -142,7 +145,7 @@ def _breakdown_row(solve: Measurement) -> Row:
     return {
         "shape": solve["name"],
         "settings": solve["mode"],
-        "iteration, ms": 1e3 * solve["per_iteration"]["median"],
+        "iteration, ms": 1e3 * _per_iteration(solve),
         **{f"{n}, ms": digits(1e3 * t, 2) for n, t in solve["stages"].items()},
         "call, ms": digits(1e3 * solve["before"]["median"], 2),
         "K+": percent(solve["modified"]),
@@ -157,9 +160,11 @@ def draw(found: list[Measurement], folder: Path) -> None:
     place = np.arange(len(pairs))
     for i, (mode, color) in enumerate(((PAPER, SKY), (DEFAULT, BLUE))):
         x = place + (i - 0.5) * _BAR
-        timings = [pair[i]["per_iteration"] for pair in pairs]
-        middle = np.array([t["median"] for t in timings])
-        spread = np.abs([[t["low"], t["high"]] for t in timings] - middle[:, None]).T
+        middle, *ends = (
+            np.array([_per_iteration(pair[i], part) for pair in pairs])
+            for part in ("median", "low", "high")
+        )
+        spread = np.abs(np.array(ends) - middle)
         axes.bar(x, 1e3 * middle, 0.94 * _BAR, color=color, label=mode)
         axes.errorbar(x, 1e3 * middle, 1e3 * spread, fmt="none", ecolor=INK, elinewidth=0.7)
     axes.set_xticks(place, [f"{p['name']}\n{p['unknowns']}" for p, _ in pairs])

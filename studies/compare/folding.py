@@ -53,7 +53,9 @@ def measure(case: Case, plan: Plan) -> Measurement:
             continue
         plan.detail(f"{case.name}: {title}")
         result = run(method, case, mesh=mesh, **settings)
-        map_ = on_mesh(result.map, mesh)
+        map_ = result.map
+        if isinstance(map_, HarmonicMap):
+            map_ = MeshMap(mesh, map_(mesh.vertices))
         measured[name] = {
             "flips": int(map_.flipped.sum()),
             "share": float(rest[map_.flipped].sum() / rest.sum()),
@@ -61,16 +63,10 @@ def measure(case: Case, plan: Plan) -> Measurement:
         }
         arrays[f"images_{name}"] = map_.images
     return {
-        "name": case.name,
         "triangles": len(mesh.triangles),
         "methods": measured,
         "arrays": arrays,
     }
-
-
-def on_mesh(map_: HarmonicMap | MeshMap, mesh: Triangulation) -> MeshMap:
-    """A map of the mesh, piecewise linear."""
-    return map_ if isinstance(map_, MeshMap) else MeshMap(mesh, map_(mesh.vertices))
 
 
 def draw(cases: list[Measurement], folder: Path) -> None:
@@ -83,12 +79,8 @@ def draw(cases: list[Measurement], folder: Path) -> None:
             _draw_folds(axes, data, name)
             found = data["methods"][name]
             count = f"{found['flips']:,} flipped, {percent(found['share'])}"
-            title = f"{METHODS[name][0]}\n" if data is cases[0] else ""
-            axes.set_title(title + (count if found["flips"] else "none flipped"), fontsize=SMALL)
-        row[0].text(
-            -0.04, 0.5, data["name"], transform=row[0].transAxes, fontsize=SMALL, rotation=90,
-            ha="right", va="center",
-        )  # fmt: skip
+            title = f"{data['name']}, {METHODS[name][0]}\n{count}"
+            axes.set_title(title, fontsize=SMALL)
     figures.save(figure, folder / "folding.png")
 
 

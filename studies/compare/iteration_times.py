@@ -45,7 +45,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
     mesh = triangulate(case.problem.domain.cage, MESH_VERTICES, points=case.problem.pose.handles)
     known = available()
     seconds: dict[str, float] = {}
-    start = None
+    start = unknowns = None
     for method, settings in TIMED.items():
         if method not in known:
             continue
@@ -54,13 +54,13 @@ def measure(case: Case, plan: Plan) -> Measurement:
         # The first run waits for programs that are compiled.
         runs = [run(method, case, **settings) for _ in range(1 + _RUNS)][1:]
         steps = [[step.time for step in entries(result)] for result in runs]
+        unknowns = runs[0].n_unknowns or unknowns
         if method == "aqp":
             start = float(np.median([times[0] for times in steps]))
         if len(steps[0]) > 1:
             seconds[method] = float(np.median([np.mean(times[1:]) for times in steps]))
     return {
-        "name": case.name,
-        "unknowns": case.unknowns,
+        "unknowns": unknowns,
         "seconds": seconds,
         "aqp_start": start,
     }

@@ -42,7 +42,6 @@ def measure(case: Case, plan: Plan) -> Measurement:
     ours, theirs = lipschitz_constants(map_, PAPER_SEGMENTS)
     fine = [float(values.mean()) for values in lipschitz_constants(map_, UNIFORM_SAMPLES)]
     return {
-        "name": case.name,
         "runs": runs,
         "fine_means": fine,
         "refused": {

@@ -38,8 +38,7 @@ class Setting:
     method: str = "newton"
     energy: Energy | None = None
     settings: Mapping[str, Any] = field(default_factory=dict)
-    slow: bool = False
-    """Run once, after two iterations that compile its programs."""
+    slow: bool = False  # run once, after two iterations that compile its programs
 
 
 def _bdhm(title: str, k: float, sigma1: float, sigma2: float) -> Setting:
@@ -83,7 +82,7 @@ def measure_maps(case: Case, plan: Plan, settings: Mapping[str, Setting]) -> Mea
         measured[name] = {**outcome(result), **_distortion(map_, display.vertices)}
         arrays[f"images_{name}"] = map_(display.vertices)
         arrays[f"reached_{name}"] = np.asarray(map_(case.problem.pose.handles))
-    return {"name": case.name, "runs": measured, "arrays": arrays}
+    return {"runs": measured, "arrays": arrays}
 
 
 def _distortion(map_: HarmonicMap, inside: Array) -> dict[str, float]:

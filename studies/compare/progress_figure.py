@@ -16,7 +16,6 @@ from studies import figures
 from studies.distortion import densities
 from studies.runs import ENDED
 from studies.store import Measurement
-from studies.tables import seconds
 
 Array = NDArray[Any]
 
@@ -78,22 +77,10 @@ def _draw_maps(figure: Any, data: Measurement, rows: list[str]) -> None:
             axes.set_title(f"{title}\n{largest}", fontsize=SMALL - 1, pad=2)
         name, color, _ = LOOK[method]
         label.text(
-            0.0, 0.5, f"{name}\n{_note(runs[method])}", transform=label.transAxes,
+            0.0, 0.5, name, transform=label.transAxes,
             fontsize=SMALL, va="center", color=color,
         )  # fmt: skip
     figures.color_bar(figure, colors, grid, "symmetric Dirichlet density")
-
-
-def _note(run: dict[str, Any]) -> str:
-    if run["status"] in ("indefinite", "blocked"):
-        return f"halts after {run['iterations']} it."
-    if "minimum" not in run:
-        more = "" if run["status"] in ENDED else "+"
-        return f"{run['iterations']}{more} it., {seconds(run['time'][-1])}"
-    near = run["reached"]["energy"] if run["minimum"] is not None else None
-    if near is None:
-        return f"not within 1 %\nin {seconds(run['time'][-1])}"
-    return f"within 1 %:\n{near['iteration']} it., {seconds(near['time'])}"
 
 
 def _draw_energies(figure: Any, runs: dict[str, Any]) -> None:

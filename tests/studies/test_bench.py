@@ -12,8 +12,7 @@ import pytest
 
 import glid_nb
 from studies.__main__ import main
-from studies.bench.scaling import local_exponents
-from studies.bench.shapes import flower, ring_of_handles
+from studies.bench.scaling import flower, local_exponents, ring_of_handles
 from studies.bench.solving import MODES, iterations_to
 
 
