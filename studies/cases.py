@@ -27,12 +27,6 @@ class Case:
     problem: Problem
 
     @property
-    def unknowns(self) -> int:
-        """Number of real unknowns, ``4 n - 10 N - 2`` with ``n`` coefficients (Section 5)."""
-        domain = self.problem.domain
-        return 4 * domain.n_coefficients - 10 * domain.n_holes - 2
-
-    @property
     def digest(self) -> str:
         """Of the cage, the handles and their targets, to the last bit."""
         digest = hashlib.sha256()

@@ -16,18 +16,18 @@ from glid_nb._runtime import double_precision
 from glid_nb.energies import SymmetricDirichlet
 from glid_nb.geometry import Triangulation
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods.mesh.operators import MeshOperators
 
 Array = NDArray[Any]
 
 
-def densities(rest: Array, triangles: Array, images: Array) -> Array:
+@double_precision
+def densities(mesh: Triangulation, images: Array) -> Array:
     """(t,) density of a piecewise linear map; infinite where it folds."""
-    source, image = (_edges(v.astype(float), triangles) for v in (rest, images))
-    jacobian = image @ np.linalg.inv(source)
-    det = np.linalg.det(jacobian)
-    dirichlet = (jacobian**2).sum(axis=(1, 2)) / 2
-    positive = det > 0
-    return np.where(positive, dirichlet * (1 + np.where(positive, det, 1.0) ** -2), np.inf)
+    x, y = (np.abs(d) ** 2 for d in MeshOperators(mesh).wirtinger(images @ np.array([1, 1j])))
+    upright = x > y
+    density = SymmetricDirichlet().density(np.where(upright, x, 1), np.where(upright, y, 0))
+    return np.where(upright, density, np.inf)
 
 
 @double_precision
@@ -39,8 +39,7 @@ def density_at(map_: HarmonicMap, points: Array) -> Array:
 
 def area_mean(density: Array, mesh: Triangulation) -> float:
     """The mean of a density, given on each triangle, over the area of the mesh at rest."""
-    area = np.linalg.det(_edges(mesh.vertices, mesh.triangles))
-    return float(area @ density / area.sum())
+    return float(MeshOperators(mesh).weights @ density)
 
 
 def harmonic_area_mean(map_: HarmonicMap, mesh: Triangulation) -> float:
@@ -50,11 +49,4 @@ def harmonic_area_mean(map_: HarmonicMap, mesh: Triangulation) -> float:
 
 def mesh_area_mean(images: Array, mesh: Triangulation) -> float:
     """The area mean of the density of a piecewise linear map."""
-    return area_mean(densities(mesh.vertices, mesh.triangles, images), mesh)
-
-
-def _edges(vertices: Array, triangles: Array) -> Array:
-    """(t, 2, 2) two edges of each triangle as columns."""
-    return np.stack(
-        [vertices[triangles[:, k]] - vertices[triangles[:, 0]] for k in (1, 2)], axis=-1
-    )
+    return area_mean(densities(mesh, images), mesh)

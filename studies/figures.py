@@ -14,12 +14,10 @@ from numpy.typing import NDArray
 
 from glid_nb._files import write_bytes_atomically
 from glid_nb.figures.style import CYAN, INK, SMALL, distortion_colors, tidy
+from glid_nb.geometry import Triangulation
 from studies.distortion import densities
 
 Array = NDArray[Any]
-
-MOST_DISTORTED = 6.0
-"""Upper end of the distortion colour map: the symmetric Dirichlet density; 2 is an isometry."""
 
 DPI = 130
 
@@ -38,12 +36,7 @@ def save(drawn: Figure, path: Path) -> None:
 
 
 def draw_map(
-    axes: Axes,
-    rest: Array,
-    triangles: Array,
-    images: Array,
-    pose: Array | None = None,
-    most: float = MOST_DISTORTED,
+    axes: Axes, mesh: Triangulation, images: Array, pose: Array | None = None, most: float = 6.0
 ) -> Any:
     """A map's image coloured by its distortion, folded triangles in black.
 
@@ -51,9 +44,8 @@ def draw_map(
     ``most`` have its colour; :func:`color_bar` says so.
     """
     # From the left of the undeformed shape to its right: sheets over one another do not mingle.
-    order = np.argsort(rest[triangles, 0].mean(axis=1), kind="stable")
-    triangles = triangles[order]
-    density = densities(rest, triangles, images)
+    order = np.argsort(mesh.vertices[mesh.triangles, 0].mean(axis=1), kind="stable")
+    triangles, density = mesh.triangles[order], densities(mesh, images)[order]
     folded = ~np.isfinite(density)
     colors = PolyCollection(
         list(images[triangles[~folded]]),

@@ -1,4 +1,4 @@
-"""The machine that measurements were taken on, and the best rates it was seen to reach."""
+"""The machine that measurements were taken on."""
 
 from __future__ import annotations
 
@@ -10,8 +10,6 @@ from typing import Any
 
 import jax
 
-_PRODUCTS = (512, 1024)  # sizes of the matrix products whose best rate counts
-_READING = 1 << 25  # numbers, more than any cache holds
 _LIBRARIES = ("jax", "jaxlib", "numpy", "scipy", "glid-nb")
 
 
@@ -19,19 +17,12 @@ def machine() -> dict[str, Any]:
     """What to say about a machine beside its numbers."""
     return {
         "processor": _processor(),
-        "cores": cores(),
+        "cores": os.cpu_count(),
         "system": platform.platform(),
         "python": platform.python_version(),
         "devices": [f"{d.platform}: {d.device_kind}" for d in jax.local_devices()],
         "versions": {name: version(name) for name in _LIBRARIES},
     }
-
-
-def cores() -> int:
-    """CPU cores that this process may run on."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def _processor() -> str:

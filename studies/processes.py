@@ -18,14 +18,8 @@ class StudyError(InputError):
 def in_new_process(how: Literal["-m", "-c"], program: str, given: Any, **environment: str) -> Any:
     """What a program prints as JSON on its last line.
 
-    Parameters
-    ----------
-    how, program : str
-        Python's flag and what follows it: ``-m`` and a module's name, or ``-c`` and a script.
-    given : JSON value
-        Written to its standard input.
-    **environment
-        Variables to set beside those of this process.
+    ``-m`` and a module's name, or ``-c`` and a script, say which; ``given`` is written to its
+    standard input as JSON, and ``environment`` is set beside this process's variables.
 
     Raises
     ------

@@ -40,7 +40,6 @@ LIGHT_WEIGHT = 20.0
 MESH_VERTICES = 10_000
 _DISPLAY_VERTICES = 1_500
 _DEFAULTS = {"newton-staged": {"sampling": "uniform", "certificate": "lipschitz"}}
-_COMPILED = ("newton", "newton-paper", "newton-unmodified")  # do not show their start
 _ALL_KEPT, _APART = 128, 1.01
 
 
@@ -52,22 +51,23 @@ class Watcher:
 
     def __init__(self, points: Array, seconds: float = math.inf) -> None:
         self.points, self.seconds = points, seconds
-        self.images: dict[int, Array] = {}
-        self.moved: list[float] = []
+        self.images: dict[int, Array] = {0: points}
+        self.moved = [0.0]
         """Largest distance of a point from where the iterate before had it."""
-        self._last: Array | None = None
+        self._last = points
         self._taken = 0.0
 
     def __call__(self, progress: Progress) -> bool:
-        step = (progress.initial, *progress.history)[-1]
-        if len(self.moved) > len(progress.history):  # panels were split, nothing moved
+        count = len(progress.history)
+        if 0 < count < len(self.moved):  # panels were split, nothing moved
             return False
-        map_ = progress.map
+        map_, step = progress.map, (progress.initial, *progress.history)[-1]
         images = map_.images if isinstance(map_, MeshMap) else map_(self.points)
-        self.moved.append(apart(images, images if self._last is None else self._last))
+        if count:
+            self.moved.append(apart(images, self._last))
+        if count < _ALL_KEPT or count >= _APART * max(self.images):
+            self.images[count] = images
         self._last = images
-        if step.iteration < _ALL_KEPT or step.iteration >= _APART * max(self.images):
-            self.images[step.iteration] = images
         self._taken += step.time
         return self._taken > self.seconds
 
@@ -93,12 +93,13 @@ def run(
     *,
     mesh: Triangulation | None = None,
     callback: Callable[[Progress], bool | None] | None = None,
+    runs: int = 1,
     **settings: Any,
 ) -> Result:
-    """One run, started at the identity unless ``align`` is set.
+    """The last of so many runs, started at the identity unless ``align`` is set.
 
-    ``settings`` are the method's own and the options'. ``mesh`` is what a method on a mesh works
-    on. The callback is shown the start, and then every iteration.
+    ``settings`` are the method's own and the options'. Methods on a mesh work on ``mesh``. The
+    callback is called after every iteration.
     """
     own = methods.METHODS[method].kinds()
     value = methods.by_name(method, **{k: v for k, v in settings.items() if k in own})
@@ -106,36 +107,15 @@ def run(
     options |= {k: v for k, v in settings.items() if k not in own}
     if callback is not None:
         options["iterations_per_call"] = 1
-    arguments = (case.problem.domain, case.problem.pose, energy)
-    if callback is not None and method in _COMPILED:
-        still = solve(*arguments, Options(**{**options, "max_iterations": 0}), method=value)
-        callback(
-            Progress(
-                method=value,
-                history=(),
-                initial=still.initial,
-                energy_iso=still.energy_iso,
-                energy_p2p=still.energy_p2p,
-                make_map=lambda: still.map,
-            )
-        )
-    start = None if mesh is None else MeshMap(mesh, mesh.vertices)
-    return solve(*arguments, Options(**options), start, callback, method=value)
+    on_mesh = mesh is not None and not value.certified
+    start = MeshMap(mesh, mesh.vertices) if on_mesh else None
+    arguments = (case.problem.domain, case.problem.pose, energy, Options(**options), start)
+    return [solve(*arguments, callback, method=value) for _ in range(runs)][-1]
 
 
 def entries(result: Result) -> tuple[Iteration, ...]:
     """The start, then one entry per iteration."""
     return (result.initial, *result.history)
-
-
-def last_of(
-    runs: int, method: str, case: Case, energy: Energy | None = None, **settings: Any
-) -> Result:
-    """The last of so many runs, none of which is watched."""
-    result = run(method, case, energy, **settings)
-    for _ in range(runs - 1):
-        result = run(method, case, energy, **settings)
-    return result
 
 
 def outcome(result: Result) -> dict[str, Any]:
@@ -144,10 +124,8 @@ def outcome(result: Result) -> dict[str, Any]:
     flips = [step.flips for step in entries(result) if step.flips is not None]
     return {
         "status": result.status.value,
-        "message": result.message,
         "iterations": result.iterations,
         "energy": [step.energy for step in entries(result)],
-        "step": [step.step for step in entries(result)],
         "step_time": [step.time for step in entries(result)],
         "time": np.cumsum([step.time for step in entries(result)]).tolist(),
         "most_flips": max(flips) if flips else None,
@@ -167,16 +145,9 @@ def reached(
 ) -> dict[str, int | None]:
     """For each of :data:`CRITERIA` the iteration from which on it holds, or ``None``.
 
-    Parameters
-    ----------
-    distance : dict
-        Largest distance from the map of the minimum at some iterations.
-    moved, energy : lists
-        Of each iterate: largest distance from the iterate before, and energy.
-    least : float
-        The energy of the minimum.
-    converged : bool
-        Whether the method ended by itself, so that no movement comes after the last.
+    Of the iterates ``distance`` has the largest distance from the map of the minimum, for some,
+    ``moved`` that from the iterate before, and ``energy`` the energy, of which ``least`` is the
+    minimum's. After the last of a method that has ``converged`` no movement comes.
     """
     near = {i: e <= (1 + NEAR) * least for i, e in enumerate(energy)}
     visible = np.flatnonzero(np.array(moved) > VISIBLE)
@@ -196,12 +167,9 @@ def _first_lasting(holds: dict[int, bool]) -> int | None:
 
 def thumbnails(images: dict[int, Array], count: int) -> tuple[list[int], Array]:
     """A few iterations up to the last, the first ones closer together, and their images."""
-    left = sorted(images)[1:] or sorted(images)
-    chosen = []
-    for wanted in left[-1] * np.linspace(0, 1, count + 1)[:0:-1] ** 2:
-        if left:
-            nearest = min(left, key=lambda i, w=wanted: (abs(i - w), -i))
-            chosen.append(nearest)
-            left = [i for i in left if i < nearest]
-    chosen.reverse()
+    # From the last, so that of two equally near ones the later is taken.
+    kept = np.array(sorted(images)[1:] or sorted(images))[::-1]
+    wanted = kept[0] * np.linspace(0, 1, count + 1)[1:] ** 2
+    nearest = np.abs(kept[:, None] - wanted).argmin(axis=0)
+    chosen = [int(i) for i in np.unique(kept[nearest])]
     return chosen, np.stack([images[i] for i in chosen])

@@ -21,15 +21,9 @@ On disk ``taken`` is the machine and ``of`` what was measured: a problem's diges
 
 
 class Store:
-    """A folder of measurements.
+    """A folder of measurements; ``here`` is this machine with its versions.
 
-    Parameters
-    ----------
-    folder : Path
-    here : dict
-        This machine and its versions, plain JSON values.
-    fresh : bool
-        Measure again what is there already.
+    With ``fresh`` what is there already is measured again.
     """
 
     def __init__(self, folder: Path, here: Measurement, fresh: bool = False) -> None:

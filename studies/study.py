@@ -13,8 +13,6 @@ from studies.processes import StudyError
 from studies.store import Measurement, Store
 from studies.tables import Row, update_page, write_csv
 
-Detail = Callable[[str], None]
-
 
 @dataclass
 class Plan:
@@ -25,7 +23,7 @@ class Plan:
     repeats: int = 9
     quick: bool = False
     """Small sizes only, to see that everything runs."""
-    detail: Detail = lambda _: None
+    detail: Callable[[str], None] = lambda _: None
     """Told what is being done."""
 
     def case(self, name: str) -> Case:

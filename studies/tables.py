@@ -36,12 +36,12 @@ def update_page(page: Path, folder: Path) -> None:
     """Put the tables of a folder into the places that a page has for them.
 
     A place whose table is not there stays as it is. Where there is no page one is made, with all
-    tables and pictures of the folder.
+    tables of the folder.
     """
     if not page.exists():
-        tables = [f"<!-- table: {path.stem} -->\n<!-- end -->" for path in folder.glob("*.csv")]
-        pictures = [f"![{path.stem}]({folder.name}/{path.name})" for path in folder.glob("*.png")]
-        page.write_text("\n\n".join(sorted(tables) + sorted(pictures)) + "\n", encoding="utf-8")
+        names = sorted(path.stem for path in folder.glob("*.csv"))
+        places = (f"<!-- table: {name} -->\n<!-- end -->\n" for name in names)
+        page.write_text("\n".join(places), encoding="utf-8")
 
     def filled(place: re.Match[str]) -> str:
         path = folder / f"{place[1]}.csv"

@@ -1,7 +1,7 @@
 """Repeated timings within one process.
 
-pyperf was tried and not kept: it times each function in some twenty processes of its own, each of
-which would import JAX and load compiled programs first, and it cannot take two functions in turn.
+pyperf was tried and not kept: it times each function in processes of its own, twenty by default,
+each of which imports JAX and loads compiled programs first, and it cannot take functions in turn.
 """
 
 from __future__ import annotations
@@ -62,14 +62,3 @@ def summary(seconds: list[float]) -> Timing:
         "least": min(seconds),
         "runs": len(seconds),
     }
-
-
-def scaled(timing: Timing, factor: float) -> Timing:
-    """The timing of a part, a fraction ``factor`` of the whole."""
-    return {key: v if key == "runs" else v * factor for key, v in timing.items()}
-
-
-def rate(timing: Timing, count: float) -> Timing:
-    """So many things a second, where ``count`` of them take the given time."""
-    turned = {"low": "high", "high": "low"}
-    return {turned.get(key, key): v if key == "runs" else count / v for key, v in timing.items()}

@@ -2,7 +2,8 @@
 
 `JupyterServer` is a server of its own: a random port, temporary folders for notebooks, settings and
 workspaces, nothing of the user's. `LabNotebook` is one notebook open in it, in JupyterLab or in
-Notebook; `VoilaPage` is one that Voila shows.
+Notebook; `VoilaPage` is one that Voila shows. `SharedLab` is a page and a kernel that notebooks use
+one after the other: loading the page and starting a kernel take longer than most tests.
 """
 
 from __future__ import annotations
@@ -75,6 +76,31 @@ _READY = """() => {
   return panel?.context?.isReady && panel.sessionContext?.isReady &&
     panel.sessionContext.session?.kernel?.status === 'idle';
 }"""
+
+# Closes what a notebook made in the kernel that it shares with the next one.
+_CLEAR_KERNEL = """
+import ipywidgets as _widgets
+from glid_nb.widgets import CageTracer, DeformCanvas, Editor
+for _one in list(_widgets.widget._instances.values()):
+    if isinstance(_one, (Editor, DeformCanvas, CageTracer)):
+        _one.close()
+_widgets.Widget.close_all()
+get_ipython().reset(new_session=True, aggressive=False)
+"""
+
+_EXECUTE = """async ({id, code}) => {
+  const model = {id, name: 'python3'};
+  const kernel = window.jupyterapp.serviceManager.kernels.connectTo({model});
+  const reply = (await kernel.requestExecute({code, silent: true, store_history: false}).done);
+  kernel.dispose();
+  return reply.content.status === 'ok' ? null : `${reply.content.ename}: ${reply.content.evalue}`;
+}"""
+
+_START_SESSION = """({path, id}) => window.jupyterapp.serviceManager.sessions.startNew(
+  {path, name: path, type: 'notebook', kernel: {id}}).then((session) => session.dispose())"""
+
+_OPEN = """(path) => window.jupyterapp.commands.execute('docmanager:open', {path})
+  .then(() => null)"""
 
 _EVALUATE = """async ({setup, expression}) => {
   const kernel = window.jupyterapp.shell.currentWidget.sessionContext.session.kernel;
@@ -296,7 +322,10 @@ class NotebookPage(abc.ABC):
 
 
 class LabNotebook(NotebookPage):
-    """One notebook, open in JupyterLab or in Notebook (``interface``), its cells run."""
+    """One notebook, open in JupyterLab or in Notebook (``interface``), its cells run.
+
+    With ``lab``, in the kernel of that page; else in one of its own.
+    """
 
     def __init__(
         self,
@@ -304,11 +333,18 @@ class LabNotebook(NotebookPage):
         server: JupyterServer,
         cells: Sequence[str],
         interface: Literal["lab", "notebook"] = "lab",
+        lab: SharedLab | None = None,
     ) -> None:
         super().__init__(page, server, cells)
+        self._lab = lab
         where = f"lab/workspaces/{self._name}/tree" if interface == "lab" else "notebooks"
         self._url = f"{server.url}/{where}/{self._name}.ipynb"
-        page.goto(self._url)
+        if lab is not None:
+            lab.start_session(f"{self._name}.ipynb")
+        if lab is not None and lab.page is page:
+            page.evaluate(_OPEN, f"{self._name}.ipynb")
+        else:
+            page.goto(self._url)
         self._wait_until_ready()
         # The notebook gets the whole window, as people do it.
         page.evaluate(
@@ -365,9 +401,51 @@ class LabNotebook(NotebookPage):
         )
 
     def shut_down(self) -> None:
+        if self._lab is not None:
+            self._lab.clear()
+            return
         self.page.evaluate(
             "() => window.jupyterapp.shell.currentWidget?.sessionContext?.shutdown()"
         )
+
+
+class SharedLab:
+    """A page of JupyterLab and one kernel, for notebooks that follow one another."""
+
+    def __init__(self, browser: Browser, server: JupyterServer) -> None:
+        self._context = browser.new_context(viewport={"width": 1366, "height": 768})
+        self._watch = Watch(self._context)
+        self.page = self._context.new_page()
+        self.page.set_default_timeout(30_000)
+        self.page.goto(f"{server.url}/lab")
+        self.page.wait_for_function(
+            "() => window.jupyterapp?.restored.then(() => true)", timeout=90_000
+        )
+        self._kernel = self.page.evaluate(
+            """() => window.jupyterapp.serviceManager.kernels.startNew({name: 'python3'})
+              .then((kernel) => { kernel.dispose(); return kernel.id; })"""
+        )
+
+    def start_session(self, path: str) -> None:
+        """Tie a notebook that is not open yet to the kernel."""
+        self.page.evaluate(_START_SESSION, {"path": path, "id": self._kernel})
+
+    def clear(self) -> None:
+        """Close the notebook on the page and everything that was made in the kernel."""
+        raised = self.page.evaluate(_EXECUTE, {"id": self._kernel, "code": _CLEAR_KERNEL})
+        assert raised is None, f"closing what the notebook had made raised {raised}"
+        self.page.evaluate("() => window.jupyterapp.shell.currentWidget?.dispose()")
+
+    def check(self) -> None:
+        """Fail if there were errors in the console since the last check."""
+        try:
+            self._watch.check()
+        finally:
+            self._watch.errors.clear()
+
+    def close(self) -> None:
+        """Leave the page; the kernel ends with the server."""
+        self._context.close()
 
 
 class VoilaPage(NotebookPage):

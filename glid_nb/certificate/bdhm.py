@@ -16,7 +16,7 @@ import numpy as np
 
 from glid_nb._jax import jax, jnp
 from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
-from glid_nb.certificate.paper import bounds_from_variation, distances
+from glid_nb.certificate.paper import distances, segment_bounds
 from glid_nb.harmonic.cauchy import Singularities
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ class BDHM(NamedTuple):
     @staticmethod
     def bounds(fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]) -> PanelBounds:
         """Bounds on each segment by (26) and (27)."""
-        return bounds_from_variation(fz, fzb_conj, remainder)
+        return segment_bounds(fz, fzb_conj, remainder)
 
 
 def _loops(following: Int[Array, " m"]) -> Int[Array, " m"]:

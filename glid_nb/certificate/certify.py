@@ -15,7 +15,7 @@ from glid_nb.certificate import rounding
 from glid_nb.certificate.bdhm import BDHM
 from glid_nb.certificate.hermite import Hermite
 from glid_nb.certificate.panels import EndValues, PanelBounds, PanelProof, after_split, modulus
-from glid_nb.certificate.paper import Lipschitz
+from glid_nb.certificate.paper import Lipschitz, windings
 from glid_nb.geometry import Panels, as_points, graded_panels, place
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 
@@ -201,10 +201,8 @@ def _conclude(
     map: HarmonicMap, panels: Panels, known: _Known, kind: CertificateKind
 ) -> Certificate:
     bounds = known.bounds
-    n_loops = 1 + map.domain.n_holes
-    turns = np.bincount(panels.loop, weights=bounds.turning, minlength=n_loops) / (2 * np.pi)
-    windings = tuple(int(w) for w in np.round(np.nan_to_num(turns)))
-    reason = _failure(panels, known, sum(windings))
+    turns = windings(np.asarray(bounds.turning), panels.loop, 1 + map.domain.n_holes)
+    reason = _failure(panels, known, sum(turns))
     per_panel = [np.asarray(a) for a in (bounds.sigma2_lower, bounds.sigma1_upper, bounds.k_upper)]
     for values in per_panel:
         values.flags.writeable = False
@@ -213,7 +211,7 @@ def _conclude(
         float(bounds.sigma2_lower.min()),
         float(bounds.sigma1_upper.max()),
         float(bounds.k_upper.max()),
-        windings,
+        turns,
         PanelCertificate(
             as_points(panels.start), as_points(panels.end), panels.loop, panels.depth, *per_panel
         ),

@@ -10,6 +10,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple, Self
 
+import numpy as np
+from numpy.typing import NDArray
+
 from glid_nb._jax import jnp
 from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
 from glid_nb.harmonic.cauchy import Singularities, slope_jumps
@@ -18,7 +21,7 @@ if TYPE_CHECKING:
     from jaxtyping import Array, Bool, Complex, Float
 
 
-def bounds_from_variation(
+def segment_bounds(
     fz: EndValues, fzb_conj: EndValues, variation: Float[Array, "2 p"] | list[Array]
 ) -> PanelBounds:
     """Bounds on each segment by (26) and (27), ``variation`` being ``L_fz l`` and ``L_fzbar l``.
@@ -43,12 +46,7 @@ def bounds_from_variation(
 
 
 class Lipschitz(NamedTuple):
-    """The paper's proof, by its Lipschitz constants (Section 8, Appendix H).
-
-    ``L_fz = (|f_z'(v_i)| + |f_z'(v_{i+1})|) / 2
-    + l/2 (sum_j L_j |s_j - s_{j+1}| + sum_j L_j^h |phi_j|)``
-    with the constants of :func:`derivative_bound_weights`, and likewise ``L_fzbar``.
-    """
+    """The paper's proof, by its Lipschitz constants (Section 8, Appendix H)."""
 
     half_square: Float[Array, " p"]
     """``l^2 / 2``, by which the sums count in ``L l``."""
@@ -66,18 +64,25 @@ class Lipschitz(NamedTuple):
     def remainder(
         self, coefficients: Complex[Array, "k n"], singularities: Singularities
     ) -> Float[Array, "k p"]:
-        """The terms of ``L l`` beyond the mean slope of the two ends."""
+        """``l^2/2 (sum_j L_j |s_j - s_{j+1}| + sum_j L_j^h |phi_j|)``, a part of ``L_fz l``."""
         jumps = jnp.abs(slope_jumps(coefficients, singularities))
         return self.half_square * (jumps @ self.weights)
 
     @staticmethod
     def bounds(fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]) -> PanelBounds:
         """Bounds on each segment by (26) and (27)."""
-        variation = [
-            (modulus(f.slope_start) + modulus(f.slope_end)) / 2 + rest
-            for f, rest in zip((fz, fzb_conj), remainder, strict=True)
-        ]
-        return bounds_from_variation(fz, fzb_conj, variation)
+        variations = [variation(fz, remainder[0]), variation(fzb_conj, remainder[1])]
+        return segment_bounds(fz, fzb_conj, variations)
+
+
+def variation(f: EndValues, remainder: Float[Array, " p"]) -> Float[Array, " p"]:
+    """``L l``, with the paper's Lipschitz constant of ``f_z`` or ``f_zbar`` on each segment.
+
+    ``L_fz = (|f_z'(v_i)| + |f_z'(v_{i+1})|) / 2
+    + l/2 (sum_j L_j |s_j - s_{j+1}| + sum_j L_j^h |phi_j|)``, of which ``remainder`` is the sums'
+    part of ``L l``.
+    """
+    return (modulus(f.slope_start) + modulus(f.slope_end)) / 2 + remainder
 
 
 def derivative_bound_weights(
@@ -118,6 +123,12 @@ def turning(fz_start: Complex[Array, " p"], fz_end: Complex[Array, " p"]) -> Flo
     By Theorem 8.1 it is that if ``|f_z(v_i)| + |f_z(v_{i+1})| > L_fz l`` (28).
     """
     return jnp.angle(fz_end * jnp.conj(fz_start))
+
+
+def windings(turning: NDArray[np.float64], loop: NDArray[np.intp], n_loops: int) -> tuple[int, ...]:
+    """Turns of ``f_z`` along each loop, the inner sums of (30) over ``2 pi``."""
+    turns = np.bincount(loop, weights=turning, minlength=n_loops) / (2 * np.pi)
+    return tuple(int(w) for w in np.round(np.nan_to_num(turns)))
 
 
 def fz_vanishes(turning: Float[Array, " p"]) -> Bool[Array, ""]:

@@ -149,30 +149,22 @@ def _encoded(
     background: tuple[int, int, int],
     format: Format,
 ) -> bytes:
-    buffer = io.BytesIO()
-    first, *rest = pictures
+    kind = "PNG"
     if format == "gif":
         # One palette for all frames, or flat areas flicker.
         palette = _palette(pictures, background)
-        first, *rest = (_with_palette(picture, palette, background) for picture in pictures)
-        first.save(
-            buffer,
-            format="GIF",
-            save_all=True,
-            append_images=rest,
-            duration=10 * max(1, round(milliseconds / 10)),
-            loop=0,
-            optimize=False,
-        )
-    else:
-        first.save(
-            buffer,
-            format="PNG",
-            save_all=True,
-            append_images=rest,
-            duration=milliseconds,
-            loop=0,
-        )
+        pictures = [_with_palette(picture, palette, background) for picture in pictures]
+        kind, milliseconds = "GIF", 10 * max(1, round(milliseconds / 10))
+    buffer = io.BytesIO()
+    pictures[0].save(
+        buffer,
+        format=kind,
+        save_all=True,
+        append_images=pictures[1:],
+        duration=milliseconds,
+        loop=0,
+        optimize=False,
+    )
     return buffer.getvalue()
 
 

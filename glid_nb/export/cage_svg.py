@@ -51,18 +51,13 @@ def cage_svg(
     frame = PixelFrame(*image_size)
     loops = [frame.to_pixel(loop) for loop in deformed_loops(map)]
     cage_loops = [frame.to_pixel(loop) for loop in map.domain.cage.loops]
-    shown = [*loops, *cage_loops] if source else loops
-    if pose is not None and len(pose):
-        shown = [*shown, frame.to_pixel(pose.targets)]
-    low = np.min([points.min(axis=0) for points in shown], axis=0)
-    high = np.max([points.max(axis=0) for points in shown], axis=0)
+    targets = [frame.to_pixel(pose.targets)] if pose is not None else []
+    shown = np.concatenate([*loops, *(cage_loops if source else []), *targets])
     unit = max(frame.width, frame.height)
-    low, high = low - _MARGIN * unit, high + _MARGIN * unit
+    low, high = shown.min(axis=0) - _MARGIN * unit, shown.max(axis=0) + _MARGIN * unit
     (x, y), (w, h) = low, high - low
     line, radius = unit / 500, unit / 130
-    parts = []
-    if source:
-        parts.append(_path("source-cage", cage_loops, GREY, line, dash=4 * line))
+    parts = [_path("source-cage", cage_loops, GREY, line, dash=4 * line)] if source else []
     parts.append(_path("cage", loops, BLUE, line))
     if pose is not None and len(pose):
         parts += _disks("targets", frame.to_pixel(pose.targets), radius, CYAN)
@@ -84,31 +79,26 @@ def deformed_loops(map: HarmonicMap, tolerance: float = TOLERANCE) -> list[NDArr
 def _deformed_loop(
     map: HarmonicMap, loop: NDArray[np.float64], tolerance: float
 ) -> NDArray[np.float64]:
-    # Parameters along the loop: vertex i is at i.
     n = len(loop)
     following = np.roll(loop, -1, axis=0)
 
     def at(t: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Images of points on the loop, whose vertex i is at t = i."""
         edge = np.minimum(t.astype(np.intp), n - 1)
         share = (t - edge)[:, None]
         return map(loop[edge] * (1 - share) + following[edge] * share)
 
     t = np.arange(_START * n + 1) / _START
     points = at(t)
-    straight = np.zeros(len(t) - 1, dtype=bool)
     for _ in range(_ROUNDS):
-        open_ = np.flatnonzero(~straight)
-        if not open_.size:
-            break
-        middle = (t[open_] + t[open_ + 1]) / 2
+        middle = (t[1:] + t[:-1]) / 2
         images = at(middle)
-        gap = np.linalg.norm(images - (points[open_] + points[open_ + 1]) / 2, axis=1)
-        bent = gap > tolerance
-        straight[open_[~bent]] = True
-        where = open_[bent] + 1
-        t = np.insert(t, where, middle[bent])
-        points = np.insert(points, where, images[bent], axis=0)
-        straight = np.insert(straight, where, False)
+        gap = np.linalg.norm(images - (points[1:] + points[:-1]) / 2, axis=1)
+        bent = np.flatnonzero(gap > tolerance)
+        if not bent.size:
+            break
+        t = np.insert(t, bent + 1, middle[bent])
+        points = np.insert(points, bent + 1, images[bent], axis=0)
     return points[:-1]
 
 

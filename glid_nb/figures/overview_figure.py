@@ -109,13 +109,13 @@ def overview(
     target = _reaching(_box(np.concatenate(outline)), pose.targets)
     views = _common_scale(source, target)
 
-    tall = min(width / 3 * float(np.divide(*np.ptp(views[0], axis=0)[::-1])), _TALLEST)
-    figure = Figure(
-        (width, tall + _WRITTEN + _PLOTS), _DPI, facecolor="white", layout="constrained"
-    )
+    across, up = np.ptp(views[0], axis=0)
+    tall = min(width / 3 * up / across, _TALLEST)
+    figure = Figure((width, tall + _WRITTEN + _PLOTS), _DPI, facecolor="white")
+    figure.set_layout_engine("constrained", w_pad=0.08, h_pad=0.04)
     FigureCanvasAgg(figure)
-    above, below = figure.subfigures(2, 1, height_ratios=[tall + _WRITTEN, _PLOTS])
-    pictures, plots = above.subplots(1, 3), below.subplots(1, 3)
+    halves: Any = figure.subfigures(2, 1, height_ratios=[tall + _WRITTEN, _PLOTS])
+    pictures, plots = (half.subplots(1, 3) for half in halves)
     for axes in pictures:
         axes.set_axis_off()
     for axes, letter, name in zip((*pictures, *plots), "abcdef", _NAMES, strict=True):

@@ -130,9 +130,9 @@ class Plot:
         return _beside(self.axes, "", (1, 1), above, animated=self._animated, **style)
 
     def _legend(self, *lines: Line2D) -> None:
-        """Above the axes, or inside at the upper right where they are narrow."""
+        """Above the axes, or inside at the upper right of a narrow plot that does not move."""
         place: dict[str, Any] = {"loc": "upper right", "borderaxespad": 0.0}
-        if self._inches > _NARROW:
+        if self._animated or self._inches > _NARROW:
             place = {"loc": "lower left", "bbox_to_anchor": (-0.03, 1.0), "borderaxespad": 0.3}
             place |= {"ncols": len(lines), "columnspacing": 0.7}
         self.axes.legend(handles=lines, **place, **LEGEND).set_in_layout(False)

@@ -10,13 +10,13 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import real_array
 from glid_nb.geometry._loops import (
     GeometryError,
     loop_name,
     place,
     plain_name,
     point_objects,
+    point_rows,
     segments,
 )
 
@@ -27,14 +27,7 @@ RESOLUTION = 1e-12
 
 def checked_vertices(vertices: ArrayLike, name: str) -> NDArray[np.float64]:
     """Shape, numbers and count; a float64 copy."""
-    try:
-        loop = real_array(vertices)
-    except (TypeError, ValueError) as error:
-        raise GeometryError(
-            f"{name}: vertices must be pairs of numbers [[x, y], ...] ({error})"
-        ) from error
-    if loop.size and (loop.ndim != 2 or loop.shape[1] != 2):
-        raise GeometryError(f"{name}: vertices must have the shape (n, 2), not {loop.shape}")
+    loop = point_rows(vertices, f"{name}: vertices", "n")
     if len(loop) < 3:
         raise GeometryError(f"{name}: {len(loop)} vertices given, a loop needs at least 3")
     bad = np.flatnonzero(~np.isfinite(loop).all(axis=1))

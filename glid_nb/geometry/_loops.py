@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import real_array
 from glid_nb._errors import InputError
 
 
@@ -95,6 +96,18 @@ def segments(loop: NDArray[np.float64]) -> NDArray[np.object_]:
 def point_objects(points: NDArray[np.float64]) -> NDArray[np.object_]:
     """(n,) shapely points at (n, 2) positions."""
     return np.asarray(shapely.points(points), dtype=object)
+
+
+def point_rows(value: ArrayLike, what: str, count: str) -> NDArray[np.float64]:
+    """A float64 copy of (n, 2) points; ``what`` and ``count``, such as "n", are for messages."""
+    try:
+        points = real_array(value)
+    except (TypeError, ValueError) as error:
+        raise GeometryError(f"{what} must be pairs of numbers [[x, y], ...] ({error})") from error
+    points = points.reshape(-1, 2) if points.shape == (0,) else points
+    if points.ndim != 2 or points.shape[1] != 2:
+        raise GeometryError(f"{what} must have the shape ({count}, 2), not {points.shape}")
+    return points
 
 
 def loop_list(value: Any, key: str) -> list[Any]:

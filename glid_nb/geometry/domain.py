@@ -11,8 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import real_array
-from glid_nb.geometry._loops import GeometryError, encloses, loop_list, loop_name, place
+from glid_nb.geometry._loops import GeometryError, encloses, loop_list, loop_name, place, point_rows
 from glid_nb.geometry.cage import Cage
 from glid_nb.geometry.offset import Offset, offset_cage
 from glid_nb.geometry.offset import hole_points as choose_hole_points
@@ -162,15 +161,7 @@ def _checked_notes(notes: Any) -> tuple[str, ...]:
 
 
 def _checked_hole_points(hole_points: ArrayLike, n_holes: int) -> NDArray[np.float64]:
-    try:
-        points = real_array(hole_points)
-    except (TypeError, ValueError) as error:
-        raise GeometryError(
-            f"hole points must be pairs of numbers [[x, y], ...] ({error})"
-        ) from error
-    points = points.reshape(0, 2) if points.shape == (0,) else points
-    if points.ndim != 2 or points.shape[1] != 2:
-        raise GeometryError(f"hole points must have the shape (N, 2), not {points.shape}")
+    points = point_rows(hole_points, "hole points", "N")
     if len(points) != n_holes:
         raise GeometryError(
             f"{len(points)} hole points given for a cage with {n_holes} holes; give one per hole"

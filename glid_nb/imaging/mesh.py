@@ -19,6 +19,22 @@ _MOST_ROUNDS = 12
 # The vertices among which the innermost one is looked for.
 _CANDIDATES = 2000
 
+# What a triangle becomes, by the sum of 1, 2 and 4 for sides 0, 1 and 2 that have a new vertex.
+# 0 to 2 are its corners, 3 to 5 the new vertices on the sides opposite to them.
+_NONE = (-1, -1, -1)
+_PIECES = np.array(
+    [
+        [(0, 1, 2), _NONE, _NONE, _NONE],
+        [(0, 1, 3), (0, 3, 2), _NONE, _NONE],
+        [(1, 2, 4), (1, 4, 0), _NONE, _NONE],
+        [(2, 4, 3), (4, 0, 1), (4, 1, 3), _NONE],
+        [(2, 0, 5), (2, 5, 1), _NONE, _NONE],
+        [(1, 3, 5), (3, 2, 0), (3, 0, 5), _NONE],
+        [(0, 5, 4), (5, 1, 2), (5, 2, 4), _NONE],
+        [(0, 5, 4), (5, 1, 3), (4, 3, 2), (3, 4, 5)],
+    ]
+)
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
 
@@ -155,28 +171,9 @@ def _keys(edges: Ints) -> NDArray[np.int64]:
 def _split(triangles: Ints, middle: Ints) -> Ints:
     """Split triangles at the new vertices on their sides (t, 3), -1 for none; order kept.
 
-    Side k lies opposite vertex k. With one new vertex a triangle becomes two, with two three,
-    with three four.
+    Side k lies opposite vertex k.
     """
-    count = (middle >= 0).sum(axis=1)
-    pieces = np.full((len(triangles), 4, 3), -1, np.int32)
-    pieces[count == 0, 0] = triangles[count == 0]
-
-    # Turn each triangle so that its odd side, the only one split or the only one not, is side 0.
-    odd = np.where(count == 1, (middle >= 0).argmax(axis=1), (middle < 0).argmax(axis=1))
-    turn = (odd[:, None] + np.arange(3)) % 3
-    a, b, c = np.take_along_axis(triangles, turn, axis=1).T
-    ma, mb, mc = np.take_along_axis(middle, turn, axis=1).T
-
-    one, two, three = count == 1, count == 2, count == 3
-    pieces[one, 0] = np.stack([a, b, ma], axis=1)[one]
-    pieces[one, 1] = np.stack([a, ma, c], axis=1)[one]
-    pieces[two, 0] = np.stack([a, mc, mb], axis=1)[two]
-    pieces[two, 1] = np.stack([mc, b, c], axis=1)[two]
-    pieces[two, 2] = np.stack([mc, c, mb], axis=1)[two]
-    pieces[three, 0] = np.stack([a, mc, mb], axis=1)[three]
-    pieces[three, 1] = np.stack([mc, b, ma], axis=1)[three]
-    pieces[three, 2] = np.stack([mb, ma, c], axis=1)[three]
-    pieces[three, 3] = np.stack([ma, mb, mc], axis=1)[three]
-    flat = pieces.reshape(-1, 3)
-    return flat[flat[:, 0] >= 0]
+    pieces = _PIECES[(middle >= 0) @ [1, 2, 4]]
+    corners = np.concatenate([triangles, middle], axis=1)
+    new = np.take_along_axis(corners, pieces.reshape(-1, 12), axis=1).reshape(-1, 4, 3)
+    return new[pieces[:, :, 0] >= 0]

@@ -78,15 +78,15 @@ def render_mesh(
         size is not positive. The message names the culprit.
     """
     width, height = _checked_size(size)
-    source = _checked_points(texture_xy, "texture_xy")
-    target = _checked_points(positions_xy, "positions_xy")
+    source = _checked(texture_xy, "texture_xy", None, 2)
+    target = _checked(positions_xy, "positions_xy", None, 2)
     if len(source) != len(target):
         raise ValueError(
             f"texture_xy has {len(source)} vertices and positions_xy {len(target)}; "
             "give both for every vertex"
         )
     faces = _checked_triangles(triangles, len(target))
-    levels = None if heights is None else _checked_heights(heights, len(target))
+    levels = None if heights is None else _checked(heights, "heights", len(target))
     if not isinstance(texture, Texture):
         texture = Texture.from_image(texture)
     picture = np.zeros((height, width, 4), np.uint8)
@@ -193,7 +193,7 @@ class ScanConverter:
         return Samples(triangle[some], place, x[some, column], (row[some] + 0.5) / SUBSAMPLES)
 
 
-def outline_edges(triangles: NDArray[np.integer], corners: Floats) -> NDArray[Any]:
+def outline_edges(triangles: Ints, corners: Floats) -> NDArray[Any]:
     """(e, 2) vertex pairs where a sheet of the mesh ends or folds over.
 
     These are all edges but those between two triangles of the same orientation.
@@ -284,9 +284,12 @@ def _composed(
     """(n_places, 4) premultiplied colours of samples (k, 4), the higher ones over the lower."""
     canvas = np.zeros((n_places, 4), np.float32)
     place = samples.place
-    several = np.bincount(place, minlength=n_places)[place] > 1
-    canvas[place[~several]] = colours[~several]
-    rest = np.flatnonzero(several)
+    canvas[place] = colours
+    count = np.bincount(place, minlength=n_places)
+    if count.max() <= 1:
+        return canvas
+    rest = np.flatnonzero(count[place] > 1)
+    canvas[place[rest]] = 0
     height = height_at(Samples(*(values[rest] for values in samples)))
     rest = rest[np.lexsort((height, place[rest]))]
     first = np.flatnonzero(np.diff(place[rest], prepend=-1))
@@ -326,23 +329,15 @@ def _checked_size(size: tuple[int, int]) -> tuple[int, int]:
     return width, height
 
 
-def _checked_points(points: ArrayLike, name: str) -> Floats:
-    array = np.asarray(points, dtype=np.float64)
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise ValueError(f"{name} has shape {array.shape}; expected (v, 2)")
-    bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
-    if bad.size:
-        raise ValueError(f"{name}: vertex {bad[0]} is {tuple(array[bad[0]])}; it must be finite")
-    return array
-
-
-def _checked_heights(heights: ArrayLike, n_vertices: int) -> Floats:
-    array = np.asarray(heights, dtype=np.float64)
-    if array.shape != (n_vertices,):
-        raise ValueError(f"heights has shape {array.shape}; expected ({n_vertices},)")
-    bad = np.flatnonzero(~np.isfinite(array))
-    if bad.size:
-        raise ValueError(f"heights[{bad[0]}] is {array[bad[0]]}; it must be finite")
+def _checked(values: ArrayLike, name: str, n: int | None, *shape: int) -> Floats:
+    """Finite values of this shape for each of n vertices, or of any number of them."""
+    array = np.asarray(values, dtype=np.float64)
+    if array.ndim != 1 + len(shape) or array.shape[1:] != shape or n not in (None, len(array)):
+        expected = ", ".join(map(str, (n or "v", *shape)))
+        raise ValueError(f"{name} has shape {array.shape}; expected ({expected})")
+    bad = np.argwhere(~np.isfinite(array))
+    if len(bad):
+        raise ValueError(f"{name}[{bad[0, 0]}] is {array[bad[0, 0]]}; it must be finite")
     return array
 
 

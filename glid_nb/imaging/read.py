@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import os
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -151,95 +153,89 @@ def check_size(width: int, height: int, name: str = "the image") -> None:
 
 
 def _from_float(array: NDArray[Any]) -> NDArray[np.uint16]:
+    low, high = float(array.min()), float(array.max())
+    if not (np.isfinite(low) and np.isfinite(high)):
+        row, column, *_ = place = tuple(np.argwhere(~np.isfinite(array))[0])
+        raise TraceError(
+            f"the image holds {array[place]} in row {row}, column {column}; "
+            "replace NaN and infinite values"
+        )
+    # Interpolation overshoots by a rounding or two.
+    if low < -1e-6 or high > 1 + 1e-6:
+        raise TraceError(
+            f"a float image must lie in [0, 1], this one holds {low if low < -1e-6 else high:.6g}; "
+            "divide it by its largest possible value"
+        )
     result = np.empty(array.shape, dtype=np.uint16)
     for start in range(0, len(array), _ROWS):
         block = array[start : start + _ROWS].astype(np.float64)
-        bad = ~np.isfinite(block)
-        if bad.any():
-            row, column = np.argwhere(bad)[0][:2]
-            raise TraceError(
-                f"the image holds {block[bad][0]} in row {start + row}, column {column}; "
-                "replace NaN and infinite values"
-            )
-        # Interpolation overshoots by a rounding or two.
-        if block.min() < -1e-6 or block.max() > 1 + 1e-6:
-            value = block.min() if block.min() < -1e-6 else block.max()
-            raise TraceError(
-                f"a float image must lie in [0, 1], this one holds {value:.6g}; divide it by its "
-                "largest possible value"
-            )
         result[start : start + _ROWS] = np.rint(np.clip(block, 0, 1) * 65535)
     return result
+
+
+@contextlib.contextmanager
+def _naming(name: str) -> Iterator[None]:
+    """Make a TraceError of anything that a decoder raises for a damaged file: nearly any error."""
+    try:
+        yield
+    except TraceError:
+        raise
+    except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
+        raise TraceError(f"{name} is too large ({error}); scale it down first") from error
+    except Exception as error:
+        raise TraceError(f"{name} is damaged or cut short: {error}") from error
 
 
 def _decode(data: bytes, name: str) -> RGBA:
     if not data:
         raise TraceError(f"{name} is empty: there is not one byte in it")
-    try:
-        picture = Image.open(io.BytesIO(data))
-    except UnidentifiedImageError as error:
-        if data.startswith(_TIFF_STARTS):
-            return _from_tifffile(data, name)  # kinds that Pillow lacks
-        raise TraceError(
-            f"{name} is not in a picture format that can be read; save it as PNG or JPEG first"
-        ) from error
-    except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
-        raise TraceError(f"{name} is too large ({error}); scale it down first") from error
-    except Exception as error:  # Pillow's decoders raise nearly anything for a damaged file
-        raise TraceError(f"{name} is damaged or cut short: {error}") from error
-    if isinstance(picture, TiffImageFile) and picture.mode in ("RGB", "RGBA"):
-        bits = picture.tag_v2.get(_BITS_PER_SAMPLE, (8,))
-    else:
-        bits = (8,)
-    if max(bits) > 8:
-        return _from_tifffile(data, name)  # Pillow would round to 8 bit
-    with picture:
-        return _from_pillow(picture, name)
+    with _naming(name):
+        try:
+            picture = Image.open(io.BytesIO(data))
+        except UnidentifiedImageError as error:
+            if data.startswith(_TIFF_STARTS):
+                return _from_tifffile(data, name)  # kinds that Pillow lacks
+            raise TraceError(
+                f"{name} is not in a picture format that can be read; save it as PNG or JPEG first"
+            ) from error
+        tags = picture.tag_v2 if isinstance(picture, TiffImageFile) else {}
+        bits = max(tags.get(_BITS_PER_SAMPLE, (8,)))
+        if picture.mode in ("RGB", "RGBA") and bits > 8:
+            return _from_tifffile(data, name)  # Pillow would round to 8 bit
+        with picture:
+            return _from_pillow(picture, name)
 
 
 def _from_pillow(picture: Image.Image, name: str) -> RGBA:
     if 0 in picture.size:
         raise TraceError(f"{name} is empty: it has {picture.width} x {picture.height} pixels")
     check_size(*picture.size, name)  # before the pixels are decoded
-    try:
+    with _naming(name):
         picture = ImageOps.exif_transpose(picture)
-        if picture.mode.startswith("I"):
-            return _from_integers(np.asarray(picture), name)
-        if picture.mode == "F":
+        if picture.mode == "F" or picture.mode.startswith("I"):
             return _from_array(np.asarray(picture), name)
         return np.array(picture.convert("RGBA"))
-    except TraceError:
-        raise
-    except Exception as error:  # as above
-        raise TraceError(f"{name} is damaged or cut short: {error}") from error
-
-
-def _from_integers(values: NDArray[np.integer], name: str) -> RGBA:
-    low, high = int(values.min()), int(values.max())
-    if low < 0 or high > 65535:
-        raise TraceError(
-            f"{name}: the grey values run from {low} to {high}; only 8 and 16 bit are supported"
-        )
-    return as_rgba(values.astype(np.uint16))
 
 
 def _from_tifffile(data: bytes, name: str) -> RGBA:
     import tifffile  # noqa: PLC0415  (slow to import and seldom needed; scikit-image brings it)
 
-    try:
-        with tifffile.TiffFile(io.BytesIO(data)) as file:
-            page = file.pages.first
-            check_size(page.imagewidth, page.imagelength, name)
-            array, axes = page.asarray(), page.axes
-    except TraceError:
-        raise
-    except Exception as error:  # as above
-        raise TraceError(f"{name} is damaged or cut short: {error}") from error
-    return _from_array(np.moveaxis(array, 0, -1) if axes == "SYX" else array, name)
+    with tifffile.TiffFile(io.BytesIO(data)) as file:
+        page = file.pages.first
+        check_size(page.imagewidth, page.imagelength, name)
+        array = page.asarray()
+        return _from_array(np.moveaxis(array, 0, -1) if page.axes == "SYX" else array, name)
 
 
 def _from_array(array: NDArray[Any], name: str) -> RGBA:
-    """The pixels that a file held."""
+    """The pixels that a file held; Pillow has 16 bit as integers of 32."""
+    if array.dtype in (np.int32, np.uint16):
+        low, high = int(array.min()), int(array.max())
+        if low < 0 or high > 65535:
+            raise TraceError(
+                f"{name}: the grey values run from {low} to {high}; only 8 and 16 bit are supported"
+            )
+        array = array.astype(np.uint16)
     try:
         return as_rgba(array)
     except TraceError as error:

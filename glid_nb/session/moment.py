@@ -56,6 +56,7 @@ class Moment:
         current, frame = self.state.current, self.frame
         if current.method.certified:
             return current.solution
+        # A method on a mesh leaves the pose as it is.
         latest = frame is not None and frame.task.pose.asks_the_same(current)
         return frame.solution if frame is not None and latest else None
 

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from glid_nb.energies import CustomEnergy, Energy
+from glid_nb.energies import CustomEnergy
 from glid_nb.geometry import Domain
-from glid_nb.imaging import TraceError, TraceOptions, trace
+from glid_nb.imaging import TraceError, trace
 from glid_nb.session.document import Document, DocumentError, NamedPose
-from glid_nb.solvers import Method, Newton, Options
+from glid_nb.solvers import Newton
 
 
 def python_code(document: Document, picture: str = "picture.png", *, exact: bool = False) -> str:
@@ -51,9 +51,8 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
     lines = ["import glid_nb as glid", ""]
     lines += _domain_lines(document, picture)
     if exact:
-        lines += [
-            f"map = glid.HarmonicMap(domain, {pose.map.phi.tolist()}, {pose.map.psi.tolist()})"
-        ]
+        phi, psi = pose.map.phi.tolist(), pose.map.psi.tolist()
+        lines.append(f"map = glid.HarmonicMap(domain, {phi}, {psi})")
     else:
         lines += _solve_lines(pose)
     return "\n".join(lines) + "\n"
@@ -61,11 +60,11 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
 
 def _solve_lines(pose: NamedPose) -> list[str]:
     handles, targets = pose.pose.handles.tolist(), pose.pose.targets.tolist()
-    arguments = ["domain", "pose", _energy(pose.energy)]
-    if options := _changed(pose.options, Options(), pose.method.options):
+    arguments = ["domain", "pose", _made(pose.energy)]
+    if options := _changed(pose.options, pose.method.options):
         arguments.append(f"glid.Options({options})")
     if not isinstance(pose.method, Newton):
-        arguments.append(f"method={_method(pose.method)}")
+        arguments.append(f"method={_made(pose.method, 'glid.methods')}")
     return [
         "pose = glid.Pose(",
         f"    handles={handles},",
@@ -79,7 +78,7 @@ def _solve_lines(pose: NamedPose) -> list[str]:
 def _domain_lines(document: Document, picture: str) -> list[str]:
     lines = []
     if _is_traced(document):
-        options = _changed(document.trace_options, TraceOptions())
+        options = _changed(document.trace_options)
         arguments = f"image, {options}" if options else "image"
         lines += [
             f"image = glid.read_image({picture!r})",
@@ -118,26 +117,18 @@ def _is_traced(document: Document) -> bool:
     return cage.equals(document.cage)
 
 
-def _energy(energy: Energy) -> str:
-    s = getattr(energy, "s", None)
-    return f"glid.{type(energy).__name__}({'' if s is None else f's={float(s)!r}'})"
+def _made(value: Any, module: str = "glid") -> str:
+    """The call that makes a dataclass."""
+    return f"{module}.{type(value).__name__}({_changed(value)})"
 
 
-def _method(method: Method) -> str:
-    given = ", ".join(f"{name}={_plain(value)!r}" for name, value in method.settings.items())
-    return f"glid.methods.{type(method).__name__}({given})"
-
-
-def _changed(value: Any, default: Any, names: Sequence[str] | None = None) -> str:
-    """The fields of a dataclass that differ from the default, as keyword arguments."""
-    parts = []
+def _changed(value: Any, names: Sequence[str] | None = None) -> str:
+    """The fields of a dataclass that differ from the defaults, as keyword arguments."""
+    parts, default = [], type(value)()
     for name in [field.name for field in dataclasses.fields(value)] if names is None else names:
         given = getattr(value, name)
         if given != getattr(default, name):
-            written = "float('inf')" if given == math.inf else repr(_plain(given))
+            given = given.item() if isinstance(given, np.generic) else given
+            written = "float('inf')" if given == math.inf else repr(given)
             parts.append(f"{name}={written}")
     return ", ".join(parts)
-
-
-def _plain(value: Any) -> Any:
-    return value.item() if isinstance(value, np.generic) else value

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
+import functools
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
@@ -31,6 +31,7 @@ from glid_nb.session.document import Document
 from glid_nb.session.history import History
 from glid_nb.session.loop_edits import Loops
 from glid_nb.session.observed import Observed
+from glid_nb.session.worker import weakly
 
 Brush = Literal["foreground", "background"]
 
@@ -169,7 +170,7 @@ class TracingModel(Observed):
         super().__init__()
         self._history = History(state)
         self._tracer: Tracer | None = None
-        self._outcomes: OrderedDict[TracingState, TracingOutcome] = OrderedDict()
+        self._outcome_of = functools.lru_cache(_KEPT_OUTCOMES)(weakly(self._evaluate))
 
     # What there is to see
 
@@ -205,13 +206,7 @@ class TracingModel(Observed):
     def outcome(self) -> TracingOutcome:
         """What follows from the state; computed on first use."""
         with self._lock:
-            state = self.state
-            if state not in self._outcomes:
-                self._outcomes[state] = self._evaluate(state)
-                while len(self._outcomes) > _KEPT_OUTCOMES:
-                    self._outcomes.popitem(last=False)
-            self._outcomes.move_to_end(state)
-            return self._outcomes[state]
+            return self._outcome_of(self.state)
 
     @property
     def tracing(self) -> Tracing | None:

@@ -126,12 +126,12 @@ class DeformCanvas(ipywidgets.HBox):
         # The solver sets the pace: while it works, its next frame acknowledges events.
         model = self.deformation
         with model.locked():
-            self._draw()
+            self._draw(model.moment)
             if len(model.pose):
                 self.fit()
             self._complete = True
             self._show_source()  # and what else was given as arguments
-            self._draw(place_legend=True)
+            self._draw(model.moment, place_legend=True)
             self.pane.stage.serve(model, self, busy=lambda: model.busy)
             self._stop = model.observe(self._on_model)
         self.pane.stage.observe(self._on_drawn, ["drawn"])
@@ -191,7 +191,8 @@ class DeformCanvas(ipywidgets.HBox):
             if self._closed:
                 return
             if what in ("state", "frame", "selection"):
-                self._draw(place_legend=what == "frame" and self.deformation.solved)
+                moment = self.deformation.moment
+                self._draw(moment, place_legend=what == "frame" and moment.solved)
             if what in ("frame", "status"):
                 self.pane.stage.acknowledge()
 
@@ -199,11 +200,10 @@ class DeformCanvas(ipywidgets.HBox):
         """Draw what is seen in another way."""
         with self.deformation.locked():
             if not self._closed:
-                self._draw(place_legend=place_legend)
+                self._draw(self.deformation.moment, place_legend=place_legend)
 
-    def _draw(self, *, place_legend: bool = False) -> None:
+    def _draw(self, moment: Moment, *, place_legend: bool = False) -> None:
         """Draw what the model is at this moment."""
-        moment = self.deformation.moment
         state, pose = moment.state, moment.state.pose
         images = moment.shown(pose.handles) if len(pose) else pose.handles
         cage, offset_cage = self.show_cage, self.show_offset_cage
@@ -287,7 +287,7 @@ class DeformCanvas(ipywidgets.HBox):
         stage.width -= width
         self.source = self._pane((width, stage.height), interactive=False)
         self.children = [self.source, self.pane]
-        self._draw()
+        self._draw(self.deformation.moment)
         self.fit()
 
     def _close_source(self, closing: Pane) -> None:

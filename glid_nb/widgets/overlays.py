@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,23 +13,21 @@ from glid_nb._jax import jnp
 from glid_nb.energies import Energy
 from glid_nb.solvers.restarts import isometry_energy
 
+Array = NDArray[Any]
+
 # Ten evenly spaced colours of `figures.style.distortion_colors`; the first canvas does not wait for
 # matplotlib to say so.
 _COLORS = (
-    "#fcf4b6",
-    "#fecc8f",
-    "#fea16e",
-    "#f8765c",
-    "#e75263",
-    "#c43c75",
-    "#a02f7f",
-    "#7b2382",
-    "#57157e",
-    "#331067",
+    *("#fcf4b6", "#fecc8f", "#fea16e", "#f8765c", "#e75263"),
+    *("#c43c75", "#a02f7f", "#7b2382", "#57157e", "#331067"),
 )
 # Of the certificate: from green through orange to vermilion, all of them seen on white and on black
 # and beside the colours above.
 _MARGIN_COLORS = (
+    *("#009e73", "#339e59", "#669e40", "#999f26", "#cc9f0d"),
+    *("#e49800", "#e08a00", "#dd7b00", "#d96c00", "#d55e00"),
+)
+N_COLORS = (
     "#009e73",
     "#339e59",
     "#669e40",
@@ -59,17 +57,42 @@ class Overlay:
     """As ``picture.frag`` counts them."""
     label: str
     """What a menu calls it."""
+    values: Callable[[Array, Array], Array] | None = None
+    """What is shown where f_z and f_zbar have these absolute values; None for nothing."""
+    start: float = 0.0
+    """The value of an isometry."""
+    ends: tuple[float, ...] = (1.0,)
+    """Where the colour map may end, the narrowest range first."""
 
 
 OVERLAYS: dict[str, Overlay] = {
     "texture": Overlay(0, "Picture"),
     "mesh": Overlay(1, "Picture and grid"),
-    "sigma1": Overlay(2, "Stretch σ₁"),
-    "sigma2": Overlay(3, "Stretch σ₂"),
-    "k": Overlay(4, "Dilatation k"),
+    "sigma1": Overlay(
+        2, "Stretch σ₁", lambda r, g: np.maximum(r + g, 1), 1.0, (1.25, 1.5, 2.0, 3.0, 5.0, 10.0)
+    ),
+    "sigma2": Overlay(3, "Stretch σ₂", lambda r, g: np.minimum(r - g, 1), 1.0, (0.8, 0.5, 0.0)),
+    "k": Overlay(
+        4, "Dilatation k", lambda r, g: g / np.maximum(r, 1e-6), 0.0, (0.1, 0.2, 0.5, 1.0)
+    ),
     "energy": Overlay(5, "Energy density"),
 }
-"""By the name of the trait ``DeformCanvas.overlay``."""
+"""By the name of the trait ``DeformCanvas.overlay``; that of the energy depends on the energy."""
+
+_ENERGY_ENDS = (0.1, 0.25, 0.5, 1, 2, 4, 10, 50, 200)  # above an isometry's, in its units
+
+
+def _overlay(name: str, energy: Energy) -> Overlay:
+    if name != "energy":
+        return OVERLAYS[name]
+
+    def density(r: Array, g: Array) -> Array:
+        return np.asarray(energy.density(jnp.asarray(r**2), jnp.asarray(g**2)))
+
+    least = isometry_energy(energy)
+    ends = tuple(least + max(least, 1.0) * end for end in _ENERGY_ENDS)
+    values = None if energy.shader is None else density
+    return replace(OVERLAYS[name], values=values, start=least, ends=ends)
 
 
 def color_range(
@@ -84,47 +107,14 @@ def color_range(
     In a few round steps, so that colours mean the same from frame to frame: the narrowest range
     that nearly all of a map with these Wirtinger derivatives is in, and not less than ``least``.
     """
-    start, ends = _steps(name, energy)
-    if fz is None or fzb is None:
-        wanted = start
-    else:
-        away = np.abs(_values(name, energy, np.abs(fz), np.abs(fzb)) - start)
-        wanted = float(np.quantile(away, _SHARE))
-        wanted = max(wanted, abs(least[1] - start)) if least is not None else wanted
-        wanted = start + np.copysign(wanted, ends[0] - start)
+    overlay = _overlay(name, energy)
+    start, ends = overlay.start, overlay.ends
+    wanted = 0.0 if least is None else abs(least[1] - start)
+    if overlay.values is not None and fz is not None and fzb is not None:
+        away = np.abs(overlay.values(np.abs(fz), np.abs(fzb)) - start)
+        wanted = max(wanted, float(np.quantile(away, _SHARE)))
     # A range that is kept is one of the steps, but for rounding.
-    return start, next((e for e in ends if abs(e - start) >= abs(wanted - start) - 1e-9), ends[-1])
-
-
-def _steps(name: str, energy: Energy) -> tuple[float, tuple[float, ...]]:
-    """What isometry has, and where the colour map may end, the narrowest range first."""
-    if name == "sigma1":
-        return 1.0, (1.25, 1.5, 2.0, 3.0, 5.0, 10.0)
-    if name == "sigma2":
-        return 1.0, (0.8, 0.5, 0.0)
-    if name == "k":
-        return 0.0, (0.1, 0.2, 0.5, 1.0)
-    if name == "energy":
-        least = isometry_energy(energy)
-        unit = max(least, 1.0)
-        return least, tuple(least + unit * e for e in (0.1, 0.25, 0.5, 1, 2, 4, 10, 50, 200))
-    return 0.0, (1.0,)
-
-
-def _values(
-    name: str, energy: Energy, r: NDArray[np.float64], g: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """What an overlay shows where ``|f_z|`` is ``r`` and ``|f_zbar|`` is ``g``."""
-    start, _ = _steps(name, energy)
-    if name == "sigma1":
-        return np.maximum(r + g, start)
-    if name == "sigma2":
-        return np.minimum(r - g, start)
-    if name == "k":
-        return g / np.maximum(r, 1e-6)
-    if name == "energy" and energy.shader is not None:
-        return np.asarray(energy.density(jnp.asarray(r**2), jnp.asarray(g**2)))
-    return np.full(len(r), start)
+    return start, next((end for end in ends if abs(end - start) >= wanted - 1e-9), ends[-1])
 
 
 def color_stops() -> NDArray[np.float64]:

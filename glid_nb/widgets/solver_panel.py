@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import ipywidgets
 
-from glid_nb.energies import ENERGIES, CustomEnergy, energy_by_name
+from glid_nb.energies import ENERGIES, CustomEnergy, Energy, energy_by_name
 from glid_nb.methods import METHODS
 from glid_nb.session.deformation import Deformation
-from glid_nb.solvers import Method
-from glid_nb.widgets.arguments import check_keywords
+from glid_nb.solvers import Method, Options
 from glid_nb.widgets.edit_controls import EditControls
-from glid_nb.widgets.method_settings import LABEL_WIDTH, MethodSettings
+from glid_nb.widgets.field_rows import FULL, FieldRows, control_of
 
 _WORKS_ON = {"harmonic": "", "mesh": " · mesh", "linear": " · linear"}
-_NOT_INSTALLED = " (not installed)"
-_FULL = {"width": "auto"}
+_CUSTOM = CustomEnergy.label, CustomEnergy.name
 
 
 class SolverPanel(EditControls):
@@ -31,188 +29,174 @@ class SolverPanel(EditControls):
     """
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
-        check_keywords(type(self), kwargs)
-        options = deformation.state.current.options
-        self.method = _dropdown(_method_menu(), "What solves: ours, or another to compare with")
+        method = FieldRows(self._set_method)
+        self.method = _menu(_methods(), "What solves: ours, or another to compare with")
+        method.build({"name": ("Method", self.method)})
         self.about = ipywidgets.HTML()
         """What the method does."""
-        self.settings = MethodSettings(self._set_settings)
+        self.settings = FieldRows(self._set_setting)
         """The method's own settings."""
-        menu = [(energy.label, name) for name, energy in ENERGIES.items()]
-        self.energy = _dropdown(menu, "What is minimised")
+        self._shown: type[Method] | None = None
+        self._energy = FieldRows(self._set_energy)
+        self.energy = _menu([(e.label, name) for name, e in ENERGIES.items()], "What is minimised")
         self.s = ipywidgets.BoundedFloatText(
-            1.0, min=1e-3, max=100.0, step=0.1, layout=_FULL, tooltip="The energy's parameter s"
+            1.0, min=1e-3, max=100.0, step=0.1, layout=FULL, tooltip="The energy's parameter s"
         )
-        self.weight = ipywidgets.FloatLogSlider(
-            options.p2p_weight,
-            min=0,
-            max=8,
-            step=0.25,
-            readout_format=".0e",
-            continuous_update=False,
-            layout=_FULL,
-            tooltip="How strongly handles are drawn to their targets",
-        )
-        self.conformal = ipywidgets.Checkbox(
-            description="Conformal maps only", indent=False, layout=_FULL
-        )
-        self.sampling = _dropdown(
-            [("Graded panels", "graded"), ("Uniform (paper)", "uniform")],
-            "Where the energy is integrated",
-        )
-        self.certificate = _dropdown(
-            [
-                ("Hermite–Bernstein", "hermite"),
-                ("Lipschitz (paper)", "lipschitz"),
-                ("Lipschitz (BDHM)", "bdhm"),
-            ],
-            "How local injectivity is proved",
-        )
-        self.hessian = _dropdown(
-            [("Adaptive", "adaptive"), ("Projected (paper)", "projected"), ("Exact", "exact")],
-            "The matrix of Newton's method",
-        )
-        self.iterations = ipywidgets.IntSlider(
-            options.iterations_per_call,
-            min=1,
-            max=7,
-            continuous_update=False,
-            layout=_FULL,
-            tooltip="Newton iterations between two frames",
-        )
+        self._energy.build({"name": ("Energy", self.energy), "s": ("s", self.s)})
+        self.options = FieldRows(self._set_option)
+        """The options, by their names."""
+        self.options.build(_option_controls(deformation.state.current.options))
+        (
+            self.weight,
+            self.sampling,
+            self.certificate,
+            self.hessian,
+            self.iterations,
+            self.conformal,
+        ) = self.options.controls.values()
         self.pause = ipywidgets.ToggleButton(
-            description="Pause", icon="pause", tooltip="Let the solver wait"
+            description="Pause", icon="pause", tooltip="Let the solver wait", layout=FULL
         )
         self.step = _button("Step", "step-forward", "One frame's iterations", deformation.step)
         self.reset = _button("Reset", "refresh", "The undeformed shape (0)", deformation.reset)
         self.clear = _button(
             "Clear handles", "eraser", "Let go of all handles", deformation.clear_handles
         )
-        self._options = (
-            (self.weight, "p2p_weight"),
-            (self.conformal, "conformal"),
-            (self.sampling, "sampling"),
-            (self.certificate, "certificate"),
-            (self.hessian, "hessian"),
-            (self.iterations, "iterations_per_call"),
-        )
-        choice = [("Method", self.method)]
-        rows = [
-            ("Energy", self.energy),
-            ("s", self.s),
-            ("Weight λ", self.weight),
-            ("Sampling", self.sampling),
-            ("Certificate", self.certificate),
-            ("Hessian", self.hessian),
-            ("Iterations / frame", self.iterations),
-        ]
         buttons = ipywidgets.HBox(
-            [self.pause, self.step, self.reset, self.clear],
-            layout=ipywidgets.Layout(flex_flow="row wrap"),
+            [self.pause, self.step, self.reset, self.clear], layout={"flex_flow": "row wrap"}
         )
-        for button in buttons.children:
-            button.layout.width = "auto"
-        parts = [_grid(choice), self.about, self.settings, _grid(rows), self.conformal, buttons]
+        parts = [method, self.about, self.settings, self._energy, self.options, buttons]
         super().__init__(deformation, parts, **kwargs)
         self.add_class("glid-solver-panel")
         self.method.add_class("glid-method")
         self.energy.add_class("glid-energy")
         self._show()
-        self.method.observe(self._set_method, ["value"])
-        for control in (self.energy, self.s):
-            control.observe(self._set_energy, ["value"])
-        for control, name in self._options:
-            control.observe(self._setter(name), ["value"])
         self.pause.observe(self._set_paused, ["value"])
         self._watch()
 
     def _show(self) -> None:
         current = self.deformation.state.current
-        options, energy, method = current.options, current.energy, current.method
         with self._while_showing():
-            self.method.value = method.name
-            self.about.value = _about(method)
-            self.settings.show(method)
-            custom = isinstance(energy, CustomEnergy)
-            names = [*self.energy.options]
-            if custom and names[-1][1] != "custom":
-                self.energy.options = [*names, (energy.label, "custom")]
-            self.energy.value = energy.name
-            self.s.disabled = "s" not in energy.parameters()
-            if not self.s.disabled:
-                self.s.value = float(getattr(energy, "s", 1.0))
-            self.weight.value = options.p2p_weight
-            self.conformal.value = options.conformal
-            self.sampling.value = options.sampling
-            self.certificate.value = options.certificate
-            self.hessian.value = options.hessian
-            self.iterations.value = options.iterations_per_call
-            for control, option in self._options:
-                control.disabled = option not in method.options
+            self._show_method(current.method)
+            self._show_energy(current.energy)
+            self.options.show(current.options)
+            for name, control in self.options.controls.items():
+                control.disabled = name not in current.method.options
             self.pause.value = self.deformation.paused
             self.step.disabled = not self.deformation.paused
 
-    def _set_method(self, change: Any) -> None:
-        if not self._showing:
-            self._act(lambda: self.deformation.set_method(change["new"]))
+    def _show_method(self, method: Method) -> None:
+        self.method.value = method.name
+        text = method.summary
+        if not method.certified:
+            text += (
+                " Shown for comparison, without a proof; saved and exported is the last certified "
+                "map."
+            )
+        self.about.value = f"<div style='line-height:1.3;opacity:0.75'>{html.escape(text)}</div>"
+        if type(method) is not self._shown:
+            self._shown = type(method)
+            made = ((k, control_of(method.kinds()[k], v)) for k, v in method.defaults().items())
+            self.settings.build({k: (k.replace("_", " "), c) for k, c in made if c is not None})
+        self.settings.show(method)
 
-    def _set_settings(self, settings: Mapping[str, Any]) -> None:
-        name = self.deformation.state.current.method.name
-        if not self._showing:
-            self._act(lambda: self.deformation.set_method(name, **settings))
+    def _show_energy(self, energy: Energy) -> None:
+        if isinstance(energy, CustomEnergy) and _CUSTOM not in self.energy.options:
+            self.energy.options = [*self.energy.options, _CUSTOM]
+        self.energy.value = energy.name
+        self.s.disabled = "s" not in energy.parameters()
+        if not self.s.disabled:
+            self.s.value = float(getattr(energy, "s", 1.0))
 
-    def _set_energy(self, _: Any) -> None:
-        name, s = str(self.energy.value), self.s.value
-        if not self._showing and name != "custom":
+    def _set_method(self, _: str, name: str) -> None:
+        if not self._showing:
+            self._act(lambda: self.deformation.set_method(name))
+
+    def _set_setting(self, name: str, value: Any) -> None:
+        method = self.deformation.state.current.method
+        settings = {**method.settings, name: value}
+        if not self._showing:
+            self._act(lambda: self.deformation.set_method(method.name, **settings))
+
+    def _set_energy(self, *_: Any) -> None:
+        name, s = self.energy.value, self.s.value
+        if not self._showing and name in ENERGIES:
             self._act(lambda: self.deformation.set_energy(energy_by_name(name, s)))
 
-    def _setter(self, name: str) -> Callable[[Any], None]:
-        def set_option(change: Any) -> None:
-            if not self._showing:
-                self._act(lambda: self.deformation.set_options(**{name: change["new"]}))
-
-        return set_option
+    def _set_option(self, name: str, value: Any) -> None:
+        if not self._showing:
+            self._act(lambda: self.deformation.set_options(**{name: value}))
 
     def _set_paused(self, change: Any) -> None:
         if not self._showing:
             self.deformation.paused = change["new"]
 
 
-def _method_menu() -> list[tuple[str, str]]:
-    """All methods, ours first; on what each works, and which package it lacks."""
+def _methods() -> list[tuple[str, str]]:
+    """All methods, ours first; on what each works, and which lacks its package."""
     return [
-        (method.label + _WORKS_ON[method.family] + _lacking(method), name)
+        (
+            method.label
+            + _WORKS_ON[method.family]
+            + ("" if method.available() else " (not installed)"),
+            name,
+        )
         for name, method in METHODS.items()
     ]
 
 
-def _lacking(method: type[Method]) -> str:
-    return "" if method.available() else _NOT_INSTALLED
-
-
-def _about(method: Method) -> str:
-    text = method.summary
-    if not method.certified:
-        text += (
-            " Shown for comparison, without a proof; saved and exported is the last certified map."
-        )
-    return f"<div style='line-height:1.3;opacity:0.75'>{html.escape(text)}</div>"
-
-
-def _grid(rows: Sequence[tuple[str, ipywidgets.Widget]]) -> ipywidgets.GridBox:
-    return ipywidgets.GridBox(
-        [item for label, control in rows for item in (ipywidgets.Label(label), control)],
-        layout=ipywidgets.Layout(
-            grid_template_columns=f"{LABEL_WIDTH} minmax(0, 1fr)", grid_gap="2px 8px"
-        ),
+def _option_controls(options: Options) -> dict[str, tuple[str, Any]]:
+    """By the option's name a label and a control."""
+    weight = ipywidgets.FloatLogSlider(
+        options.p2p_weight,
+        min=0,
+        max=8,
+        step=0.25,
+        readout_format=".0e",
+        continuous_update=False,
+        layout=FULL,
+        tooltip="How strongly handles are drawn to their targets",
     )
+    sampling = _menu(
+        [("Graded panels", "graded"), ("Uniform (paper)", "uniform")],
+        "Where the energy is integrated",
+    )
+    certificate = _menu(
+        [
+            ("Hermite–Bernstein", "hermite"),
+            ("Lipschitz (paper)", "lipschitz"),
+            ("Lipschitz (BDHM)", "bdhm"),
+        ],
+        "How local injectivity is proved",
+    )
+    hessian = _menu(
+        [("Adaptive", "adaptive"), ("Projected (paper)", "projected"), ("Exact", "exact")],
+        "The matrix of Newton's method",
+    )
+    iterations = ipywidgets.IntSlider(
+        options.iterations_per_call,
+        min=1,
+        max=7,
+        continuous_update=False,
+        layout=FULL,
+        tooltip="Newton iterations between two frames",
+    )
+    conformal = ipywidgets.Checkbox(indent=False, layout=FULL, tooltip="No shear anywhere")
+    return {
+        "p2p_weight": ("Weight λ", weight),
+        "sampling": ("Sampling", sampling),
+        "certificate": ("Certificate", certificate),
+        "hessian": ("Hessian", hessian),
+        "iterations_per_call": ("Iterations / frame", iterations),
+        "conformal": ("Conformal maps only", conformal),
+    }
 
 
-def _dropdown(options: Any, tooltip: str) -> ipywidgets.Dropdown:
-    return ipywidgets.Dropdown(options=options, layout=_FULL, tooltip=tooltip)
+def _menu(options: Any, tooltip: str) -> ipywidgets.Dropdown:
+    return ipywidgets.Dropdown(options=options, layout=FULL, tooltip=tooltip)
 
 
 def _button(label: str, icon: str, tooltip: str, act: Callable[[], None]) -> ipywidgets.Button:
-    button = ipywidgets.Button(description=label, icon=icon, tooltip=tooltip)
+    button = ipywidgets.Button(description=label, icon=icon, tooltip=tooltip, layout=FULL)
     button.on_click(lambda _: act())
     return button

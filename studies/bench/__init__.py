@@ -2,4 +2,4 @@
 
 from studies.bench import batches, scaling, solving, starting
 
-STUDIES = (solving.STUDY, solving.DRAGS, starting.STUDY, scaling.STUDY, batches.STUDY)
+STUDIES = (solving.STUDY, starting.STUDY, scaling.STUDY, batches.STUDY)

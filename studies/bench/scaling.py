@@ -15,8 +15,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from glid_nb.solvers import Options, solve
-from studies.bench.shapes import flower, ring_of_handles
+from glid_nb.geometry import Cage, Domain
+from glid_nb.solvers import Options, Pose, solve
 from studies.processes import in_new_process
 from studies.store import Measurement
 from studies.study import Plan, Study, Task
@@ -25,7 +25,7 @@ from studies.timing import summary, timed
 
 
 class Size(NamedTuple):
-    """One shape of :mod:`studies.bench.shapes`, with its handles."""
+    """A :func:`flower` with its handles."""
 
     vertices: int
     holes: int = 0
@@ -45,6 +45,33 @@ _AGAINST = {"holes": "unknowns"}
 _OPTIONS = Options(restarts=0)
 _REPEATS = 3
 _BUDGET = 10.0  # seconds of one kind of timing, after which three are enough
+
+
+def flower(vertices: int, holes: int) -> Domain:
+    """A flower of radius about 8 with so many vertices, and triangular holes on a grid inside."""
+    t = np.linspace(0, 2 * np.pi, vertices, endpoint=False)
+    radius = 8 + 1.2 * np.sin(5 * t)
+    exterior = radius[:, None] * np.stack([np.cos(t), np.sin(t)], axis=1)
+    side = int(np.ceil(np.sqrt(holes)))
+    triangle = np.array([[0, 1], [0.87, -0.5], [-0.87, -0.5]])
+    spacing = 8.0 / max(side, 1)
+    places = [
+        ((i - (side - 1) / 2) * spacing, (j - (side - 1) / 2) * spacing)
+        for i in range(side)
+        for j in range(side)
+    ]
+    return Domain.from_cage(
+        Cage(exterior, [0.25 * spacing * triangle + place for place in places[:holes]])
+    )
+
+
+def ring_of_handles(count: int) -> Pose:
+    """Handles spread over a ring inside a :func:`flower`, a tenth of them (at least one) moved."""
+    t = np.linspace(0, 2 * np.pi, count, endpoint=False)
+    handles = 6.2 * np.stack([np.cos(t), np.sin(t)], axis=1)
+    targets = handles.copy()
+    targets[::10] += [0.4, 0.2]
+    return Pose(handles, targets)
 
 
 @functools.cache

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,17 +12,15 @@ import numpy as np
 from glid_nb.figures.style import BLUE, INK, SKY, SMALL
 from glid_nb.harmonic.basis import build_basis
 from glid_nb.samples import names
-from glid_nb.session import Problem
 from glid_nb.solvers import Options, Pose, Result, solve
 from glid_nb.solvers.discretisation import discretise
 from studies import figures
-from studies.bench.shapes import flower, ring_of_handles
-from studies.bench.stages import STAGES, measure_stages
+from studies.bench.stages import measure_stages
 from studies.cases import Case
 from studies.store import Measurement
-from studies.study import Plan, Study, Task, on_cases
+from studies.study import Plan, Study, on_cases
 from studies.tables import Row, digits, percent
-from studies.timing import Timing, scaled, timed, timed_in_turn
+from studies.timing import Timing, timed, timed_in_turn
 
 GAP, DRAG_GAP = 1e-6, 1e-4
 """Relative distances to the converged energy at which a solve and a drag step count as done."""
@@ -38,7 +36,6 @@ MODES = {
 """``paper-aligned`` begins where ``default`` does, and differs in the method alone."""
 
 _MAKING_REPEATS = 3
-_CAGE_VERTICES, _CAGE_HANDLES = 224, 16
 _BAR = 0.36
 
 
@@ -53,17 +50,17 @@ def iterations_to(result: Result, gap: float) -> int:
     return 1 + int(np.argmax(energies <= result.energy * (1 + gap)))
 
 
-def measure_solves(case: Case, repeats: int, modes: Sequence[str] = tuple(MODES)) -> Measurement:
-    """From the identity until the energy is within :data:`GAP` of its minimum, by mode.
+def measure(case: Case, plan: Plan) -> Measurement:
+    """From the identity until the energy is within :data:`GAP` of its minimum by mode; a drag step.
 
     The modes are timed in turn. ``to_gap`` is the time of a whole call of ``solve`` for so many
-    iterations, with the domain's matrices at hand; ``per_iteration`` is that time shared evenly.
+    iterations, with the domain's matrices at hand.
     ``making`` is that of making the matrices, ``before`` that of a call that takes no iteration,
     ``stages`` the stages' by themselves. The gap is to the minimum of each mode's own discrete
     energy.
     """
-    domain, pose = case.problem.domain, case.problem.pose
-    whole = {mode: solve(domain, pose, None, MODES[mode]) for mode in modes}
+    domain, pose, repeats = case.problem.domain, case.problem.pose, plan.repeats
+    whole = {mode: solve(domain, pose, None, options) for mode, options in MODES.items()}
     counts = {mode: iterations_to(result, GAP) for mode, result in whole.items()}
 
     def limited(most: dict[str, int]) -> dict[str, Timing]:
@@ -74,15 +71,15 @@ def measure_solves(case: Case, repeats: int, modes: Sequence[str] = tuple(MODES)
         return timed_in_turn({mode: call(mode) for mode in whole}, repeats)
 
     to_gap, before = limited(counts), limited(dict.fromkeys(whole, 0))
-    return {
+    modes = {
         mode: {
             "to_gap": to_gap[mode],
-            "per_iteration": scaled(to_gap[mode], 1 / counts[mode]),
             "before": before[mode],
             **_about(case, mode, result, counts[mode], repeats),
         }
         for mode, result in whole.items()
     }
+    return {**modes, "drag": _drag(case, whole[DEFAULT], repeats)}
 
 
 def _about(case: Case, mode: str, whole: Result, count: int, repeats: int) -> dict[str, Any]:
@@ -99,7 +96,6 @@ def _about(case: Case, mode: str, whole: Result, count: int, repeats: int) -> di
         "mode": mode,
         "unknowns": whole.n_unknowns,
         "panels": whole.n_panels,
-        "status": whole.status.value,
         "iterations": count,
         "corrections": corrections,
         "energy": whole.energy,
@@ -110,13 +106,17 @@ def _about(case: Case, mode: str, whole: Result, count: int, repeats: int) -> di
     }
 
 
-def solve_tables(found: list[Measurement]) -> dict[str, list[Row]]:
+def tables(found: list[Measurement]) -> dict[str, list[Row]]:
     """Iterations, energies and times by shape; and where the time of an iteration goes."""
-    modes = [solve for data in found for mode in (PAPER, DEFAULT) if (solve := data.get(mode))]
     return {
-        "solves": [_solve_row(data) for data in found if PAPER in data],
-        "breakdown": [_breakdown_row(solve) for solve in modes],
+        "solves": [_solve_row(data) for data in found],
+        "breakdown": [_breakdown_row(data[mode]) for data in found for mode in (PAPER, DEFAULT)],
     }
+
+
+def _per_iteration(solve: Measurement, part: str = "median") -> float:
+    """Seconds of an iteration: those of a solve, shared evenly."""
+    return solve["to_gap"][part] / solve["iterations"]
 
 
 def _solve_row(data: Measurement) -> Row:
@@ -134,9 +134,10 @@ def _solve_row(data: Measurement) -> Row:
         "ratio": digits(time[PAPER] / time[DEFAULT], 2),
         "ratio, paper aligned": digits(time[ALIGNED] / time[DEFAULT], 2),
         "per iteration, paper / default, ms": " / ".join(
-            digits(1e3 * solve["per_iteration"]["median"]) for solve in (paper, default)
+            digits(1e3 * _per_iteration(solve)) for solve in (paper, default)
         ),
         "matrices, ms": 1e3 * default["making"]["median"],
+        "drag step, ms": digits(1e3 * data["drag"]["time"]["median"], 2),
     }
 
 
@@ -144,24 +145,26 @@ def _breakdown_row(solve: Measurement) -> Row:
     return {
         "shape": solve["name"],
         "settings": solve["mode"],
-        "iteration, ms": 1e3 * solve["per_iteration"]["median"],
-        **{f"{name}, ms": digits(1e3 * solve["stages"][name], 2) for name in STAGES},
+        "iteration, ms": 1e3 * _per_iteration(solve),
+        **{f"{n}, ms": digits(1e3 * t, 2) for n, t in solve["stages"].items()},
         "call, ms": digits(1e3 * solve["before"]["median"], 2),
         "K+": percent(solve["modified"]),
     }
 
 
-def draw_solves(found: list[Measurement], folder: Path) -> None:
+def draw(found: list[Measurement], folder: Path) -> None:
     """Bars of the measured time per iteration, with quartiles."""
-    pairs = [(data[PAPER], data[DEFAULT]) for data in found if PAPER in data]
+    pairs = [(data[PAPER], data[DEFAULT]) for data in found]
     figure = figures.figure(9.0, 3.2)
     axes: Any = figure.subplots()
     place = np.arange(len(pairs))
     for i, (mode, color) in enumerate(((PAPER, SKY), (DEFAULT, BLUE))):
         x = place + (i - 0.5) * _BAR
-        timings = [pair[i]["per_iteration"] for pair in pairs]
-        middle = np.array([t["median"] for t in timings])
-        spread = np.abs([[t["low"], t["high"]] for t in timings] - middle[:, None]).T
+        middle, *ends = (
+            np.array([_per_iteration(pair[i], part) for pair in pairs])
+            for part in ("median", "low", "high")
+        )
+        spread = np.abs(np.array(ends) - middle)
         axes.bar(x, 1e3 * middle, 0.94 * _BAR, color=color, label=mode)
         axes.errorbar(x, 1e3 * middle, 1e3 * spread, fmt="none", ecolor=INK, elinewidth=0.7)
     axes.set_xticks(place, [f"{p['name']}\n{p['unknowns']}" for p, _ in pairs])
@@ -171,10 +174,9 @@ def draw_solves(found: list[Measurement], folder: Path) -> None:
     figures.save(figure, folder / "solves.png")
 
 
-def measure_drag(case: Case, plan: Plan) -> Measurement:
+def _drag(case: Case, before: Result, repeats: int) -> dict[str, Any]:
     """One target moved by :data:`DRAG`, from the converged map, to within :data:`DRAG_GAP`."""
     domain, pose = case.problem.domain, case.problem.pose
-    before = solve(domain, pose, None, MODES[DEFAULT])
     xmin, ymin, xmax, ymax = domain.cage.bounds
     targets = pose.targets.copy()
     targets[0, 0] += DRAG * float(np.hypot(xmax - xmin, ymax - ymin))
@@ -184,34 +186,9 @@ def measure_drag(case: Case, plan: Plan) -> Measurement:
     limited = replace(MODES[DEFAULT], max_iterations=count)
     return {
         "iterations": count,
-        "time": timed(lambda: solve(domain, moved, None, limited, before), plan.repeats),
+        "time": timed(lambda: solve(domain, moved, None, limited, before), repeats),
         "certified": whole.certificate.certified,
     }
 
 
-def drag_tables(found: list[Measurement]) -> dict[str, list[Row]]:
-    """Iterations and milliseconds of a drag step by shape."""
-    return {
-        "drags": [
-            {
-                "shape": data["name"],
-                "iterations": data["iterations"],
-                "ms": digits(1e3 * data["time"]["median"], 2),
-            }
-            for data in found
-        ]
-    }
-
-
-def _solve_tasks(plan: Plan) -> list[Task]:
-    tasks = on_cases(bench_cases, lambda case, plan: measure_solves(case, plan.repeats))(plan)
-    if not plan.quick:
-        problem = Problem(flower(_CAGE_VERTICES, 0), ring_of_handles(_CAGE_HANDLES))
-        cage = Case(f"{_CAGE_VERTICES}-vertices", problem)
-        of = f"{cage.digest}, repeats {plan.repeats}"
-        tasks.append(Task(cage.name, of, lambda: measure_solves(cage, plan.repeats, [DEFAULT])))
-    return tasks
-
-
-STUDY = Study("solves", _solve_tasks, solve_tables, draw_solves)
-DRAGS = Study("drag", on_cases(bench_cases, measure_drag), drag_tables)
+STUDY = Study("solves", on_cases(bench_cases, measure), tables, draw)

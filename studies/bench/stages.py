@@ -1,4 +1,4 @@
-"""Where the time of an iteration goes: its stages, each run by itself on the solver's matrices."""
+"""Where the time of an iteration goes: its stages, each run by itself (paper Figure 9)."""
 
 from __future__ import annotations
 
@@ -9,23 +9,18 @@ import jax
 import jax.numpy as jnp
 
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision, single_blas_thread
-from glid_nb.energies import SymmetricDirichlet
-from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Result, cholesky, evaluation, line_search
-from glid_nb.solvers.discretisation import Matrices
-from glid_nb.solvers.evaluation import Line, Point, Samples
+from glid_nb.solvers.evaluation import Line, Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
-from glid_nb.solvers.problem import Constraints, Positional, Problem, real_coefficients
+from glid_nb.solvers.problem import Positional, Problem, constraints_of, real_coefficients
 from glid_nb.solvers.unknowns import reduced_unknowns, restrict_hessian
 from studies.timing import timed
 
-STAGES = ("hessian", "factor", "products", "certificate", "search")
-"""Assembly; factor and solves; products for gradient and direction; bounds; the line search."""
+STAGES = ("gradient", "hessian", "factor", "search", "certificate")
 
-_ENERGY = SymmetricDirichlet()
 # Enough to make a Hessian without its targets positive definite, whose nullspace is the motions.
 _RIDGE = 1e-3
-_SMALL, _ABOVE_ALL = 1e-3, 1e30
+_SMALL = 1e-3
 
 
 @double_precision
@@ -36,67 +31,60 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
     """
     disc, options = result.discretisation, result.options
     assert disc is not None
-    assert isinstance(result.map, HarmonicMap)
-    matrices, unknowns = disc.matrices, reduced_unknowns(disc.basis, options.conformal)
+    constraints = constraints_of(disc.domain, result.pose, options.p2p_weight)
+    unknowns = reduced_unknowns(disc.basis, options.conformal)
+    singularities = disc.basis.singularities
+    energy = result.energy_measure
+    problem = Problem(disc.matrices, singularities, unknowns, constraints, energy)
     y = jnp.asarray(real_coefficients(disc.basis, result.map))
-    samples = _program(evaluation.products)(matrices, y)
-    # No targets, and a line along which every step is accepted.
-    constraints = Constraints(*(jnp.zeros(n) for n in ((0, len(y) // 2), (0, 2), 0)))
-    problem = Problem(matrices, disc.basis.singularities, unknowns, constraints, _ENERGY)
-    none = jnp.array(0.0)
-    point = Point(y, samples, jnp.array(_ABOVE_ALL), none, evaluation.largest_modulus(y))
-    change = Samples(*(_SMALL * part for part in samples))
-    line = Line(_SMALL * y, change, jnp.array(1.0))
 
-    def hessian(matrices: Matrices, samples: Samples) -> Any:
-        return _hessian(matrices, samples, options.hessian == "projected")
+    def evaluated(problem: Problem, y: Any) -> Point:
+        return evaluation.evaluated(problem, Positional.of(problem.constraints), y)
+
+    def gradient(problem: Problem, y: Any) -> Any:
+        point = evaluated(problem, y)
+        return evaluation.gradient(problem, Positional.of(problem.constraints), point)
+
+    def hessian(problem: Problem, point: Point) -> Any:
+        return _hessian(problem, point, options.hessian == "projected")
 
     def factor(h: Any, b: Any) -> Any:
         return cholesky.solve(cholesky.factorise(h), b)
 
-    def products(matrices: Matrices, samples: Samples, y: Any) -> Any:
-        d = _ENERGY.differentials(*evaluation.squares(samples.nodes))
-        gradient = evaluation.energy_gradient(matrices, samples.nodes, d)
-        return gradient, evaluation.products(matrices, y)
-
-    def certificate(problem: Problem, point: Point) -> Any:
-        return evaluation.bounds(problem, point)
-
     def search(problem: Problem, point: Point, line: Line) -> Any:
         return line_search.search(problem, Positional.of(problem.constraints), point, line)
 
-    def restrict(h: Any, unknowns: Any) -> Any:
-        return restrict_hessian(h.astype(float), unknowns, ridge=_RIDGE)
-
-    h = _program(restrict)(_program(hessian)(matrices, samples), unknowns)
+    point = _compiled(evaluated)(problem, y)
+    line = _compiled(evaluation.line_along)(problem, -_SMALL * y, jnp.array(-1.0))
+    h = _compiled(hessian)(problem, point).astype(float)
+    h = _compiled(lambda h, unknowns: restrict_hessian(h, unknowns, ridge=_RIDGE))(h, unknowns)
     stages: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {
-        "hessian": (hessian, (matrices, samples)),
+        "gradient": (gradient, (problem, y)),
+        "hessian": (hessian, (problem, point)),
         "factor": (factor, (h, jnp.ones(len(h)))),
-        "products": (products, (matrices, samples, y)),
-        "certificate": (certificate, (problem, point)),
         "search": (search, (problem, point, line)),
+        "certificate": (evaluation.bounds, (problem, point)),
     }
     with single_blas_thread():
         return {name: _seconds(*stage, repeats) for name, stage in stages.items()}
 
 
-def _hessian(matrices: Matrices, samples: Samples, projected: bool) -> Any:
-    nodes = samples.nodes[:, matrices.hessian_index]
+def _hessian(problem: Problem, point: Point, projected: bool) -> Any:
+    matrices = problem.matrices
+    nodes = point.samples.nodes[:, matrices.hessian_index]
     x, y = evaluation.squares(nodes)
-    k = local_hessian(_ENERGY.differentials(x, y), x, y)
-    k = positive_part(k) if projected else k
+    k = local_hessian(problem.energy.differentials(x, y), x, y)
+    given = (matrices.hessian_weights, *evaluation.directions(nodes))
+    local = tuple(positive_part(k) if projected else k)
     dtype = matrices.whitened.dtype
-    weights, f, g, k = jax.tree.map(
-        lambda a: a.astype(dtype),
-        (matrices.hessian_weights, *evaluation.directions(nodes), tuple(k)),
-    )
-    return assemble(matrices.whitened, weights, f, g, LocalHessian(*k))
+    given, local = jax.tree.map(lambda a: a.astype(dtype), (given, local))
+    return assemble(matrices.whitened, *given, LocalHessian(*local))
 
 
-def _program(function: Callable[..., Any]) -> Callable[..., Any]:
+def _compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     return jax.jit(function, compiler_options=COMPILER_OPTIONS)
 
 
 def _seconds(function: Callable[..., Any], arguments: tuple[Any, ...], repeats: int) -> float:
-    program = _program(function)
+    program = _compiled(function)
     return timed(lambda: jax.block_until_ready(program(*arguments)), repeats)["median"]

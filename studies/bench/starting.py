@@ -10,8 +10,12 @@ from studies.study import Plan, Study, Task
 from studies.tables import Row
 from studies.timing import summary
 
-PARTS = ("import_and_trace", "first_solve", "compiling", "second_solve")
-"""``compiling`` is a part of ``first_solve``."""
+PARTS = {
+    "import_and_trace": "import and outline of the picture",
+    "first_solve": "first solve",
+    "compiling": "of it tracing, compiling or loading programs",
+    "second_solve": "second solve",
+}
 
 _REPEATS = 3
 # Not a module of this package, whose import would come before the clock starts.
@@ -52,19 +56,12 @@ def measure(repeats: int) -> Measurement:
 
 def tables(found: list[Measurement]) -> dict[str, list[Row]]:
     """Seconds of each part, cold and warm."""
-    names = {
-        "import_and_trace": "import and outline of the picture",
-        "first_solve": "first solve",
-        "compiling": "of it tracing, compiling or loading programs",
-        "second_solve": "second solve",
-    }
-    return {
-        "start": [
-            {"": kind, **{names[part]: f"{data[kind][part]['median']:.2f}" for part in PARTS}}
-            for data in found
-            for kind in ("cold", "warm")
-        ]
-    }
+    rows: list[Row] = []
+    for data in found:
+        for kind in ("cold", "warm"):
+            cells = {title: f"{data[kind][part]['median']:.2f}" for part, title in PARTS.items()}
+            rows.append({"": kind, **cells})
+    return {"start": rows}
 
 
 def _tasks(plan: Plan) -> list[Task]:

@@ -10,16 +10,14 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from numpy.typing import NDArray
 
-from glid_nb.certificate import certify
 from glid_nb.figures.style import CYAN, HAIRLINE, INK, SKY, SMALL, VERMILION
 from glid_nb.geometry import MeshMap, Triangulation, triangulate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import available
-from glid_nb.methods.linear.cauchy import cauchy_point_to_point
 from studies import figures
 from studies.cases import Case
 from studies.compare.shapes import all_shapes
-from studies.runs import MESH_VERTICES, P2P_WEIGHT, run
+from studies.runs import MESH_VERTICES, run
 from studies.store import Measurement
 from studies.study import Plan, Study, on_cases
 from studies.tables import Row, percent
@@ -55,37 +53,20 @@ def measure(case: Case, plan: Plan) -> Measurement:
             continue
         plan.detail(f"{case.name}: {title}")
         result = run(method, case, mesh=mesh, **settings)
-        map_ = on_mesh(result.map, mesh)
+        map_ = result.map
+        if isinstance(map_, HarmonicMap):
+            map_ = MeshMap(mesh, map_(mesh.vertices))
         measured[name] = {
             "flips": int(map_.flipped.sum()),
             "share": float(rest[map_.flipped].sum() / rest.sum()),
             "proved": result.certificate.certified if result.certificate else None,
         }
         arrays[f"images_{name}"] = map_.images
-    measured["cauchy"]["zeros"] = _zeros(case)
     return {
-        "name": case.name,
         "triangles": len(mesh.triangles),
         "methods": measured,
         "arrays": arrays,
     }
-
-
-def _zeros(case: Case) -> int | None:
-    """Zeros of the derivative of the Cauchy coordinates' map, which is holomorphic.
-
-    Its determinant ``|f'|^2`` is never negative: where it is not injective ``f'`` vanishes. The
-    turns of ``f'`` along the boundary count them; ``None`` where it is not proved not to vanish on
-    the boundary itself.
-    """
-    problem = case.problem
-    proof = certify(cauchy_point_to_point(problem.domain, problem.pose, P2P_WEIGHT))
-    return proof.winding if (proof.panels.sigma2_lower > 0).all() else None
-
-
-def on_mesh(map_: HarmonicMap | MeshMap, mesh: Triangulation) -> MeshMap:
-    """A map of the mesh, piecewise linear."""
-    return map_ if isinstance(map_, MeshMap) else MeshMap(mesh, map_(mesh.vertices))
 
 
 def draw(cases: list[Measurement], folder: Path) -> None:
@@ -98,12 +79,8 @@ def draw(cases: list[Measurement], folder: Path) -> None:
             _draw_folds(axes, data, name)
             found = data["methods"][name]
             count = f"{found['flips']:,} flipped, {percent(found['share'])}"
-            title = f"{METHODS[name][0]}\n" if data is cases[0] else ""
-            axes.set_title(title + (count if found["flips"] else "none flipped"), fontsize=SMALL)
-        row[0].text(
-            -0.04, 0.5, data["name"], transform=row[0].transAxes, fontsize=SMALL, rotation=90,
-            ha="right", va="center",
-        )  # fmt: skip
+            title = f"{data['name']}, {METHODS[name][0]}\n{count}"
+            axes.set_title(title, fontsize=SMALL)
     figures.save(figure, folder / "folding.png")
 
 

@@ -2,66 +2,27 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
-import numpy as np
-
-from glid_nb.figures.style import BLUE, GREEN, GREY, INK, LINE, ORANGE, SKY, SMALL
-from studies import figures
 from studies.cases import Case
 from studies.compare.shapes import some
-from studies.runs import last_of, outcome
+from studies.runs import outcome, run
 from studies.store import Measurement
 from studies.study import Plan, Study, on_cases
 from studies.tables import Row, digits, seconds
 
 SAMPLES = (50, 100, 200, 400, 700, 1_000, 10_000)
-_COLORS = (ORANGE, SKY, GREEN, "#cc79a7", GREY, BLUE, INK)
 _MOST_ITERATIONS = 60
 _RUNS = 2
 
 
 def measure(case: Case, plan: Plan) -> Measurement:
-    """A run for each number of samples, and how well its Hessian fits at the minimum."""
+    """A run for each number of samples."""
     runs = {}
     for count in SAMPLES:
         plan.detail(f"{case.name}: {count} Hessian samples")
-        result = last_of(
-            _RUNS, "newton-staged", case, hessian_samples=count, max_iterations=_MOST_ITERATIONS
-        )
+        settings = {"hessian_samples": count, "max_iterations": _MOST_ITERATIONS}
+        result = run("newton-staged", case, runs=_RUNS, **settings)
         runs[str(count)] = outcome(result)
-    return {
-        "name": case.name,
-        "perimeter": case.perimeter,
-        "runs": runs,
-    }
-
-
-def draw(found: list[Measurement], folder: Path) -> None:
-    """Energy above the least against iterations and time."""
-    data = found[0]
-    figure = figures.figure(9.0, 3.0)
-    axes = figure.subplots(1, 2, sharey=True)
-    least = min(figures.values_of(run["energy"]).min() for run in data["runs"].values())
-    # The first are the widest, so that of curves on one another each is seen.
-    widths = np.linspace(2.5 * LINE, 0.7 * LINE, len(_COLORS))
-    for (count, run_), color, width in zip(data["runs"].items(), _COLORS, widths, strict=False):
-        excess = figures.values_of(run_["energy"]) / least - 1
-        keep = excess > 1e-12
-        label = f"{int(count):,}"
-        axes[0].semilogy(np.flatnonzero(keep), excess[keep], color=color, lw=width, label=label)
-        axes[1].semilogy(
-            1e3 * np.array(run_["time"])[keep], excess[keep], color=color, lw=width, label=label
-        )
-    axes[1].set_xscale("log")
-    figures.label_axes(axes[0], "iteration", "energy above its minimum, relative", data["name"])
-    figures.label_axes(axes[1], "milliseconds", "")
-    handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(
-        handles, labels, loc="outside right center", fontsize=SMALL, frameon=False,
-        title="Hessian samples", title_fontsize=SMALL,
-    )  # fmt: skip
-    figures.save(figure, folder / "hessian-samples.png")
+    return {"perimeter": case.perimeter, "runs": runs}
 
 
 def tables(found: list[Measurement]) -> dict[str, list[Row]]:
@@ -82,4 +43,4 @@ def tables(found: list[Measurement]) -> dict[str, list[Row]]:
     return {"hessian-samples": rows}
 
 
-STUDY = Study("hessian-samples", on_cases(some(("deer",), "gecko-extreme"), measure), tables, draw)
+STUDY = Study("hessian-samples", on_cases(some(("deer",), "gecko-extreme"), measure), tables)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from glid_nb.energies import ARAP, Energy
+from glid_nb.energies import ARAP
 from glid_nb.geometry import triangulate
 from glid_nb.methods import METHODS, available
 from studies.cases import Case
@@ -21,28 +20,21 @@ _PAPER = {"sampling": "uniform", "certificate": "lipschitz"}
 _RUNS = 3
 
 
-class Timed(NamedTuple):
-    """A method as it is timed."""
-
-    iterations: int | None = 12
-    """How many of its iterations; ``None`` for all."""
-    settings: Mapping[str, Any] = {}
-    energy: Energy | None = None
-
-
-TIMED = {
-    "newton": Timed(None),
-    "newton-paper": Timed(),
-    "newton-staged": Timed(),
-    "newton-eigen": Timed(settings=_PAPER),
-    "newton-shift": Timed(settings=_PAPER),
-    "lbfgs": Timed(40, _PAPER),
-    "gradient-descent": Timed(40, _PAPER),
-    "slim": Timed(),
-    "aqp": Timed(40),
-    "arap-mesh": Timed(energy=ARAP()),
+TIMED: dict[str, dict[str, Any]] = {
+    "newton": {"max_iterations": None},
+    "newton-paper": {},
+    "newton-staged": {},
+    "newton-eigen": _PAPER,
+    "newton-shift": _PAPER,
+    "lbfgs": {**_PAPER, "max_iterations": 40},
+    "gradient-descent": {**_PAPER, "max_iterations": 40},
+    "slim": {},
+    "aqp": {"max_iterations": 40},
+    "arap-mesh": {"energy": ARAP()},
 }
-"""All but ours with the paper's samples and certificate, where they have any.
+"""Settings of each method; a dozen iterations unless they say otherwise.
+
+All but ours have the paper's samples and certificate, where they have any.
 
 Ours runs to its end, for its iterations are not alike: those close to the minimum hold more steps.
 """
@@ -53,27 +45,24 @@ def measure(case: Case, plan: Plan) -> Measurement:
     mesh = triangulate(case.problem.domain.cage, MESH_VERTICES, points=case.problem.pose.handles)
     known = available()
     seconds: dict[str, float] = {}
-    start, spread = None, None
-    for method, timed in TIMED.items():
+    start = unknowns = None
+    for method, settings in TIMED.items():
         if method not in known:
             continue
         plan.detail(f"{case.name}: {known[method].label}, one iteration")
-        settings = {**timed.settings, "max_iterations": timed.iterations, "triangulation": mesh}
+        settings = {"max_iterations": 12, "mesh": mesh, **settings}
         # The first run waits for programs that are compiled.
-        runs = [run(method, case, timed.energy, **settings) for _ in range(1 + _RUNS)][1:]
+        runs = [run(method, case, **settings) for _ in range(1 + _RUNS)][1:]
         steps = [[step.time for step in entries(result)] for result in runs]
+        unknowns = runs[0].n_unknowns or unknowns
         if method == "aqp":
             start = float(np.median([times[0] for times in steps]))
         if len(steps[0]) > 1:
             seconds[method] = float(np.median([np.mean(times[1:]) for times in steps]))
-        if method == "newton":
-            spread = [min(steps[-1][1:]), max(steps[-1][1:])]
     return {
-        "name": case.name,
-        "unknowns": case.unknowns,
+        "unknowns": unknowns,
         "seconds": seconds,
         "aqp_start": start,
-        "spread": spread,
     }
 
 

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._runtime import double_precision
-from glid_nb.certificate import BDHM, certify
-from glid_nb.certificate.paper import derivative_bound_weights
+from glid_nb.certificate import BDHM, EndValues, Lipschitz, certify
+from glid_nb.certificate.paper import variation
 from glid_nb.geometry import uniform_panels
-from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
+from glid_nb.harmonic import HarmonicMap, basis_of
 from glid_nb.solvers.discretisation import UNIFORM_SAMPLES
 from studies.cases import Case
 from studies.compare.shapes import some
@@ -42,7 +42,6 @@ def measure(case: Case, plan: Plan) -> Measurement:
     ours, theirs = lipschitz_constants(map_, PAPER_SEGMENTS)
     fine = [float(values.mean()) for values in lipschitz_constants(map_, UNIFORM_SAMPLES)]
     return {
-        "name": case.name,
         "runs": runs,
         "fine_means": fine,
         "refused": {
@@ -60,10 +59,12 @@ def lipschitz_constants(map_: HarmonicMap, segments: int) -> tuple[Array, Array]
     basis = basis_of(map_.domain)
     sing, start, end = basis.singularities, jnp.asarray(panels.start), jnp.asarray(panels.end)
     phi = jnp.asarray(basis.pad(map_.phi))[None]
-    slope = np.abs(map_.wirtinger_derivatives(panels.start, 1)[0])
-    jumps = jnp.abs(cauchy.slope_jumps(phi, sing))[0]
-    curvature = np.asarray(derivative_bound_weights(start, end, sing, 2) @ jumps)
-    ours = (slope + slope[panels.next]) / 2 + panels.length / 2 * curvature
+    fz, _ = map_.wirtinger(panels.start)
+    along = map_.wirtinger_derivatives(panels.start, 1)[0]
+    slopes = along * panels.length, along[panels.next] * panels.length
+    ends = EndValues(*map(jnp.asarray, (fz, fz[panels.next], *slopes)))
+    remainder = Lipschitz.on(start, end, sing).remainder(phi, sing)[0]
+    ours = np.asarray(variation(ends, remainder)) / panels.length
     theirs = BDHM.on(start, end, sing).constants(phi, sing)[0]
     return ours, np.asarray(theirs)
 

@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from glid_nb.energies import AMIPS, Energy, ExponentialSymmetricDirichlet
 from glid_nb.figures.style import SMALL
-from glid_nb.geometry import uniform_panels
+from glid_nb.geometry import Triangulation, uniform_panels
 from glid_nb.harmonic import HarmonicMap
 from studies import figures
 from studies.cases import Case
 from studies.compare.shapes import some
 from studies.distortion import density_at
-from studies.runs import display_mesh, last_of, outcome, run
+from studies.runs import display_mesh, outcome, run
 from studies.store import Measurement
 from studies.study import Plan, Study, on_cases
 from studies.tables import Row, seconds
@@ -38,8 +38,7 @@ class Setting:
     method: str = "newton"
     energy: Energy | None = None
     settings: Mapping[str, Any] = field(default_factory=dict)
-    slow: bool = False
-    """Run once, after two iterations that compile its programs."""
+    slow: bool = False  # run once, after two iterations that compile its programs
 
 
 def _bdhm(title: str, k: float, sigma1: float, sigma2: float) -> Setting:
@@ -77,13 +76,13 @@ def measure_maps(case: Case, plan: Plan, settings: Mapping[str, Setting]) -> Mea
         options = {"align": True, **setting.settings}
         if setting.slow:
             run(*arguments, **{**options, "max_iterations": 2})
-        result = last_of(1 if setting.slow else _RUNS, *arguments, **options)
+        result = run(*arguments, runs=1 if setting.slow else _RUNS, **options)
         map_ = result.map
         assert isinstance(map_, HarmonicMap)
         measured[name] = {**outcome(result), **_distortion(map_, display.vertices)}
         arrays[f"images_{name}"] = map_(display.vertices)
         arrays[f"reached_{name}"] = np.asarray(map_(case.problem.pose.handles))
-    return {"name": case.name, "runs": measured, "arrays": arrays}
+    return {"runs": measured, "arrays": arrays}
 
 
 def _distortion(map_: HarmonicMap, inside: Array) -> dict[str, float]:
@@ -128,8 +127,8 @@ def _draw(name: str, settings: Mapping[str, Setting], data: Measurement, folder:
     colors = None
     for ax, key, row in zip(axes, settings, rows, strict=True):
         pose = np.hstack([arrays["targets"], arrays[f"reached_{key}"]])
-        mesh = (arrays["display"], arrays["display_triangles"])
-        colors = figures.draw_map(ax, *mesh, arrays[f"images_{key}"], pose, most)
+        mesh = Triangulation(arrays["display"], arrays["display_triangles"], 0)
+        colors = figures.draw_map(ax, mesh, arrays[f"images_{key}"], pose, most)
         distortion = f"mean {row['mean of E_iso']}, maximum {row['its maximum']}"
         ax.set_title(f"{row['map']}\n{distortion}\nproved: {row['proved']}", fontsize=SMALL)
     figures.color_bar(figure, colors, axes, "symmetric Dirichlet density")

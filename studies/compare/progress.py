@@ -27,7 +27,6 @@ from studies.runs import (
     apart,
     display_mesh,
     entries,
-    last_of,
     outcome,
     reached,
     run,
@@ -78,7 +77,6 @@ def measure(case: Case, plan: Plan) -> Measurement:
     aligned = run("newton", case, align=True)
     assert isinstance(aligned.map, HarmonicMap)
     return {
-        "name": case.name,
         "handles": len(pose),
         "runs": runs,
         "area_mean_below_ours": area_mean_below(ours, mesh, pose),
@@ -112,7 +110,7 @@ def _harmonic(
     limit: dict[str, Any] = {"max_iterations": LIMITS.get(method)}
     watcher = Watcher(display.vertices)
     watched = run(method, case, callback=watcher, **limit) if method in _FOLLOWED else None
-    result = last_of(1 if method == "lbfgs" else _UNWATCHED, method, case, **limit)
+    result = run(method, case, runs=1 if method == "lbfgs" else _UNWATCHED, **limit)
     map_ = result.map
     assert isinstance(map_, HarmonicMap)
     measured, end = outcome(result), map_(display.vertices)
@@ -134,7 +132,7 @@ def _on_mesh(
     That is returned last, ``None`` where there is none; ``other`` is that of another method.
     """
     plan.detail(f"{case.name}: {method}, followed for {MESH_SECONDS:.0f} s")
-    settings: dict[str, Any] = {"triangulation": mesh, "max_iterations": 1_000_000}
+    settings: dict[str, Any] = {"mesh": mesh, "max_iterations": 1_000_000}
     watcher = Watcher(mesh.vertices, MESH_SECONDS)
     result = run(method, case, callback=watcher, **settings)
     map_ = result.map
@@ -144,7 +142,7 @@ def _on_mesh(
     measured["thumbnails"], pictures = thumbnails(ended, _THUMBNAILS - 1)
     plan.detail(f"{case.name}: the minimum below {method}")
     try:
-        minimum, its_own = minimum_below(method, map_, other, case.problem.pose)
+        minimum = minimum_below(method, map_, other, case.problem.pose)
     except NoMinimumError as error:
         return {**measured, "minimum": None, "reason": str(error)}, pictures, None
     distance, energy = watcher.distance(minimum.images), measured["energy"]
@@ -158,7 +156,6 @@ def _on_mesh(
         "time": time,
         "reached": _with_times(found, time),
         "minimum": minimum.energy,
-        "its_own": its_own,
         "area_mean": mesh_area_mean(minimum.images, mesh),
         "left": apart(map_.images, minimum.images),
     }
@@ -166,10 +163,8 @@ def _on_mesh(
     return measured, pictures, MeshMap(mesh, minimum.images)
 
 
-def minimum_below(
-    method: str, map_: MeshMap, other: MeshMap | None, pose: Pose
-) -> tuple[Minimum, bool]:
-    """The minimum of a method's energy below its map, or below another one, and which it is.
+def minimum_below(method: str, map_: MeshMap, other: MeshMap | None, pose: Pose) -> Minimum:
+    """The minimum of a method's energy below its map, or else below another one.
 
     Newton's method does not get down from a map whose triangles are next to flat. The minimum
     below another map is one of the same energy all the same.
@@ -181,11 +176,11 @@ def minimum_below(
     """
     constraints = "hard" if method == "aqp" else "soft"
     try:
-        return mesh_minimum(map_, pose, SymmetricDirichlet(), constraints, P2P_WEIGHT), True
+        return mesh_minimum(map_, pose, SymmetricDirichlet(), constraints, P2P_WEIGHT)
     except NoMinimumError:
         if other is None:
             raise
-        return mesh_minimum(other, pose, SymmetricDirichlet(), constraints, P2P_WEIGHT), False
+        return mesh_minimum(other, pose, SymmetricDirichlet(), constraints, P2P_WEIGHT)
 
 
 def area_mean_below(map_: HarmonicMap, mesh: Triangulation, pose: Pose) -> float | None:
@@ -195,10 +190,9 @@ def area_mean_below(map_: HarmonicMap, mesh: Triangulation, pose: Pose) -> float
     """
     start = MeshMap(mesh, map_(mesh.vertices))
     try:
-        found = mesh_minimum(start, pose, SymmetricDirichlet(), "soft", P2P_WEIGHT)
+        return mesh_area_mean(minimum_below("slim", start, None, pose).images, mesh)
     except NoMinimumError:
         return None
-    return mesh_area_mean(found.images, mesh)
 
 
 def ended_by(images: dict[int, Array], iterations: int, end: Array) -> dict[int, Array]:

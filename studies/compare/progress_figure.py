@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from glid_nb.figures.style import BLUE, GREEN, GREY, INK, LINE, ORANGE, SKY, SMALL, VERMILION
+from glid_nb.geometry import Triangulation
 from studies import figures
 from studies.distortion import densities
 from studies.runs import ENDED
 from studies.store import Measurement
-from studies.tables import seconds
 
 Array = NDArray[Any]
 
@@ -52,46 +52,35 @@ def _draw_maps(figure: Any, data: Measurement, rows: list[str]) -> None:
     runs, arrays = data["runs"], data["arrays"]
     ratios = (_LABEL, *(1.0,) * _PICTURES)
     grid = figure.subplots(len(rows), 1 + _PICTURES, squeeze=False, width_ratios=ratios)
-    final = densities(arrays["display"], arrays["display_triangles"], arrays["images_newton"][-1])
+    meshes = {
+        kind: Triangulation(arrays[kind], arrays[f"{kind}_triangles"], 0)
+        for kind in ("display", "mesh")
+    }
+    final = densities(meshes["display"], arrays["images_newton"][-1])
     most = float(np.clip(np.quantile(final, 0.97), 3.0, 12.0))
     colors = None
     for (label, *row), method in zip(grid, rows, strict=True):
-        kind = "mesh" if method in MESH else "display"
-        rest, triangles = arrays[kind], arrays[f"{kind}_triangles"]
-        handles = KDTree(rest).query(arrays["handles"])[1]  # they are among the vertices
+        mesh = meshes["mesh" if method in MESH else "display"]
+        handles = KDTree(mesh.vertices).query(arrays["handles"])[1]  # they are among the vertices
         pictures = arrays[f"images_{method}"]
         titles = [f"iteration {i}" for i in runs[method]["thumbnails"]]
         if runs[method].get("minimum") is not None:
             titles.append("its minimum")
-        if len(titles) < len(row):
-            titles, pictures = ["the start", *titles], np.concatenate([rest[None], pictures])
         for axes in (label, *row):
             axes.set_axis_off()
         # The last one under the last one, so that the ends of all methods stand in a column.
         for axes, title, images in zip(row[-len(titles) :], titles, pictures, strict=True):
             pose = np.hstack([arrays["targets"], images[handles]])
-            colors = figures.draw_map(axes, rest, triangles, images, pose, most)
-            density = densities(rest, triangles, images)
+            colors = figures.draw_map(axes, mesh, images, pose, most)
+            density = densities(mesh, images)
             largest = f"maximum {density[np.isfinite(density)].max():.2g}"
             axes.set_title(f"{title}\n{largest}", fontsize=SMALL - 1, pad=2)
         name, color, _ = LOOK[method]
         label.text(
-            0.0, 0.5, f"{name}\n{_note(runs[method])}", transform=label.transAxes,
+            0.0, 0.5, name, transform=label.transAxes,
             fontsize=SMALL, va="center", color=color,
         )  # fmt: skip
     figures.color_bar(figure, colors, grid, "symmetric Dirichlet density")
-
-
-def _note(run: dict[str, Any]) -> str:
-    if run["status"] in ("indefinite", "blocked"):
-        return f"halts after {run['iterations']} it."
-    if "minimum" not in run:
-        more = "" if run["status"] in ENDED else "+"
-        return f"{run['iterations']}{more} it., {seconds(run['time'][-1])}"
-    near = run["reached"]["energy"] if run["minimum"] is not None else None
-    if near is None:
-        return f"not within 1 %\nin {seconds(run['time'][-1])}"
-    return f"within 1 %:\n{near['iteration']} it., {seconds(near['time'])}"
 
 
 def _draw_energies(figure: Any, runs: dict[str, Any]) -> None:

@@ -66,4 +66,26 @@ window.glid = { press: null, moves: [], frames: [], bytes: 0, canvasBytes: 0, fi
     const counts = { bytes: 0, canvasBytes: 0 };
     Object.assign(glid, { press: null, moves: [], frames: [], firstFrame: null, ...counts });
   };
+
+  glid.seen = () => {
+    const { press, moves, frames, bytes, canvasBytes } = glid;
+    return { press, moves, frames, bytes, canvasBytes };
+  };
+
+  // Whether the last drawn frame is the one with this sample.
+  glid.drawn = (sample) => {
+    const [, last] = glid.frames.at(-1) ?? [0, []];
+    return last.length === sample.length && last.every((n, i) => n === sample[i]);
+  };
+
+  // Runs code in a cell, and returns when that began.
+  glid.runCell = (index, code) => {
+    const { content } = window.jupyterapp.shell.currentWidget;
+    content.model.cells.get(index).sharedModel.setSource(code);
+    glid.clear();
+    content.activeCellIndex = index;
+    const start = performance.now();
+    window.jupyterapp.commands.execute("notebook:run-cell");
+    return start;
+  };
 }

@@ -65,19 +65,6 @@ WATCH = f"""async ([identity, trait, count, widgets]) => {{
   window.glid.watch(await manager.get_model(identity), trait, count, widgets);
 }}"""
 
-DRAWN = """(sample) => {
-  const [, last] = window.glid.frames.at(-1) ?? [0, []];
-  return last.length === sample.length && last.every((n, i) => n === sample[i]);
-}"""
-
-RUN_TIMED = """(index) => {
-  window.glid.clear();
-  window.jupyterapp.shell.currentWidget.content.activeCellIndex = index;
-  const start = performance.now();
-  window.jupyterapp.commands.execute('notebook:run-cell');
-  return start;
-}"""
-
 
 def main() -> None:
     """Measure and print."""
@@ -125,12 +112,7 @@ def start_time(browser: Browser, server: JupyterServer, shape: str, cache: str) 
     """Seconds from running the cell ``Editor(image)`` to the first drawn canvas."""
     cells = [IMPORTS.format(cache=cache) + IMAGE.format(shape=shape), "None"]
     with notebook(browser, server, cells) as book:
-        book.page.evaluate(
-            "code => { window.jupyterapp.shell.currentWidget.content.model.cells.get(1)"
-            ".sharedModel.setSource(code); }",
-            EDITOR,
-        )
-        start = book.page.evaluate(RUN_TIMED, 1)
+        start = book.page.evaluate("code => window.glid.runCell(1, code)", EDITOR)
         book.page.wait_for_function("window.glid.firstFrame !== null", timeout=120_000)
         seconds = (book.page.evaluate("window.glid.firstFrame") - start) / 1e3
         # The programs that the first drag needs are compiled in the background.
@@ -157,8 +139,8 @@ def dragged(browser: Browser, server: JupyterServer, setup: str, n_moves: int) -
             book.wait_for("not model.dragged", 60)
             hand.settle()
             last = book.value("log.frames[-1]['sample']")
-            book.page.wait_for_function(DRAWN, arg=last, timeout=60_000)
-        seen = book.page.evaluate("({...window.glid, watch: null, clear: null})")
+            book.page.wait_for_function("last => window.glid.drawn(last)", arg=last, timeout=60_000)
+        seen = book.page.evaluate("window.glid.seen()")
         known = book.value("[log.frames, log.solving, log.showing]")
         unit = book.value("canvas.pane.stage.view[2]")
     moves = np.array(seen["moves"])
@@ -203,16 +185,8 @@ def joined(
 ) -> tuple[np.ndarray, int]:
     """Milliseconds from each move to its frame, and how many frames were drawn.
 
-    Parameters
-    ----------
-    times : (m,) array
-        Of the pointer's moves.
-    targets : (m, 2) array
-        Where each move put the target.
-    drawn
-        Times and samples of the frames in the page.
-    known
-        Samples and targets of the frames in the kernel.
+    ``times`` and ``targets`` are of the pointer's moves; ``drawn`` are times and samples of the
+    frames in the page, ``known`` samples and targets of the frames in the kernel.
     """
     solved_for = {tuple(frame["sample"]): frame["targets"][-1] for frame in known}
     latest = -1  # the last move that a frame has shown

@@ -1,11 +1,11 @@
 """How fast the outline follows the tracer's controls, on a picture of 2,000 pixels.
 
-    python -m studies.editor.tracer [--picture PATH] [--side 2000] [--repeats 7]
+    python -m studies.editor.tracer [--side 2000] [--repeats 7]
 
-The picture, by default a bundled one on a plain ground, is scaled so that its longer side has SIDE
-pixels. Each control is moved REPEATS times through the tracer's model, as the widget does, with
-what the page is told included. Prints the median and the slowest in milliseconds, and the median of
-the processor's time, which other programs on the machine do not lengthen.
+The picture, a bundled one on a plain ground, is scaled so that its longer side has SIDE pixels.
+Each control is moved REPEATS times through the tracer's model, as the widget does, with what the
+page is told included. Prints the median and the slowest in milliseconds, and the median of the
+processor's time, which other programs on the machine do not lengthen.
 """
 
 from __future__ import annotations
@@ -24,25 +24,21 @@ from glid_nb.widgets.tracer_view import described
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
-    parser.add_argument("--picture", help="a picture file (default: the bundled teapot)")
     parser.add_argument("--side", type=int, default=2000, help="pixels of the longer side")
     parser.add_argument("--repeats", type=int, default=7)
     chosen = parser.parse_args()
-    model = glid_nb.TracingModel(picture(chosen.picture, chosen.side))
+    model = glid_nb.TracingModel(picture(chosen.side))
     print("control           median    most   processor, ms")
     for name, move in controls(model).items():
         wall, cpu = measured(model, move, chosen.repeats).T
         print(f"{name:16} {np.median(wall):7.1f} {wall.max():7.1f} {np.median(cpu):7.1f}")
 
 
-def picture(path: str | None, side: int) -> np.ndarray:
-    """The picture in its size: a file's, or the bundled teapot on a plain ground."""
-    if path is None:
-        shape = Image.fromarray(glid_nb.samples.image("teapot"))
-        ground = Image.new("RGBA", shape.size, (244, 236, 220, 255))
-        image = Image.alpha_composite(ground, shape)
-    else:
-        image = Image.fromarray(glid_nb.read_image(path))
+def picture(side: int) -> np.ndarray:
+    """The bundled teapot on a plain ground."""
+    shape = Image.fromarray(glid_nb.samples.image("teapot"))
+    ground = Image.new("RGBA", shape.size, (244, 236, 220, 255))
+    image = Image.alpha_composite(ground, shape)
     scale = side / max(image.size)
     size = (round(image.width * scale), round(image.height * scale))
     return np.asarray(image.resize(size, Image.Resampling.LANCZOS))

@@ -21,13 +21,7 @@ from glid_nb._files import write_bytes_atomically
 
 
 def draw(name: str) -> NDArray[np.uint8]:
-    """Draw a sample: RGBA (h, w, 4).
-
-    Raises
-    ------
-    SampleError
-        There is no sample of that name.
-    """
+    """Draw a sample: RGBA (h, w, 4)."""
     module = importlib.import_module(f"studies.samples.drawings.{samples.path(name).stem}")
     return module.draw()
 

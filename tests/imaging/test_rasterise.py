@@ -360,7 +360,10 @@ def test_the_pyramid_holds_area_averages():
         ({"size": (1 << 15, 1 << 15)}, "at most 2\\^30 pixels"),
         ({"texture_xy": np.zeros((3, 2))}, "texture_xy has 3 vertices and positions_xy 4"),
         ({"texture_xy": np.zeros((4, 3))}, r"texture_xy has shape \(4, 3\)"),
-        ({"positions_xy": [[0, 0], [1, 0], [1, np.nan], [0, 1]]}, "positions_xy: vertex 2"),
+        (
+            {"positions_xy": [[0, 0], [1, 0], [1, np.nan], [0, 1]]},
+            r"positions_xy\[2\] is \[ 1. nan\]",
+        ),
         ({"triangles": [[0, 1, 4]]}, r"triangle 0 is \[0, 1, 4\], but there are 4 vertices"),
         ({"triangles": [[0.0, 1.0, 2.0]]}, "triangles has shape"),
         ({"heights": [1.0, 2.0]}, r"heights has shape \(2,\)"),

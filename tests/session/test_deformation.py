@@ -299,10 +299,10 @@ def test_an_interrupt_stops_the_solve_only(
 
     real, entered, go_on = live_solver.solve, threading.Event(), threading.Event()
 
-    def slow(*arguments: object) -> object:
+    def slow(*arguments: object, **named: object) -> object:
         entered.set()
         assert go_on.wait(TIMEOUT)
-        return real(*arguments)
+        return real(*arguments, **named)
 
     monkeypatch.setattr("glid_nb.session.live_solver.solve", slow)
     ring.drag(0, to=(4, 2))

@@ -12,8 +12,7 @@ import pytest
 
 import glid_nb
 from studies.__main__ import main
-from studies.bench.scaling import local_exponents
-from studies.bench.shapes import flower, ring_of_handles
+from studies.bench.scaling import flower, local_exponents, ring_of_handles
 from studies.bench.solving import MODES, iterations_to
 
 
@@ -66,7 +65,7 @@ def table(path: Path) -> list[dict[str, str]]:
 @pytest.mark.timeout(900)
 def test_bench_writes_its_tables(bench: Callable[..., None], tmp_path: Path) -> None:
     out = tmp_path / "speed"
-    bench("solves", "drag", "scaling")
+    bench("solves", "scaling")
     kept = out / "data" / "solves-bar.json"
     solves = json.loads(kept.read_text())
     for mode in MODES:
@@ -77,9 +76,9 @@ def test_bench_writes_its_tables(bench: Callable[..., None], tmp_path: Path) -> 
     ratio = solves["paper"]["to_gap"]["median"] / solves["default"]["to_gap"]["median"]
     assert float(row["ratio"]) == pytest.approx(ratio, rel=0.05)
     assert [row["settings"] for row in table(out / "breakdown.csv")] == ["paper", "default"]
-    assert float(table(out / "drags.csv")[0]["ms"]) > 0
+    assert float(row["drag step, ms"]) > 0
     assert len(table(out / "scaling-vertices.csv")) == 1
-    assert all((out / name).exists() for name in ("scaling.png", "solves.png"))
+    assert (out / "solves.png").exists()
 
     page = tmp_path / "speed.md"
     text = page.read_text()
@@ -99,7 +98,7 @@ def test_bench_measures_starts_and_batches(bench: Callable[..., None], tmp_path:
     out = tmp_path / "speed"
     rows = table(out / "batches.csv")
     assert [row["poses"] for row in rows] == ["one by one", "1"]
-    assert float(rows[1]["2 device(s)"]) > 0
+    assert float(rows[1]["1 device(s)"]) > 0
     cold, warm = table(out / "start.csv")
     assert float(cold["first solve"]) > float(warm["second solve"])
 

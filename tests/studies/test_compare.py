@@ -82,10 +82,8 @@ def test_a_minimum_is_borrowed_where_there_is_none_below() -> None:
     map_ = result.map
     assert isinstance(map_, MeshMap)
     flat = MeshMap(map_.triangulation, 0 * map_.images)
-    own, its_own = progress.minimum_below("slim", map_, None, pose)
-    assert its_own
-    borrowed, its_own = progress.minimum_below("slim", flat, map_, pose)
-    assert not its_own
+    own = progress.minimum_below("slim", map_, None, pose)
+    borrowed = progress.minimum_below("slim", flat, map_, pose)
     assert borrowed.energy == own.energy
     with pytest.raises(NoMinimumError, match="inverted triangles"):
         progress.minimum_below("slim", flat, None, pose)
@@ -94,7 +92,7 @@ def test_a_minimum_is_borrowed_where_there_is_none_below() -> None:
 @pytest.mark.slow
 @pytest.mark.usefixtures("small_sizes")
 def test_progress_from_measurement_to_table(tmp_path: Path) -> None:
-    data = progress.measure(small(), Plan())
+    data = {"name": "bent", **progress.measure(small(), Plan())}
     runs = data["runs"]
     assert runs["newton"]["status"] == "converged"
     assert runs["newton"]["certified"]
@@ -132,28 +130,24 @@ def test_progress_from_measurement_to_table(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("small_sizes")
-def test_parts_from_measurement_to_table(tmp_path: Path) -> None:
+def test_parts_from_measurement_to_table() -> None:
     ring = small("ring")
-    times = iteration_times.measure(ring, Plan())
+    times = {"name": "ring", **iteration_times.measure(ring, Plan())}
     seconds = times["seconds"]
     assert {"newton", "newton-eigen", "lbfgs", "aqp"} <= set(seconds)
     assert min(seconds.values()) > 0
-    least, most = times["spread"]
-    assert 0 < least <= most
     (row,) = iteration_times.tables([times])["iteration-times"]
     assert float(row["L-BFGS"]) == pytest.approx(1e3 * seconds["lbfgs"], abs=0.06)
 
-    constants = lipschitz.measure(ring, Plan())
+    constants = {"name": "ring", **lipschitz.measure(ring, Plan())}
     ours, theirs = constants["arrays"]["ours"], constants["arrays"]["bdhm"]
     assert theirs.mean() > ours.mean() > 0
     (row,) = lipschitz.tables([constants])["lipschitz"]
     assert row["segments"] == len(ours)
 
-    samples = hessian_samples.measure(ring, Plan())
+    samples = {"name": "ring", **hessian_samples.measure(ring, Plan())}
     rows = hessian_samples.tables([samples])["hessian-samples"]
     assert [row["samples"] for row in rows] == ["400", "1,000"]
-    hessian_samples.draw([samples], tmp_path)
-    assert shades(tmp_path / "hessian-samples.png").std() > 5
 
 
 @pytest.mark.slow

@@ -25,10 +25,10 @@ def test_densities_are_those_of_the_singular_values() -> None:
     matrix = np.array([[1.5, 0.2], [-0.1, 0.8]])
     s1, s2 = np.linalg.svd(matrix, compute_uv=False)
     expected = (s1**2 + s2**2 + s1**-2 + s2**-2) / 2
-    found = densities(mesh.vertices, mesh.triangles, mesh.vertices @ matrix.T)
+    found = densities(mesh, mesh.vertices @ matrix.T)
     np.testing.assert_allclose(found, expected)
     assert mesh_area_mean(mesh.vertices @ matrix.T, mesh) == pytest.approx(expected)
-    assert np.isinf(densities(mesh.vertices, mesh.triangles, mesh.vertices * [-1, 1])).all()
+    assert np.isinf(densities(mesh, mesh.vertices * [-1, 1])).all()
 
 
 def test_the_mean_is_by_area() -> None:

@@ -21,8 +21,8 @@ def test_a_bar_says_where_colours_end(stretch: float, extended: str) -> None:
     figure = figures.figure(4, 2)
     axes = figure.subplots(1, 2)
     # The map that exceeds the range need not be the one that the bar is made of.
-    figures.draw_map(axes[0], MESH.vertices, MESH.triangles, MESH.vertices * [stretch, 1], most=4)
-    last = figures.draw_map(axes[1], MESH.vertices, MESH.triangles, MESH.vertices, most=4)
+    figures.draw_map(axes[0], MESH, MESH.vertices * [stretch, 1], most=4)
+    last = figures.draw_map(axes[1], MESH, MESH.vertices, most=4)
     before = set(figure.axes)
     figures.color_bar(figure, last, axes, "density")
     (bar,) = set(figure.axes) - before
@@ -33,7 +33,7 @@ def test_a_map_is_in_the_picture_with_its_targets(tmp_path: Path) -> None:
     figure = figures.figure(4, 2)
     axes = figure.subplots()
     pose = np.array([[9.0, 0.0, 1.0, 0.0]])
-    figures.draw_map(axes, MESH.vertices, MESH.triangles, MESH.vertices, pose)
+    figures.draw_map(axes, MESH, MESH.vertices, pose)
     figures.save(figure, tmp_path / "map.png")
     low, high = np.array([axes.get_xlim(), axes.get_ylim()]).T
     assert (low < MESH.vertices.min(axis=0)).all()

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from glid_nb.geometry import Cage, Domain, triangulate
+from glid_nb.geometry import triangulate
 from glid_nb.session import Problem
-from glid_nb.solvers import Pose
 from studies.cases import Case
 from studies.compare import folding
 from studies.study import Plan
@@ -51,13 +50,3 @@ def test_from_measurement_to_table(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     (row,) = folding.tables([{"name": "bent", **data}])["folding"]
     assert row["ours"] == "0"
     assert row["bounded biharmonic weights"].startswith(f"{found['bbw']['flips']:,}")
-
-
-def test_zeros_of_a_holomorphic_derivative_are_counted() -> None:
-    square = Domain.from_cage(Cage([[-2, -2], [2, -2], [2, 2], [-2, 2]]))
-    z = np.exp(2j * np.pi * np.arange(8) / 8)
-    handles = np.stack([z.real, z.imag], axis=1)
-    for power in (1, 2, 3):
-        w = z**power
-        pose = Pose(handles, np.stack([w.real, w.imag], axis=1))
-        assert folding._zeros(Case("square", Problem(square, pose))) == power - 1

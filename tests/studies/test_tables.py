@@ -32,11 +32,8 @@ def test_a_page_is_made_where_there_is_none(tmp_path: Path) -> None:
     out = tmp_path / "speed"
     out.mkdir()
     write_csv(out / "solves.csv", ROWS)
-    (out / "solves.png").touch()
     update_page(tmp_path / "speed.md", out)
-    text = (tmp_path / "speed.md").read_text()
-    assert TABLE in text
-    assert "](speed/solves.png)" in text
+    assert TABLE in (tmp_path / "speed.md").read_text()
 
 
 @pytest.mark.parametrize(

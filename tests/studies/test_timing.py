@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from studies.timing import LEAST_REPEATS, rate, scaled, summary, timed, timed_in_turn
+from studies.timing import LEAST_REPEATS, summary, timed, timed_in_turn
 
 
 def test_functions_take_turns() -> None:
@@ -22,8 +22,6 @@ def test_a_spent_budget_ends_a_timing_after_the_least_repeats() -> None:
     assert len(calls) == LEAST_REPEATS + 2
 
 
-def test_summary_share_and_rate_of_timings() -> None:
+def test_a_summary_has_quartiles() -> None:
     timing = summary([3.0, 1.0, 2.0, 4.0, 5.0])
     assert timing == {"median": 3.0, "low": 2.0, "high": 4.0, "least": 1.0, "runs": 5}
-    assert scaled(timing, 0.5) == {"median": 1.5, "low": 1.0, "high": 2.0, "least": 0.5, "runs": 5}
-    assert rate(timing, 12) == {"median": 4.0, "low": 3.0, "high": 6.0, "least": 12.0, "runs": 5}

@@ -9,7 +9,14 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page
 
-from ..browser import JupyterServer, LabNotebook, NotebookPage, launched_chromium, watched_page
+from ..browser import (
+    JupyterServer,
+    LabNotebook,
+    NotebookPage,
+    SharedLab,
+    launched_chromium,
+    watched_page,
+)
 
 OpenNotebook = Callable[..., Any]
 
@@ -36,23 +43,40 @@ def jupyter(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JupyterServer]
     server.close()
 
 
+@pytest.fixture(scope="session")
+def lab(browser: Browser, jupyter: JupyterServer) -> Iterator[SharedLab]:
+    """A page of JupyterLab and a kernel, which tests use one after the other."""
+    lab = SharedLab(browser, jupyter)
+    yield lab
+    lab.close()
+
+
 @pytest.fixture
-def open_notebook(browser: Browser, jupyter: JupyterServer) -> Iterator[OpenNotebook]:
+def open_notebook(
+    browser: Browser, jupyter: JupyterServer, lab: SharedLab
+) -> Iterator[OpenNotebook]:
     """``open_notebook(cells, shown_by=LabNotebook, **context)``: a notebook with its cells run.
 
-    ``shown_by`` makes it of a page, the server and the cells; by default it opens in JupyterLab.
-    ``context`` is as for `watched_page`, for example ``has_touch=True``. One
-    notebook per test; an error in the browser's console fails the test.
+    It opens in the page that tests share. With ``context``, which is as for `watched_page` (for
+    example ``has_touch=True``), or with ``shown_by``, which makes it of a page, the server and the
+    cells, it gets a page of its own. One notebook per test; an error in the browser's console fails
+    the test.
     """
     with contextlib.ExitStack() as stack:
 
         def open_one(
             cells: Sequence[str],
-            shown_by: Callable[..., NotebookPage] = LabNotebook,
+            shown_by: Callable[..., NotebookPage] | None = None,
             **settings: Any,
         ) -> NotebookPage:
-            page = stack.enter_context(watched_page(browser, **settings))
-            book = shown_by(page, jupyter, cells)
+            shared = shown_by is None and not settings
+            page = lab.page if shared else stack.enter_context(watched_page(browser, **settings))
+            if shown_by is None:
+                book: NotebookPage = LabNotebook(page, jupyter, cells, lab=lab)
+            else:
+                book = shown_by(page, jupyter, cells)
+            if shared:
+                stack.callback(lab.check)
             stack.callback(book.shut_down)
             return book
 
