@@ -153,12 +153,15 @@ class _Pose:
 
     def result(self, compile_time: float) -> Result:
         """The result, by a loop of its own where the batch could not end it."""
-        ending, began = self.ending, time.perf_counter()
+        ending, clock = self.ending, compilation_clock()
+        began, compiling = time.perf_counter(), clock.seconds
         if ending is None:
             with single_blas_thread():
                 self.history, ending = followed(self.descent, self.inputs, self.history)
-        seconds = self.time + time.perf_counter() - began
-        first = result_of(self.descent, self.inputs, self.history, ending, compile_time, seconds)
+        compiling = clock.seconds - compiling
+        seconds = self.time + max(time.perf_counter() - began - compiling, 0.0)
+        times = compile_time + compiling, seconds
+        first = result_of(self.descent, self.inputs, self.history, ending, *times)
         return improve(first, self.inputs, descend)
 
 
