@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[Any]
 
-# Bisecting a panel this often brings it below rounding for any domain of sane proportions.
+# Bisecting an edge this often brings it below rounding.
 _MAX_BISECTIONS = 48
-# Halves of one piece differ by no more than rounding.
+# Relative difference by rounding between the halves of one piece.
 _EVEN = 1e-9
 
 
@@ -64,10 +64,7 @@ class Panels:
         return (self.middle != self.start) & (self.middle != self.end)
 
     def split(self, chosen: Array) -> Panels:
-        """The panels with those of ``chosen`` (p,) bool cut in half, the order along loops kept.
-
-        Panels that are not :attr:`divisible` are left whole.
-        """
+        """The panels in order, with those of ``chosen`` (p,) bool halved if :attr:`divisible`."""
         middle = self.middle
         chosen = chosen & self.divisible
         count = np.where(chosen, 2, 1)
@@ -79,11 +76,11 @@ class Panels:
         return _linked(start, end, np.repeat(self.loop, count), depth)
 
     def parents(self, chosen: Array) -> Array:
-        """(q,) int: of which panel here each panel of ``split(chosen)`` is the whole or a half."""
+        """(q,) int: for each panel of ``split(chosen)``, the index of the panel it comes from."""
         return np.repeat(np.arange(len(self)), np.where(chosen & self.divisible, 2, 1))
 
     def chosen(self, which: Array) -> Panels:
-        """Only the panels of ``which`` (p,) bool, as a bare list: ``next`` loses its meaning."""
+        """Only the panels of ``which`` (p,) bool; their ``next`` has no meaning."""
         index = np.arange(int(which.sum()))
         return Panels(
             self.start[which], self.end[which], self.loop[which], self.depth[which], index
@@ -93,15 +90,14 @@ class Panels:
 def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
     """Panels no longer than ``ratio`` times their distance to the nearest singularity of ``f_z``.
 
-    The singularities of ``f_z`` are the offset cage's vertices and the hole points; each edge of
-    the cage is bisected until the rule holds, so panels are short only where the map may vary
-    fast.
+    The singularities are the offset cage's vertices and the hole points. Each edge of the cage is
+    bisected until this holds, so panels are short only where the map may vary fast.
 
     Parameters
     ----------
     domain : Domain
     ratio : float
-        Greatest length over distance, positive; smaller means more panels.
+        Positive; smaller means more panels.
     """
     if not ratio > 0:
         raise ValueError(f"ratio is {ratio}; it must be positive")
@@ -115,11 +111,10 @@ def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
 
 
 def paired(panels: Panels, domain: Domain, ratio: float) -> Array:
-    """(p,) bool, true for the first of two halves of an edge that one panel could stand for.
+    """(p,) bool: the first panels of pairs that one panel could replace.
 
-    Two consecutive panels of equal length on one straight piece make a pair if together they are
-    no longer than ``ratio`` times their distance to the nearest singularity of ``f_z``. No panel is
-    in two pairs.
+    A pair is two consecutive panels of equal length on one straight piece, together no longer than
+    ``ratio`` times their distance to the nearest singularity of ``f_z``. Pairs do not overlap.
     """
     after = np.roll(np.arange(len(panels)), -1)
     chord, following = panels.end - panels.start, panels.end[after] - panels.start[after]
@@ -128,7 +123,7 @@ def paired(panels: Panels, domain: Domain, ratio: float) -> Array:
     start, end = panels.start[candidates], panels.end[after[candidates]]
     fits = np.zeros(len(panels), dtype=bool)
     fits[candidates] = np.abs(end - start) <= ratio * _clearance(domain, start, end)
-    # Of a run of panels that fit, every other one begins a pair.
+    # In a run of panels that fit, every other one begins a pair.
     index = np.arange(len(panels))
     last_unfit = np.maximum.accumulate(np.where(fits, -1, index))
     return fits & ((index - last_unfit) % 2 == 1)
