@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._arrays import AnyArray
-from glid_nb._jax import jax, jit, jnp
+from glid_nb._jax import AnyArray, jax, jit, jnp
 from glid_nb._runtime import COMPILER_OPTIONS, compilation_clock, double_precision
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
