@@ -346,6 +346,12 @@ def basis_rows(kernel: Any, z: np.ndarray, basis: Basis) -> np.ndarray:
     return _in_chunks(_compiled_rows(kernel), (z,), basis)
 
 
+def complex_basis(kernel: Any, z: np.ndarray, basis: Basis) -> np.ndarray:
+    """One of the basis matrices at points ``z`` (k,)."""
+    rows = basis_rows(kernel, z, basis)
+    return rows[:, : basis.n_columns] - 1j * rows[:, basis.n_columns :]
+
+
 @functools.cache
 def _compiled_certificate_rows(certificate: CertificateKind) -> Any:
     def rows(start: Any, end: Any, singularities: Any) -> Any:

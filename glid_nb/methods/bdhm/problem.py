@@ -14,7 +14,7 @@ from glid_nb.certificate import Certificate, certify
 from glid_nb.geometry import Domain, graded_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.solvers import Pose
-from glid_nb.solvers.discretisation import basis_rows
+from glid_nb.solvers.discretisation import complex_basis
 from glid_nb.solvers.start import aligned
 from glid_nb.solvers.unknowns import canonical, unknowns_of
 
@@ -71,7 +71,7 @@ class BoundedProblem:
     @double_precision
     def samples_at(self, points: Array) -> Samples:
         """Samples at complex points of the boundary."""
-        d = _complex(basis_rows(cauchy.first_derivatives, points, self._basis))
+        d = complex_basis(cauchy.first_derivatives, points, self._basis)
         phi, psi = _split(self._expansion)
         return Samples(d @ phi, d @ psi)
 
@@ -122,7 +122,7 @@ class BoundedProblem:
         if not len(self.pose):
             return np.zeros((0, phi.shape[1]), dtype=complex)
         points = self.pose.handles @ np.array([1, 1j])
-        c = _complex(basis_rows(cauchy.cauchy_coordinates, points, self._basis))
+        c = complex_basis(cauchy.cauchy_coordinates, points, self._basis)
         return c @ phi + (c @ psi).conj()
 
     def _independent(self) -> Array:
@@ -142,9 +142,3 @@ class BoundedProblem:
 def _split(full: Array) -> tuple[Array, Array]:
     re_phi, im_phi, re_psi, im_psi = np.split(full, 4)
     return re_phi + 1j * im_phi, re_psi + 1j * im_psi
-
-
-def _complex(rows: Array) -> Array:
-    """``D`` from its halves ``[Re D, -Im D]``."""
-    half = rows.shape[1] // 2
-    return rows[:, :half] - 1j * rows[:, half:]

@@ -11,7 +11,7 @@ from glid_nb._runtime import double_precision
 from glid_nb.geometry import Domain, graded_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.solvers import Pose
-from glid_nb.solvers.discretisation import basis_rows
+from glid_nb.solvers.discretisation import complex_basis
 
 Array = NDArray[Any]
 
@@ -25,13 +25,13 @@ def cauchy_point_to_point(domain: Domain, pose: Pose, p2p_weight: float) -> Harm
     basis = basis_of(domain)
     panels = graded_panels(domain)
     columns = np.flatnonzero(basis.phi_free)[: int(basis.phi_free.sum()) - domain.n_holes]
-    slopes = _complex(basis_rows(cauchy.second_derivatives, panels.middle, basis))[:, columns]
+    slopes = complex_basis(cauchy.second_derivatives, panels.middle, basis)[:, columns]
     share = panels.length / panels.length.sum()
     normal = slopes.conj().T @ (share[:, None] * slopes)
     right = np.zeros(len(columns), dtype=complex)
     if len(pose):
         z = pose.handles @ np.array([1, 1j])
-        rows = _complex(basis_rows(cauchy.cauchy_coordinates, z, basis))[:, columns]
+        rows = complex_basis(cauchy.cauchy_coordinates, z, basis)[:, columns]
         normal = normal + p2p_weight / 2 * rows.conj().T @ rows
         right = p2p_weight / 2 * rows.conj().T @ (pose.targets @ np.array([1, 1j]))
     identity = HarmonicMap.identity(domain)
@@ -41,9 +41,3 @@ def cauchy_point_to_point(domain: Domain, pose: Pose, p2p_weight: float) -> Harm
     padded = basis.pad(identity.phi)
     padded[columns] = base + change
     return HarmonicMap(domain, padded[basis.columns], np.zeros(domain.n_coefficients))
-
-
-def _complex(rows: Array) -> Array:
-    """``D`` from its halves ``[Re D, -Im D]``."""
-    half = rows.shape[1] // 2
-    return rows[:, :half] - 1j * rows[:, half:]

@@ -15,8 +15,8 @@ from glid_nb.methods.linear.cauchy import cauchy_point_to_point
 from glid_nb.methods.linear.mean_value import handle_polygon, mean_value_coordinates
 from glid_nb.methods.linear.moving_least_squares import Kind, moving_least_squares
 from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
-from glid_nb.solvers import MethodError, Result, Status
-from glid_nb.solvers.loop import Ending, GeneratedDescent, Steps, follow
+from glid_nb.solvers import MethodError, Status
+from glid_nb.solvers.loop import Ending, Steps
 from glid_nb.solvers.method import Inputs
 
 Array = NDArray[Any]
@@ -31,31 +31,20 @@ class LinearMethod(MeshMethod):
     family = "linear"
     options = ("align", "max_iterations")
 
-    def images(self, problem: MeshProblem, inputs: Inputs) -> Array:
+    def images(self, problem: MeshProblem) -> Array:
         """(v,) complex images of the mesh's vertices."""
         raise NotImplementedError
 
-    def check_handles(self, inputs: Inputs) -> None:
-        """Raise :class:`MethodError` where these handles do not do."""
-        if self.needs_handles and not len(inputs.pose):
-            raise MethodError(f"the method {self.name!r} needs at least one handle")
-
-    def run(self, inputs: Inputs) -> Result:
+    def steps(self, problem: MeshProblem) -> Steps:
         """The one solve."""
-        self.check_handles(inputs)
-        problem = MeshProblem.of(inputs, self.n_vertices)
-
-        def steps() -> Steps:
-            yield problem.snapshot(problem.start, 0.0)
-            began = time.perf_counter()
-            w = self.images(problem, inputs)
-            state = problem.snapshot(w, time.perf_counter() - began)
-            yield state
-            flips = state.entry.flips
-            over = f"{flips} triangles are" if flips else "no triangle is"
-            return Ending(Status.CONVERGED, f"A linear method, solved at once: {over} turned over.")
-
-        return follow(lambda: GeneratedDescent(self, steps()), inputs)
+        yield problem.snapshot(problem.start, 0.0)
+        began = time.perf_counter()
+        w = self.images(problem)
+        state = problem.snapshot(w, time.perf_counter() - began)
+        yield state
+        flips = state.entry.flips
+        over = f"{flips} triangles are" if flips else "no triangle is"
+        return Ending(Status.CONVERGED, f"A linear method, solved at once: {over} turned over.")
 
 
 @dataclass(frozen=True)
@@ -71,7 +60,7 @@ class MovingLeastSquares(LinearMethod):
     kind: Kind = "rigid"
     alpha: float = 1.0
 
-    def images(self, problem: MeshProblem, inputs: Inputs) -> Array:  # noqa: ARG002
+    def images(self, problem: MeshProblem) -> Array:
         rest = problem.operators.rest
         handles = rest[problem.handles]
         return moving_least_squares(rest, handles, problem.targets, self.kind, self.alpha)
@@ -91,7 +80,7 @@ class BoundedBiharmonicWeights(LinearMethod):
 
     iterations: int = 20
 
-    def images(self, problem: MeshProblem, inputs: Inputs) -> Array:  # noqa: ARG002
+    def images(self, problem: MeshProblem) -> Array:
         mesh = problem.operators.mesh
         w = weights.bounded_biharmonic_weights(mesh, problem.handles, self.iterations)
         return _blended(problem, w)
@@ -109,7 +98,7 @@ class HarmonicWeights(LinearMethod):
 
     power: Literal[1, 2, 3] = 2
 
-    def images(self, problem: MeshProblem, inputs: Inputs) -> Array:  # noqa: ARG002
+    def images(self, problem: MeshProblem) -> Array:
         mesh = problem.operators.mesh
         return _blended(problem, weights.harmonic_weights(mesh, problem.handles, self.power))
 
@@ -139,9 +128,9 @@ class MeanValueCoordinates(LinearMethod):
                 "add a handle beside it"
             )
 
-    def images(self, problem: MeshProblem, inputs: Inputs) -> Array:
+    def images(self, problem: MeshProblem) -> Array:
         rest = problem.operators.rest
-        order = handle_polygon(as_complex(inputs.pose.handles))
+        order = handle_polygon(as_complex(problem.inputs.pose.handles))
         polygon = rest[problem.handles][order]
         return mean_value_coordinates(rest, polygon) @ problem.targets[order]
 
@@ -157,9 +146,9 @@ class CauchyCoordinates(LinearMethod):
     label = "Cauchy coordinates"
     options = ("p2p_weight", "align", "max_iterations")
 
-    def images(self, problem: MeshProblem, inputs: Inputs) -> Array:
-        weight = inputs.options.p2p_weight
-        map_ = cauchy_point_to_point(inputs.domain, inputs.pose, weight)
+    def images(self, problem: MeshProblem) -> Array:
+        domain, pose = problem.inputs.domain, problem.inputs.pose
+        map_ = cauchy_point_to_point(domain, pose, problem.p2p_weight)
         return as_complex(map_(problem.operators.mesh.vertices))
 
 

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from glid_nb.energies import Energy, SymmetricDirichlet
-from glid_nb.methods.mesh.local_global import local_global
 from glid_nb.methods.mesh.operators import MeshOperators, Pinned, flips, largest_step
 from glid_nb.methods.mesh.projection import Array, project
 from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
@@ -68,11 +67,11 @@ class AQP(MeshMethod):
         # Hard constraints: a positional part that is 0 but for rounding would be noise times
         # lambda.
         problem = replace(problem, p2p_weight=1.0)
-        operators, energy = problem.operators, problem.energy
-        pinned = Pinned(operators, problem.handles)
         theta = (1 - np.sqrt(1 / self.kappa)) / (1 + np.sqrt(1 / self.kappa))
+        pinned = Pinned(problem.operators, problem.handles)
+        proxy = _Proxy(problem.operators, pinned, problem.energy, theta)
         began = time.perf_counter()
-        now = self._started(problem, pinned, theta)
+        now = self._started(problem, proxy)
         yield problem.snapshot(now.w, time.perf_counter() - began)
         if not np.isfinite(now.energy):
             left = flips(now.fz, now.fzb)
@@ -85,9 +84,9 @@ class AQP(MeshMethod):
         energies = [now.energy]
         while True:
             began = time.perf_counter()
-            found = _iterated(operators, energy, pinned, now, before, step, theta)
+            found = proxy.iterated(now, before, step)
             if found is None:
-                return _without_decrease(operators, energy, pinned, now)
+                return proxy.without_decrease(now)
             before, (now, step) = now, found
             yield problem.snapshot(now.w, time.perf_counter() - began, step)
             energies.append(now.energy)
@@ -100,94 +99,94 @@ class AQP(MeshMethod):
                     f"than {self.tolerance:g} of it.",
                 )
 
-    def _started(self, problem: MeshProblem, pinned: Pinned, theta: float) -> _State:
+    def _started(self, problem: MeshProblem, proxy: _Proxy) -> _State:
         """ARAP, projected, and smoothed for other energies than the symmetric Dirichlet energy."""
-        operators, energy, w = problem.operators, problem.energy, problem.start
+        operators, w = problem.operators, problem.start
         if np.abs(w[problem.handles] - problem.targets).max(initial=0) > 0:
-            w = local_global(operators, pinned, w, problem.targets, self.arap_iterations)
-            w, _ = project(operators, pinned, w)
-        if energy.name != "iso":
+            for _ in range(self.arap_iterations):
+                w = _arap_step(operators, proxy.pinned, w, problem.targets)
+            w, _ = project(operators, proxy.pinned, w)
+        if problem.energy.name != "iso":
             # The projection leaves slender triangles, where an exponential energy overflows.
-            w = _smoothed(operators, pinned, w, theta)
-        return _state(operators, energy, w)
+            w = replace(proxy, energy=SymmetricDirichlet()).smoothed(w)
+        return proxy.state(w)
 
 
-def _iterated(
-    operators: MeshOperators,
-    energy: Energy,
-    pinned: Pinned,
-    now: _State,
-    before: _State,
-    step: float,
-    theta: float,
-) -> tuple[_State, float] | None:
-    """One accelerated step, or a plain one where that does not lower the energy."""
-    ahead = _extrapolated(operators, energy, now, before, theta)
-    found = _descended(operators, energy, pinned, ahead, step)
-    if found is None or found[0].energy >= now.energy:
-        found = _descended(operators, energy, pinned, now, step)
-    return None if found is None or found[0].energy >= now.energy else found
+@dataclass(frozen=True)
+class _Proxy:
+    """The energy, with the Laplacian in place of its Hessian."""
 
+    operators: MeshOperators
+    pinned: Pinned
+    energy: Energy
+    theta: float
+    """How far ahead to extrapolate."""
 
-def _smoothed(operators: MeshOperators, pinned: Pinned, w: Array, theta: float) -> Array:
-    """Some iterations with the symmetric Dirichlet energy."""
-    iso = SymmetricDirichlet()
-    now = before = _state(operators, iso, w)
-    step = 1.0
-    for _ in range(_SMOOTHING):
-        found = _iterated(operators, iso, pinned, now, before, step, theta)
-        if found is None:
-            break
-        before, (now, step) = now, found
-    return now.w
+    def state(self, w: Array) -> _State:
+        fz, fzb = self.operators.wirtinger(w)
+        return _State(w, fz, fzb, self.operators.energy(self.energy, fz, fzb))
 
+    def iterated(self, now: _State, before: _State, step: float) -> tuple[_State, float] | None:
+        """One accelerated step, or a plain one where that does not lower the energy."""
+        found = self._descended(self._extrapolated(now, before), step)
+        if found is None or found[0].energy >= now.energy:
+            found = self._descended(now, step)
+        return None if found is None or found[0].energy >= now.energy else found
 
-def _without_decrease(
-    operators: MeshOperators, energy: Energy, pinned: Pinned, now: _State
-) -> Ending:
-    gradient = operators.gradient(energy, now.fz, now.fzb)
-    promised = float(np.real(np.vdot(gradient, pinned.solve(gradient))))
-    if promised <= _ROUNDING * abs(now.energy):
-        return Ending(Status.STATIONARY)
-    return Ending(
-        Status.BLOCKED,
-        "No step along the search direction lowers the energy, though its gradient is not zero: "
-        "triangles are too close to flat for this method.",
-    )
+    def smoothed(self, w: Array) -> Array:
+        """Where some iterations lead."""
+        now = before = self.state(w)
+        step = 1.0
+        for _ in range(_SMOOTHING):
+            found = self.iterated(now, before, step)
+            if found is None:
+                break
+            before, (now, step) = now, found
+        return now.w
 
+    def without_decrease(self, now: _State) -> Ending:
+        """The end where no step lowers the energy."""
+        gradient = self.operators.gradient(self.energy, now.fz, now.fzb)
+        promised = float(np.real(np.vdot(gradient, self.pinned.solve(gradient))))
+        if promised <= _ROUNDING * abs(now.energy):
+            return Ending(Status.STATIONARY)
+        return Ending(
+            Status.BLOCKED,
+            "No step along the search direction lowers the energy, though its gradient is not "
+            "zero: triangles are too close to flat for this method.",
+        )
 
-def _state(operators: MeshOperators, energy: Energy, w: Array) -> _State:
-    fz, fzb = operators.wirtinger(w)
-    return _State(w, fz, fzb, operators.energy(energy, fz, fzb))
+    def _extrapolated(self, now: _State, before: _State) -> _State:
+        """The point ahead on the line through the last two, without inverting a triangle."""
+        if before is now:
+            return now
+        dfz, dfzb = now.fz - before.fz, now.fzb - before.fzb
+        t = min(self.theta, 0.5 * largest_step(now.fz, now.fzb, dfz, dfzb))
+        fz, fzb = now.fz + t * dfz, now.fzb + t * dfzb
+        value = self.operators.energy(self.energy, fz, fzb)
+        return _State(now.w + t * (now.w - before.w), fz, fzb, value)
 
-
-def _extrapolated(
-    operators: MeshOperators, energy: Energy, now: _State, before: _State, theta: float
-) -> _State:
-    """The point ahead on the line through the last two, without inverting a triangle."""
-    if before is now:
-        return now
-    dfz, dfzb = now.fz - before.fz, now.fzb - before.fzb
-    t = min(theta, 0.5 * largest_step(now.fz, now.fzb, dfz, dfzb))
-    fz, fzb = now.fz + t * dfz, now.fzb + t * dfzb
-    return _State(now.w + t * (now.w - before.w), fz, fzb, operators.energy(energy, fz, fzb))
-
-
-def _descended(
-    operators: MeshOperators, energy: Energy, pinned: Pinned, start: _State, last: float
-) -> tuple[_State, float] | None:
-    """One proxy step with backtracking, and its length; ``None`` when none decreases."""
-    gradient = operators.gradient(energy, start.fz, start.fzb)
-    if not np.isfinite(gradient).all():
+    def _descended(self, start: _State, last: float) -> tuple[_State, float] | None:
+        """One step with backtracking, and its length; None when none decreases."""
+        gradient = self.operators.gradient(self.energy, start.fz, start.fzb)
+        if not np.isfinite(gradient).all():
+            return None
+        direction = -self.pinned.solve(gradient)
+        slope = float(np.real(np.vdot(gradient, direction)))
+        dfz, dfzb = self.operators.wirtinger(direction)
+        t = min(2 * last, 1.0, _SAFETY * largest_step(start.fz, start.fzb, dfz, dfzb))
+        while t > _LEAST_STEP:
+            fz, fzb = start.fz + t * dfz, start.fzb + t * dfzb
+            value = self.operators.energy(self.energy, fz, fzb)
+            if value < start.energy + _ARMIJO * t * slope:
+                return _State(start.w + t * direction, fz, fzb, value), t
+            t /= 2
         return None
-    direction = -pinned.solve(gradient)
-    slope = float(np.real(np.vdot(gradient, direction)))
-    dfz, dfzb = operators.wirtinger(direction)
-    t = min(2 * last, 1.0, _SAFETY * largest_step(start.fz, start.fzb, dfz, dfzb))
-    while t > _LEAST_STEP:
-        fz, fzb = start.fz + t * dfz, start.fzb + t * dfzb
-        value = operators.energy(energy, fz, fzb)
-        if value < start.energy + _ARMIJO * t * slope:
-            return _State(start.w + t * direction, fz, fzb, value), t
-        t /= 2
-    return None
+
+
+def _arap_step(operators: MeshOperators, pinned: Pinned, w: Array, targets: Array) -> Array:
+    """A local and a global step of ARAP (Liu et al. 2008); triangles may turn over."""
+    fz, _ = operators.wirtinger(w)
+    modulus = np.abs(fz)
+    rotation = np.where(modulus > 0, fz / np.where(modulus > 0, modulus, 1), 1)
+    return pinned.solve(2 * operators.adjoint(rotation, 0 * rotation), targets)

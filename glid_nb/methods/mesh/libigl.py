@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from glid_nb.energies import AMIPS, ARAP, Energy, ExponentialSymmetricDirichlet
 from glid_nb.methods.mesh.operators import flips
 from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
 from glid_nb.solvers import MethodError, Status
 from glid_nb.solvers.loop import Ending, Steps
+
+Array = NDArray[Any]
 
 _WINDOW = 5
 
@@ -77,7 +81,23 @@ class SLIM(MeshMethod):
 
     def steps(self, problem: MeshProblem) -> Steps:
         """libigl's iterations."""
-        return _slim(problem, self.tolerance)
+        import igl  # noqa: PLC0415
+
+        name, factor = slim_energy(problem.energy)
+        mesh, w = problem.operators.mesh, problem.start
+        flat = np.column_stack([mesh.vertices, np.zeros(len(mesh.vertices))])
+        if flips(*problem.operators.wirtinger(w)):
+            w = problem.operators.rest
+        data = igl.slim_precompute(
+            np.asfortranarray(flat),
+            np.asfortranarray(mesh.triangles),
+            np.asfortranarray(_real(w)),
+            getattr(igl.MappingEnergyType, name),
+            problem.handles.astype(np.int32),
+            np.asfortranarray(_real(problem.targets)),
+            problem.p2p_weight * problem.operators.area * factor,
+        )
+        return _iterated(problem, _real(w), lambda _: igl.slim_solve(data, 1), self.tolerance)
 
 
 @dataclass(frozen=True)
@@ -98,87 +118,52 @@ class ARAPLocalGlobal(MeshMethod):
 
     def steps(self, problem: MeshProblem) -> Steps:
         """libigl's iterations."""
-        return _arap(problem, self.tolerance)
+        import igl  # noqa: PLC0415
+
+        mesh = problem.operators.mesh
+        data = igl.ARAPData()
+        data.max_iter = 1
+        vertices = np.ascontiguousarray(mesh.vertices)
+        faces = np.ascontiguousarray(mesh.triangles, dtype=np.int64)
+        igl.arap_precomputation(vertices, faces, 2, problem.handles.astype(np.int32), data)
+        targets = _real(problem.targets)
+
+        def step(images: Array) -> Any:
+            return igl.arap_solve(targets, data, np.ascontiguousarray(images))
+
+        return _iterated(problem, _real(problem.start), step, self.tolerance, hard=True)
 
 
-def _slim(problem: MeshProblem, tolerance: float) -> Steps:
-    import igl  # noqa: PLC0415
+def _iterated(
+    problem: MeshProblem,
+    images: Array,
+    step: Callable[[Array], Any],
+    tolerance: float,
+    hard: bool = False,
+) -> Steps:
+    """Steps from images (v, 2) on until some of them together change next to nothing.
 
-    name, factor = slim_energy(problem.energy)
-    mesh = problem.operators.mesh
-    flat = np.column_stack([mesh.vertices, np.zeros(len(mesh.vertices))])
-    targets = _real(problem.targets)
-    w = problem.start
-    if flips(*problem.operators.wirtinger(w)):
-        w = problem.operators.rest
-    data = igl.slim_precompute(
-        np.asfortranarray(flat),
-        np.asfortranarray(mesh.triangles),
-        np.asfortranarray(_real(w)),
-        getattr(igl.MappingEnergyType, name),
-        problem.handles.astype(np.int32),
-        np.asfortranarray(targets),
-        problem.p2p_weight * problem.operators.area * factor,
-    )
-    energies = []
-    seconds = 0.0
-    while True:
-        state = problem.snapshot(w, seconds)
-        yield state
-        energies.append(state.entry.energy)
-        if _stalled(energies, tolerance):
-            return _converged(tolerance)
-        began = time.perf_counter()
-        images = igl.slim_solve(data, 1)
-        seconds = time.perf_counter() - began
-        w = _complex(images)
-
-
-def _arap(problem: MeshProblem, tolerance: float) -> Steps:
-    import igl  # noqa: PLC0415
-
-    assert isinstance(problem.energy, ARAP)
-    mesh = problem.operators.mesh
-    data = igl.ARAPData()
-    data.max_iter = 1
-    vertices = np.ascontiguousarray(mesh.vertices)
-    faces = np.ascontiguousarray(mesh.triangles, dtype=np.int64)
-    igl.arap_precomputation(vertices, faces, 2, problem.handles.astype(np.int32), data)
-    targets = _real(problem.targets)
-    images = _real(problem.start)
+    A start that misses ``hard`` constraints has no energy to compare with.
+    """
     energies: list[float] = []
     seconds = 0.0
     while True:
-        state = problem.snapshot(_complex(images), seconds)
+        state = problem.snapshot(images[:, 0] + 1j * images[:, 1], seconds)
         yield state
-        # The start misses the hard constraints, so its energy does not count.
-        if energies or state.entry.energy_p2p == 0:
-            energies.append(state.entry.energy_iso)
-        else:
-            energies.append(np.inf)
-        if _stalled(energies, tolerance):
-            return _converged(tolerance)
+        entry = state.entry
+        misses = hard and not energies and entry.energy_p2p > 0
+        energies.append(np.inf if misses else entry.energy_iso if hard else entry.energy)
+        recent = energies[-1 - _WINDOW :]
+        if len(recent) > _WINDOW and abs(recent[0] - recent[-1]) <= tolerance * abs(recent[-1]):
+            return Ending(
+                Status.CONVERGED,
+                f"The solver converged: {_WINDOW} iterations together change the energy by less "
+                f"than {tolerance:g} of it.",
+            )
         began = time.perf_counter()
-        images = igl.arap_solve(targets, data, np.ascontiguousarray(images))
+        images = step(images)
         seconds = time.perf_counter() - began
-
-
-def _stalled(energies: list[float], tolerance: float) -> bool:
-    recent = energies[-1 - _WINDOW :]
-    return len(recent) > _WINDOW and abs(recent[0] - recent[-1]) <= tolerance * abs(recent[-1])
-
-
-def _converged(tolerance: float) -> Ending:
-    return Ending(
-        Status.CONVERGED,
-        f"The solver converged: {_WINDOW} iterations together change the energy by less than "
-        f"{tolerance:g} of it.",
-    )
 
 
 def _real(w: Any) -> Any:
     return np.stack([np.real(w), np.imag(w)], axis=-1)
-
-
-def _complex(images: Any) -> Any:
-    return images[:, 0] + 1j * images[:, 1]

@@ -27,6 +27,7 @@ _AT_VERTEX = 1e-9  # of the shape's longer side
 class MeshProblem:
     """The mesh, its handles and targets, the energy."""
 
+    inputs: Inputs
     operators: MeshOperators
     handles: Array
     """(h,) vertex indices."""
@@ -59,7 +60,7 @@ class MeshProblem:
             turn, middle, aim = RigidMotion.closest(images[handles], targets)
             images = aim + turn * (images - middle)
         weight = inputs.options.p2p_weight
-        return cls(operators, handles, targets, inputs.energy, weight, images)
+        return cls(inputs, operators, handles, targets, inputs.energy, weight, images)
 
     def map_of(self, w: Array) -> MeshMap:
         """The map with these images."""
@@ -124,13 +125,17 @@ class MeshMethod(Method):
         if self.n_vertices < _TRIANGLE:
             raise MethodError(f"n_vertices must be at least {_TRIANGLE}, got {self.n_vertices!r}")
 
+    def check_handles(self, inputs: Inputs) -> None:
+        """Raise :class:`MethodError` where these handles do not do."""
+        if self.needs_handles and not len(inputs.pose):
+            raise MethodError(f"the method {self.name!r} needs at least one handle")
+
     def steps(self, problem: MeshProblem) -> Steps:
         """The method itself."""
         raise NotImplementedError
 
     def run(self, inputs: Inputs) -> Result:
         """Its steps, recorded."""
-        if self.needs_handles and not len(inputs.pose):
-            raise MethodError(f"the method {self.name!r} needs at least one handle")
+        self.check_handles(inputs)
         problem = MeshProblem.of(inputs, self.n_vertices)
         return follow(lambda: GeneratedDescent(self, self.steps(problem)), inputs)
