@@ -1,4 +1,4 @@
-"""Arguments, read strictly: the wrong type, number or keyword is refused by name."""
+"""Strict checks of arguments: a wrong type, number or keyword is refused by name."""
 
 from __future__ import annotations
 
@@ -15,19 +15,9 @@ from glid_nb._errors import did_you_mean
 def check_type(
     name: str, value: Any, wanted: Any, hint: str, error: type[Exception] = TypeError
 ) -> None:
-    """Raise ``error`` unless ``value`` is an instance of ``wanted``.
+    """Raise ``error`` unless ``value`` is an instance of ``wanted``, a class or a union of classes.
 
-    Parameters
-    ----------
-    name : str
-        The argument's.
-    value
-    wanted
-        A class or a union of classes.
-    hint : str
-        What to give instead.
-    error : type
-        The exception's class.
+    The message calls the argument ``name`` and ends with ``hint``: what to give instead.
     """
     if not isinstance(value, wanted):
         known = getattr(wanted, "__args__", (wanted,))
@@ -70,8 +60,8 @@ def real_array(value: Any) -> NDArray[np.float64]:
     Raises
     ------
     TypeError, ValueError
-        For ragged nesting, or anything that is not a real number within floating point: text,
-        truth values and complex numbers are no coordinates.
+        For ragged nesting and for anything but real numbers in floating-point range, such as
+        text, truth values and complex numbers.
     """
     if _holds_truth_value(value):
         raise TypeError("true and false are not numbers")

@@ -1,4 +1,4 @@
-"""Writing bounds so that what is written still is one."""
+"""Bounds as text, rounded so that the text is a bound too."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 
 
 def rounded_down(value: float, digits: int = 3) -> str:
-    """A lower bound with so many significant digits."""
+    """A lower bound with ``digits`` significant digits."""
     return _written(value, digits, ROUND_FLOOR, -math.inf)
 
 
 def rounded_up(value: float, digits: int = 3) -> str:
-    """An upper bound with so many significant digits, and no more decimals than that."""
+    """An upper bound with ``digits`` significant digits, and at most that many decimals."""
     return _written(value, digits, ROUND_CEILING, -digits)
 
 

@@ -1,4 +1,4 @@
-"""How bad input is refused: one base class, the place in front, and "did you mean"."""
+"""Errors for bad input: the base class, the place in front of the message, "did you mean"."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from pathlib import Path
 
 
 class InputError(ValueError):
-    """What was given is refused; the message names the culprit, the place and the remedy.
+    """Bad input; the message says what is wrong, where, and what to do.
 
-    Every refusal of the package is of a subclass. A plain ValueError comes from a bug.
+    The package refuses input with subclasses of this only. A plain ValueError is a bug.
     """
 
 
 class InputFileError(InputError):
-    """A file does not hold what it should; the message names the file and the key."""
+    """A file has the wrong content; the message names the file and the key."""
 
 
 @contextmanager
 def about(where: str | Path, kind: type[InputError] = InputFileError) -> Iterator[None]:
-    """Put ``where``, a file or a key, in front of what is refused here; raise it as ``kind``."""
+    """Put ``where``, a file or a key, in front of an InputError's message; raise it as ``kind``."""
     try:
         yield
     except InputError as error:
@@ -33,6 +33,6 @@ def about(where: str | Path, kind: type[InputError] = InputFileError) -> Iterato
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """For the end of a refusal: ``; did you mean 'cage'?``, or nothing if no known name is near."""
+    """``; did you mean 'cage'?`` for the end of a message; empty if no known name is similar."""
     near = difflib.get_close_matches(str(name), list(known), 1)
     return f"; did you mean {near[0]!r}?" if near else ""

@@ -1,4 +1,4 @@
-"""Writing files so that a failure leaves what was there before, and errors that name them."""
+"""Writing files atomically, with errors that name the file."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def write_bytes_atomically(path: Path, data: bytes) -> None:
     Raises
     ------
     OSError
-        It cannot be written; the message names ``path``, or its folder, in plain words.
+        It cannot be written; the message names ``path`` or its folder.
     """
     path = Path(path)
     if path.is_dir():
@@ -33,7 +33,7 @@ def write_text_atomically(path: Path, text: str) -> None:
 def in_words(error: OSError, path: Path, done: Literal["read", "written"]) -> OSError:
     """An error of the same class whose message says which file cannot be read or written, and why.
 
-    The system's own message has an error number and names our temporary files.
+    The system's own message has an error number and the name of a temporary file.
     """
     path = path.absolute()
     if not path.parent.is_dir() and isinstance(error, FileNotFoundError | NotADirectoryError):
@@ -52,7 +52,7 @@ def _write(path: Path, data: bytes) -> None:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
-        # mkstemp makes private files; give the result the permissions a plain open would.
+        # mkstemp makes private files; set the permissions that open() would.
         mask = os.umask(0)
         os.umask(mask)
         Path(name).chmod(0o666 & ~mask)

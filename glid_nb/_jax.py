@@ -1,9 +1,9 @@
-"""JAX, imported when something is first computed.
+"""JAX, imported on first use.
 
-Importing JAX takes longer than everything else that an editor does before its canvas is seen, and
-the canvas needs nothing computed. So the package's modules import ``jax``, ``jnp`` and ``lax`` from
-here: stand-ins that import the module on first use. At module level use :func:`jit` in place of
-``jax.jit``, and :func:`once_loaded` for anything else.
+Importing JAX takes longer than everything else an editor does before it shows its canvas, which
+needs no computation. Modules import ``jax``, ``jnp`` and ``lax`` from here: stand-ins that import
+the module on first use. At module level use :func:`jit` in place of ``jax.jit``, and
+:func:`once_loaded` for anything else.
 """
 
 from __future__ import annotations
@@ -14,7 +14,12 @@ import sys
 import threading
 from collections.abc import Callable
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+AnyArray: TypeAlias = "jax.Array | np.ndarray[Any, Any]"
+"""An array on the device or on the host: data for compiled programs may be either."""
 
 _lock = threading.RLock()
 _waiting: list[Callable[[], Any]] = []
@@ -22,7 +27,7 @@ _settling = False
 
 
 def once_loaded(action: Callable[[], Any]) -> None:
-    """Call ``action`` before the package computes anything: now if JAX is imported already."""
+    """Call ``action`` once JAX is imported, before the package computes anything."""
     with _lock:
         _waiting.append(action)
     settle()
@@ -40,7 +45,7 @@ def settle() -> None:
         try:
             while _waiting:
                 _waiting[0]()
-                del _waiting[0]  # only now: other threads must wait until it has run
+                del _waiting[0]  # after the call: other threads must wait until it has run
         finally:
             _settling = False
 
@@ -52,8 +57,6 @@ if TYPE_CHECKING:
 else:
 
     class _Module:
-        """Stands for a module that may not be imported yet."""
-
         def __init__(self, name: str) -> None:
             self._name = name
             self._module: ModuleType | None = None
@@ -65,8 +68,6 @@ else:
             return getattr(self._module, name)
 
     class _Compiled:
-        """``jax.jit(function, **options)``, made when it is first needed."""
-
         def __init__(self, function: Callable[..., Any], options: dict[str, Any]) -> None:
             functools.update_wrapper(self, function)
             self._options = options
@@ -79,7 +80,7 @@ else:
             return self._program(*args, **kwargs)
 
         def __getattr__(self, name: str) -> Any:
-            if name.startswith("__"):  # doctest and the like ask for what a function may have
+            if name.startswith("__"):  # doctest and others probe for optional attributes
                 raise AttributeError(name)
             return getattr(self._program, name)
 

@@ -1,4 +1,4 @@
-"""Reading JSON that somebody else wrote: every surprise is an error that names the key."""
+"""Reading and checking JSON files; every error names the key."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from glid_nb._errors import InputFileError, did_you_mean
 from glid_nb._files import write_text_atomically
 
 Check = Callable[[Any, str], None]
-"""Raises InputFileError for a value that does not belong under the key of that name."""
+"""``check(value, key)`` raises InputFileError if the value is not valid for that key."""
 
 _KINDS = {
     type(None): "null",
@@ -27,27 +27,26 @@ _KINDS = {
 
 
 def parse_json(raw: bytes, name: str, kind: str = "a JSON file", *, nan: bool = True) -> Any:
-    """The JSON value in the bytes of a file; a number too large for floating point is infinite.
+    """The JSON value in the bytes of a file; numbers beyond floating point become infinite.
 
     Parameters
     ----------
     raw : bytes
     name, kind : str
-        What is read, and what it should be, for "(name) is not (kind): ...".
+        For the message "(name) is not (kind): ...".
     nan : bool
-        Let NaN and Infinity pass, which are no JSON, for a check that names their key.
+        Accept NaN and Infinity, so that a later check can name their key.
 
     Raises
     ------
     InputFileError
-        For what is no JSON, and for an object that has a key twice.
+        For invalid JSON, and for an object with a repeated key.
     """
-    constant = float if nan else _refuse_constant
     try:
         return json.loads(
             raw.decode("utf-8-sig"),
             parse_int=_integer,
-            parse_constant=constant,
+            parse_constant=float if nan else _refuse_constant,
             object_pairs_hook=_object,
         )
     except UnicodeDecodeError as error:
@@ -91,7 +90,7 @@ def check_fields(
     *,
     others: bool = False,
 ) -> None:
-    """Raise unless ``data`` is an object whose keys hold what they should.
+    """Raise InputFileError unless ``data`` is an object with valid keys and values.
 
     Parameters
     ----------
@@ -99,9 +98,9 @@ def check_fields(
     name : str
         What messages call it.
     required, optional : mapping of keys to checks
-        The keys that must be there, and those that may be missing or null.
+        Optional keys may be missing or null.
     others : bool
-        Whether it may have any other keys.
+        Accept other keys too.
     """
     check_object(data, name)
     known = {**required, **(optional or {})}
@@ -117,11 +116,11 @@ def check_fields(
 
 
 def anything(value: Any, key: str) -> None:
-    """Any value, which is checked where it is used."""
+    """Accept any value; it is checked where it is used."""
 
 
 def check_kind(kind: type) -> Check:
-    """A check for values of one of JSON's kinds."""
+    """The check that a value is of this kind."""
 
     def check(value: Any, key: str) -> None:
         if type(value) is not kind:
@@ -176,8 +175,8 @@ def _shown(value: Any) -> str:
 
 
 def _integer(digits: str) -> int | float:
-    size = float(digits)
-    return int(digits) if math.isfinite(size) else size
+    number = float(digits)
+    return int(digits) if math.isfinite(number) else number
 
 
 def _refuse_constant(constant: str) -> None:

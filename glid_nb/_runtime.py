@@ -1,7 +1,7 @@
 """How the package runs JAX: double precision, one BLAS thread, a persistent compilation cache.
 
-Nothing here happens at import, and nothing changes the user's own JAX configuration: every entry
-point of the package that computes wraps itself in :func:`double_precision`.
+Importing the package changes no JAX configuration. Entry points that compute are decorated with
+:func:`double_precision`, which leaves the user's configuration alone.
 """
 
 from __future__ import annotations
@@ -35,15 +35,15 @@ _limiter: Any = None
 def single_blas_thread() -> Iterator[None]:
     """Limit BLAS to one thread while solver calls run.
 
-    On the CPU, XLA hands Cholesky to the BLAS that SciPy brings, whose threads fight XLA's own:
-    a 384 x 384 factorisation was seen to take 240 ms instead of 1 ms. The limit is process wide,
-    so nested and concurrent uses share one limiter and the last one out restores the setting.
+    On the CPU, XLA runs Cholesky on SciPy's BLAS, whose threads compete with XLA's own: a 384 x 384
+    factorisation took up to 240 ms instead of 1 ms. The limit is process wide, so nested and
+    concurrent uses share one limiter; the last to finish restores the setting.
     """
     global _depth, _limiter
     with _lock:
         if _depth == 0:
-            # threadpoolctl lets one Python thread at a time control OpenBLAS. Ours may end in
-            # another thread than it began in, so control is taken for the moment of each change.
+            # threadpoolctl binds control of OpenBLAS to one Python thread. The limit may be lifted
+            # from another thread, so control is released after each change.
             OpenBLASController.clear_controlling_thread(force=True)
             _limiter = _controller().limit(limits=1, user_api="blas")
             OpenBLASController.clear_controlling_thread(force=True)
@@ -61,7 +61,7 @@ def single_blas_thread() -> Iterator[None]:
 
 @functools.cache
 def _controller() -> ThreadpoolController:
-    import scipy.linalg  # noqa: F401, PLC0415 - loads the BLAS that XLA calls, so that it is found
+    import scipy.linalg  # noqa: F401, PLC0415 - loads the BLAS that XLA calls
 
     return ThreadpoolController()
 
@@ -83,15 +83,15 @@ def in_chunks(program: Callable[..., R], size: int, rows: Sequence[NDArray[Any]]
     Parameters
     ----------
     program : callable
-        ``program(*chunk, *fixed)`` gives a pytree of arrays, one row for each row of the chunk.
+        ``program(*chunk, *fixed)`` returns a pytree of arrays with one row per row of the chunk.
     size : int
-        Rows of a chunk; the last one is filled up with copies of its first row.
+        Rows per chunk; the last chunk is filled up with copies of its first row.
     rows : sequence of arrays
-        With the same number of rows, which may be 0.
+        All with the same number of rows, which may be 0.
 
     Returns
     -------
-    The program's pytree for all rows, of NumPy arrays.
+    The pytree for all rows, of NumPy arrays.
     """
     count = len(rows[0])
     parts, structure = [], None
@@ -122,16 +122,15 @@ def cache_directory() -> Path:
 def enable_compilation_cache() -> Path:
     """Keep compiled programs in :func:`cache_directory` between processes; returns that folder.
 
-    JAX has one such setting per process, so this is a choice for whoever owns the process: the
-    command line and the editor make it, importing the package or calling ``solve`` does not. A
-    folder that the user configured before stays in use.
+    JAX has one such setting per process, so the command line and the editor call this; importing
+    the package and ``solve`` do not. A folder that the user configured before stays in use.
     """
     configured = getattr(jax.config, "jax_compilation_cache_dir")  # noqa: B009 - set at run time
     if configured:
         return Path(configured)
     folder = cache_directory() / "compiled"
     jax.config.update("jax_compilation_cache_dir", str(folder))
-    # Also small programs: reading all of them back takes a quarter of the time to compile them.
+    # Keep small programs too: reading them all takes a quarter of the time of compiling them.
     jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
     return folder
 
@@ -144,9 +143,9 @@ _COMPILING = (
 
 
 class CompilationClock:
-    """Counts what JAX compiles (or loads) in this process: the programs, and the seconds.
+    """Counts the programs that JAX compiles or loads in this process, and the seconds it takes.
 
-    The seconds are those of tracing, lowering and compiling, which happen one after the other.
+    The seconds are those of tracing, lowering and compiling, which do not overlap.
     """
 
     def __init__(self) -> None:

@@ -26,7 +26,7 @@ def densities(mesh: Triangulation, images: Array) -> Array:
     """(t,) density of a piecewise linear map; infinite where it folds."""
     x, y = (np.abs(d) ** 2 for d in MeshOperators(mesh).wirtinger(images @ np.array([1, 1j])))
     upright = x > y
-    density = SymmetricDirichlet().density(np.where(upright, x, 1), np.where(upright, y, 0))
+    density = SymmetricDirichlet().density(jnp.where(upright, x, 1), jnp.where(upright, y, 0))
     return np.where(upright, density, np.inf)
 
 

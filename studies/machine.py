@@ -10,8 +10,6 @@ from typing import Any
 
 import jax
 
-_LIBRARIES = ("jax", "jaxlib", "numpy", "scipy", "glid-nb")
-
 
 def machine() -> dict[str, Any]:
     """What to say about a machine beside its numbers."""
@@ -21,7 +19,7 @@ def machine() -> dict[str, Any]:
         "system": platform.platform(),
         "python": platform.python_version(),
         "devices": [f"{d.platform}: {d.device_kind}" for d in jax.local_devices()],
-        "versions": {name: version(name) for name in _LIBRARIES},
+        "versions": {name: version(name) for name in ("jax", "jaxlib", "numpy", "scipy")},
     }
 
 

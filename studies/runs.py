@@ -107,8 +107,7 @@ def run(
     options |= {k: v for k, v in settings.items() if k not in own}
     if callback is not None:
         options["iterations_per_call"] = 1
-    on_mesh = mesh is not None and not value.certified
-    start = MeshMap(mesh, mesh.vertices) if on_mesh else None
+    start = None if mesh is None or value.certified else MeshMap(mesh, mesh.vertices)
     arguments = (case.problem.domain, case.problem.pose, energy, Options(**options), start)
     return [solve(*arguments, callback, method=value) for _ in range(runs)][-1]
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from glid_nb.certificate.arcs import Arcs, JetEvaluator
 from glid_nb.geometry import Domain, Panels, edge_panels
-from glid_nb.geometry.segments import cross, point_distance, segments_cross
+from glid_nb.geometry.panels import cross, point_distance, segments_cross
 
 Array = NDArray[Any]
 

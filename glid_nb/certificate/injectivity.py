@@ -31,7 +31,7 @@ from glid_nb.certificate.certify import Certificate, certify
 from glid_nb.certificate.crossing import proved_crossing
 from glid_nb.certificate.panels import after_split
 from glid_nb.geometry import Panels, as_points, graded_panels, place
-from glid_nb.geometry.segments import segment_distance
+from glid_nb.geometry.panels import segment_distance
 from glid_nb.harmonic import HarmonicMap
 
 Array = NDArray[Any]

@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 import glid_nb
 from glid_nb._errors import InputFileError, about
 from glid_nb._json import json_text
-from glid_nb.cli import summary
 from glid_nb.cli.flags import (
     add_solver_flags,
     add_trace_flags,
@@ -27,7 +26,7 @@ from glid_nb.cli.flags import (
     options_of,
     trace_options_of,
 )
-from glid_nb.cli.output import check_folder, write_all
+from glid_nb.cli.output import check_folder, summary_json, summary_text, write_all
 from glid_nb.cli.progress import Progress
 from glid_nb.cli.solving import check_interrupted, run_solver
 from glid_nb.cli.trace import cage_data, size_in_words
@@ -100,9 +99,9 @@ def run(chosen: argparse.Namespace) -> None:
         notes.append("deformed.png is zoomed out, for the shape leaves the picture's frame")
     if chosen.json:
         extra = {"image": str(source), "pose": origin, "notes": notes}
-        print(summary.as_json(report, files, **extra))
+        print(summary_json(report, files, **extra))
     else:
-        print(summary.as_text(report, files, _rows(source, image, tracing, pose, origin, notes)))
+        print(summary_text(report, files, _rows(source, image, tracing, pose, origin, notes)))
     check_interrupted(result)
 
 

@@ -13,19 +13,13 @@ from glid_nb.cli import demo, lab, render, samples, solve, trace
 
 COMMANDS = (demo, trace, solve, render, samples, lab)
 
+BAD_INPUT = (OSError, InputError)
+"""Errors told in one line. Any other, a plain ValueError too, is a bug and keeps its traceback."""
+
 EXIT_OK = 0
 EXIT_BAD_INPUT = 1
 EXIT_USAGE = 2
 EXIT_INTERRUPTED = 130
-
-
-def is_bad_input(error: BaseException) -> bool:
-    """Whether an exception tells of the user's input rather than of a bug.
-
-    A plain ValueError comes from a bug and keeps its traceback. What the operating system refuses
-    is input as well.
-    """
-    return isinstance(error, OSError | InputError)
 
 
 def one_line(error: BaseException) -> str:
@@ -81,7 +75,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("glid-nb: interrupted", file=sys.stderr)
         return EXIT_INTERRUPTED
-    except (OSError, InputError) as error:
+    except BAD_INPUT as error:
         if chosen.debug:
             raise
         print(f"glid-nb: error: {one_line(error)}", file=sys.stderr)

@@ -1,11 +1,23 @@
-"""Where results go: checked before the work starts, written when all of it is done."""
+"""Where results go, checked before the work starts, and the summary printed at the end."""
 
 from __future__ import annotations
 
+import json
+from collections.abc import Iterable, Mapping
+from itertools import groupby
 from pathlib import Path
+from typing import Any
 
+from glid_nb._bounds import rounded_down, rounded_up
 from glid_nb._errors import InputFileError
 from glid_nb._files import write_bytes_atomically, write_text_atomically
+
+_LONG = ("history", "options", "versions", "machine")
+_INJECTIVE = {
+    "yes": "locally and globally",
+    "no": "locally only",
+    "undecided": "locally; globally undecided",
+}
 
 
 def check_file(path: Path) -> None:
@@ -37,3 +49,78 @@ def write_all(files: dict[Path, bytes | str]) -> None:
             write_text_atomically(path, data)
         else:
             write_bytes_atomically(path, data)
+
+
+def summary_json(report: Mapping[str, Any], files: Iterable[Path], **extra: Any) -> str:
+    """The report without its long parts, and where the files are, as one JSON object."""
+    short = {key: value for key, value in report.items() if key not in _LONG}
+    return json.dumps({**extra, **short, "files": {path.name: str(path) for path in files}})
+
+
+def summary_text(
+    report: Mapping[str, Any], files: Iterable[Path], rows: Iterable[tuple[str, str]] = ()
+) -> str:
+    """The report on one screen.
+
+    Parameters
+    ----------
+    report : mapping
+        As built by ``build_report``.
+    files : iterable of Path
+        What was written.
+    rows : iterable of (name, text)
+        Rows to put first.
+    """
+    table = [*rows, *_rows(report), *_written(files)]
+    width = max(len(name) for name, _ in table)
+    lines = []
+    for name, group in groupby(table, key=lambda row: row[0]):
+        for i, (_, text) in enumerate(group):
+            lines.append(f"{name if i == 0 else '':<{width}}  {text}".rstrip())
+    return "\n".join(lines)
+
+
+def _written(files: Iterable[Path]) -> list[tuple[str, str]]:
+    """A row for every folder."""
+    folders = groupby(files, key=lambda path: path.parent)
+    rows = [("written", f"{folder}: {', '.join(p.name for p in f)}") for folder, f in folders]
+    return rows or [("written", "nothing; name files with --out and --report")]
+
+
+def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
+    energy = report["energy"] if report["s"] is None else f"{report['energy']}, s = {report['s']:g}"
+    winding = f"{report['winding']}"
+    if any(report["windings"]):
+        winding += f"  (loops: {', '.join(f'{w:+d}' if w else '0' for w in report['windings'])})"
+    injective = _INJECTIVE[report["globally_injective"]]
+    if report["crossing"] is not None:
+        x, y = report["crossing"]
+        injective += f"; the boundary's image crosses itself at ({x:.3g}, {y:.3g})"
+    panels = f"{report['panels']}"
+    if report["panels_split"]:
+        panels += f", {report['panels_split']} split"
+    if report["proof_panels"] != report["panels"]:
+        panels += f"; {report['proof_panels']} in the final proof"
+    e, e_iso, e_p2p = (_bounded(report[key], "{:.6g}".format) for key in ("E", "E_iso", "E_p2p"))
+    return [
+        ("status", report["message"]),
+        ("unknowns", f"{report['n_unknowns']}"),
+        ("panels", panels),
+        ("iterations", f"{report['iterations']}"),
+        ("energy", f"{e}  ({energy}: {e_iso}, targets: {e_p2p})"),
+        ("certified", "yes" if report["certified"] else "no"),
+        ("sigma_2", f">= {_bounded(report['sigma2_lower'], rounded_down, 6)}"),
+        ("sigma_1", f"<= {_bounded(report['sigma1_upper'], rounded_up, 6)}"),
+        ("k", f"<= {_bounded(report['k_upper'], rounded_up, 6)}"),
+        ("winding number", winding),
+        ("injective", injective if report["certified"] else "not proved"),
+        (
+            "times",
+            f"compile {report['compile_time']:.2f} s, solve {report['solve_time']:.3f} s, "
+            f"certify {report['certify_time']:.3f} s",
+        ),
+    ]
+
+
+def _bounded(value: float | None, written: Any, *digits: int) -> str:
+    return "unbounded" if value is None else written(value, *digits)

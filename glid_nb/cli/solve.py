@@ -13,9 +13,8 @@ from pathlib import Path
 import glid_nb
 from glid_nb._errors import about
 from glid_nb._json import json_text
-from glid_nb.cli import summary
 from glid_nb.cli.flags import add_solver_flags, energy_of, options_of
-from glid_nb.cli.output import check_file, write_all
+from glid_nb.cli.output import check_file, summary_json, summary_text, write_all
 from glid_nb.cli.progress import Progress
 from glid_nb.cli.solving import check_interrupted, run_solver
 
@@ -55,5 +54,5 @@ def run(chosen: argparse.Namespace) -> None:
     if chosen.report:
         files[chosen.report] = json_text(report)
     write_all(files)
-    print(summary.as_json(report, files) if chosen.json else summary.as_text(report, files))
+    print(summary_json(report, files) if chosen.json else summary_text(report, files))
     check_interrupted(result)

@@ -1,7 +1,7 @@
-"""The checks of a cage's loops; each message names the culprit.
+"""The checks of a cage's loops.
 
-A message begins in plain words, for people who draw a cage and do not see vertex numbers; those
-follow in parentheses.
+A message begins in plain words, for people who draw a cage and see no vertex numbers; the numbers
+and coordinates follow in parentheses.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from glid_nb.geometry._loops import (
     segments,
 )
 
-# Two parts of the boundary closer than this share of the cage's size count as touching. It is a few
-# thousand roundings wide: below it neither an offset nor a normal direction can be computed.
+# Parts of the boundary closer than this share of the cage's size count as touching: a few thousand
+# roundings, below which neither an offset nor a normal direction can be computed.
 RESOLUTION = 1e-12
 
 
 def checked_vertices(vertices: ArrayLike, name: str) -> NDArray[np.float64]:
-    """Shape, numbers and count; a float64 copy."""
+    """A float64 copy of (n, 2) finite vertices, n >= 3."""
     loop = point_rows(vertices, f"{name}: vertices", "n")
     if len(loop) < 3:
         raise GeometryError(f"{name}: {len(loop)} vertices given, a loop needs at least 3")
@@ -95,7 +95,6 @@ def _check_not_flat(loop: NDArray[np.float64], number: int, resolution: float) -
 
 
 def _check_fold_back(loop: NDArray[np.float64], number: int, resolution: float) -> None:
-    """Raise where an edge runs back along the edge before it."""
     before, after = np.roll(segments(loop), 1), segments(loop)
     corner_before, corner_after = np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0)
     gap = np.minimum(
@@ -114,7 +113,7 @@ def _check_fold_back(loop: NDArray[np.float64], number: int, resolution: float) 
 
 
 def _check_crossings(loops: list[NDArray[np.float64]], resolution: float) -> None:
-    """Raise for the first pair of edges that cross, or else meet apart from their joint."""
+    """Raise for the first pair of edges that cross, or else touch other than as neighbours."""
     edges = np.concatenate([segments(loop) for loop in loops])
     sizes = np.array([len(loop) for loop in loops])
     number = np.repeat(np.arange(len(loops)), sizes)
@@ -154,10 +153,7 @@ def _check_crossings(loops: list[NDArray[np.float64]], resolution: float) -> Non
 
 
 def _check_nesting(loops: list[NDArray[np.float64]]) -> None:
-    """Raise unless every hole lies inside the exterior and outside the others.
-
-    The loops are known not to meet, so one vertex of a loop tells for the whole loop.
-    """
+    # The loops are known not to meet, so one vertex of each decides for the whole loop.
     starts = point_objects(np.array([loop[0] for loop in loops]))
     regions = [shapely.Polygon(loop) for loop in loops]
     outer, inner = shapely.STRtree(starts).query(regions, predicate="contains")
@@ -186,7 +182,6 @@ def _check_nesting(loops: list[NDArray[np.float64]]) -> None:
 
 
 def _refusal(plain: str, details: str, point: ArrayLike) -> GeometryError:
-    """An error: the problem and its remedy in plain words, then the place in the data."""
     plain = _sentence(plain)
     return GeometryError(f"{plain} ({details})", point, plain)
 

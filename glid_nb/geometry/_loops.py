@@ -19,9 +19,9 @@ class GeometryError(InputError):
     Attributes
     ----------
     point
-        The place that the message speaks of, for a picture that shows it; None if there is none.
+        The place of the problem, to mark in a picture; None if there is none.
     plain
-        The message without coordinates and vertex numbers, for people who see the place.
+        The message without coordinates and vertex numbers, for use beside such a picture.
     """
 
     def __init__(
@@ -33,12 +33,12 @@ class GeometryError(InputError):
 
 
 def loop_name(index: int) -> str:
-    """How messages name loop `index` of a cage: "exterior loop", "hole 1", "hole 2", ..."""
+    """The name of loop `index` of a cage in messages: "exterior loop", "hole 1", ..."""
     return "exterior loop" if index == 0 else f"hole {index}"
 
 
 def plain_name(index: int) -> str:
-    """How the first words of a message name a loop: "the outline", "hole 1", "hole 2", ..."""
+    """The name of loop `index` in plain words: "the outline", "hole 1", "hole 2", ..."""
     return "the outline" if index == 0 else f"hole {index}"
 
 
@@ -49,13 +49,13 @@ def place(point: ArrayLike) -> str:
 
 
 def as_points(z: ArrayLike) -> NDArray[np.float64]:
-    """(..., 2) real points of (...) complex ones; read-only if those are."""
+    """(...) complex points as (..., 2) real ones; read-only if the input is."""
     return np.ascontiguousarray(z, dtype=np.complex128).view(np.float64).reshape(*np.shape(z), 2)
 
 
 def signed_area(loop: NDArray[np.float64]) -> float:
     """Signed area of an (n, 2) loop, positive if counter-clockwise."""
-    x, y = (loop - loop[0]).T  # shifted, so that a loop far from the origin keeps its digits
+    x, y = (loop - loop[0]).T  # keeps the digits of a loop far from the origin
     return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
 
 
@@ -74,7 +74,7 @@ def subdivided(loop: NDArray[np.complex128], counts: NDArray[np.integer]) -> NDA
 
 
 def next_index(loop: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Index of the following element within each run of equal ``loop``, cyclically."""
+    """Index of the next element, cyclic within each run of equal ``loop`` numbers."""
     following = np.arange(1, len(loop) + 1)
     first = np.flatnonzero(np.diff(loop, prepend=-1))
     last = np.append(first[1:], len(loop)) - 1
@@ -83,7 +83,7 @@ def next_index(loop: NDArray[np.intp]) -> NDArray[np.intp]:
 
 
 def encloses(large: NDArray[np.float64], small: NDArray[np.float64]) -> bool:
-    """Whether an (n, 2) loop lies in another that it is known not to meet."""
+    """Whether ``small`` lies in ``large``, (n, 2) loops that are known not to meet."""
     return bool(shapely.contains_xy(shapely.Polygon(large), *small[0]))
 
 
@@ -99,7 +99,7 @@ def point_objects(points: NDArray[np.float64]) -> NDArray[np.object_]:
 
 
 def point_rows(value: ArrayLike, what: str, count: str) -> NDArray[np.float64]:
-    """A float64 copy of (n, 2) points; ``what`` and ``count``, such as "n", are for messages."""
+    """A float64 copy of (n, 2) points; messages use ``what`` and ``count``, such as "n"."""
     try:
         points = real_array(value)
     except (TypeError, ValueError) as error:

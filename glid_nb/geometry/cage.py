@@ -1,4 +1,4 @@
-"""The cage: a polygon with holes, checked once and immutable from then on."""
+"""The cage: a checked, immutable polygon with holes."""
 
 from __future__ import annotations
 
@@ -19,18 +19,17 @@ from glid_nb.geometry._loops import GeometryError, edge_lengths, loop_list, loop
 class Cage:
     """A bounded polygon with any number of holes; the boundary P of the certified domain.
 
-    The constructor checks everything the rest of the package relies on: finite coordinates, at
-    least three distinct vertices per loop, loops that neither cross nor touch themselves or each
-    other, every hole inside the exterior and outside every other hole. Loops are reversed where
-    needed, vertex 0 staying first, so that the domain always lies to the left of the boundary.
+    The constructor checks what the package relies on: finite coordinates, at least three distinct
+    vertices per loop, loops that neither cross nor touch themselves or each other, every hole
+    inside the exterior and outside every other hole. Loops are reversed where needed, keeping
+    vertex 0 first, so that the domain lies to the left of the boundary.
 
     Parameters
     ----------
     exterior
-        (n, 2) array or nested list, vertices of the exterior loop in order, the first one not
-        repeated at the end. Either orientation.
+        (n, 2) vertices in order, either orientation; the first is not repeated at the end.
     holes
-        Hole loops, each (k, 2). Either orientation.
+        Hole loops, each (k, 2), either orientation.
 
     Attributes
     ----------
@@ -42,7 +41,7 @@ class Cage:
     Raises
     ------
     GeometryError
-        The loops do not bound a domain. The message names the loop, the vertex and its coordinates.
+        The loops do not bound a domain; the message names the loop, the vertex and its coordinates.
     """
 
     exterior: NDArray[np.float64]
@@ -58,7 +57,7 @@ class Cage:
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Cage:
-        """Read a mapping with the keys ``cage`` and, optionally, ``holes``."""
+        """The cage of a mapping with the keys ``cage`` and, optionally, ``holes``."""
         if "cage" not in data:
             raise GeometryError(
                 "the key 'cage' is missing: give the exterior loop's vertices there"
@@ -71,7 +70,7 @@ class Cage:
 
     @staticmethod
     def loop_name(index: int) -> str:
-        """How messages name loop `index`: "exterior loop", "hole 1", "hole 2", ..."""
+        """The name of loop `index` in messages: "exterior loop", "hole 1", "hole 2", ..."""
         return loop_name(index)
 
     @property
@@ -113,7 +112,7 @@ class Cage:
 
     @cached_property
     def area(self) -> float:
-        """Area of the domain, holes left out."""
+        """Area of the domain without its holes."""
         return float(sum(signed_area(loop) for loop in self.loops))
 
     @cached_property
@@ -136,8 +135,8 @@ class Cage:
         points
             (..., 2) array of positions.
         tolerance
-            Points outside by at most this much count as inside. Points on the boundary always do,
-            also when rounding put them outside by 1e-12 of the cage's size.
+            Points outside by at most this distance count as inside; it is at least 1e-12 of the
+            cage's size, so that rounded boundary points count too.
 
         Returns
         -------
@@ -153,7 +152,7 @@ class Cage:
         inside = shapely.intersects_xy(self.polygon, flat[:, 0], flat[:, 1])
         rest = np.flatnonzero(~inside)
         if rest.size:
-            # Distances take longest; most points are outside of a wider polygon too.
+            # Distances are slow; a wider polygon rules out most points.
             wider = shapely.buffer(self.polygon, 2 * max(reach, 1e-4 * self.longer_side))
             shapely.prepare(wider)
             rest = rest[shapely.intersects_xy(wider, flat[rest, 0], flat[rest, 1])]

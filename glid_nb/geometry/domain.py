@@ -24,9 +24,9 @@ _DEFAULT_OFFSET = 0.005
 class Domain:
     """Where a harmonic map lives: the cage P, the offset cage P^ and a point in every hole.
 
-    The basis has its singularities on the offset cage's vertices and on the hole points; both lie
-    outside the closed domain bounded by `cage`, so that everything is smooth there (section 5 and
-    appendix D of Chen & Weber 2017). Compared and hashed by identity, so a domain can key a cache.
+    The basis is singular at the offset cage's vertices and the hole points, all outside the closed
+    domain bounded by `cage`, and smooth on that domain (section 5 and appendix D of Chen & Weber
+    2017). Domains are compared and hashed by identity, so that they can key a cache.
 
     Parameters
     ----------
@@ -38,12 +38,12 @@ class Domain:
     hole_points
         (N, 2), one point strictly inside each hole of `offset_cage`, in the same order.
     notes
-        Sentences about choices made on the way here, such as a reduced offset.
+        Sentences about choices made, such as a reduced offset.
 
     Raises
     ------
     GeometryError
-        The parts do not fit together; the message names the loop and the place.
+        The parts do not fit; the message names the loop and the place.
     """
 
     cage: Cage
@@ -69,25 +69,22 @@ class Domain:
 
     @classmethod
     def from_cage(cls, cage: Cage, offset: float | None = None) -> Domain:
-        """Choose the offset cage and the hole points.
+        """The domain of a cage, with chosen offset cage and hole points.
 
-        `offset` is the distance between the cages; the default is 0.005 of the longer side of the
-        cage's bounding box. It is reduced where a passage is too narrow for it; `notes` says where.
+        `offset` is the distance between the cages, by default 0.005 of the longer side of the
+        cage's bounding box. It is reduced in narrow passages; `notes` says where.
         """
         result = _offset_of(cage, offset)
         return cls(cage, result.cage, choose_hole_points(result.cage), result.notes)
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Domain:
-        """Read a mapping with ``cage`` and, where wanted, the parts chosen elsewhere.
+        """The domain of a mapping.
 
-        Parameters
-        ----------
-        data
-            ``cage`` and ``holes`` as in `Cage.from_dict`; ``offset`` (a distance), ``offset_cage``,
-            ``offset_holes`` and ``hole_points`` are used as given apart from orientation and chosen
-            when missing. ``offset_cage`` and ``offset_holes`` come together; ``offset`` has no
-            effect beside them.
+        Its keys are ``cage`` and ``holes`` as in `Cage.from_dict`, and optionally ``offset`` (a
+        distance), ``offset_cage``, ``offset_holes``, ``hole_points`` and ``notes``. Missing parts
+        are chosen; loops are reoriented where needed. ``offset_holes`` needs ``offset_cage``, and
+        ``offset`` has no effect beside it.
         """
         cage = Cage.from_dict(data)
         notes = _checked_notes(data.get("notes"))
@@ -177,13 +174,13 @@ def _checked_hole_points(hole_points: ArrayLike, n_holes: int) -> NDArray[np.flo
 
 
 def _check_enclosed(cage: Cage, offset_cage: Cage) -> None:
-    """Raise unless the closed domain of `cage` lies in the open domain of `offset_cage`."""
+    """The closed domain of `cage` must lie in the open domain of `offset_cage`."""
     if offset_cage.n_holes != cage.n_holes:
         raise GeometryError(
             f"the offset cage has {offset_cage.n_holes} holes and the cage {cage.n_holes}; "
             "give one offset hole per hole, in the same order"
         )
-    # Loops of different index lie in disjoint places then: either cage's own loops do not meet.
+    # Loops of different index need no check: the loops of either cage do not meet.
     for i, (loop, offset_loop) in enumerate(zip(cage.loops, offset_cage.loops, strict=True)):
         name = "the exterior loop" if i == 0 else loop_name(i)
         ring, offset_ring = shapely.LinearRing(loop), shapely.LinearRing(offset_loop)

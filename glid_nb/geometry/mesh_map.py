@@ -15,13 +15,13 @@ from glid_nb.geometry.triangulate import Triangulation
 Array = NDArray[Any]
 
 
-# Many maps share a mesh: an iterative method's, or those of a drag.
+# One per mesh: the iterations of a method or of a drag share it.
 _finders: weakref.WeakKeyDictionary[Triangulation, Any] = weakref.WeakKeyDictionary()
 
 
 @dataclass(frozen=True, eq=False)
 class MeshMap:
-    """A triangle mesh and where its vertices go.
+    """A triangle mesh and the images of its vertices.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class MeshMap:
         object.__setattr__(self, "images", images)
 
     def __call__(self, points: ArrayLike) -> Array:
-        """Images of (k, 2) points of the mesh; a point beside it moves with its nearest vertex."""
+        """Images of (k, 2) points; one off the mesh moves with a triangle at the nearest vertex."""
         xy = np.atleast_2d(np.asarray(points, dtype=float))
         if xy.ndim != 2 or xy.shape[1] != 2:
             raise ValueError(f"points have shape {xy.shape}; expected (k, 2)")
@@ -73,14 +73,14 @@ class MeshMap:
 
     @property
     def flipped(self) -> Array:
-        """(t,) bool: triangles that are turned over or flat."""
+        """(t,) bool: image triangles that are turned over or flat."""
         return ~(self.areas > 0)
 
     @property
     def layered(self) -> Array:
         """(t, 3) triangles from the left of the undeformed shape to its right.
 
-        Drawn in this order, sheets that lie over one another do not mingle.
+        Drawn in this order, overlapping sheets stay apart.
         """
         mesh = self.triangulation
         middle = mesh.vertices[mesh.triangles, 0].mean(axis=1)
@@ -95,7 +95,7 @@ class MeshMap:
 
 
 def _finder(mesh: Triangulation) -> Any:
-    """What says in which triangle a point lies, -1 for none; made once for a mesh."""
+    """A function of x and y: the triangle of each point, -1 for none."""
     known = _finders.get(mesh)
     if known is None:
         from matplotlib.tri import Triangulation as Planar  # noqa: PLC0415 - slow to import

@@ -19,23 +19,21 @@ from glid_nb.geometry._loops import (
 )
 from glid_nb.geometry.cage import Cage
 
-# No edge of the offset cage comes closer to the cage than this share of the smaller of the two
-# distances at its ends.
+# Least distance of an offset edge from the cage, as a share of the smaller distance at its ends.
 CLEARANCE = 0.3
-# The mitre at an acute convex corner is cut back to this many distances from the corner.
+# Longest mitre at an acute convex corner, in distances.
 MITRE_LIMIT = 4.0
 
-# Share of a passage's width that the offset of either side may take: the largest that leaves the
-# clearance between the two.
+# Share of a passage's width that either side's offset may take, so that the clearance remains.
 _PASSAGE_SHARE = 1.0 / (2.0 + CLEARANCE)
-# From this ratio of length to width on, a passage is narrowed before anything else: two offsets
-# that passed through each other on all its length would only be seen to meet at its ends.
+# Passages of at least this ratio of length to width are limited before anything else: offsets that
+# pass through each other along a whole passage are seen to meet only at its ends.
 _PASSAGE_LENGTH = 4.0
-# Change of the distance per unit of arc length: a passage narrows the offset around it gradually.
+# Greatest change of the distance per unit of arc length.
 _SLOPE = 0.5
-# An offset edge keeps at least this share of the length of the edge it belongs to.
+# Least length of an offset edge, as a share of its cage edge.
 _KEPT_LENGTH = 0.1
-# Rounds of local shrinking before the whole offset is halved, and rounds of that.
+# Rounds of local shrinking before the whole offset is halved, and rounds of halving.
 _LOCAL_ROUNDS = 60
 _GLOBAL_ROUNDS = 30
 _SHRINK = 0.8
@@ -65,10 +63,10 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
     """Move the exterior loop outward and every hole loop into its hole.
 
     Every edge moves by `distance` along its normal and neighbours meet in a mitre, so P^ has one
-    vertex per cage vertex, as the cages of Chen & Weber (2017) do. Where that does not fit (two
-    parts of a loop face each other, a hole is small, short edges turn inwards) the distance shrinks
-    around the place, and `Offset.notes` says so. The result encloses the cage strictly: no edge of
-    P^ comes closer to the cage than 0.3 of the smaller of the distances at its ends.
+    vertex per cage vertex, as in Chen & Weber (2017). Where that does not fit (a narrow passage, a
+    small hole, short edges at a reflex corner) the distance is reduced, and `Offset.notes` says so.
+    P^ encloses the cage strictly: the distance of each of its edges from the cage is at least 0.3
+    of the smaller of the distances at its ends.
 
     Parameters
     ----------
@@ -115,24 +113,23 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
 
 
 def hole_points(cage: Cage) -> NDArray[np.float64]:
-    """One point strictly inside each hole, far from its boundary.
-
-    The point is the centre of the hole's largest inscribed circle.
+    """(N, 2) points, one strictly inside each hole: the centre of its largest inscribed circle.
 
     Parameters
     ----------
     cage
         The offset cage.
 
-    Returns
-    -------
-    (N, 2) points in the order of the holes.
+    Raises
+    ------
+    GeometryError
+        A hole is too narrow.
     """
     points = np.empty((cage.n_holes, 2))
     for i, hole in enumerate(cage.holes):
         region = shapely.Polygon(hole)
-        # The default tolerance is a share of the bounding box, too coarse for a slender hole: what
-        # the coarse search finds sets the tolerance of a second one.
+        # The default tolerance, a share of the bounding box, is too coarse for a slender hole: a
+        # second search takes its tolerance from the radius found first.
         circle = shapely.maximum_inscribed_circle(region)
         radius = shapely.length(circle)
         if radius > 0:
@@ -162,7 +159,7 @@ def _checked_distance(distance: float) -> float:
 
 
 class _Corners:
-    """The vertices of all loops in one array, with what an offset needs at each of them."""
+    """The vertices of all loops in one array, with directions and mitres at each."""
 
     def __init__(self, cage: Cage, distance: float) -> None:
         self.cage = cage
@@ -188,8 +185,8 @@ class _Corners:
         before, after = self.along[self.previous], self.along
         bulge = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
         self.convex = bulge > 0
-        # The bisector is along both n_before + n_after and +-(before - after); the longer of the
-        # two keeps its digits, which matters at corners of almost 0 or almost 180 degrees.
+        # The bisector is along both n_before + n_after and +-(before - after); the longer one is
+        # accurate at corners of almost 0 or 180 degrees too.
         normals = self.normal[self.previous] + self.normal
         tangents = np.where(self.convex, 1.0, -1.0)[:, None] * (before - after)
         cosine = 0.5 * np.hypot(*normals.T)
@@ -200,28 +197,25 @@ class _Corners:
         mitre = np.where(self.convex, np.minimum(mitre, MITRE_LIMIT), mitre)
         self.step = mitre[:, None] * axis  # displacement per unit of distance
         self.height = mitre * cosine  # distance from the edges' lines per unit of distance
-        # Length an offset edge gains per unit of distance at its start and at its end.
+        # Length that an offset edge gains per unit of distance at its start and at its end.
         self.gain_start = -np.sum(self.step * after, axis=1)
         self.gain_end = np.sum(self.step[self.next] * after, axis=1)
 
     def moved(self, local: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(n, 2) offset vertices for the distances `local` (n,)."""
+        """(n, 2) offset vertices at the distances `local` (n,)."""
         return self.points + local[:, None] * self.step
 
     def split(self, values: NDArray[np.float64]) -> list[NDArray[np.float64]]:
-        """Cut an array over all vertices into one per loop."""
         return [part.copy() for part in np.split(values, self.starts[1:-1])]
 
     def describe(self, i: int) -> str:
-        """Name and place of vertex `i` for a message."""
         loop = int(self.loop[i])
         return f"{loop_name(loop)}'s vertex {i - self.starts[loop]} at {place(self.points[i])}"
 
     def passage_limits(self, min_ratio: float) -> NDArray[np.float64]:
-        """Upper limits (n,) that leave room where a vertex faces an edge through the outside.
+        """(n,) greatest distances where a vertex faces an edge of its loop across the outside.
 
-        Only pairs count whose way along the loop is at least `min_ratio` times the gap between
-        them.
+        Only pairs whose way along the loop is at least `min_ratio` times their gap count.
         """
         w, e = self.tree.query(
             shapely.points(self.points),
@@ -236,7 +230,7 @@ class _Corners:
         across = (t * self.length[e])[:, None] * self.along[e] - arm  # from the vertex to the edge
         gap = np.hypot(*across.T)
         towards = across / gap[:, None]
-        # They face each other if the way between them is on the outer side of both.
+        # They face each other if the line between them is on the outer side of both.
         off_edge = -np.sum(towards * self.normal[e], axis=1) > -1e-9
         off_after = np.sum(towards * self.normal[w], axis=1) > -1e-9
         off_before = np.sum(towards * self.normal[self.previous[w]], axis=1) > -1e-9
@@ -253,7 +247,7 @@ class _Corners:
         return limits
 
     def smoothed(self, local: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The largest distances below `local` that change by at most the slope per arc length."""
+        """The largest distances up to `local` whose change per arc length is at most the slope."""
         result = local.copy()
         for a, b in zip(self.starts[:-1], self.starts[1:], strict=True):
             n = b - a
@@ -262,12 +256,12 @@ class _Corners:
             up = np.minimum.accumulate(d - s) + s
             down = (np.minimum.accumulate((d + s)[::-1]))[::-1] - s
             smooth = np.minimum(up, down)[n : 2 * n]
-            # Distances that are not reduced keep their last digit.
+            # Distances that are not reduced keep their exact value.
             result[a:b] = np.where(smooth < local[a:b] * (1 - 1e-9), smooth, local[a:b])
         return result
 
     def shrunk(self, local: NDArray[np.float64]) -> tuple[NDArray[np.float64], bool]:
-        """Shrink distances where the offset does not fit until it does; whether it does."""
+        """Distances shrunk where the offset does not fit, and whether it fits then."""
         limits = None
         for _ in range(_LOCAL_ROUNDS):
             factors = self._edge_factors(local)
@@ -277,27 +271,26 @@ class _Corners:
                     return local, self._encloses(local)
                 if limits is None:
                     limits = self.passage_limits(0.0)
-                # Straight to what the passage allows, where that is less.
                 local = np.where(factors < 1.0, np.minimum(local, limits), local)
             local = self.smoothed(local * factors)
         return local, False
 
     def _edge_factors(self, local: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Factors (n,) for vertices whose offset edges became too short or turned round."""
+        """(n,) factors that lengthen offset edges which are too short or reversed."""
         gain = local * self.gain_start + local[self.next] * self.gain_end
         loss = (1.0 - _KEPT_LENGTH) * self.length
         short = gain < -loss * (1 + 1e-9)
         factors = np.ones(len(local))
         edge = np.flatnonzero(short)
         factor = np.clip(loss[edge] / -gain[edge], 0.25, 0.95)
-        # Only an end that shortens the edge is to blame.
+        # Only the ends that shorten the edge shrink.
         start, end = self.gain_start[edge] < 0, self.gain_end[edge] < 0
         np.minimum.at(factors, edge[start], factor[start])
         np.minimum.at(factors, self.next[edge[end]], factor[end])
         return factors
 
     def _meeting_factors(self, local: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Factors (n,) for vertices whose offset edges come too close to the cage or each other."""
+        """(n,) factors for offset edges too close to the cage or to each other."""
         factors = np.ones(len(local))
         moved = self.moved(local)
         height = local * self.height
@@ -306,7 +299,7 @@ class _Corners:
         edges = np.asarray(shapely.linestrings(ends), dtype=object)
 
         e, f = self.tree.query(edges, predicate="dwithin", distance=reach)
-        self._blame(factors, edges, e, self.edges[f])
+        self._shrink_ends(factors, edges, e, self.edges[f])
 
         e, f = shapely.STRtree(edges).query(edges, predicate="dwithin", distance=reach)
         apart = (
@@ -314,30 +307,30 @@ class _Corners:
         )
         e, f = e[apart], f[apart]
         gap = shapely.distance(edges[e], edges[f])
-        # Neighbours of a short edge are close to each other anyway: compare with the way round.
+        # The neighbours of a short edge are close anyway, so the gap is compared with the way too.
         way = self._way_round(np.hypot(*(moved[self.next] - moved).T), e, f)
         close = gap < np.minimum(np.minimum(reach[e], reach[f]), CLEARANCE * way)
-        self._blame(factors, edges, e[close], edges[f[close]])
+        self._shrink_ends(factors, edges, e[close], edges[f[close]])
         return factors
 
     def _way_round(
         self, length: NDArray[np.float64], e: NDArray[np.intp], f: NDArray[np.intp]
     ) -> NDArray[np.float64]:
-        """Length of the offset loop between the edges e and f, the shorter way."""
+        """Length of the offset loop between the edges e and f, on the shorter side."""
         position = np.concatenate([[0.0], np.cumsum(length)])
         total = position[self.starts[1:]] - position[self.starts[:-1]]
         first, last = np.minimum(e, f), np.maximum(e, f)
         inner = position[last] - position[first + 1]
         return np.minimum(inner, total[self.loop[e]] - inner - length[first] - length[last])
 
-    def _blame(
+    def _shrink_ends(
         self,
         factors: NDArray[np.float64],
         edges: NDArray[np.object_],
         e: NDArray[np.intp],
         others: NDArray[np.object_],
     ) -> None:
-        """Shrink the ends of the offset edges `e`, mostly the end nearer to the meeting."""
+        """Lower the factors at the ends of the edges `e`, more at the end nearer to `others`."""
         if not len(e):
             return
         meeting = shapely.get_point(shapely.shortest_line(edges[e], others), 0)
@@ -346,13 +339,13 @@ class _Corners:
         np.minimum.at(factors, self.next[e], np.where(t > 0.25, _SHRINK, 0.9))
 
     def _encloses(self, local: NDArray[np.float64]) -> bool:
-        """Whether the offset loops, known not to meet the cage, lie on its right side."""
+        """Whether the offset loops, known not to meet the cage, lie outside the domain."""
         pairs = zip(self.cage.loops, self.split(self.moved(local)), strict=True)
         return all(encloses(*(b, a) if i == 0 else (a, b)) for i, (a, b) in enumerate(pairs))
 
 
 def _notes(corners: _Corners, local: NDArray[np.float64], distance: float) -> tuple[str, ...]:
-    """One sentence per run of vertices where the distance was reduced noticeably."""
+    """A sentence per loop on which the distance was reduced by over a tenth."""
     notes: list[str] = []
     reduced = local < 0.9 * distance
     for loop, (a, b) in enumerate(zip(corners.starts[:-1], corners.starts[1:], strict=True)):

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.geometry._loops import GeometryError, edge_lengths, next_index, subdivided
-from glid_nb.geometry.segments import point_distance
 
 if TYPE_CHECKING:
     from glid_nb.geometry.cage import Cage
@@ -18,9 +17,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[Any]
 
-# Bisecting a panel this often brings it below rounding for any domain of sane proportions.
+# Bisecting an edge this often brings it below rounding.
 _MAX_BISECTIONS = 48
-# Halves of one piece differ by no more than rounding.
+# Relative difference by rounding between the halves of one piece.
 _EVEN = 1e-9
 
 
@@ -65,10 +64,7 @@ class Panels:
         return (self.middle != self.start) & (self.middle != self.end)
 
     def split(self, chosen: Array) -> Panels:
-        """The panels with those of ``chosen`` (p,) bool cut in half, the order along loops kept.
-
-        Panels that are not :attr:`divisible` are left whole.
-        """
+        """The panels in order, with those of ``chosen`` (p,) bool halved if :attr:`divisible`."""
         middle = self.middle
         chosen = chosen & self.divisible
         count = np.where(chosen, 2, 1)
@@ -80,11 +76,11 @@ class Panels:
         return _linked(start, end, np.repeat(self.loop, count), depth)
 
     def parents(self, chosen: Array) -> Array:
-        """(q,) int: of which panel here each panel of ``split(chosen)`` is the whole or a half."""
+        """(q,) int: for each panel of ``split(chosen)``, the index of the panel it comes from."""
         return np.repeat(np.arange(len(self)), np.where(chosen & self.divisible, 2, 1))
 
     def chosen(self, which: Array) -> Panels:
-        """Only the panels of ``which`` (p,) bool, as a bare list: ``next`` loses its meaning."""
+        """Only the panels of ``which`` (p,) bool; their ``next`` has no meaning."""
         index = np.arange(int(which.sum()))
         return Panels(
             self.start[which], self.end[which], self.loop[which], self.depth[which], index
@@ -94,15 +90,14 @@ class Panels:
 def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
     """Panels no longer than ``ratio`` times their distance to the nearest singularity of ``f_z``.
 
-    The singularities of ``f_z`` are the offset cage's vertices and the hole points; each edge of
-    the cage is bisected until the rule holds, so panels are short only where the map may vary
-    fast.
+    The singularities are the offset cage's vertices and the hole points. Each edge of the cage is
+    bisected until this holds, so panels are short only where the map may vary fast.
 
     Parameters
     ----------
     domain : Domain
     ratio : float
-        Greatest length over distance, positive; smaller means more panels.
+        Positive; smaller means more panels.
     """
     if not ratio > 0:
         raise ValueError(f"ratio is {ratio}; it must be positive")
@@ -116,11 +111,10 @@ def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
 
 
 def paired(panels: Panels, domain: Domain, ratio: float) -> Array:
-    """(p,) bool, true for the first of two halves of an edge that one panel could stand for.
+    """(p,) bool: the first panels of pairs that one panel could replace.
 
-    Two consecutive panels of equal length on one straight piece make a pair if together they are
-    no longer than ``ratio`` times their distance to the nearest singularity of ``f_z``. No panel is
-    in two pairs.
+    A pair is two consecutive panels of equal length on one straight piece, together no longer than
+    ``ratio`` times their distance to the nearest singularity of ``f_z``. Pairs do not overlap.
     """
     after = np.roll(np.arange(len(panels)), -1)
     chord, following = panels.end - panels.start, panels.end[after] - panels.start[after]
@@ -129,7 +123,7 @@ def paired(panels: Panels, domain: Domain, ratio: float) -> Array:
     start, end = panels.start[candidates], panels.end[after[candidates]]
     fits = np.zeros(len(panels), dtype=bool)
     fits[candidates] = np.abs(end - start) <= ratio * _clearance(domain, start, end)
-    # Of a run of panels that fit, every other one begins a pair.
+    # In a run of panels that fit, every other one begins a pair.
     index = np.arange(len(panels))
     last_unfit = np.maximum.accumulate(np.where(fits, -1, index))
     return fits & ((index - last_unfit) % 2 == 1)
@@ -182,3 +176,31 @@ def _linked(start: Array, end: Array, loop: Array, depth: Array) -> Panels:
     for array in (panels.start, panels.end, panels.loop, panels.depth, panels.next):
         array.flags.writeable = False
     return panels
+
+
+def cross(a: Array, b: Array) -> Array:
+    """``a_x b_y - a_y b_x``."""
+    return np.imag(np.conj(a) * b)
+
+
+def point_distance(point: Array, start: Array, end: Array) -> Array:
+    """Distances from points to the segments of the same index; shapes broadcast."""
+    along = end - start
+    square = np.real(along * np.conj(along))
+    position = np.real((point - start) * np.conj(along)) / np.where(square > 0, square, 1)
+    return np.abs(point - start - np.clip(position, 0, 1) * along)
+
+
+def segments_cross(a: Array, b: Array, c: Array, d: Array) -> Array:
+    """Whether the segments from ``a`` to ``b`` and from ``c`` to ``d`` cross, no end on either."""
+    ab, cd = b - a, d - c
+    return (cross(ab, c - a) * cross(ab, d - a) < 0) & (cross(cd, a - c) * cross(cd, b - c) < 0)
+
+
+def segment_distance(a: Array, b: Array, c: Array, d: Array) -> Array:
+    """Distances between the segments from ``a`` to ``b`` and those from ``c`` to ``d``."""
+    ends = np.minimum(
+        np.minimum(point_distance(a, c, d), point_distance(b, c, d)),
+        np.minimum(point_distance(c, a, b), point_distance(d, a, b)),
+    )
+    return np.where(segments_cross(a, b, c, d), 0.0, ends)

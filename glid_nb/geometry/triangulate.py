@@ -20,11 +20,11 @@ from glid_nb.geometry._loops import (
 )
 from glid_nb.geometry.cage import Cage
 
-# Lattice points keep this share of the spacing from the boundary: closer ones make flat triangles.
+# Least distance of lattice points from the boundary, in spacings: closer ones make flat triangles;
 _MARGIN = 0.55
-# ... and this share from points that are to be vertices.
+# and from the wanted points.
 _CLEARANCE = 0.6
-# Points closer than this share of the cage's size are one.
+# Points closer than this share of the cage's size count as one.
 _SAME = 1e-9
 _ROW = np.sqrt(3.0) / 2.0  # height of a lattice row, in spacings
 
@@ -57,10 +57,9 @@ def triangulate(
 ) -> Triangulation:
     """Constrained Delaunay triangulation with evenly spread vertices.
 
-    Edges of the cage are cut into parts of one spacing and the inside is filled with a hexagonal
-    lattice of the same spacing, chosen so that the number of vertices comes out near `n_vertices`.
-    Every cage vertex is a vertex of the mesh, so a small `n_vertices` is exceeded by cages with
-    more vertices than that.
+    The cage's edges are cut into equal parts and the inside is filled with a hexagonal lattice of
+    the same spacing, chosen to give about `n_vertices` vertices. All vertices of the cage are
+    vertices of the mesh, so there are more where the cage has more.
 
     Parameters
     ----------
@@ -99,7 +98,6 @@ def triangulate(
 
 
 def _checked_points(cage: Cage, points: ArrayLike | None) -> NDArray[np.float64]:
-    """The distinct wanted vertices, (k, 2)."""
     wanted = np.asarray([] if points is None else points, dtype=float).reshape(-1, 2)
     outside = np.flatnonzero(~cage.contains(wanted)) if len(wanted) else np.empty(0, dtype=int)
     if outside.size:
@@ -114,7 +112,7 @@ def _checked_points(cage: Cage, points: ArrayLike | None) -> NDArray[np.float64]
 def _with_points(
     loop: NDArray[np.complex128], points: NDArray[np.float64], tolerance: float
 ) -> NDArray[np.complex128]:
-    """A loop with those of the points that lie on it put in where they belong."""
+    """The loop with the points that lie on it inserted in order."""
     z = np.asarray(points @ np.array([1, 1j]), dtype=np.complex128)
     along = np.roll(loop, -1) - loop
     position = np.real((z[:, None] - loop) * along.conj()) / np.abs(along) ** 2
@@ -130,12 +128,10 @@ def _with_points(
 
 
 def _parts(lengths: NDArray[np.float64], spacing: float) -> NDArray[np.int64]:
-    """Number of parts of each edge, each of about the spacing."""
     return np.maximum(np.rint(lengths / spacing), 1).astype(np.int64)
 
 
 def _spacing(cage: Cage, n_vertices: int) -> float:
-    """Spacing that gives about `n_vertices` vertices."""
     # n = (area - margin * perimeter) / cell + perimeter / spacing with cell = row * spacing^2.
     linear = cage.perimeter * (1.0 - _MARGIN / _ROW)
     inverse = (np.sqrt(linear**2 + 4.0 * n_vertices * cage.area / _ROW) - linear) / (
@@ -143,7 +139,7 @@ def _spacing(cage: Cage, n_vertices: int) -> float:
     )
     spacing = 1.0 / float(inverse)
     lengths = np.concatenate([edge_lengths(loop) for loop in cage.loops])
-    # The formula overrates cages with many short edges or slender limbs.
+    # The formula is inaccurate for many short edges and for slender limbs.
     for _ in range(6):
         count = int(_parts(lengths, spacing).sum())
         count += len(_lattice(cage, spacing))
@@ -154,7 +150,7 @@ def _spacing(cage: Cage, n_vertices: int) -> float:
 
 
 def _lattice(cage: Cage, spacing: float) -> NDArray[Any]:
-    """(p, 2) points of the hexagonal lattice inside the cage and away from its boundary."""
+    """(p, 2) points of the hexagonal lattice inside the cage, away from its boundary."""
     inner = shapely.buffer(cage.polygon, -_MARGIN * spacing, quad_segs=4)
     if inner.is_empty:
         return np.empty((0, 2))

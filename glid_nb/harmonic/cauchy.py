@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from glid_nb._arrays import AnyArray
-from glid_nb._jax import jnp
+from glid_nb._jax import AnyArray, jnp
 
 if TYPE_CHECKING:
     from jaxtyping import Array, Complex, Float, Int

@@ -12,7 +12,6 @@ from __future__ import annotations
 import functools
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -28,28 +27,24 @@ from glid_nb._runtime import (
 )
 from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Domain
-from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import outcome, step
-from glid_nb.solvers.discretisation import discretise
+from glid_nb.solvers.loop import Ending, followed, result_of
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import (
     SLOW_ITERATIONS,
     Newton,
+    NewtonDescent,
     descend,
-    entries,
     ridge_of,
     settings_of,
-    start_of,
     variant_of,
 )
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose, PoseError
-from glid_nb.solvers.problem import Problem, constraints_of, map_from, real_coefficients
+from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Iteration, Result
-from glid_nb.solvers.start import aligned
 from glid_nb.solvers.status import Status
-from glid_nb.solvers.unknowns import reduced_unknowns
 
 Array = NDArray[Any]
 
@@ -110,10 +105,11 @@ def solve_batch(
         raise TypeError(
             f"devices must be one or more of jax.local_devices(), not {list(devices)!r}"
         )
-    batch = _Batch(domain, poses, energy, options, devices)
+    inputs = [Inputs(domain=domain, pose=p, energy=energy, options=options) for p in poses]
+    batch = [_Pose(given) for given in inputs]
     with single_blas_thread():
-        batch.run()
-    return tuple(map(batch.finished, batch.poses, batch.inputs))
+        compile_time = _run(batch, devices) / len(batch)
+    return tuple(pose.result(compile_time) for pose in batch)
 
 
 def _poses(handles: ArrayLike, targets: ArrayLike) -> list[Pose]:
@@ -132,157 +128,99 @@ def _poses(handles: ArrayLike, targets: ArrayLike) -> list[Pose]:
     return poses
 
 
-@dataclass(eq=False)
-class _Progress:
+class _Pose:
     """How far one pose has come."""
 
-    coefficients: Array
-    targets: Array
-    initial: Iteration | None = None
-    energy_iso: float = np.nan
-    energy_p2p: float = np.nan
-    history: list[Iteration] = field(default_factory=list)
-    status: Status | None = None
-    """None while it goes on, or where the batch cannot end it."""
-    time: float = 0.0
+    def __init__(self, inputs: Inputs) -> None:
+        self.inputs, self.descent = inputs, NewtonDescent(Newton(), inputs)
+        self.history: list[Iteration] = []
+        self.ending: Ending | None = None
+        """None while it goes on, or where the batch cannot end it."""
+        self.time = 0.0
 
+    def take(self, state: step.State, seconds: float, limit: int) -> bool:
+        """Note what a call did; True when the pose goes on in the batch."""
+        done = self.descent.take(state, len(self.history), seconds)
+        self.descent.factor = None  # it has not come back
+        self.history += done.iterations
+        self.time += seconds
+        if done.outcome == outcome.CONVERGED:
+            self.ending = Ending(Status.CONVERGED)
+        elif len(self.history) >= limit:
+            self.ending = Ending(Status.MAX_ITERATIONS)
+        goes_on = self.ending is None and done.outcome == outcome.RUNNING
+        return goes_on and len(self.history) < SLOW_ITERATIONS
 
-class _Batch:
-    """All poses on the host."""
-
-    def __init__(
-        self,
-        domain: Domain,
-        poses: list[Pose],
-        energy: Energy,
-        options: Options,
-        devices: tuple[Any, ...],
-    ) -> None:
-        self.options, self.devices, self.compile_time = options, devices, 0.0
-        self.limit = Newton().limit(options)
-        self.inputs = [
-            Inputs(domain=domain, pose=pose, energy=energy, options=options) for pose in poses
-        ]
-        disc = self.discretisation = discretise(domain, options.sampling, options.certificate)
-        constraints = constraints_of(domain, poses[0], options.p2p_weight)
-        self.problem = Problem(
-            matrices=disc.matrices,
-            singularities=disc.basis.singularities,
-            unknowns=reduced_unknowns(disc.basis, options.conformal),
-            constraints=constraints,
-            energy=energy,
-        )
-        identity = HarmonicMap.identity(domain)
-        images = identity(poses[0].handles) if options.align else None
-        self.poses = []
-        for pose in poses:
-            start = aligned(identity, pose, images) if options.align else identity
-            targets = np.zeros(constraints.targets.shape)
-            targets[: len(pose)] = pose.targets
-            self.poses.append(_Progress(real_coefficients(disc.basis, start), targets))
-
-    def run(self) -> None:
-        """Bring every pose to its end, or to where it needs a solve of its own."""
-        room = _MOST_BYTES // (_COPIES * 8 * len(self.problem.unknowns.free) ** 2)
-        sizes = [n for n in _SIZES if n <= max(room, 1)]
-        running = self.poses
-        while running:
-            each = -(-len(running) // len(self.devices))
-            per_device = next((n for n in sizes if n >= each), sizes[-1])
-            now = running[: per_device * len(self.devices)]
-            goes_on = self._call(now, per_device * len(self.devices))
-            running = [*running[len(now) :], *goes_on]
-
-    def _call(self, chosen: list[_Progress], size: int) -> list[_Progress]:
-        """One call for the chosen poses; returns those that go on."""
-        options = self.options
-        rows = dealt(len(chosen), len(self.devices), size // len(self.devices))
-        # What only fills the batch up stays where it is.
-        filled, limits = [chosen[0]] * size, np.zeros(size, dtype=int)
-        for row, pose in zip(rows, chosen, strict=True):
-            filled[row] = pose
-            limits[row] = min(options.iterations_per_call, self.limit - len(pose.history))
-        settings = settings_of(
-            options,
-            iterations=0,
-            may_refine=self.discretisation.can_refine,
-            ridge=ridge_of(self.inputs[0].pose),
-            reuse=False,
-        )
-        program, clock = _program(self.devices, variant_of(options)), compilation_clock()
+    def result(self, compile_time: float) -> Result:
+        """The result, by a loop of its own where the batch could not end it."""
+        ending, clock = self.ending, compilation_clock()
         began, compiling = time.perf_counter(), clock.seconds
-        state = program(
-            self.problem,
-            settings,
-            jnp.asarray(np.stack([pose.targets for pose in filled])),
-            jnp.asarray(np.stack([pose.coefficients for pose in filled])),
-            jnp.asarray(limits),
-        )
-        state = jax.tree.map(np.asarray, state)
+        if ending is None:
+            with single_blas_thread():
+                self.history, ending = followed(self.descent, self.inputs, self.history)
         compiling = clock.seconds - compiling
-        seconds = max(time.perf_counter() - began - compiling, 0.0) / len(chosen)
-        self.compile_time += compiling
-        return [
-            pose
-            for row, pose in zip(rows, chosen, strict=True)
-            if self._record(pose, jax.tree.map(lambda a, row=row: a[row], state), seconds)
-        ]
+        seconds = self.time + max(time.perf_counter() - began - compiling, 0.0)
+        times = compile_time + compiling, seconds
+        first = result_of(self.descent, self.inputs, self.history, ending, *times)
+        return improve(first, self.inputs, descend)
 
-    def _record(self, pose: _Progress, state: step.State, seconds: float) -> bool:
-        """Note what a call did for a pose; True when it goes on."""
-        end, taken = int(state.outcome), int(state.iteration)
-        pose.coefficients = np.asarray(state.point.coefficients)
-        pose.energy_iso, pose.energy_p2p = (
-            float(part) for part in (state.point.energy_iso, state.point.energy_p2p)
-        )
-        if pose.initial is None:
-            pose.initial = start_of(state)
-        panels = len(self.discretisation.panels)
-        pose.history += entries(state.records, taken, len(pose.history), panels, 0, seconds)
-        pose.time += seconds
-        if end == outcome.CONVERGED:
-            pose.status = Status.CONVERGED
-        elif len(pose.history) >= self.limit:
-            pose.status = Status.MAX_ITERATIONS
-        goes_on = pose.status is None and end == outcome.RUNNING
-        return goes_on and len(pose.history) < SLOW_ITERATIONS
 
-    def finished(self, pose: _Progress, inputs: Inputs) -> Result:
-        """The result of a pose, by a solve of its own where the batch could not end it."""
-        assert pose.initial is not None
-        first = Result(
-            map=map_from(self.discretisation, pose.coefficients),
-            status=Status.STOPPED if pose.status is None else pose.status,
-            energy_iso=pose.energy_iso,
-            energy_p2p=pose.energy_p2p,
-            initial=pose.initial,
-            history=tuple(pose.history),
-            pose=inputs.pose,
-            options=inputs.options,
-            energy_measure=inputs.energy,
-            method=Newton(),
-            compile_time=self.compile_time / len(self.poses),
-            solve_time=pose.time,
-            discretisation=self.discretisation,
-        )
-        if pose.status is None:
-            first = self._continued(first, inputs)
-        return improve(first, inputs, descend)
+def _run(poses: list[_Pose], devices: tuple[Any, ...]) -> float:
+    """Bring every pose to its end, or to where it needs a loop of its own; seconds of compiling."""
+    unknowns = len(poses[0].descent.problem.unknowns.free)
+    room = _MOST_BYTES // (_COPIES * 8 * unknowns**2)
+    sizes = [n for n in _SIZES if n <= max(room, 1)]
+    running, compile_time = poses, 0.0
+    while running:
+        each = -(-len(running) // len(devices))
+        per_device = next((n for n in sizes if n >= each), sizes[-1])
+        now = running[: per_device * len(devices)]
+        goes_on, compiling = _call(now, per_device, devices)
+        running = [*running[len(now) :], *goes_on]
+        compile_time += compiling
+    return compile_time
 
-    def _continued(self, first: Result, inputs: Inputs) -> Result:
-        """A result of the batch, solved to its end."""
-        done = len(first.history)
-        rest = replace(inputs.options, align=False, max_iterations=self.limit - done)
-        last = descend(replace(inputs, options=rest, start=first))
-        later = tuple(replace(e, iteration=e.iteration + done) for e in last.history)
-        return replace(
-            last,
-            options=inputs.options,
-            initial=first.initial,
-            history=first.history + later,
-            compile_time=first.compile_time + last.compile_time,
-            solve_time=first.solve_time + last.solve_time,
-        )
+
+def _call(
+    chosen: list[_Pose], per_device: int, devices: tuple[Any, ...]
+) -> tuple[list[_Pose], float]:
+    """One call for the chosen poses; those that go on, and the seconds of compiling."""
+    inputs, descent = chosen[0].inputs, chosen[0].descent
+    options, limit = inputs.options, descent.method.limit(inputs.options)
+    size = per_device * len(devices)
+    rows = dealt(len(chosen), len(devices), per_device)
+    # What only fills the batch up stays where it is.
+    filled, limits = [chosen[0]] * size, np.zeros(size, dtype=int)
+    for row, pose in zip(rows, chosen, strict=True):
+        filled[row] = pose
+        limits[row] = min(options.iterations_per_call, limit - len(pose.history))
+    settings = settings_of(
+        options,
+        iterations=0,
+        may_refine=descent.panels.can_refine,
+        ridge=ridge_of(inputs.pose),
+        reuse=False,
+    )
+    program, clock = _program(devices, variant_of(options)), compilation_clock()
+    began, compiling = time.perf_counter(), clock.seconds
+    targets = [pose.descent.problem.constraints.targets for pose in filled]
+    coefficients = [pose.descent.coefficients for pose in filled]
+    state = program(
+        descent.problem,
+        settings,
+        jnp.asarray(np.stack(targets)),
+        jnp.asarray(np.stack(coefficients)),
+        jnp.asarray(limits),
+    )
+    state = jax.tree.map(np.asarray, state)
+    compiling = clock.seconds - compiling
+    seconds = max(time.perf_counter() - began - compiling, 0.0) / len(chosen)
+    goes_on = [
+        pose
+        for row, pose in zip(rows, chosen, strict=True)
+        if pose.take(jax.tree.map(lambda a, row=row: a[row], state), seconds, limit)
+    ]
+    return goes_on, compiling
 
 
 def dealt(count: int, devices: int, per_device: int) -> Array:

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from glid_nb._arrays import AnyArray
-from glid_nb._jax import jnp, lax
+from glid_nb._jax import AnyArray, jnp, lax
 from glid_nb.certificate import PanelBounds
 from glid_nb.solvers.evaluation import (
     Line,

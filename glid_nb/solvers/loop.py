@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Generator, Sequence
+from contextlib import nullcontext
 from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._runtime import compilation_clock, single_blas_thread
 from glid_nb.certificate import Certificate
 from glid_nb.solvers import outcome
 from glid_nb.solvers.discretisation import Discretisation
@@ -64,17 +67,17 @@ class Descent:
         The start; known at the latest after the first advance.
     shows_start : bool
         Whether a callback is shown the start too.
+    uses_lapack : bool
+        Whether XLA factorises for it, which several BLAS threads would slow down.
     discretisation : Discretisation or None
         The panels, which may be split.
-    compile_time : float
-        Seconds.
     """
 
     method: Method
     initial: Iteration
     shows_start = True
+    uses_lapack = False
     discretisation: Discretisation | None = None
-    compile_time = 0.0
 
     def advance(self, before: int, left: int, may_refine: bool) -> Advance:
         """Go on by at most ``left`` iterations, 0 perhaps, after ``before`` that were made.
@@ -111,9 +114,26 @@ class Descent:
         )
 
 
-def follow(descent: Descent, inputs: Inputs) -> Result:
+def follow(make: Callable[[], Descent], inputs: Inputs) -> Result:
     """Follow a method to its end, to its most iterations or until the callback returns True."""
-    history, ending = _followed(descent, inputs)
+    clock = compilation_clock()
+    compiling, began = clock.seconds, time.perf_counter()
+    descent = make()
+    with single_blas_thread() if descent.uses_lapack else nullcontext():
+        history, ending = followed(descent, inputs, [])
+    compiling, elapsed = clock.seconds - compiling, time.perf_counter() - began
+    return result_of(descent, inputs, history, ending, compiling, max(elapsed - compiling, 0.0))
+
+
+def result_of(
+    descent: Descent,
+    inputs: Inputs,
+    history: list[Iteration],
+    ending: Ending,
+    compile_time: float,
+    solve_time: float,
+) -> Result:
+    """What a method returns."""
     now = descent.reached()
     return Result(
         map=now.make_map(),
@@ -127,17 +147,19 @@ def follow(descent: Descent, inputs: Inputs) -> Result:
         options=inputs.options,
         energy_measure=inputs.energy,
         method=descent.method,
-        compile_time=descent.compile_time,
-        solve_time=descent.initial.time + sum(entry.time for entry in history),
+        compile_time=compile_time,
+        solve_time=solve_time,
         discretisation=descent.discretisation,
         factor=now.factor if ending.status is Status.CONVERGED else None,
         proof=now.proof,
     )
 
 
-def _followed(descent: Descent, inputs: Inputs) -> tuple[list[Iteration], Ending]:
+def followed(
+    descent: Descent, inputs: Inputs, history: list[Iteration]
+) -> tuple[list[Iteration], Ending]:
+    """The loop: all iterations, those made before in ``history`` included, and the end."""
     callback, limit = inputs.callback, descent.method.limit(inputs.options)
-    history: list[Iteration] = []
     rounds = total_rounds = 0
 
     def stopped() -> bool:

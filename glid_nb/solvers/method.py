@@ -66,7 +66,7 @@ class Method:
     label: ClassVar[str]
     """What menus call it."""
     summary: ClassVar[str]
-    """One sentence."""
+    """The first paragraph of the class's docstring."""
     family: ClassVar[Family]
     """Where its maps live: in the harmonic subspace, where they are certified, or on a mesh; a
     linear method is one on a mesh that solves once."""
@@ -78,6 +78,9 @@ class Method:
     """The optional package that it needs."""
     options: ClassVar[tuple[str, ...]] = ("p2p_weight", "align", "max_iterations")
     """Names of the :class:`~glid_nb.Options` that count."""
+
+    def __init_subclass__(cls) -> None:
+        cls.summary = " ".join((cls.__doc__ or "").split("\n\n")[0].split())
 
     def __post_init__(self) -> None:
         for name, kind in self.kinds().items():

@@ -5,19 +5,19 @@ from __future__ import annotations
 import functools
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Any, ClassVar
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._jax import jit, jnp
-from glid_nb._runtime import compilation_clock, double_precision, single_blas_thread
+from glid_nb._runtime import compilation_clock, double_precision
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import outcome, step
 from glid_nb.solvers.discretisation import Discretisation, discretise
 from glid_nb.solvers.loop import Advance, Descent, Ending, Reached, follow
-from glid_nb.solvers.method import Family, Inputs, Method
+from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.problem import (
@@ -49,19 +49,16 @@ _ROUNDING = 1e-8
 
 @dataclass(frozen=True)
 class Newton(Method):
-    """Newton's method with the exact Hessian where it is positive definite, else the projected one.
+    """Newton's method with the exact Hessian where it is positive definite and the paper's
+    projected one elsewhere.
 
     Ours; its settings are the :class:`~glid_nb.Options`.
     """
 
-    name: ClassVar[str] = "newton"
-    label: ClassVar[str] = "Newton, ours"
-    family: ClassVar[Family] = "harmonic"
-    summary: ClassVar[str] = (
-        "Newton's method with the exact Hessian where it is positive definite and the paper's "
-        "projected one elsewhere."
-    )
-    options: ClassVar[tuple[str, ...]] = tuple(Options.__dataclass_fields__)
+    name = "newton"
+    label = "Newton, ours"
+    family = "harmonic"
+    options = tuple(Options.__dataclass_fields__)
 
     def run(self, inputs: Inputs) -> Result:
         """One descent and, where it ends badly without a start, others."""
@@ -72,18 +69,15 @@ class Newton(Method):
 @double_precision
 def descend(inputs: Inputs, method: Method | None = None) -> Result:
     """One descent from one map to the local minimum that it leads to."""
-    clock = compilation_clock()
-    compiling, began = clock.seconds, time.perf_counter()
-    with single_blas_thread():
-        result = follow(NewtonDescent(Newton() if method is None else method, inputs), inputs)
-    elapsed, compiling = time.perf_counter() - began, clock.seconds - compiling
-    return replace(result, compile_time=compiling, solve_time=max(elapsed - compiling, 0.0))
+    method = Newton() if method is None else method
+    return follow(lambda: NewtonDescent(method, inputs), inputs)
 
 
 class NewtonDescent(Descent):
     """Newton's method at work."""
 
     shows_start = False
+    uses_lapack = True
 
     def __init__(self, method: Method, inputs: Inputs) -> None:
         self.method, self.options, self.pose = method, inputs.options, inputs.pose
@@ -105,12 +99,11 @@ class NewtonDescent(Descent):
         self.ridge = ridge_of(inputs.pose)
         self.just_split = 0
         self.full_since: int | None = None
-        self.factor: Any
+        self.factor: Any = None
         if isinstance(inputs.start, Result) and self._continues(inputs.start):
             # The result keeps its own.
-            self.factor, self.reuse = jnp.array(inputs.start.factor, copy=True), True
-        else:
-            self.factor, self.reuse = _no_factor(len(self.problem.unknowns.free)), False
+            self.factor = jnp.array(inputs.start.factor, copy=True)
+        self.reuse = self.factor is not None
 
     def _continues(self, start: Result) -> bool:
         """Whether the last Hessian of an earlier solve is one of this problem's."""
@@ -128,35 +121,44 @@ class NewtonDescent(Descent):
         """One compiled call; with nothing left it still evaluates the energies."""
         options, clock = self.options, compilation_clock()
         began, compiling = time.perf_counter(), clock.seconds
-        state = self.state = step.run(
+        if self.factor is None:
+            self.factor, self.reuse = _no_factor(len(self.problem.unknowns.free)), False
+        state = step.run(
             self.problem,
             self.coefficients,
             self.factor,
             settings_of(
                 options,
                 iterations=min(options.iterations_per_call, left),
-                may_refine=may_refine and self._panels.can_refine,
+                may_refine=may_refine and self.panels.can_refine,
                 ridge=self.ridge,
                 reuse=self.reuse,
             ),
             variant=variant_of(options),
         )
-        self.outcome, taken = int(state.outcome), int(state.iteration)
+        int(state.outcome)  # waits for the device
         seconds = time.perf_counter() - began - (clock.seconds - compiling)
-        self.coefficients, self.factor = state.point.coefficients, state.factor
+        self.factor = state.factor
+        return self.take(state, before, max(seconds, 0.0))
+
+    def take(self, state: step.State, before: int, seconds: float) -> Advance:
+        """Go to where a call of so many seconds has come, after ``before`` iterations."""
+        self.state, self.coefficients = state, state.point.coefficients
+        end, taken = int(state.outcome), int(state.iteration)
         if not hasattr(self, "initial"):
-            self.initial = start_of(state)
-        split, panels = self.just_split, len(self._panels.panels)
-        done = entries(state.records, taken, before, panels, split, max(seconds, 0.0))
+            iso, p2p = float(state.start_iso), float(state.start_p2p)
+            self.initial = Iteration(iteration=0, energy_iso=iso, energy_p2p=p2p, time=0.0)
+        split, panels = self.just_split, len(self.panels.panels)
+        done = _entries(state.records, taken, before, panels, split, seconds)
         if taken:
             self.just_split = 0
         # After a split the map is still where its Hessian was taken.
-        self.reuse = self.outcome == outcome.REFUSED and bool(options.corrections)
-        return Advance(self.outcome, done, state.refused)
+        self.reuse = end == outcome.REFUSED and bool(self.options.corrections)
+        return Advance(end, done, np.asarray(state.refused))
 
     def reached(self) -> Reached:
         """After the last call."""
-        point, disc, coefficients = self.state.point, self._panels, self.coefficients
+        point, disc, coefficients = self.state.point, self.panels, self.coefficients
         bounds = np.asarray(self.state.sigma2_lower)[: len(disc.panels)]
         return Reached(
             float(point.energy_iso),
@@ -184,21 +186,22 @@ class NewtonDescent(Descent):
 
     def split(self, refused: Array) -> int:
         """Split the panels that refused a step; 0 when none can be."""
-        wanted = self._panels.splittable(refused)
+        wanted = self.panels.splittable(refused)
         count = int(wanted.sum())
         if count:
-            self.discretisation = self._panels.refined(wanted)
+            self.discretisation = self.panels.refined(wanted)
             self._take_matrices()
             self.just_split += count
         return count
 
     @property
-    def _panels(self) -> Discretisation:
+    def panels(self) -> Discretisation:
+        """The discretisation, which a method in the subspace always has."""
         assert self.discretisation is not None
         return self.discretisation
 
     def _take_matrices(self) -> None:
-        disc, full = self._panels, self.full_since is not None
+        disc, full = self.panels, self.full_since is not None
         self.problem = self.problem._replace(matrices=disc.full_matrices if full else disc.matrices)
 
     def _take_full_hessian(self, history: Sequence[Iteration]) -> bool:
@@ -211,7 +214,7 @@ class NewtonDescent(Descent):
 
     def _has_coarse_hessian(self) -> bool:
         """Whether other nodes may make fewer iterations: not those of K+, which are slow anyway."""
-        return self._panels.can_refine and self.options.hessian != "projected"
+        return self.panels.can_refine and self.options.hessian != "projected"
 
     def _relax_ridge(self) -> None:
         """Lower an epsilon that one place needed: close to the minimum it would make steps short.
@@ -295,13 +298,7 @@ def variant_of(options: Options) -> step.Variant:
     return step.Variant(options.hessian, capacity)
 
 
-def start_of(state: step.State) -> Iteration:
-    """Where a call began."""
-    iso, p2p = float(state.start_iso), float(state.start_p2p)
-    return Iteration(iteration=0, energy_iso=iso, energy_p2p=p2p, time=0.0)
-
-
-def entries(
+def _entries(
     records: step.Record, taken: int, before: int, panels: int, split: int, seconds: float
 ) -> list[Iteration]:
     """The ``taken`` iterations of one call.

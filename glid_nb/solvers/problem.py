@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._arrays import AnyArray
-from glid_nb._jax import jnp
+from glid_nb._jax import AnyArray, jnp
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy

@@ -5,8 +5,7 @@ from __future__ import annotations
 import functools
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from glid_nb._arrays import AnyArray
-from glid_nb._jax import jax, jit, jnp, lax
+from glid_nb._jax import AnyArray, jax, jit, jnp, lax
 from glid_nb._runtime import COMPILER_OPTIONS
 from glid_nb.certificate import PanelBounds
 from glid_nb.solvers import cholesky, evaluation, line_search, whitening

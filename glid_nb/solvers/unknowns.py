@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from glid_nb._arrays import AnyArray
-from glid_nb._jax import jnp
+from glid_nb._jax import AnyArray, jnp
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.basis import Basis
 

@@ -23,8 +23,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy
 
-from glid_nb._arrays import AnyArray
-from glid_nb._jax import jnp
+from glid_nb._jax import AnyArray, jnp
 from glid_nb.harmonic.basis import Basis
 
 if TYPE_CHECKING:

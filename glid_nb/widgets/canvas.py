@@ -126,14 +126,14 @@ class DeformCanvas(ipywidgets.HBox):
         # The solver sets the pace: while it works, its next frame acknowledges events.
         model = self.deformation
         with model.locked():
+            self.pane.stage.serve(model, self, busy=lambda: model.busy)
+            self._stop = model.observe(self._on_model)
             self._draw(model.moment)
             if len(model.pose):
                 self.fit()
             self._complete = True
             self._show_source()  # and what else was given as arguments
             self._draw(model.moment, place_legend=True)
-            self.pane.stage.serve(model, self, busy=lambda: model.busy)
-            self._stop = model.observe(self._on_model)
         self.pane.stage.observe(self._on_drawn, ["drawn"])
         self.observe(lambda _: self._redraw(), ["show_cage", "show_offset_cage"])
         self.observe(lambda _: self._redraw(place_legend=True), ["overlay", "show_panels"])

@@ -48,15 +48,12 @@ def measure(case: Case, plan: Plan) -> Measurement:
 def tables(found: list[Measurement]) -> dict[str, list[Row]]:
     """Poses per second by the size of the batch."""
     counts = dict.fromkeys(count for data in found for count in data["rates"])
-    return {
-        "batches": [
-            {
-                "poses": count,
-                **{f"{d['devices']} device(s)": d["rates"].get(count) for d in found},
-            }
-            for count in counts
-        ]
-    }
+    return {"batches": [_row(count, found) for count in counts]}
+
+
+def _row(count: str, found: list[Measurement]) -> Row:
+    rates = {f"{data['devices']} device(s)": data["rates"].get(count) for data in found}
+    return {"poses": count, **rates}
 
 
 def _tasks(plan: Plan) -> list[Task]:

@@ -85,7 +85,8 @@ def measure(case: Case, plan: Plan) -> Measurement:
 def _about(case: Case, mode: str, whole: Result, count: int, repeats: int) -> dict[str, Any]:
     """What there is to say about one mode's solve of ``count`` iterations, beside its times."""
     domain, options, history = case.problem.domain, MODES[mode], whole.history[:count]
-    corrections = sum(entry.corrections for entry in history)
+    certificate = whole.certificate
+    assert certificate is not None
 
     def make() -> None:
         build_basis(domain)
@@ -97,12 +98,12 @@ def _about(case: Case, mode: str, whole: Result, count: int, repeats: int) -> di
         "unknowns": whole.n_unknowns,
         "panels": whole.n_panels,
         "iterations": count,
-        "corrections": corrections,
+        "corrections": sum(entry.corrections or 0 for entry in history),
         "energy": whole.energy,
-        "certified": whole.certificate.certified,
+        "certified": certificate.certified,
         "making": timed(make, min(repeats, _MAKING_REPEATS)),
         "stages": measure_stages(whole, 3 * repeats),
-        "modified": float(np.mean([entry.hessian_modified for entry in history])),
+        "modified": float(np.mean([bool(entry.hessian_modified) for entry in history])),
     }
 
 
@@ -187,7 +188,6 @@ def _drag(case: Case, before: Result, repeats: int) -> dict[str, Any]:
     return {
         "iterations": count,
         "time": timed(lambda: solve(domain, moved, None, limited, before), repeats),
-        "certified": whole.certificate.certified,
     }
 
 

@@ -9,6 +9,7 @@ import jax
 import jax.numpy as jnp
 
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision, single_blas_thread
+from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Result, cholesky, evaluation, line_search
 from glid_nb.solvers.evaluation import Line, Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
@@ -31,6 +32,7 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
     """
     disc, options = result.discretisation, result.options
     assert disc is not None
+    assert isinstance(result.map, HarmonicMap)
     constraints = constraints_of(disc.domain, result.pose, options.p2p_weight)
     unknowns = reduced_unknowns(disc.basis, options.conformal)
     singularities = disc.basis.singularities

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from studies.cases import Case
 from studies.compare.shapes import some
 from studies.runs import outcome, run
@@ -19,7 +21,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
     runs = {}
     for count in SAMPLES:
         plan.detail(f"{case.name}: {count} Hessian samples")
-        settings = {"hessian_samples": count, "max_iterations": _MOST_ITERATIONS}
+        settings: dict[str, Any] = {"hessian_samples": count, "max_iterations": _MOST_ITERATIONS}
         result = run("newton-staged", case, runs=_RUNS, **settings)
         runs[str(count)] = outcome(result)
     return {"perimeter": case.perimeter, "runs": runs}

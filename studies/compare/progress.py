@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from typing import Any
 
 import numpy as np
@@ -211,9 +212,7 @@ def _with_times(found: dict[str, int | None], time: list[float]) -> dict[str, An
 def tables(found: list[Measurement]) -> dict[str, list[Row]]:
     """Iterations, times over ours, distortion, and variants."""
     titles = {name: method.label for name, method in METHODS.items()}
-    rows: dict[str, list[Row]] = {
-        name: [] for name in ("iterations", "speed", "distortion", "variants")
-    }
+    rows: dict[str, list[Row]] = defaultdict(list)
     for data in found:
         runs, shape = data["runs"], {"shape": data["name"]}
         ours = runs["newton"]

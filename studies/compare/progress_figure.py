@@ -42,7 +42,8 @@ def draw(found: list[Measurement], folder: Path) -> None:
     for data in found:
         rows = [method for method in _ROWS if method in data["runs"]]
         figure = figures.figure(13.0, 1.5 * len(rows))
-        left, right = figure.subfigures(1, 2, width_ratios=(1.45, 1.0))
+        parts: Any = figure.subfigures(1, 2, width_ratios=(1.45, 1.0))
+        left, right = parts
         _draw_maps(left, data, rows)
         _draw_energies(right, data["runs"])
         figures.save(figure, folder / f"progress-{data['name']}.png")

@@ -165,7 +165,7 @@ def spiral(hand: Hand, count: int) -> tuple[np.ndarray, float]:
     radius = 0.08 * side * (0.5 + 0.5 * turns / turns[-1])
     angles = 2 * np.pi * turns
     points = start + radius[:, None] * np.stack([np.cos(angles) - 0.5, np.sin(angles)], axis=1)
-    places = hand.places([start, *points])
+    places = hand.places(np.vstack([start, points]).tolist())
     mouse = hand.page.mouse
     mouse.move(*places[0])
     mouse.down()

@@ -38,9 +38,12 @@ def main() -> None:
     model.solve()
 
     log, sent, arrived = FrameLog(canvas), [0], threading.Event()
-    ipywidgets.Widget._send = lambda _, message, buffers=None: sent.append(
-        len(json.dumps(message, default=str)) + sum(memoryview(b).nbytes for b in buffers or [])
-    )
+
+    def send(_: ipywidgets.Widget, message: object, buffers: list[bytes] | None = None) -> None:
+        attached = sum(memoryview(b).nbytes for b in buffers or [])
+        sent.append(len(json.dumps(message, default=str)) + attached)
+
+    setattr(ipywidgets.Widget, "_send", send)  # noqa: B010
     model.observe(lambda what: arrived.set() if what == "frame" else None)
     radius = 0.1 * domain.cage.longer_side
     model.begin_drag([len(pose) - 1])

@@ -18,6 +18,7 @@ import numpy as np
 from PIL import Image
 
 import glid_nb
+from glid_nb.widgets.tracer_gestures import TraceGestures
 from glid_nb.widgets.tracer_view import described
 
 
@@ -73,12 +74,13 @@ def measured(
     model: glid_nb.TracingModel, move: Callable[[int], object], repeats: int
 ) -> np.ndarray:
     """(repeats, 2) milliseconds of each movement, by the clock and by the processor."""
-    described(model)
+    hand = TraceGestures(model)
+    described(hand)
     rows = []
     for i in range(repeats):
         began = np.array([time.perf_counter(), time.process_time()])
         move(i)
-        described(model)
+        described(hand)
         rows.append(1e3 * (np.array([time.perf_counter(), time.process_time()]) - began))
         if model.problems:
             raise RuntimeError(model.problems[0].message)

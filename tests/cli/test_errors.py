@@ -5,18 +5,18 @@ from __future__ import annotations
 import pytest
 
 from glid_nb.cli import samples
-from glid_nb.cli.main import is_bad_input, main, one_line
+from glid_nb.cli.main import BAD_INPUT, main, one_line
 from glid_nb.geometry import GeometryError
 
 
 def test_the_packages_own_refusals_are_bad_input() -> None:
-    assert is_bad_input(GeometryError("hole 1 touches hole 2"))
-    assert is_bad_input(FileNotFoundError(2, "No such file", "x.png"))
+    assert isinstance(GeometryError("hole 1 touches hole 2"), BAD_INPUT)
+    assert isinstance(FileNotFoundError(2, "No such file", "x.png"), BAD_INPUT)
 
 
 def test_other_errors_are_bugs() -> None:
-    assert not is_bad_input(ValueError("operands could not be broadcast together"))
-    assert not is_bad_input(TypeError("unsupported operand"))
+    assert not isinstance(ValueError("operands could not be broadcast together"), BAD_INPUT)
+    assert not isinstance(TypeError("unsupported operand"), BAD_INPUT)
 
 
 def test_a_system_error_names_the_file_first() -> None:

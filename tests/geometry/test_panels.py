@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from glid_nb.geometry import graded_panels
-from glid_nb.geometry.panels import paired
-from glid_nb.geometry.segments import point_distance
+from glid_nb.geometry.panels import paired, point_distance
 
 from ..domains import NAMES, domain
 

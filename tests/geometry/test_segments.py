@@ -7,7 +7,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from glid_nb.geometry.segments import segment_distance, segments_cross
+from glid_nb.geometry.panels import segment_distance, segments_cross
 
 # Small integers make parallel, touching and degenerate segments frequent.
 _ENDS = st.lists(st.integers(-4, 4), min_size=8, max_size=8)

@@ -13,8 +13,8 @@ from glid_nb.certificate import certify
 from glid_nb.energies import ARAP, Energy, SymmetricDirichlet
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods.subspace.descent import View
-from glid_nb.methods.subspace.first_order import LBFGSDirection
-from glid_nb.methods.subspace.newton_variants import FLOOR, EigenDirection, HessianDirection
+from glid_nb.methods.subspace.first_order import LBFGS
+from glid_nb.methods.subspace.newton_variants import FLOOR, NewtonEigen, NewtonStaged
 from glid_nb.methods.subspace.problem import SubspaceProblem
 from glid_nb.solvers import Options, Pose, Result, Status
 
@@ -66,8 +66,7 @@ def test_newton_eigen_raises_or_mirrors_negative_eigenvalues() -> None:
     domain, pose = problem("bent")
     searcher = SubspaceProblem(domain, pose, SymmetricDirichlet(), Options(align=False))
     point, gradient = searcher.evaluate(searcher.start)
-    view = View(searcher, point, gradient)
-    step = HessianDirection("projected")(view)
+    step = NewtonStaged().direction(View(searcher, point, gradient))
     assert isinstance(step, np.ndarray)
     move = searcher.advance(point, gradient, step, False)
     point, gradient = move.point, np.asarray(move.gradient)
@@ -76,7 +75,7 @@ def test_newton_eigen_raises_or_mirrors_negative_eigenvalues() -> None:
     assert values[0] < -1e-3
     # Along each eigenvector, the gradient over the eigenvalue's replacement.
     for absolute, least in ((False, FLOOR), (True, -values[0])):
-        moved = EigenDirection(absolute)(View(searcher, point, gradient))
+        moved = NewtonEigen(absolute=absolute).direction(View(searcher, point, gradient))
         along = vectors.T @ moved
         slope = vectors.T @ gradient
         assert along[0] == pytest.approx(-slope[0] / least, rel=1e-6)
@@ -167,7 +166,8 @@ def test_lbfgs_direction_is_that_of_dense_bfgs() -> None:
     searcher = SubspaceProblem(
         domain, pose, SymmetricDirichlet(), Options(align=False, p2p_weight=1e3)
     )
-    choose = LBFGSDirection(memory=5)
+    method = LBFGS(memory=5)
+    memory = method.remembered()
     free = searcher.free
     point, gradient = searcher.evaluate(searcher.start)
     inverse = np.linalg.inv(searcher.p2p_hessian + np.diag(np.where(free > 0, 2e-4, 1.0)))
@@ -180,13 +180,13 @@ def test_lbfgs_direction_is_that_of_dense_bfgs() -> None:
             left = np.eye(len(s)) - np.outer(s, y) / (s @ y)
             inverse = left @ inverse @ left.T + np.outer(s, s) / (s @ y)
         last = (x, gradient)
-        direction = choose(View(searcher, point, gradient))
+        direction = method.direction(View(searcher, point, gradient, memory))
         expected = -inverse @ gradient
         assert np.linalg.norm(direction - expected) < 1e-6 * np.linalg.norm(expected)
         move = searcher.advance(point, gradient, direction, False)
         assert float(move.step) > 0
         point, gradient = move.point, np.asarray(move.gradient)
-    assert len(choose.pairs) == 4
+    assert len(memory.pairs) == 4
 
 
 def test_the_problem_is_set_up_in_double_precision() -> None:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +26,7 @@ from glid_nb.methods.bdhm.program import Step, solve_program
 from glid_nb.methods.bdhm.samples import MARGIN, ActiveSet
 from glid_nb.solvers import Iteration, Method, Pose, Result, Status
 from glid_nb.solvers.loop import Ending, GeneratedDescent, Snapshot, Steps, follow
-from glid_nb.solvers.method import Family, Inputs
+from glid_nb.solvers.method import Inputs
 
 Array = NDArray[Any]
 
@@ -55,24 +55,21 @@ The energy itself may be some twenty times that above its least, for the method 
 
 @dataclass(frozen=True)
 class BDHM(Method):
-    """Bounded distortion harmonic maps: ARAP within bounds by cone programs (Chen & Weber 2015).
+    """ARAP within given bounds on k, sigma_1 and sigma_2 by cone programs (Clarabel).
 
-    ``k``, ``sigma1`` and ``sigma2`` bound the distortion of the whole map; an isometry must satisfy
-    them with room to spare. The energy never rises, and every map is proved to keep the bounds. A
-    start that is not gives way to the identity. The method has converged when the program at the
-    current map can, by its dual, lower the energy by no more than ``tolerance`` of it: the map is
-    then stationary within bounds at samples that are stricter than those asked for by `MARGIN` or,
-    where it uses more, by less.
+    Bounded distortion harmonic maps (Chen & Weber 2015). ``k``, ``sigma1`` and ``sigma2`` bound the
+    distortion of the whole map; an isometry must satisfy them with room to spare. The energy never
+    rises, and every map is proved to keep the bounds. A start that is not gives way to the
+    identity. The method has converged when the program at the current map can, by its dual, lower
+    the energy by no more than ``tolerance`` of it: the map is then stationary within bounds at
+    samples that are stricter than those asked for by `MARGIN` or, where it uses more, by less.
     """
 
-    name: ClassVar[str] = "bdhm"
-    label: ClassVar[str] = "Bounded distortion harmonic maps"
-    family: ClassVar[Family] = "harmonic"
-    summary: ClassVar[str] = (
-        "ARAP within given bounds on k, sigma_1 and sigma_2 by cone programs (Clarabel)."
-    )
-    energies: ClassVar[tuple[str, ...] | None] = ("arap",)
-    package: ClassVar[str | None] = "clarabel"
+    name = "bdhm"
+    label = "Bounded distortion harmonic maps"
+    family = "harmonic"
+    energies = ("arap",)
+    package = "clarabel"
 
     k: float = 0.8
     sigma1: float = 5.0
@@ -90,7 +87,7 @@ class BDHM(Method):
 
     def run(self, inputs: Inputs) -> Result:
         """Alternate between frames and cone programs until none lowers the energy."""
-        return follow(GeneratedDescent(self, self._steps(inputs)), inputs)
+        return follow(lambda: GeneratedDescent(self, self._steps(inputs)), inputs)
 
     def _steps(self, inputs: Inputs) -> Steps:
         domain, options = inputs.domain, inputs.options

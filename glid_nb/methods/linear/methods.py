@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import Any, Literal
 
 from numpy.typing import NDArray
 
@@ -17,7 +17,7 @@ from glid_nb.methods.linear.moving_least_squares import Kind, moving_least_squar
 from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
 from glid_nb.solvers import MethodError, Result, Status
 from glid_nb.solvers.loop import Ending, GeneratedDescent, Steps, follow
-from glid_nb.solvers.method import Family, Inputs
+from glid_nb.solvers.method import Inputs
 
 Array = NDArray[Any]
 
@@ -28,8 +28,8 @@ _FLAT = 1e-12  # an area relative to the square of the shape's longer side: none
 class LinearMethod(MeshMethod):
     """A method that solves once; its images are shown on a mesh."""
 
-    family: ClassVar[Family] = "linear"
-    options: ClassVar[tuple[str, ...]] = ("align", "max_iterations")
+    family = "linear"
+    options = ("align", "max_iterations")
 
     def images(self, problem: MeshProblem, inputs: Inputs) -> Array:
         """(v,) complex images of the mesh's vertices."""
@@ -55,24 +55,23 @@ class LinearMethod(MeshMethod):
             over = f"{flips} triangles are" if flips else "no triangle is"
             return Ending(Status.CONVERGED, f"A linear method, solved at once: {over} turned over.")
 
-        return follow(GeneratedDescent(self, steps()), inputs)
+        return follow(lambda: GeneratedDescent(self, steps()), inputs)
 
 
 @dataclass(frozen=True)
 class MovingLeastSquares(LinearMethod):
-    """Image deformation by moving least squares (Schaefer, McPhail & Warren 2006)."""
+    """At each point the rigid motion that fits the handles best; it may fold.
 
-    name: ClassVar[str] = "mls"
-    label: ClassVar[str] = "Moving least squares"
-    summary: ClassVar[str] = (
-        "At each point the rigid motion that fits the handles best; it may fold."
-    )
+    Schaefer, McPhail & Warren 2006.
+    """
+
+    name = "mls"
+    label = "Moving least squares"
 
     kind: Kind = "rigid"
     alpha: float = 1.0
 
     def images(self, problem: MeshProblem, inputs: Inputs) -> Array:  # noqa: ARG002
-        """Of the vertices."""
         rest = problem.operators.rest
         handles = rest[problem.handles]
         return moving_least_squares(rest, handles, problem.targets, self.kind, self.alpha)
@@ -80,20 +79,19 @@ class MovingLeastSquares(LinearMethod):
 
 @dataclass(frozen=True)
 class BoundedBiharmonicWeights(LinearMethod):
-    """Translations blended by bounded biharmonic weights (Jacobson et al. 2011)."""
+    """Translations blended by bounded biharmonic weights; it may fold (libigl).
 
-    name: ClassVar[str] = "bbw"
-    label: ClassVar[str] = "Bounded biharmonic weights"
-    summary: ClassVar[str] = (
-        "Translations blended by bounded biharmonic weights; it may fold (libigl)."
-    )
-    package: ClassVar[str | None] = "igl"
-    needs_handles: ClassVar[bool] = True
+    Jacobson et al. 2011.
+    """
+
+    name = "bbw"
+    label = "Bounded biharmonic weights"
+    package = "igl"
+    needs_handles = True
 
     iterations: int = 20
 
     def images(self, problem: MeshProblem, inputs: Inputs) -> Array:  # noqa: ARG002
-        """Of the vertices."""
         mesh = problem.operators.mesh
         w = weights.bounded_biharmonic_weights(mesh, problem.handles, self.iterations)
         return _blended(problem, w)
@@ -101,32 +99,30 @@ class BoundedBiharmonicWeights(LinearMethod):
 
 @dataclass(frozen=True)
 class HarmonicWeights(LinearMethod):
-    """Translations blended by weights of which a power of the Laplacian vanishes."""
+    """Translations blended by weights of which a power of the Laplacian vanishes: 1 harmonic, 2
+    (default) biharmonic, 3 triharmonic; it may fold (libigl)."""
 
-    name: ClassVar[str] = "harmonic-weights"
-    label: ClassVar[str] = "Harmonic weights"
-    summary: ClassVar[str] = (
-        "Translations blended by weights of which a power of the Laplacian vanishes: 1 harmonic, 2 "
-        "(default) biharmonic, 3 triharmonic; it may fold (libigl)."
-    )
-    package: ClassVar[str | None] = "igl"
-    needs_handles: ClassVar[bool] = True
+    name = "harmonic-weights"
+    label = "Harmonic weights"
+    package = "igl"
+    needs_handles = True
 
     power: Literal[1, 2, 3] = 2
 
     def images(self, problem: MeshProblem, inputs: Inputs) -> Array:  # noqa: ARG002
-        """Of the vertices."""
         mesh = problem.operators.mesh
         return _blended(problem, weights.harmonic_weights(mesh, problem.handles, self.power))
 
 
 @dataclass(frozen=True)
 class MeanValueCoordinates(LinearMethod):
-    """Mean value coordinates with the handles as cage (Floater 2003)."""
+    """Mean value coordinates with the handles as cage; it may fold.
 
-    name: ClassVar[str] = "mean-value"
-    label: ClassVar[str] = "Mean value coordinates"
-    summary: ClassVar[str] = "Mean value coordinates with the handles as cage; it may fold."
+    Floater 2003.
+    """
+
+    name = "mean-value"
+    label = "Mean value coordinates"
 
     def check_handles(self, inputs: Inputs) -> None:
         """They must make a polygon."""
@@ -144,7 +140,6 @@ class MeanValueCoordinates(LinearMethod):
             )
 
     def images(self, problem: MeshProblem, inputs: Inputs) -> Array:
-        """Of the vertices."""
         rest = problem.operators.rest
         order = handle_polygon(as_complex(inputs.pose.handles))
         polygon = rest[problem.handles][order]
@@ -153,15 +148,16 @@ class MeanValueCoordinates(LinearMethod):
 
 @dataclass(frozen=True)
 class CauchyCoordinates(LinearMethod):
-    """Point-to-point deformation by Cauchy coordinates (Weber, Ben-Chen & Gotsman 2009)."""
+    """The smoothest conformal map through the handles; it may fold.
 
-    name: ClassVar[str] = "cauchy"
-    label: ClassVar[str] = "Cauchy coordinates"
-    summary: ClassVar[str] = "The smoothest conformal map through the handles; it may fold."
-    options: ClassVar[tuple[str, ...]] = ("p2p_weight", "align", "max_iterations")
+    Point to point by Cauchy coordinates (Weber, Ben-Chen & Gotsman 2009).
+    """
+
+    name = "cauchy"
+    label = "Cauchy coordinates"
+    options = ("p2p_weight", "align", "max_iterations")
 
     def images(self, problem: MeshProblem, inputs: Inputs) -> Array:
-        """Of the vertices."""
         weight = inputs.options.p2p_weight
         map_ = cauchy_point_to_point(inputs.domain, inputs.pose, weight)
         return as_complex(map_(problem.operators.mesh.vertices))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
-from typing import ClassVar
 
 import numpy as np
 
@@ -35,19 +34,19 @@ class _State:
 
 @dataclass(frozen=True)
 class AQP(MeshMethod):
-    """Steps with the Laplacian in place of the Hessian, from extrapolated points.
+    """Accelerated Quadratic Proxy on a triangle mesh, hard constraints.
 
-    Started from ARAP that is projected onto maps without inverted triangles, as in the paper
-    (Section 10). An extrapolated step that does not lower the energy is taken again without
+    Kovalsky et al. 2016: steps with the Laplacian in place of the Hessian, from extrapolated
+    points. Started from ARAP that is projected onto maps without inverted triangles, as in the
+    paper (Section 10). An extrapolated step that does not lower the energy is taken again without
     extrapolation, so the energy decreases throughout.
     """
 
-    name: ClassVar[str] = "aqp"
-    label: ClassVar[str] = "AQP"
-    summary: ClassVar[str] = "Accelerated Quadratic Proxy on a triangle mesh, hard constraints."
-    max_iterations: ClassVar[int] = 1000
-    energies: ClassVar[tuple[str, ...] | None] = ("iso", "exp", "amips", "mips", "custom")
-    options: ClassVar[tuple[str, ...]] = ("align", "max_iterations")
+    name = "aqp"
+    label = "AQP"
+    max_iterations = 1000
+    energies = ("iso", "exp", "amips", "mips", "custom")
+    options = ("align", "max_iterations")
 
     kappa: float = 1000.0
     tolerance: float = 1e-9

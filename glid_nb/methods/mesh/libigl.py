@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -54,21 +54,18 @@ def slim_energy(energy: Energy) -> tuple[str, float]:
 
 @dataclass(frozen=True)
 class SLIM(MeshMethod):
-    """Scalable Locally Injective Mappings (Rabinovich et al. 2017), soft constraints.
+    """Scalable Locally Injective Mappings on a triangle mesh, soft constraints (libigl).
 
-    libigl minimises ``sum_t 2 area_t E_t + soft_p sum |f(p_i) - q_i|^2``; ``soft_p`` is chosen so
-    that this is a multiple of our energy with the same ``lambda``. A start with triangles turned
-    over is left out.
+    Rabinovich et al. 2017. libigl minimises ``sum_t 2 area_t E_t + soft_p sum |f(p_i) - q_i|^2``;
+    ``soft_p`` is chosen so that this is a multiple of our energy with the same ``lambda``. A start
+    with triangles turned over is left out.
     """
 
-    name: ClassVar[str] = "slim"
-    label: ClassVar[str] = "SLIM"
-    summary: ClassVar[str] = (
-        "Scalable Locally Injective Mappings on a triangle mesh, soft constraints (libigl)."
-    )
-    max_iterations: ClassVar[int] = 300
-    energies: ClassVar[tuple[str, ...] | None] = ("iso", "exp", "mips")
-    package: ClassVar[str | None] = "igl"
+    name = "slim"
+    label = "SLIM"
+    max_iterations = 300
+    energies = ("iso", "exp", "mips")
+    package = "igl"
 
     tolerance: float = 1e-9
 
@@ -85,17 +82,17 @@ class SLIM(MeshMethod):
 
 @dataclass(frozen=True)
 class ARAPLocalGlobal(MeshMethod):
-    """As-rigid-as-possible by local and global steps (Liu et al. 2008), hard constraints."""
+    """As-rigid-as-possible on a triangle mesh, hard constraints; it may fold (libigl).
 
-    name: ClassVar[str] = "arap-mesh"
-    label: ClassVar[str] = "ARAP, local/global"
-    summary: ClassVar[str] = (
-        "As-rigid-as-possible on a triangle mesh, hard constraints; it may fold (libigl)."
-    )
-    energies: ClassVar[tuple[str, ...] | None] = ("arap",)
-    package: ClassVar[str | None] = "igl"
-    options: ClassVar[tuple[str, ...]] = ("align", "max_iterations")
-    needs_handles: ClassVar[bool] = True
+    Local and global steps (Liu et al. 2008).
+    """
+
+    name = "arap-mesh"
+    label = "ARAP, local/global"
+    energies = ("arap",)
+    package = "igl"
+    options = ("align", "max_iterations")
+    needs_handles = True
 
     tolerance: float = 1e-9
 

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy
 from glid_nb.geometry import MeshMap, Triangulation, triangulate
 from glid_nb.harmonic import as_complex
 from glid_nb.methods.mesh.operators import MeshOperators, flips
 from glid_nb.solvers import DeformationMap, Iteration, Method, MethodError, Result
 from glid_nb.solvers.loop import GeneratedDescent, Snapshot, Steps, follow
-from glid_nb.solvers.method import Family, Inputs
+from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.start import RigidMotion
 
 Array = NDArray[Any]
@@ -115,8 +114,8 @@ class MeshMethod(Method):
     What it returns has no certificate.
     """
 
-    family: ClassVar[Family] = "mesh"
-    needs_handles: ClassVar[bool] = False
+    family = "mesh"
+    needs_handles = False
 
     n_vertices: int = field(default=10_000, kw_only=True)
 
@@ -129,10 +128,9 @@ class MeshMethod(Method):
         """The method itself."""
         raise NotImplementedError
 
-    @double_precision
     def run(self, inputs: Inputs) -> Result:
         """Its steps, recorded."""
         if self.needs_handles and not len(inputs.pose):
             raise MethodError(f"the method {self.name!r} needs at least one handle")
-        steps = self.steps(MeshProblem.of(inputs, self.n_vertices))
-        return follow(GeneratedDescent(self, steps), inputs)
+        problem = MeshProblem.of(inputs, self.n_vertices)
+        return follow(lambda: GeneratedDescent(self, self.steps(problem)), inputs)

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._runtime import double_precision, single_blas_thread
 from glid_nb.methods.subspace.problem import SubspaceProblem
 from glid_nb.solvers import Iteration, Method, Result, Status, outcome
 from glid_nb.solvers.evaluation import Point
 from glid_nb.solvers.loop import Advance, Descent, Ending, Reached, follow
-from glid_nb.solvers.method import Family, Inputs
+from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.problem import map_from
 from glid_nb.solvers.step import LEAST_ENERGY
 
@@ -42,6 +41,14 @@ _CREPT = (
 )
 
 
+class Memory:
+    """What a method remembers of its earlier steps; nothing here."""
+
+    def forget(self) -> bool:
+        """Drop it, after a direction that led nowhere; False if there was nothing to drop."""
+        return False
+
+
 @dataclass(frozen=True)
 class View:
     """What a direction may look at."""
@@ -50,36 +57,17 @@ class View:
     point: Point
     gradient: Array
     """(4c,) with respect to the unknowns, 0 elsewhere."""
+    memory: Any = None
     step: float | None = None
     """Length of the last step."""
-
-
-class Direction(Protocol):
-    """How a method chooses where to go; it may remember what it has seen."""
-
-    def __call__(self, view: View) -> Array | Ending:
-        """A descent direction (4c,), or the end of the method."""
-        ...
-
-    def forget(self) -> bool:
-        """Drop what was remembered, after a direction that led nowhere; False if nothing was."""
-        ...
-
-
-class Memoryless:
-    """What a direction that remembers nothing shares with others of the kind."""
-
-    def forget(self) -> bool:
-        """There is nothing to drop."""
-        return False
 
 
 @dataclass(frozen=True)
 class SubspaceMethod(Method):
     """A method in the harmonic subspace; its maps are certified."""
 
-    family: ClassVar[Family] = "harmonic"
-    options: ClassVar[tuple[str, ...]] = (
+    family = "harmonic"
+    options = (
         "sampling",
         "certificate",
         "p2p_weight",
@@ -88,20 +76,27 @@ class SubspaceMethod(Method):
         "max_iterations",
     )
 
-    def direction(self) -> Direction:
-        """What chooses the directions of one solve."""
+    def direction(self, view: View) -> Array | Ending:
+        """A descent direction (4c,), or the end of the method."""
         raise NotImplementedError
+
+    def remembered(self) -> Memory:
+        """What one solve remembers."""
+        return Memory()
 
     def problem(self, inputs: Inputs) -> SubspaceProblem:
         """The problem on the device."""
-        start = self.harmonic_start(inputs)
-        return SubspaceProblem(inputs.domain, inputs.pose, inputs.energy, inputs.options, start)
+        return SubspaceProblem(
+            inputs.domain,
+            inputs.pose,
+            inputs.energy,
+            inputs.options,
+            self.harmonic_start(inputs),
+        )
 
-    @double_precision
     def run(self, inputs: Inputs) -> Result:
         """Follow the directions by Newton's own line search and certificate."""
-        descent = DirectedDescent(self, self.problem(inputs), self.direction(), self.decrement)
-        return follow(descent, inputs)
+        return follow(lambda: DirectedDescent(self, self.problem(inputs)), inputs)
 
     @property
     def decrement(self) -> float | None:
@@ -124,20 +119,14 @@ class SecondOrderMethod(SubspaceMethod):
 
 
 class DirectedDescent(Descent):
-    """Follows a method's directions by Newton's own line search and certificate.
+    """Follows a method's directions by Newton's own line search and certificate."""
 
-    ``tolerance`` is None for first-order directions.
-    """
+    uses_lapack = True
 
-    def __init__(
-        self,
-        method: Method,
-        problem: SubspaceProblem,
-        choose: Direction,
-        tolerance: float | None,
-    ) -> None:
-        self.method, self.subspace, self.choose = method, problem, choose
-        self.tolerance = tolerance
+    def __init__(self, method: SubspaceMethod, problem: SubspaceProblem) -> None:
+        self.method: SubspaceMethod = method
+        self.subspace, self.memory = problem, method.remembered()
+        self.tolerance = method.decrement
         self.point, self.gradient = problem.evaluate(problem.start)
         self.step: float | None = None
         self.sigma2_lower: Array | None = None
@@ -151,25 +140,19 @@ class DirectedDescent(Descent):
         """The panels."""
         return self.subspace.discretisation
 
-    @property
-    def compile_time(self) -> float:
-        """Seconds so far."""
-        return self.subspace.watch.compile_time
-
     def advance(self, before: int, left: int, may_refine: bool) -> Advance:
         """The next certified step, or why there is none."""
         if not left:
             return Advance()
-        with single_blas_thread():
-            if self.chosen is None:
-                self._choose()
-            if self.ending is not None or self._is_minimal():
-                return Advance()
-            assert self.chosen is not None
-            move = self.subspace.advance(self.point, self.gradient, self.chosen, may_refine)
-            end = int(move.outcome)
-            if end != outcome.RUNNING:
-                return Advance(end, refused=np.asarray(move.refused))
+        if self.chosen is None:
+            self._choose()
+        if self.ending is not None or self._is_minimal():
+            return Advance()
+        assert self.chosen is not None
+        move = self.subspace.advance(self.point, self.gradient, self.chosen, may_refine)
+        end = int(move.outcome)
+        if end != outcome.RUNNING:
+            return Advance(end, refused=np.asarray(move.refused))
         self.point, self.gradient = move.point, np.asarray(move.gradient)
         self.step, self.chosen = float(move.step), None
         panels = len(self.discretisation.panels)
@@ -194,7 +177,7 @@ class DirectedDescent(Descent):
         if self.ending is not None:
             return self.ending
         if done.outcome == outcome.NO_DECREASE:
-            if self.choose.forget():
+            if self.memory.forget():
                 self.chosen = None
                 return None
             hidden = _SMALL_SLOPE if self.tolerance is None else _ROUNDING
@@ -212,8 +195,8 @@ class DirectedDescent(Descent):
         return count
 
     def _choose(self) -> None:
-        view = View(self.subspace, self.point, self.gradient, self.step)
-        chosen = self.subspace.watch.host(self.choose, view)
+        view = View(self.subspace, self.point, self.gradient, self.memory, self.step)
+        chosen = self.subspace.watch.run(self.method.direction, view)
         if isinstance(chosen, Ending):
             self.ending = chosen
             return

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import Any, Literal
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from glid_nb.methods.subspace.descent import Direction, Memoryless, SubspaceMethod, View
+from glid_nb.methods.subspace.descent import Memory, SubspaceMethod, View
 
 Array = NDArray[Any]
 
@@ -40,76 +40,66 @@ class LBFGS(SubspaceMethod):
     1e-4, and thousands of iterations change little. The certificate has no part in that.
     """
 
-    name: ClassVar[str] = "lbfgs"
-    label: ClassVar[str] = "L-BFGS"
-    summary: ClassVar[str] = (
-        "L-BFGS with five pairs, started from the identity plus the positional Hessian."
-    )
-    max_iterations: ClassVar[int] = 3000
+    name = "lbfgs"
+    label = "L-BFGS"
+    max_iterations = 3000
 
     memory: int = MEMORY
     initial: Initial = "identity"
 
-    def direction(self) -> Direction:
-        """L-BFGS' direction."""
-        return LBFGSDirection(self.memory, self.initial)
+    def remembered(self) -> Pairs:
+        return Pairs(self.memory)
+
+    def direction(self, view: View) -> Array:
+        free, pairs = view.problem.free, view.memory
+        if pairs.factor is None:
+            iso = np.diag(np.where(free > 0, 2 / _SAMPLES, 1.0))
+            if self.initial == "dirichlet":
+                # Handles in one place leave the Dirichlet Hessian singular.
+                iso = view.problem.hessian(view.point, "dirichlet") + 1e-9 * np.eye(len(iso))
+            pairs.factor = scipy.linalg.cho_factor(view.problem.p2p_hessian + iso, lower=True)
+        pairs.add(np.asarray(view.point.coefficients) * free, view.gradient)
+        return -two_loop(
+            view.gradient, list(pairs.pairs), lambda v: scipy.linalg.cho_solve(pairs.factor, v)
+        )
 
 
 @dataclass(frozen=True)
 class GradientDescent(SubspaceMethod):
     """Steepest descent."""
 
-    name: ClassVar[str] = "gradient-descent"
-    label: ClassVar[str] = "Gradient descent"
-    summary: ClassVar[str] = "Steepest descent."
-    max_iterations: ClassVar[int] = 1000
+    name = "gradient-descent"
+    label = "Gradient descent"
+    max_iterations = 1000
 
-    def direction(self) -> Direction:
-        """The negative gradient."""
-        return GradientDirection()
-
-
-class GradientDirection(Memoryless):
-    """The negative gradient, scaled to the size of the coefficients for the line search's sake."""
-
-    def __call__(self, view: View) -> Array:
+    def direction(self, view: View) -> Array:
+        # Scaled to the size of the coefficients for the line search's sake.
         slope = float(np.linalg.norm(view.gradient))
         size = float(np.linalg.norm(view.point.coefficients))
         return -(size / slope if slope > 0 else 1.0) * view.gradient
 
 
-class LBFGSDirection:
-    """L-BFGS' approximation of Newton's direction."""
+class Pairs(Memory):
+    """The last pairs of steps and changes of the gradient, and the factor to start from."""
 
-    def __init__(self, memory: int = MEMORY, initial: Initial = "identity") -> None:
-        self.initial: Initial = initial
-        self.pairs: deque[tuple[Array, Array]] = deque(maxlen=memory)
-        self._last: tuple[Array, Array] | None = None
-        self._factor: Any = None
+    def __init__(self, most: int) -> None:
+        self.pairs: deque[tuple[Array, Array]] = deque(maxlen=most)
+        self.last: tuple[Array, Array] | None = None
+        self.factor: Any = None
 
-    def __call__(self, view: View) -> Array:
-        free = view.problem.free
-        if self._factor is None:
-            iso = np.diag(np.where(free > 0, 2 / _SAMPLES, 1.0))
-            if self.initial == "dirichlet":
-                # Handles in one place leave the Dirichlet Hessian singular.
-                iso = view.problem.hessian(view.point, "dirichlet") + 1e-9 * np.eye(len(iso))
-            self._factor = scipy.linalg.cho_factor(view.problem.p2p_hessian + iso, lower=True)
-        x = np.asarray(view.point.coefficients) * free
-        if self._last is not None:
-            s, y = x - self._last[0], view.gradient - self._last[1]
+    def add(self, x: Array, gradient: Array) -> None:
+        """Note where the method is."""
+        if self.last is not None:
+            s, y = x - self.last[0], gradient - self.last[1]
             # A pair without positive curvature would make the approximation indefinite.
             if s @ y > 1e-12 * np.linalg.norm(s) * np.linalg.norm(y):
                 self.pairs.append((s, y))
-        self._last = (x, view.gradient)
-        return -two_loop(
-            view.gradient, list(self.pairs), lambda v: scipy.linalg.cho_solve(self._factor, v)
-        )
+        self.last = (x, gradient)
 
     def forget(self) -> bool:
         had = bool(self.pairs)
         self.pairs.clear()
-        self._last = None
+        self.last = None
         return had
 
 

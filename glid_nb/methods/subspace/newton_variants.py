@@ -9,11 +9,11 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from glid_nb.methods.subspace.descent import Direction, Memoryless, SecondOrderMethod, View
-from glid_nb.methods.subspace.problem import Curvature, SubspaceProblem
+from glid_nb.methods.subspace.descent import Memory, SecondOrderMethod, View
+from glid_nb.methods.subspace.problem import SubspaceProblem
 from glid_nb.solvers import Method, MethodError, Result, Status
 from glid_nb.solvers.loop import Ending
-from glid_nb.solvers.method import Family, Inputs
+from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import descend
 
 Array = NDArray[Any]
@@ -28,35 +28,25 @@ FLOOR = 1e-10
 class _CompiledNewton(Method):
     """Our own loop with other options."""
 
-    family: ClassVar[Family] = "harmonic"
+    family = "harmonic"
     changed: ClassVar[dict[str, Any]]
     """Options that are not the caller's."""
 
     tolerance: float = 1e-10
 
     def run(self, inputs: Inputs) -> Result:
-        """One descent."""
         changes = {"tolerance": self.tolerance, "corrections": 0, **self.changed}
         return descend(replace(inputs, options=replace(inputs.options, **changes)), self)
 
 
 @dataclass(frozen=True)
 class NewtonPaper(_CompiledNewton):
-    """The paper's settings throughout, but for the start."""
+    """The paper's solver: uniform samples, Lipschitz certificate, projected Hessian."""
 
-    name: ClassVar[str] = "newton-paper"
-    label: ClassVar[str] = "Newton, the paper's"
-    summary: ClassVar[str] = (
-        "The paper's solver: uniform samples, Lipschitz certificate, projected Hessian."
-    )
-    options: ClassVar[tuple[str, ...]] = (
-        "p2p_weight",
-        "conformal",
-        "align",
-        "max_iterations",
-        "iterations_per_call",
-    )
-    changed: ClassVar[dict[str, Any]] = {
+    name = "newton-paper"
+    label = "Newton, the paper's"
+    options = ("p2p_weight", "conformal", "align", "max_iterations", "iterations_per_call")
+    changed: ClassVar = {
         "sampling": "uniform",
         "certificate": "lipschitz",
         "hessian": "projected",
@@ -65,15 +55,12 @@ class NewtonPaper(_CompiledNewton):
 
 @dataclass(frozen=True)
 class NewtonUnmodified(_CompiledNewton):
-    """Newton's method with the exact Hessian."""
+    """Newton's method with the exact Hessian; it halts where that is not positive definite."""
 
-    name: ClassVar[str] = "newton-unmodified"
-    label: ClassVar[str] = "Newton, unmodified"
-    summary: ClassVar[str] = (
-        "Newton's method with the exact Hessian; it halts where that is not positive definite."
-    )
-    options: ClassVar[tuple[str, ...]] = (*SecondOrderMethod.options, "iterations_per_call")
-    changed: ClassVar[dict[str, Any]] = {"hessian": "exact"}
+    name = "newton-unmodified"
+    label = "Newton, unmodified"
+    options = (*SecondOrderMethod.options, "iterations_per_call")
+    changed: ClassVar = {"hessian": "exact"}
 
 
 @dataclass(frozen=True)
@@ -84,66 +71,53 @@ class NewtonStaged(SecondOrderMethod):
     Figure 8, needs the uniform sampling.
     """
 
-    name: ClassVar[str] = "newton-staged"
-    label: ClassVar[str] = "Newton, stage by stage"
-    summary: ClassVar[str] = (
-        "Newton's method with the projected Hessian and its stages run one by one."
-    )
+    name = "newton-staged"
+    label = "Newton, stage by stage"
 
     hessian_samples: int | None = None
 
     def problem(self, inputs: Inputs) -> SubspaceProblem:
-        """With as many Hessian samples as asked for."""
-        return SubspaceProblem(
-            inputs.domain,
-            inputs.pose,
-            inputs.energy,
-            inputs.options,
-            self.harmonic_start(inputs),
-            hessian_samples=self.hessian_samples,
-        )
+        problem = super().problem(inputs)
+        problem.take_hessian_samples(self.hessian_samples)
+        return problem
 
-    def direction(self) -> Direction:
-        """The paper's direction."""
-        return HessianDirection("projected")
+    def direction(self, view: View) -> Array | Ending:
+        h = view.problem.hessian(view.point, "projected") + view.problem.p2p_hessian
+        return _solve_semidefinite(h, view.gradient)
 
 
 @dataclass(frozen=True)
 class NewtonEigen(SecondOrderMethod):
-    """Newton-Eigen: full eigen-factorisation, negative eigenvalues raised to 1e-10 (Section 10).
+    """Newton's method with a full eigen-factorisation, negative eigenvalues raised to 1e-10 or,
+    with absolute, by their modulus.
 
-    1e-10 is no scale of the problem: along a direction of negative curvature the step is 1e10 times
-    the gradient's component, and the line search shortens all of it to what that one direction
-    allows. With ``absolute``, negative eigenvalues change their sign instead.
+    Newton-Eigen (Section 10). 1e-10 is no scale of the problem: along a direction of negative
+    curvature the step is 1e10 times the gradient's component, and the line search shortens all of
+    it to what that one direction allows. With ``absolute``, negative eigenvalues change their sign.
     """
 
-    name: ClassVar[str] = "newton-eigen"
-    label: ClassVar[str] = "Newton-Eigen"
-    summary: ClassVar[str] = (
-        "Newton's method with a full eigen-factorisation, negative eigenvalues raised to 1e-10 "
-        "or, with absolute, by their modulus."
-    )
+    name = "newton-eigen"
+    label = "Newton-Eigen"
 
     absolute: bool = False
 
-    def direction(self) -> Direction:
-        """By the eigenvalues of the whole Hessian."""
-        return EigenDirection(self.absolute)
+    def direction(self, view: View) -> Array:
+        h = view.problem.hessian(view.point, "exact") + view.problem.p2p_hessian
+        values, vectors = scipy.linalg.eigh(h, check_finite=False)
+        values = np.maximum(np.abs(values) if self.absolute else values, FLOOR)
+        return -vectors @ ((vectors.T @ view.gradient) / values)
 
 
 @dataclass(frozen=True)
 class NewtonShift(SecondOrderMethod):
-    """Newton with a multiple of the identity added until Cholesky's factorisation succeeds.
+    """Newton's method with a multiple of the identity added until the Hessian is definite.
 
     Nocedal & Wright 2006, Algorithm 3.3, as in Fu & Liu 2016; their constant ``beta`` is taken
     relative to the isometric Hessian's mean diagonal, for the coefficients have a unit of length.
     """
 
-    name: ClassVar[str] = "newton-shift"
-    label: ClassVar[str] = "Newton, shifted diagonal"
-    summary: ClassVar[str] = (
-        "Newton's method with a multiple of the identity added until the Hessian is definite."
-    )
+    name = "newton-shift"
+    label = "Newton, shifted diagonal"
 
     beta: float = 1e-3
 
@@ -154,76 +128,7 @@ class NewtonShift(SecondOrderMethod):
                 f"beta, the least multiple of the identity, must be positive; got {self.beta!r}"
             )
 
-    def direction(self) -> Direction:
-        """By a shifted Hessian."""
-        return ShiftDirection(self.beta)
-
-
-@dataclass(frozen=True)
-class GaussNewton(SecondOrderMethod):
-    """Gauss-Newton for ARAP, whose energy is a sum of squares."""
-
-    name: ClassVar[str] = "gauss-newton"
-    label: ClassVar[str] = "Gauss-Newton"
-    summary: ClassVar[str] = "Gauss-Newton for ARAP, whose energy is a sum of squares."
-    energies: ClassVar[tuple[str, ...] | None] = ("arap",)
-
-    damping: float = 0.0
-
-    def direction(self) -> Direction:
-        """By the Gauss-Newton matrix."""
-        return DampedDirection(self.damping)
-
-
-@dataclass(frozen=True)
-class LevenbergMarquardt(GaussNewton):
-    """Gauss-Newton with an adaptive multiple of the identity, for ARAP, a sum of squares.
-
-    The multiple is relative to the Hessian's mean diagonal: divided by 5 after a full step,
-    doubled after a shortened one.
-    """
-
-    name: ClassVar[str] = "levenberg-marquardt"
-    label: ClassVar[str] = "Levenberg-Marquardt"
-    summary: ClassVar[str] = "Gauss-Newton for ARAP with an adaptive damping."
-
-    damping: float = 1e-4
-
-
-class HessianDirection(Memoryless):
-    """Newton's direction with one of the pointwise Hessians: ``projected`` is the paper's."""
-
-    def __init__(self, curvature: Curvature) -> None:
-        self.curvature: Curvature = curvature
-
-    def __call__(self, view: View) -> Array | Ending:
-        h = view.problem.hessian(view.point, self.curvature) + view.problem.p2p_hessian
-        direction = _solve(h, view.gradient)
-        if direction is None and self.curvature == "projected":
-            direction = _solve_semidefinite(h, view.gradient)
-        return Ending(Status.INDEFINITE) if direction is None else direction
-
-
-class EigenDirection(Memoryless):
-    """The direction of :class:`NewtonEigen`."""
-
-    def __init__(self, absolute: bool = False) -> None:
-        self.absolute = absolute
-
-    def __call__(self, view: View) -> Array:
-        h = view.problem.hessian(view.point, "exact") + view.problem.p2p_hessian
-        values, vectors = scipy.linalg.eigh(h, check_finite=False)
-        values = np.maximum(np.abs(values) if self.absolute else values, FLOOR)
-        return -vectors @ ((vectors.T @ view.gradient) / values)
-
-
-class ShiftDirection(Memoryless):
-    """The direction of :class:`NewtonShift`."""
-
-    def __init__(self, beta: float = 1e-3) -> None:
-        self.beta = beta
-
-    def __call__(self, view: View) -> Array:
+    def direction(self, view: View) -> Array:
         iso = view.problem.hessian(view.point, "exact")
         h = iso + view.problem.p2p_hessian
         free = view.problem.free > 0
@@ -237,29 +142,57 @@ class ShiftDirection(Memoryless):
             shift = max(2 * shift, beta)
 
 
-class DampedDirection(Memoryless):
-    """The direction of :class:`LevenbergMarquardt`; with ``damping = 0`` Gauss-Newton's."""
+@dataclass(frozen=True)
+class GaussNewton(SecondOrderMethod):
+    """Gauss-Newton for ARAP, whose energy is a sum of squares."""
 
-    def __init__(self, damping: float = 1e-4) -> None:
-        self.damping = damping
+    name = "gauss-newton"
+    label = "Gauss-Newton"
+    energies = ("arap",)
 
-    def __call__(self, view: View) -> Array | Ending:
-        iso = view.problem.hessian(view.point, "gauss-newton")
+    damping: float = 0.0
+
+    def remembered(self) -> Damping:
+        return Damping(self.damping)
+
+    def direction(self, view: View) -> Array | Ending:
+        iso, damping = view.problem.hessian(view.point, "gauss-newton"), view.memory
         if view.step is not None:
-            self.damping *= 0.2 if view.step >= 1 else 2.0
+            damping.value *= 0.2 if view.step >= 1 else 2.0
         free = view.problem.free
-        shift = self.damping * float(np.diag(iso)[free > 0].mean())
+        shift = damping.value * float(np.diag(iso)[free > 0].mean())
         h = iso + view.problem.p2p_hessian + shift * np.diag(free)
-        direction = _solve(h, view.gradient)
-        if direction is None:
-            direction = _solve_semidefinite(h, view.gradient)
-        return Ending(Status.INDEFINITE) if direction is None else direction
+        return _solve_semidefinite(h, view.gradient)
 
 
-def _solve_semidefinite(h: Array, gradient: Array) -> Array | None:
-    """The same where H is singular, for want of samples or handles: Section 9.1's epsilon."""
-    ridge = _RIDGE * float(np.diag(h).mean())
-    return _solve(h + ridge * np.eye(len(h)), gradient)
+@dataclass(frozen=True)
+class LevenbergMarquardt(GaussNewton):
+    """Gauss-Newton for ARAP with an adaptive damping.
+
+    The multiple of the identity is relative to the Hessian's mean diagonal: divided by 5 after a
+    full step, doubled after a shortened one.
+    """
+
+    name = "levenberg-marquardt"
+    label = "Levenberg-Marquardt"
+
+    damping: float = 1e-4
+
+
+@dataclass
+class Damping(Memory):
+    """The multiple of the identity that is added."""
+
+    value: float
+
+
+def _solve_semidefinite(h: Array, gradient: Array) -> Array | Ending:
+    """``-H^-1 g``, where H is singular for want of samples or handles by Section 9.1's epsilon."""
+    direction = _solve(h, gradient)
+    if direction is None:
+        ridge = _RIDGE * float(np.diag(h).mean())
+        direction = _solve(h + ridge * np.eye(len(h)), gradient)
+    return Ending(Status.INDEFINITE) if direction is None else direction
 
 
 def _solve(h: Array, gradient: Array) -> Array | None:

@@ -9,14 +9,12 @@ from __future__ import annotations
 import functools
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._arrays import AnyArray
-from glid_nb._jax import jax, jit, jnp
+from glid_nb._jax import AnyArray, jax, jit, jnp
 from glid_nb._runtime import COMPILER_OPTIONS, compilation_clock, double_precision
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
@@ -112,33 +110,19 @@ def advance(
     return Move(end.outcome, after, gradient, end.step, end.panel.sigma2_lower, end.refused)
 
 
-@dataclass
 class Stopwatch:
-    """Seconds of work and of compilation, apart: a call that compiled is run again to time it."""
+    """Seconds of work, without compilation."""
 
-    seconds: float = 0.0
-    compile_time: float = 0.0
+    def __init__(self) -> None:
+        self.seconds = 0.0
 
     def run(self, function: Callable[..., T], *arguments: Any, **named: Any) -> T:
-        """Call a pure device function and wait for its result."""
-        clock = compilation_clock()
-        programs, began = clock.programs, time.perf_counter()
+        """Call a function and wait for its result; calls within it count themselves."""
+        clock, counted = compilation_clock(), self.seconds
+        began, compiling = time.perf_counter(), clock.seconds
         result = jax.block_until_ready(function(*arguments, **named))
-        elapsed = time.perf_counter() - began
-        if clock.programs > programs:
-            began = time.perf_counter()
-            result = jax.block_until_ready(function(*arguments, **named))
-            self.compile_time += elapsed
-            elapsed = time.perf_counter() - began
-        self.seconds += elapsed
-        return result
-
-    def host(self, function: Callable[..., T], *arguments: Any) -> T:
-        """Call a function on the host; device calls within it count themselves."""
-        counted, began = self.seconds + self.compile_time, time.perf_counter()
-        result = function(*arguments)
-        elapsed = time.perf_counter() - began
-        self.seconds += max(elapsed - (self.seconds + self.compile_time - counted), 0.0)
+        elapsed = time.perf_counter() - began - (clock.seconds - compiling)
+        self.seconds += max(elapsed - (self.seconds - counted), 0.0)
         return result
 
     def lap(self) -> float:
@@ -154,13 +138,9 @@ class SubspaceProblem:
     ----------
     options : Options
         ``sampling``, ``certificate``, ``p2p_weight``, ``conformal`` and ``align`` count here.
-    hessian_samples : int, optional
-        Number of Hessian samples of the uniform sampling, ``|H|`` (Figure 8).
 
     Raises
     ------
-    OptionError
-        When ``hessian_samples`` is out of range.
     StartError
         When the map to start from is not proved locally injective, or not conformal though the
         options ask for it.
@@ -174,17 +154,12 @@ class SubspaceProblem:
         energy: Energy,
         options: Options,
         start: HarmonicMap | None = None,
-        *,
-        hessian_samples: int | None = None,
     ) -> None:
         self.options, self.watch = options, Stopwatch()
         self.discretisation = discretise(domain, options.sampling, options.certificate)
-        self.hessian_samples = hessian_samples
-        if hessian_samples is not None:
-            self._check_hessian_samples(hessian_samples)
         basis = self.discretisation.basis
         self.problem = Problem(
-            matrices=self._matrices(),
+            matrices=self.discretisation.matrices,
             singularities=basis.singularities,
             unknowns=unknowns_of(basis, options.conformal),
             constraints=constraints_of(domain, pose, options.p2p_weight),
@@ -239,27 +214,29 @@ class SubspaceProblem:
         """Split the panels that refused a step; 0 when none can be."""
         wanted = self.discretisation.splittable(refused)
         if wanted.any():
-            self.watch.host(self._refine, wanted)
+            self.discretisation = self.watch.run(self.discretisation.refined, wanted)
+            self.problem = self.problem._replace(matrices=self.discretisation.matrices)
         return int(wanted.sum())
 
-    def _refine(self, wanted: NDArray[Any]) -> None:
-        self.discretisation = self.discretisation.refined(wanted)
-        self.problem = self.problem._replace(matrices=self._matrices())
+    @double_precision
+    def take_hessian_samples(self, count: int | None) -> None:
+        """Put the Hessian on so many of the uniform samples, ``|H|`` (Figure 8); None changes none.
 
-    def _check_hessian_samples(self, count: int) -> None:
+        Raises
+        ------
+        OptionError
+            When the sampling is another, or there are not so many.
+        """
+        if count is None:
+            return
         panels = len(self.discretisation.panels)
         if self.options.sampling != "uniform":
             raise OptionError("hessian_samples needs sampling='uniform'")
         if not 1 <= count <= panels:
             raise OptionError(f"hessian_samples must be from 1 to {panels}, got {count}")
-
-    def _matrices(self) -> Any:
-        matrices = self.discretisation.matrices
-        if self.hessian_samples is None:
-            return matrices
-        panels = len(self.discretisation.panels)
-        index = np.linspace(0, panels, self.hessian_samples, endpoint=False).astype(int)
-        return matrices._replace(
-            hessian_index=jnp.asarray(index),
-            hessian_weights=jnp.full(len(index), 1 / len(index)),
+        index = np.linspace(0, panels, count, endpoint=False).astype(int)
+        weights = jnp.full(count, 1 / count)
+        matrices = self.problem.matrices._replace(
+            hessian_index=jnp.asarray(index), hessian_weights=weights
         )
+        self.problem = self.problem._replace(matrices=matrices)
