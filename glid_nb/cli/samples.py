@@ -11,12 +11,10 @@ _KINDS = ("gentle", "extreme")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument("--json", action="store_true", help="print the list as JSON")
 
 
 def run(chosen: argparse.Namespace) -> None:
-    """Run the command."""
     names = samples.names()
     width = max(map(len, names))
     if chosen.json:
