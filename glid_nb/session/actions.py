@@ -1,7 +1,6 @@
-"""What a hand can do in the deformation editor: functions from one state to the next.
+"""The actions of the deformation editor: functions from one state to the next.
 
-They never change the map to one that is not certified: they keep it, or take the identity. Going
-from there to the new targets is the solver's part.
+An action keeps the certified map or goes back to the identity; moving it is the solver's part.
 """
 
 from __future__ import annotations
@@ -24,14 +23,14 @@ from glid_nb.solvers import Method, Pose
 
 Array = NDArray[Any]
 
-# Handles nearer to each other than this share of the cage's size would be one for any eye.
+# Least distance of two handles, as a share of the cage's size.
 _LEAST_DISTANCE = 1e-6
-# A map that moves a point by less than this share moves it by rounding.
+# Displacements below this share of the cage's size are rounding errors.
 _ROUNDING = 1e-13
 
 
 def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None = None) -> EditState:
-    """Pin points of the domain (h, 2); by default where they are now, so that nothing moves."""
+    """Add handles at points (h, 2) of the domain; targets are by default where they are now."""
     points = _points(points, "point")
     pose, cage = state.pose, state.domain.cage
     outside = np.flatnonzero(~cage.contains(points))
@@ -52,19 +51,19 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
 
 
 def remove_handles(state: EditState, indices: Iterable[int]) -> EditState:
-    """Let go of some handles."""
+    """Remove some handles."""
     chosen = _checked_indices(state, indices)
     kept = np.setdiff1d(np.arange(len(state.pose)), chosen)
     return _with_pose(state, Pose(state.pose.handles[kept], state.pose.targets[kept]))
 
 
 def clear_handles(state: EditState) -> EditState:
-    """Let go of all handles; the shape relaxes."""
+    """Remove all handles; the shape relaxes."""
     return _with_pose(state, Pose([], []))
 
 
 def move_targets(state: EditState, indices: Iterable[int], targets: ArrayLike) -> EditState:
-    """Put the targets of some handles elsewhere; anywhere."""
+    """Move the targets of some handles to (h, 2), inside the shape or not."""
     chosen = _checked_indices(state, indices)
     moved, wanted = np.array(state.pose.targets), _points(targets, "to")
     if len(wanted) not in (1, len(chosen)):
@@ -74,7 +73,7 @@ def move_targets(state: EditState, indices: Iterable[int], targets: ArrayLike) -
 
 
 def move_target(state: EditState, handle: int, to: ArrayLike) -> EditState:
-    """Put one target elsewhere."""
+    """Move one target."""
     return move_targets(state, [handle], to)
 
 
@@ -92,7 +91,7 @@ def reset(state: EditState) -> EditState:
 
 
 def set_energy(state: EditState, energy: Energy) -> EditState:
-    """Minimise another energy; refused when the method cannot."""
+    """Minimise another energy; refused when the method cannot minimise it."""
     state.current.method.check(energy)
     return state.with_current(state.current.changed(energy=energy))
 
@@ -111,13 +110,13 @@ def set_method(state: EditState, method: Method | str, **settings: Any) -> EditS
 
 
 def set_pose(state: EditState, pose: Pose) -> EditState:
-    """Other handles and targets altogether; the shape stays until the solver moves it."""
+    """Replace all handles and targets; the shape stays until the solver moves it."""
     pose.check_inside(state.domain)
     return _with_pose(state, pose)
 
 
 def set_domain(state: EditState, domain: Domain) -> EditState:
-    """Another domain: all poses keep the handles that lie in it, and begin at the identity."""
+    """Replace the domain: all poses keep the handles inside it and restart at the identity."""
     identity = HarmonicMap.identity(domain)
 
     def moved(pose: EditedPose) -> EditedPose:
@@ -143,27 +142,27 @@ def drop_hole(state: EditState, index: int) -> EditState:
 
 
 def save_pose(state: EditState, name: str | None = None) -> EditState:
-    """Keep the pose as it is now under a name, and go on with a copy of it after it."""
+    """Keep the pose under a name, and edit a copy that follows it in the list."""
     kept = state.current if name is None else replace(state.current, name=_checked_name(name))
     copy = replace(kept, name=_free_name(state, kept.name))
     return _with_inserted(state.with_current(kept), state.active + 1, copy)
 
 
 def duplicate_pose(state: EditState, index: int) -> EditState:
-    """A copy of a pose after it, which is edited from then on."""
+    """Insert a copy after a pose, and edit the copy."""
     pose = state.poses[_checked_pose(state, index)]
     return _with_inserted(state, index + 1, replace(pose, name=_free_name(state, pose.name)))
 
 
 def rename_pose(state: EditState, index: int, name: str) -> EditState:
-    """Another name for a pose."""
+    """Rename a pose."""
     poses = list(state.poses)
     poses[_checked_pose(state, index)] = replace(poses[index], name=_checked_name(name))
     return replace(state, poses=tuple(poses))
 
 
 def delete_pose(state: EditState, index: int) -> EditState:
-    """Take a pose from the list; the last one cannot be."""
+    """Delete a pose; the only one is refused."""
     _checked_pose(state, index)
     if len(state.poses) == 1:
         raise EditError("the only pose cannot be deleted; reset it instead")
@@ -187,24 +186,21 @@ def _with_pose(state: EditState, pose: Pose) -> EditState:
 
 
 def _points(values: ArrayLike, name: str) -> Array:
+    wanted = f"{name} must be [x, y], or a list of such pairs"
     try:
         points = real_array(values)
     except (TypeError, ValueError) as error:
-        raise EditError(
-            f"{name} must be [x, y], or a list of such pairs, not {values!r:.60}: {error}"
-        ) from error
+        raise EditError(f"{wanted}, not {values!r:.60}: {error}") from error
     points = points[None] if points.shape == (2,) else points
     if points.ndim != 2 or points.shape[1] != 2:
-        raise EditError(
-            f"{name} must be [x, y], or a list of such pairs; its shape is {points.shape}"
-        )
+        raise EditError(f"{wanted}; its shape is {points.shape}")
     if not np.isfinite(points).all():
         raise EditError(f"{name} holds a coordinate that is not finite; give finite numbers")
     return points
 
 
 def _places_now(state: EditState, points: Array) -> Array:
-    """Where the map has these points; without its rounding where it leaves them in place."""
+    """The images of the points, exactly the points where the map leaves them in place."""
     images = state.map(points)
     moved = np.linalg.norm(images - points, axis=1, keepdims=True)
     return np.where(moved < _ROUNDING * state.domain.cage.longer_side, points, images)

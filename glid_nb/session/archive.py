@@ -1,4 +1,4 @@
-"""Zip archives that somebody else may have made: read in memory, with every size known before."""
+"""Zip archives from untrusted sources: read in memory, with every size checked first."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 from glid_nb._errors import InputFileError
 from glid_nb._files import in_words, write_bytes_atomically
 
-# A document has at most a handful of members; their names, sizes and places fit in this.
+# Room for the zip directory of a few members.
 _DIRECTORY_BYTES = 64 * 1024
 # The second row is what zipfile raises for headers that make no sense.
 _DAMAGE = (
@@ -38,17 +38,15 @@ def read_archive(path: Path, most_bytes: Mapping[str, int]) -> dict[str, bytes]:
     Parameters
     ----------
     path : Path
-        The file.
     most_bytes : mapping
-        The names that members may have, and how large each may be when unpacked.
+        The names that members may have, and the largest size of each when unpacked.
 
     Raises
     ------
     InputFileError
-        When it is no zip file, is damaged, or has a member that is unknown, repeated, encrypted or
-        too large.
+        When it is damaged, or has a member that is unknown, repeated, encrypted or too large.
     OSError
-        When it cannot be read; the message says why in plain words.
+        When it cannot be read.
     """
     most = sum(most_bytes.values()) + _DIRECTORY_BYTES
     try:

@@ -1,16 +1,15 @@
-"""Saving while somebody works: in the background, not too often, always the latest."""
+"""Saving in the background, and which files an editor may replace unasked."""
 
 from __future__ import annotations
 
 import itertools
 import threading
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from glid_nb.session.document import Document
 from glid_nb.session.document_file import save_document
-from glid_nb.session.own_files import version_of
 from glid_nb.session.worker import LatestWins
 
 INTERVAL = 3.0
@@ -20,15 +19,13 @@ INTERVAL = 3.0
 class Autosave:
     """Saves the document that was submitted last, at most once per interval.
 
-    The file is written by a thread of its own, atomically; a document that was overtaken by a later
-    one is never written. What is pending when the process ends, or when this object is dropped, is
-    written then. A file that somebody else has changed is left to them: from then on this one
-    writes beside it (`free_sibling`).
+    A thread writes the file atomically and skips documents that a later one replaces. What is
+    pending is written when the process ends or this object is dropped. A file that another program
+    has changed is not touched again: later saves go to a new file beside it (`free_sibling`).
 
     Parameters
     ----------
     path : path
-        The file.
     interval : float
         Least number of seconds between two saves; the first is made at once.
     on_done : callable, optional
@@ -57,7 +54,7 @@ class Autosave:
 
     @property
     def left(self) -> Path | None:
-        """The file that was left to somebody else; None while nobody else has changed it."""
+        """The file that was given up because another program changed it; else None."""
         return self._file.left
 
     @property
@@ -67,7 +64,7 @@ class Autosave:
 
     @property
     def n_saved(self) -> int:
-        """How often the file was written."""
+        """Number of saves that succeeded."""
         return self._file.n_saved
 
     def submit(self, document: Document) -> None:
@@ -77,7 +74,7 @@ class Autosave:
         self._worker.submit(document)
 
     def write(self, document: Document) -> None:
-        """Save this document now, in this thread, whoever has changed the file.
+        """Save this document now, in this thread, even if another program has changed the file.
 
         Raises
         ------
@@ -92,23 +89,55 @@ class Autosave:
             raise
 
     def take_over(self) -> None:
-        """Accept the file as it is now: its next save is not a change by somebody else."""
+        """Accept the file as it is now, whoever wrote it."""
         self._file.take_over()
 
     def flush(self, timeout: float | None = None) -> bool:
-        """Save what is pending now; whether that was done (or had failed) within ``timeout``."""
+        """Save what is pending now; whether that ended, well or not, within ``timeout`` seconds."""
         return self._worker.hurry(timeout)
 
     def close(self) -> None:
-        """Save what is pending and end the thread. Submitting is an error from then on."""
+        """Save what is pending and end the thread; submitting is an error from then on."""
         self._worker.close()
 
 
 _all: weakref.WeakSet[Autosave] = weakref.WeakSet()
 
 
+class OwnFiles:
+    """The files that an editor wrote or opened, so that it replaces no others unasked.
+
+    Each file belongs to the one that was named when it was written: a texture to its mesh, a
+    session file to itself. A file that another program has changed since is no longer the editor's.
+    """
+
+    def __init__(self) -> None:
+        self._owners: dict[Path, tuple[Path, tuple[int, ...] | None]] = {}
+        self.session: Path | None = None
+        """The session file that was saved or opened last."""
+
+    def note(self, paths: Iterable[Path], owner: Path) -> None:
+        """Remember files that were written for ``owner``, or opened."""
+        owner = owner.resolve()
+        self._owners.update((path.resolve(), (owner, _version_of(path))) for path in paths)
+
+    def note_session(self, path: str | Path) -> None:
+        """Remember a session file that was saved or opened."""
+        self.session = Path(path)
+        self.note([self.session], self.session)
+
+    def strangers(self, paths: Iterable[Path], owner: Path) -> tuple[Path, ...]:
+        """Those of the files that exist and do not belong to ``owner``."""
+        owner = owner.resolve()
+        return tuple(
+            path
+            for path in paths
+            if path.exists() and self._owners.get(path.resolve()) != (owner, _version_of(path))
+        )
+
+
 def flush(path: str | Path) -> None:
-    """Save what is pending for a file anywhere in this process, before the file is read."""
+    """Save what any editor of this process has pending for a file, before the file is read."""
     wanted = Path(path).resolve()
     for autosave in tuple(_all):
         if autosave.path.resolve() == wanted:
@@ -122,28 +151,25 @@ def free_sibling(path: Path) -> Path:
 
 
 class _File:
-    """The file, and what is known of it; it does not know the `Autosave`, so that can be dropped.
-
-    Its lock is held while the file is written.
-    """
+    """The file of an `Autosave`; it holds no reference to that, so it does not keep it alive."""
 
     def __init__(self, path: Path, on_done: Callable[[Exception | None], None] | None) -> None:
         self.path, self._on_done = path, on_done
         self.left: Path | None = None
         self.error: Exception | None = None
         self.n_saved = 0
-        self._known = version_of(path)
+        self._known = _version_of(path)
         self._writing = threading.Lock()
 
     def save(self, document: Document, _: object) -> None:
-        """In the thread: write the file, or one beside it where somebody else has changed it."""
+        """Write the file, or one beside it where another program has changed it."""
         failure: Exception | None = None
         with self._writing:
             try:
-                if version_of(self.path) not in (None, self._known):
+                if _version_of(self.path) not in (None, self._known):
                     self.left, self.path = self.path, free_sibling(self.path)
                 save_document(document, self.path)
-                self._known = version_of(self.path)
+                self._known = _version_of(self.path)
             except Exception as error:  # reported; the next submission tries again
                 failure = error
             self.error = failure
@@ -152,12 +178,19 @@ class _File:
             self._on_done(failure)
 
     def write(self, document: Document) -> None:
-        """In the caller's thread: write the file, whoever has changed it."""
         with self._writing:
             save_document(document, self.path)
-            self._known, self.error = version_of(self.path), None
+            self._known, self.error = _version_of(self.path), None
 
     def take_over(self) -> None:
-        """Take the file as it is now for one's own."""
         with self._writing:
-            self._known = version_of(self.path)
+            self._known = _version_of(self.path)
+
+
+def _version_of(path: Path) -> tuple[int, ...] | None:
+    """What differs between two versions of a file; None where there is none."""
+    try:
+        status = path.stat()
+    except OSError:  # a file that cannot be reached is reported when it is written
+        return None
+    return status.st_ino, status.st_mtime_ns, status.st_size

@@ -1,11 +1,10 @@
-"""The deformation editor without a picture or a widget: what a hand does, undo, and the solver."""
+"""The model of the deformation editor: handles, drags, undo, and the solver's thread."""
 
 from __future__ import annotations
 
 import functools
-import weakref
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from numbers import Real
 from typing import Any, Concatenate, ParamSpec
 
@@ -13,11 +12,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._arguments import check_type
-from glid_nb.certificate import Certificate, certify
+from glid_nb.certificate import Certificate
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain, MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session import actions
+from glid_nb.session.document import certificate_of
 from glid_nb.session.edit_state import EditedPose, EditError, EditState, Solution
 from glid_nb.session.history import History
 from glid_nb.session.live_solver import Frame, LiveSolver, Task
@@ -32,18 +32,9 @@ Array = NDArray[Any]
 P = ParamSpec("P")
 
 
-@dataclass(frozen=True, eq=False)
-class _Drag:
-    """A hand that holds some handles; what it does is one gesture of the history."""
-
-    handles: tuple[int, ...]
-
-
 def _step(
     action: Callable[Concatenate[EditState, P], EditState],
 ) -> Callable[Concatenate[Deformation, P], None]:
-    """A method of :class:`Deformation` that takes an action's step."""
-
     @functools.wraps(action)
     def method(self: Deformation, *arguments: P.args, **named: P.kwargs) -> None:
         self.apply(action, *arguments, **named)
@@ -54,9 +45,9 @@ def _step(
 class Deformation(Observed):
     """A domain being deformed: its state, its undo history, and a thread that solves.
 
-    Every method may be called from any thread. ``observe`` tells of changes by name: ``"state"``
-    (handles, targets, poses, options, what undo offers), ``"frame"`` (a new map), ``"selection"``
-    and ``"status"``.
+    Every method may be called from any thread. ``observe`` reports changes by name: ``"state"``
+    (handles, targets, poses, options, undo), ``"frame"`` (a new map), ``"selection"`` and
+    ``"status"``.
 
     Parameters
     ----------
@@ -67,7 +58,7 @@ class Deformation(Observed):
     options : Options, optional
         By default :data:`~glid_nb.session.edit_state.LIVE_OPTIONS`.
     begin : bool, optional
-        Solve, and compile the solver, from the start; else from :meth:`begin` or the first change.
+        Solve from the start; else from :meth:`begin` or the first change on.
 
     Examples
     --------
@@ -95,12 +86,12 @@ class Deformation(Observed):
 
     @classmethod
     def from_state(cls, state: EditState, *, begin: bool = True) -> Deformation:
-        """Go on from a state, with an empty undo history."""
+        """A deformation at a state, with an empty undo history."""
         return cls.from_history(History(state), begin=begin)
 
     @classmethod
     def from_history(cls, history: History[EditState], *, begin: bool = True) -> Deformation:
-        """Go on from another one's present, with its past and what was undone."""
+        """A deformation with the whole undo history of another one."""
         new = cls.__new__(cls)
         new._start(history.ended(), begin)
         return new
@@ -109,12 +100,11 @@ class Deformation(Observed):
         super().__init__()
         self._history = history
         self._chain = 0
-        self._drag: _Drag | None = None
+        # The handles that are dragged; they also name the drag as a gesture of the history.
+        self._held: tuple[int, ...] | None = None
         self._selection: tuple[int, ...] = ()
         self._frame: Frame | None = None
         self._error: Exception | None = None
-        self._certificates: weakref.WeakKeyDictionary[HarmonicMap, Certificate]
-        self._certificates = weakref.WeakKeyDictionary()
         self._finder = PointFinder(history.present.domain)
         solver = LiveSolver(self._accept, self._fail)
         self._worker = LatestWins(solver.solve, self, "live solver")
@@ -122,16 +112,16 @@ class Deformation(Observed):
         if begin:
             self.begin()
 
-    # What is
+    # State
 
     @property
     def history(self) -> History[EditState]:
-        """What was, is and was undone."""
+        """The undo history."""
         return self._history
 
     @property
     def state(self) -> EditState:
-        """Everything as it is now."""
+        """The present domain and poses."""
         return self._history.present
 
     @property
@@ -141,12 +131,12 @@ class Deformation(Observed):
 
     @property
     def map(self) -> HarmonicMap:
-        """The certified map of this moment."""
+        """The present certified map."""
         return self.state.map
 
     @property
     def pose(self) -> Pose:
-        """The handles and targets of this moment."""
+        """The present handles and targets."""
         return self.state.pose
 
     @property
@@ -156,7 +146,7 @@ class Deformation(Observed):
 
     @property
     def moment(self) -> Moment:
-        """The state and what the solver makes of it, both as they are at this moment."""
+        """The state and what the solver has made of it, at one moment."""
         with self._lock:
             worker = self._worker
             return Moment(
@@ -171,22 +161,22 @@ class Deformation(Observed):
 
     @property
     def comparison(self) -> MeshMap | None:
-        """What the method on a mesh has come to: see :attr:`Moment.comparison`."""
+        """The map of a method on a mesh: see :attr:`Moment.comparison`."""
         return self.moment.comparison
 
     @property
     def shown(self) -> DeformationMap:
-        """What there is to see: the comparison, or the certified map."""
+        """The map to draw: the comparison, or the certified map."""
         return self.moment.shown
 
     @property
     def solution(self) -> Solution | None:
-        """How the present pose was solved; None while it is not."""
+        """How the solve of the present pose ended; None before."""
         return self.moment.solution
 
     @property
     def solved(self) -> bool:
-        """Whether the present pose's method has come to its end."""
+        """Whether the solve of the present pose has come to its end."""
         return self.moment.solved
 
     @property
@@ -197,28 +187,25 @@ class Deformation(Observed):
     @property
     def dragged(self) -> tuple[int, ...]:
         """Indices of the handles that are being dragged."""
-        return self._drag.handles if self._drag else ()
+        return self._held or ()
 
     @property
     def frame(self) -> Frame | None:
-        """What the solver published last for the present map; None if that is older."""
+        """The solver's last frame, if it belongs to the present state; else None."""
         return self._frame
 
     @property
     def certificate(self) -> Certificate:
-        """The proof for the present map, recomputed from its coefficients alone."""
+        """The certificate of the present map, computed from its coefficients alone."""
         return self.certificate_of(self.map)
 
     def certificate_of(self, map: HarmonicMap) -> Certificate:
-        """The proof for a map, recomputed from its coefficients alone, once."""
-        known = self._certificates.get(map)
-        if known is None:
-            known = self._certificates[map] = certify(map)
-        return known
+        """The certificate of a map, computed once from its coefficients alone."""
+        return certificate_of(map)
 
     @property
     def status(self) -> StatusLine:
-        """What is going on, in words, and at rest what :attr:`certificate` proves."""
+        """What the editor is doing, in words; at rest with the bounds of :attr:`certificate`."""
         return describe(self.moment, self.certificate_of)
 
     @property
@@ -239,18 +226,18 @@ class Deformation(Observed):
     @property
     def can_undo(self) -> bool:
         """Whether there is something to undo."""
-        return bool(self._history.past) or self._drag is not None
+        return bool(self._history.past) or self._held is not None
 
     @property
     def can_redo(self) -> bool:
         """Whether there is something to redo."""
-        return bool(self._history.future) and self._drag is None
+        return bool(self._history.future) and self._held is None
 
     def find(self, point: ArrayLike) -> Array | None:
-        """The point of the undeformed shape that is seen at ``point``; None beside the shape."""
+        """The point of the undeformed shape that is drawn at ``point``; None outside the shape."""
         return self._finder.find(self.shown, point)
 
-    # What a hand does
+    # Actions
 
     clear_handles = _step(actions.clear_handles)
     move_target = _step(actions.move_target)
@@ -268,25 +255,25 @@ class Deformation(Observed):
     go_to_pose = _step(actions.go_to_pose)
 
     def add_handle(self, point: ArrayLike, to: ArrayLike | None = None) -> int:
-        """Pin a point of the undeformed shape; by default where it is now. Returns its index."""
+        """Add a handle at a point of the undeformed shape; returns its index."""
         return self.add_handles(point, to)[0]
 
     def add_handles(self, points: ArrayLike, to: ArrayLike | None = None) -> tuple[int, ...]:
-        """Pin several points (h, 2) in one step; returns their indices."""
+        """Add handles at points (h, 2) in one step; returns their indices."""
         with self.locked():
             before = len(self.pose)
             self.apply(actions.add_handles, points, to)
             return tuple(range(before, len(self.pose)))
 
     def remove_handles(self, *indices: int) -> None:
-        """Let go of handles."""
+        """Remove handles."""
         self.apply(actions.remove_handles, indices)
 
     def set_domain(self, domain: Domain) -> None:
-        """Another domain; handles that lie in it are kept.
+        """Replace the domain; handles inside the new one are kept.
 
-        One with the present cage changes nothing. One with the cage of the step before takes that
-        step back, with all the handles that it had.
+        A domain with the present cage changes nothing. One with the cage of the step before undoes
+        that step, which brings its handles back.
         """
         with self.locked():
             past = self.history.past
@@ -303,9 +290,9 @@ class Deformation(Observed):
         *arguments: P.args,
         **named: P.kwargs,
     ) -> None:
-        """Take one step: the state that ``action(state, ...)`` makes of the present one.
+        """Make ``action(state, ...)`` the present state, as one step for undo.
 
-        A drag that is going on ends before it, and goes on after it with the handles that are left.
+        A drag under way ends before it and begins again after it, with the handles that are left.
 
         Raises
         ------
@@ -315,20 +302,19 @@ class Deformation(Observed):
         with self.locked():
             self._check_open()
             new = action(self.state, *arguments, **named)
-            drag = self._drag
+            held = self._held
             self.end_drag()
             before = self.state
             if new is before:
                 return
             self._set(self._history.step(new))
-            if drag is not None:
-                held = _still_there(drag.handles, before.pose, new.pose)
-                self._drag = _Drag(held) if held else None
+            if held is not None:
+                self._held = _still_there(held, before.pose, new.pose) or None
 
-    # Dragging: many small steps under a hand, one for undo
+    # Dragging: many small moves, one step for undo
 
     def drag(self, handle: int, to: ArrayLike) -> None:
-        """Drag one handle's target from where it is, in one go; what a pointer does in many."""
+        """Drag one handle's target to a place, in one move."""
         with self.locked():
             self.begin_drag([handle])
             try:
@@ -337,59 +323,61 @@ class Deformation(Observed):
                 self.end_drag()
 
     def begin_drag(self, indices: Sequence[int]) -> None:
-        """Take hold of some handles."""
+        """Begin to drag some handles."""
         with self.locked():
             self._check_open()
             self.end_drag()
             actions.nudge(self.state, indices, (0, 0))  # refuses what does not exist
-            self._drag = _Drag(tuple(int(i) for i in indices))
+            self._held = tuple(int(i) for i in indices)
 
     def drag_to(self, targets: ArrayLike) -> None:
-        """Put the targets of the held handles at (h, 2)."""
+        """Move the targets of the dragged handles to (h, 2)."""
         with self.locked():
-            if self._drag is None:
+            if self._held is None:
                 raise EditError("nothing is being dragged; begin a drag first")
             moved = actions.move_targets(self.state, self.dragged, targets)
             if np.array_equal(moved.pose.targets, self.pose.targets):
                 return
-            self._history = self._history.step(moved, gesture=self._drag)
+            self._history = self._history.step(moved, gesture=self._held)
             self._error = None
             self._submit()
             self._tell("state", "status")
 
     def end_drag(self) -> None:
-        """Let go: the whole drag is one step. Nothing happens when nothing is held."""
+        """End the drag, if any; the whole drag is one step for undo."""
         with self.locked():
-            if self._drag is None:
+            if self._held is None:
                 return
-            self._drag = None
+            self._held = None
             origin = self._history.origin
-            if origin is not None and _same_targets(origin.present, self.state):
-                self._history = origin.refined(self.state)  # it went nowhere
+            if origin is not None and np.array_equal(
+                origin.present.pose.targets, self.pose.targets
+            ):
+                self._history = origin.refined(self.state)  # the drag came back to its start
             self._history = self._history.ended()
             self._tell("state")
 
     def cancel_drag(self) -> None:
-        """Let go, and be exactly where the drag began."""
+        """End the drag, if any, and go back to exactly the state before it."""
         with self.locked():
-            if self._drag is None:
+            if self._held is None:
                 return
-            self._drag = None
+            self._held = None
             self._set(self._history.cancelled())
 
     # Undo
 
     def undo(self) -> None:
-        """One step back, to exactly what was; during a drag, to where that began."""
+        """Go one step back; during a drag, to where that began."""
         with self.locked():
             self._check_open()
-            if self._drag is not None:
+            if self._held is not None:
                 self.cancel_drag()
             elif self._history.past:
                 self._set(self._history.undone())
 
     def redo(self) -> None:
-        """One step forward again."""
+        """Go one step forward again."""
         with self.locked():
             self._check_open()
             if self.can_redo:
@@ -409,9 +397,9 @@ class Deformation(Observed):
     # Solving
 
     def begin(self) -> None:
-        """Solve what is not solved yet, and compile before a hand has to wait for it.
+        """Start the solver, which compiles before the first drag; nothing if it was started before.
 
-        Returns at once. Nothing happens when the solver has been asked for something before.
+        Returns at once.
         """
         with self.locked():
             if not self._begun:
@@ -419,9 +407,9 @@ class Deformation(Observed):
                 self._tell("status")
 
     def solve(self, timeout: float | None = None) -> bool:
-        """Wait until the present pose is solved; whether that came within ``timeout`` seconds.
+        """Wait until the present pose is solved; whether it is within ``timeout`` seconds.
 
-        An interrupt stops the solve; the editor lives on, with the map as far as it came.
+        An interrupt stops the solve and keeps the map that it has reached.
 
         Raises
         ------
@@ -440,12 +428,12 @@ class Deformation(Observed):
             raise
 
     def stop(self) -> None:
-        """Give up solving; the map stays as it is."""
+        """Stop solving; the map stays as it is."""
         self._worker.cancel()
 
     @property
     def paused(self) -> bool:
-        """Whether the solver waits instead of following."""
+        """Whether the solver is paused."""
         return self._worker.paused
 
     @paused.setter
@@ -459,7 +447,7 @@ class Deformation(Observed):
             self._tell("state", "status")
 
     def step(self) -> None:
-        """One compiled call of the solver, also while paused."""
+        """Make one compiled call of the solver, also while paused."""
         with self.locked():
             self._submit(single=True)
 
@@ -476,21 +464,22 @@ class Deformation(Observed):
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    # Behind it; the lock is held where these are called
+    # Internals, called with the lock held
 
     def _check_open(self) -> None:
         if self._closed:
             raise EditError("it is closed: what was deformed here can be read, but not changed")
 
     def _set(self, history: History[EditState]) -> None:
-        """Make a history the present one, and keep what is selected where it is still there."""
         old, new = self.state, history.present
         self._history, self._error = history, None
         self._chain += 1
         if new.domain is not self._finder.domain:
             self._finder = PointFinder(new.domain)
-        if self._frame is not None and not _belongs(self._frame, new):
-            self._frame = None
+        if (frame := self._frame) is not None:
+            same_method = frame.task.pose.method is new.current.method
+            if frame.map is not new.map or (frame.mesh is not None and not same_method):
+                self._frame = None
         self._selection = _still_there(self._selection, old.pose, new.pose)
         self._submit()
         self._tell("state", "frame", "selection", "status")
@@ -504,7 +493,6 @@ class Deformation(Observed):
             self._worker.cancel()
 
     def _accept(self, frame: Frame) -> None:
-        """A frame from the solver's thread."""
         with self.locked():
             if frame.task.chain != self._chain:
                 return
@@ -518,7 +506,6 @@ class Deformation(Observed):
             self._tell("frame", "status")
 
     def _fail(self, error: Exception) -> None:
-        """An exception in the solver's thread: shown, and the map stays."""
         with self.locked():
             self._error = error
             if self.comparison is not None:
@@ -526,18 +513,8 @@ class Deformation(Observed):
             self._tell("frame", "status")
 
 
-def _belongs(frame: Frame, state: EditState) -> bool:
-    """Whether a frame may still be shown for a state."""
-    same_method = frame.task.pose.method is state.current.method
-    return frame.map is state.map and (frame.mesh is None or same_method)
-
-
-def _same_targets(one: EditState, other: EditState) -> bool:
-    return np.array_equal(one.pose.targets, other.pose.targets)
-
-
 def _still_there(chosen: Iterable[int], old: Pose, new: Pose) -> tuple[int, ...]:
-    """Indices of the same handles in another pose."""
+    """Indices in the new pose of those of the chosen handles that it has."""
     kept = []
     for i in chosen:
         if i < len(old):

@@ -1,7 +1,8 @@
-"""A document: everything that an editor holds, as one value."""
+"""A document: everything that the editor saves, as one value."""
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Sized
 from dataclasses import dataclass, field
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._errors import InputFileError, about
+from glid_nb.certificate import Certificate, certify
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
@@ -21,11 +23,12 @@ MOST_POSES = 1000
 _LONGEST_NAME = 200
 
 
-class DocumentError(InputFileError):
-    """A document's parts do not fit together, or a file holds no valid document.
+# Maps are immutable, so each is certified once, however often it is shown or saved.
+_certificates: weakref.WeakKeyDictionary[HarmonicMap, Certificate] = weakref.WeakKeyDictionary()
 
-    The message names the culprit.
-    """
+
+class DocumentError(InputFileError):
+    """A document's parts do not fit together, or a file holds no valid document."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +48,7 @@ class NamedPose:
     map : HarmonicMap
         The result; certified.
     method : Method
-        By what. A method on a mesh leaves its result out of the document.
+        What solves it. The result of a method on a mesh is not kept.
 
     Raises
     ------
@@ -151,6 +154,14 @@ def check_count(poses: Sized) -> None:
     """Raise :class:`DocumentError` for more poses than a document may hold."""
     if len(poses) > MOST_POSES:
         raise DocumentError(f"poses: there are {len(poses)}; {MOST_POSES} are allowed")
+
+
+def certificate_of(map: HarmonicMap) -> Certificate:
+    """The certificate of a map, computed once from its coefficients alone."""
+    certificate = _certificates.get(map)
+    if certificate is None:
+        certificate = _certificates[map] = certify(map)
+    return certificate
 
 
 def _check_kind(name: str, value: object, kind: type) -> None:

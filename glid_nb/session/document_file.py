@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
-import weakref
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeVar
@@ -24,7 +23,6 @@ from glid_nb._json import (
     check_text,
     parse_json,
 )
-from glid_nb.certificate import Certificate, certify
 from glid_nb.energies import CustomEnergy, Energy, energy_by_name
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
@@ -32,7 +30,13 @@ from glid_nb.harmonic.map import complex_from_pairs, complex_to_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE
 from glid_nb.session.archive import read_archive, write_archive
-from glid_nb.session.document import Document, DocumentError, NamedPose, check_count
+from glid_nb.session.document import (
+    Document,
+    DocumentError,
+    NamedPose,
+    certificate_of,
+    check_count,
+)
 from glid_nb.session.png import image_png, light_png, read_png
 from glid_nb.solvers import Method, Newton, Options, Pose
 
@@ -70,12 +74,9 @@ _POSE_KEYS_OF_VERSION_1 = {
 }
 _POSE_KEYS = {**_POSE_KEYS_OF_VERSION_1, "method": check_object}
 _DOMAIN_KEYS = ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "notes")
-_MOST_ITERATIONS = 200  # stands for the method's own
-_MASK = "mask"  # instead of strokes: the pixels are in a member of their own
+_MOST_ITERATIONS = 200  # written where max_iterations is None, the method's own limit
+_MASK = "mask"  # written instead of strokes; the pixels are in another member
 _NEVER = "never"  # TraceOptions.max_edge == inf, which JSON cannot say
-
-# Maps are immutable, so each is proved once however often it is saved.
-_certificates: weakref.WeakKeyDictionary[HarmonicMap, Certificate] = weakref.WeakKeyDictionary()
 
 
 def save_document(document: Document, path: str | Path) -> None:
@@ -87,7 +88,7 @@ def save_document(document: Document, path: str | Path) -> None:
     Raises
     ------
     DocumentError
-        When a map is not certified, or an energy is a Python function. Nothing is written then.
+        When a map is not certified, or an energy is a Python function; nothing is written.
     OSError
         When the file cannot be written; what was there before stays.
     """
@@ -109,7 +110,7 @@ def save_document(document: Document, path: str | Path) -> None:
 
 
 def load_document(path: str | Path) -> Document:
-    """Read a document that :func:`save_document` wrote; every map in it is proved anew.
+    """Read a document that :func:`save_document` wrote; every map in it is certified anew.
 
     Raises
     ------
@@ -166,7 +167,7 @@ def _checked_size(value: Any) -> tuple[int, int]:
 
 def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
     where = f"poses[{index}] ({pose.name!r})"
-    _check_proved(pose.map, where)
+    _check_certified(pose.map, where)
     return {
         "name": pose.name,
         **pose.pose.to_dict(),
@@ -192,14 +193,12 @@ def _pose_from_dict(where: str, data: Any, domain: Domain, keys: Mapping[str, An
             HarmonicMap(domain, phi, psi),
             _method_from_dict(data["method"]) if "method" in keys else Newton(),
         )
-    _check_proved(pose.map, where)
+    _check_certified(pose.map, where)
     return pose
 
 
-def _check_proved(map: HarmonicMap, where: str) -> None:
-    certificate = _certificates.get(map)
-    if certificate is None:
-        certificate = _certificates[map] = certify(map)
+def _check_certified(map: HarmonicMap, where: str) -> None:
+    certificate = certificate_of(map)
     if not certificate.certified:
         raise DocumentError(f"{where}: its map is not certified. {certificate.reason}")
 
@@ -232,25 +231,22 @@ def _options_from_dict(data: Any) -> Options:
 
 
 def _method_from_dict(data: Any) -> Method:
-    """The method, whether it can run here or not."""
     with about("method"):
         check_fields(data, "method", {"name": check_text, "settings": check_object})
         return methods.by_name(data["name"], **data["settings"])
 
 
 def _domain_from_dict(data: Any) -> Domain:
-    """The domain exactly as it was: nothing is chosen, reversed or left out on the way."""
     with about("domain"):
         check_fields(data, "domain", dict.fromkeys(_DOMAIN_KEYS, anything))
         domain = Domain.from_dict(data)
     if domain.to_dict() != data:
-        # The coefficients of the maps are in the order of the loops' vertices.
+        # The maps' coefficients follow the order of the loops' vertices.
         raise InputFileError("domain: its loops must run as saved")
     return domain
 
 
 def _trace_options_to_dict(options: TraceOptions) -> dict[str, Any]:
-    """All fields; of the scribbles only whether they are used."""
     data = {f.name: getattr(options, f.name) for f in dataclasses.fields(options)}
     data["scribbles"] = options.scribbles is not None
     if data["max_edge"] == math.inf:
@@ -281,7 +277,6 @@ def _from_fields(kind: type[T], data: Any, name: str) -> T:
 def _scribbles_to_members(
     scribbles: Scribbles | None,
 ) -> tuple[dict[str, Any] | None, dict[str, bytes]]:
-    """Strokes as lists, masks as PNG members."""
     if scribbles is None:
         return None, {}
     data: dict[str, Any] = {}

@@ -1,4 +1,4 @@
-"""What the deformation editor holds at one moment, as an immutable value."""
+"""The state of the deformation editor, as an immutable value."""
 
 from __future__ import annotations
 
@@ -15,11 +15,10 @@ from glid_nb.session.document import NamedPose
 from glid_nb.solvers import Iteration, Method, Newton, Options, Pose, Result, Status
 
 LIVE_OPTIONS = Options(restarts=0, iterations_per_call=1)
-"""Settings for solving under a hand: the next frame soon, and no other way to a minimum."""
-
+"""Options for solving during a drag: a frame per iteration, and no restarts."""
 
 MOST_ITERATIONS = 200
-"""So many of a gesture's iterations are kept, the latest ones."""
+"""Most iterations of a gesture that are kept, the latest ones."""
 
 
 class EditError(InputError):
@@ -28,7 +27,7 @@ class EditError(InputError):
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """How a finished solve ended. Small, so that an undo history may hold many."""
+    """How a solve ended; small, since an undo history holds many."""
 
     status: Status
     message: str
@@ -37,7 +36,7 @@ class Solution:
     energy_p2p: float
     history: tuple[Iteration, ...]
     starts: tuple[int, ...] = ()
-    """Which of the gesture's iterations began with moved targets."""
+    """Numbers of the gesture's iterations at which the targets had moved."""
 
     @property
     def ended(self) -> bool:
@@ -48,7 +47,7 @@ class Solution:
     def of(
         cls, result: Result, before: Sequence[Iteration] = (), starts: tuple[int, ...] = (1,)
     ) -> Solution:
-        """The outcome of a solve that continued one with the iterations ``before``."""
+        """The end of a solve that went on after the iterations ``before``."""
         return cls(
             result.status,
             result.message,
@@ -63,7 +62,7 @@ class Solution:
 def continued_history(
     before: Sequence[Iteration], more: Sequence[Iteration]
 ) -> tuple[Iteration, ...]:
-    """One history of two, numbered through."""
+    """Both histories as one, numbered consecutively."""
     last = before[-1].iteration if before else 0
     latest = more[-MOST_ITERATIONS:]
     return (*before, *(replace(i, iteration=last + i.iteration) for i in latest))[-MOST_ITERATIONS:]
@@ -71,40 +70,26 @@ def continued_history(
 
 @dataclass(frozen=True, eq=False)
 class EditedPose:
-    """One pose in the making.
-
-    Parameters
-    ----------
-    name : str
-        What the list of poses shows.
-    pose : Pose
-        Handles and targets.
-    energy : Energy
-    options : Options
-    map : HarmonicMap
-        The best map so far; always certified.
-    solution : Solution or None
-        How the solve that found ``map`` ended; None while there is none for this very pose,
-        energy, options and method.
-    method : Method
-        What solves it. A method on a mesh leaves ``map`` as it is.
-    """
+    """A pose that is edited, and the map found for it so far."""
 
     name: str
     pose: Pose
     energy: Energy
     options: Options
     map: HarmonicMap
+    """The best map so far; always certified."""
     solution: Solution | None = None
+    """How the solve of this pose, energy, options and method ended with ``map``; None before."""
     method: Method = field(default_factory=Newton)
+    """A method on a mesh leaves ``map`` as it is."""
 
     @property
     def solved(self) -> bool:
-        """Whether ``map`` is where a solve came to its end; never so for a method on a mesh."""
+        """Whether a solve ended with ``map``; never for a method on a mesh."""
         return self.solution is not None and self.solution.ended
 
     def asks_the_same(self, other: EditedPose) -> bool:
-        """Whether the same problem is to be solved by the same method; values are not compared."""
+        """Whether pose, energy, options and method are the very same objects."""
         return (
             self.pose is other.pose
             and self.energy is other.energy
@@ -113,36 +98,29 @@ class EditedPose:
         )
 
     def changed(self, **changes: Any) -> EditedPose:
-        """With another pose, energy, options or method: the map stays, and is no solution."""
+        """A copy with another pose, energy, options or method; it is no longer solved."""
         return replace(self, solution=None, **changes)
 
     def named(self) -> NamedPose:
-        """As a document keeps it."""
+        """The pose as a document keeps it."""
         return NamedPose(self.name, self.pose, self.energy, self.options, self.map, self.method)
 
     @classmethod
     def from_named(cls, pose: NamedPose) -> EditedPose:
-        """A document's pose; whether its map is the solution is not written there."""
+        """A document's pose, not solved: documents do not keep the solution."""
         return cls(pose.name, pose.pose, pose.energy, pose.options, pose.map, method=pose.method)
 
 
 @dataclass(frozen=True, eq=False)
 class EditState:
-    """Everything an undo brings back: the domain and all poses, one of them being edited.
-
-    Parameters
-    ----------
-    domain : Domain
-        All maps live on it.
-    poses : tuple of EditedPose
-        At least one.
-    active : int
-        Which of them is edited.
-    """
+    """Everything that undo restores: the domain and all poses, one of them being edited."""
 
     domain: Domain
+    """The domain of all maps."""
     poses: tuple[EditedPose, ...]
+    """At least one."""
     active: int = 0
+    """Index of the pose that is edited."""
 
     @classmethod
     def initial(
@@ -166,7 +144,7 @@ class EditState:
 
     @classmethod
     def from_poses(cls, domain: Domain, poses: Sequence[NamedPose], active: int = 0) -> EditState:
-        """The poses of a document; without any, one at the identity map."""
+        """The poses of a document; if it has none, one at the identity map."""
         if not poses:
             return cls.initial(domain)
         return cls(domain, tuple(map(EditedPose.from_named, poses)), active)
@@ -192,6 +170,6 @@ class EditState:
         return HarmonicMap.identity(self.domain)
 
     def with_current(self, current: EditedPose) -> EditState:
-        """The same with another value of the pose that is edited."""
+        """A copy with another value of the pose that is edited."""
         before, after = self.poses[: self.active], self.poses[self.active + 1 :]
         return replace(self, poses=(*before, current, *after))

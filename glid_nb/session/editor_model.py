@@ -1,4 +1,4 @@
-"""The whole editor without a widget: a picture, its cage, its poses, and their file."""
+"""The model of the whole editor: a picture, its cage, its poses, and their file."""
 
 from __future__ import annotations
 
@@ -16,13 +16,12 @@ from numpy.typing import NDArray
 from glid_nb.geometry import Domain
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import ImageSource
-from glid_nb.session.autosave import Autosave, flush, free_sibling
+from glid_nb.session.autosave import Autosave, OwnFiles, flush, free_sibling
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, DocumentError
 from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.edit_state import EditedPose, EditError, EditState
 from glid_nb.session.observed import Observed
-from glid_nb.session.own_files import OwnFiles
 from glid_nb.session.tracing import TracingModel, TracingState
 
 Array = NDArray[np.uint8]
@@ -30,7 +29,7 @@ Array = NDArray[np.uint8]
 
 @dataclass(frozen=True, eq=False)
 class _Session:
-    """A picture that is deformed, and what its tracing was when it was last applied."""
+    """A picture being deformed, and its tracing as last applied."""
 
     image: Array
     domain: Domain | None
@@ -41,40 +40,31 @@ class _Session:
 
 @dataclass(frozen=True)
 class Application:
-    """What the application of a tracing has done to what was there.
-
-    Attributes
-    ----------
-    lost_handles
-        So many handles, of all poses, do not lie in the new outline; undo brings them back.
-    replaced
-        Whether another picture's session took the place of this one's, which comes back when the
-        tracing's undo, or redo, brings its picture back.
-    replaced_path
-        The file that the replaced session was kept up to date in.
-    back_by_redo
-        Whether it is redo that brings it back, since undo has taken its picture away.
-    """
+    """What `EditorModel.apply_tracing` has done to the poses."""
 
     lost_handles: int = 0
+    """Handles, of all poses, outside the new outline; undo brings them back."""
     replaced: bool = False
+    """Whether another picture's session replaced this one, which returns with its picture."""
     replaced_path: Path | None = None
+    """The file of the replaced session."""
     back_by_redo: bool = False
+    """Whether redo of the tracing, rather than undo, brings the replaced session back."""
 
 
 def open_document(path: str | Path) -> Document:
-    """`load_document`, after what any editor of this process has pending for the file."""
+    """`load_document`, after saving what any editor of this process has pending for the file."""
     flush(path)
     return load_document(path)
 
 
 def find_document(path: str | Path) -> Document | None:
-    """`open_document`, or None where no file is, nor will be once what is pending is saved.
+    """`open_document`, or None if there is no file.
 
     Raises
     ------
     DocumentError
-        The file is no valid document, or none can be at this path.
+        The file is no valid document, or the path cannot be that of a file.
     OSError
         It cannot be read.
     """
@@ -86,25 +76,25 @@ def find_document(path: str | Path) -> Document | None:
 class EditorModel(Observed):
     """A tracing and the deformation of what was traced.
 
-    ``observe`` tells of ``"replaced"``, when ``deformation`` or ``tracing`` is another object, and
-    of ``"saved"`` after each save in the background, of which ``save_error`` says how it went.
+    ``observe`` reports ``"replaced"`` when ``deformation`` or ``tracing`` is another object, and
+    ``"saved"`` after each save in the background; ``save_error`` says whether that failed.
 
     Parameters
     ----------
     image
         A picture, as in `glid_nb.read_image`; None to begin without one.
     document : Document, optional
-        Go on from there instead.
+        Begin with it instead.
     path : path, optional
-        A file that is saved to every few seconds while something changes, until somebody else
-        changes it: then one beside it.
+        A file that is saved to every few seconds while something changes. If another program
+        changes it, a new file beside it is used from then on.
 
     Raises
     ------
     TraceError
         The picture cannot be read.
     DocumentError
-        No file can be at ``path``.
+        ``path`` cannot be that of a file.
     """
 
     def __init__(
@@ -123,12 +113,12 @@ class EditorModel(Observed):
         self.own_files = OwnFiles()
         """The files that were saved, opened and exported."""
         self._session: _Session | None = None
-        # Sessions of other pictures, to which the tracing's undo may go back, and their files.
+        # Sessions of other pictures, which undo of the tracing may bring back, and their files.
         self._shelf: list[tuple[_Session, Path | None]] = []
-        # What a domain was traced by; undo of the deformation goes back to it.
+        # The tracing that made each domain; undo of the deformation restores it.
         self._sources: weakref.WeakKeyDictionary[Domain, TracingState]
         self._sources = weakref.WeakKeyDictionary()
-        # The file that somebody named for the autosave; others are called after it.
+        # The autosave's file as the user named it; files for other pictures are named after it.
         self._named_path: Path | None = None
         self._saved_work: tuple[Any, ...] = ()
         with self.locked():
@@ -143,16 +133,16 @@ class EditorModel(Observed):
 
     @property
     def autosave_path(self) -> Path | None:
-        """The session file that is kept up to date; None when there is none."""
+        """The file of the autosave, if any."""
         return None if self._autosave is None else self._autosave.path
 
     @property
     def left_path(self) -> Path | None:
-        """The file that was kept up to date until somebody else changed it; None otherwise."""
+        """The file that the autosave gave up because another program changed it, if any."""
         return None if self._autosave is None else self._autosave.left
 
     def take_over_file(self) -> None:
-        """Go on with the session file although its last writer was another editor, now closed."""
+        """Go on saving to the session file although another editor, now closed, wrote it last."""
         if self._autosave is not None:
             self._autosave.take_over()
             self._note_autosave()
@@ -161,8 +151,8 @@ class EditorModel(Observed):
     def deformation(self) -> Deformation:
         """The shape being deformed.
 
-        Its solver begins with the first change, or when a view says that it has been drawn
-        (`Deformation.begin`): compiling beside the page would only make that appear later.
+        Its solver begins with the first change, or when a view calls `Deformation.begin` after its
+        first drawing, which compiling would delay.
 
         Raises
         ------
@@ -180,24 +170,26 @@ class EditorModel(Observed):
 
     @property
     def unsaved(self) -> bool:
-        """Whether there are handles, of any picture, that are in no file."""
+        """Whether poses with handles, of any picture, are in no file."""
         session = self._session
         if session is None or self._autosave is not None:
             return False
         sessions = (session, *(shelved for shelved, _ in self._shelf))
-        return any(map(self._is_unsaved, sessions))
+        return any(
+            any(len(pose.pose) for pose in poses) and _work_of(poses) != self._saved_work
+            for poses in (one.deformation.poses for one in sessions)
+        )
 
     @property
     def image(self) -> Array | None:
-        """The picture that is deformed; the tracing may have another one open, not applied yet."""
+        """The picture that is deformed; the tracing may have another one, not yet applied."""
         return None if self._session is None else self._session.image
 
     def apply_tracing(self) -> Application:
-        """Deform what is traced now: a step for undo, or a new start for a new picture.
+        """Deform what is traced now: a step for undo, or another session for another picture.
 
-        A new picture is another session: where there is a file to save to, that one is left as it
-        is, and the new session is saved beside it. A picture that the tracing's undo has brought
-        back comes back with its poses and its file.
+        A new session is saved to a new file beside that of the session before. A picture that the
+        tracing's undo or redo brings back returns with its poses and its file.
         """
         with self.locked():
             domain, image = self.tracing.domain, self.tracing.image
@@ -218,7 +210,7 @@ class EditorModel(Observed):
 
     @property
     def document(self) -> Document:
-        """Everything as one value."""
+        """Picture, cage and poses as one value."""
         session = self._session
         if session is None:
             raise EditError("there is no cage yet; open a picture and trace a shape first")
@@ -236,7 +228,7 @@ class EditorModel(Observed):
         )
 
     def save(self, path: str | Path) -> None:
-        """Write everything to a file, atomically.
+        """Write the document to a file, atomically.
 
         Raises
         ------
@@ -253,7 +245,7 @@ class EditorModel(Observed):
         self.own_files.note_session(path)
 
     def load(self, path: str | Path) -> None:
-        """Go on with what a file holds; if there was a file to save to, it is this one from now on.
+        """Go on with the document in a file, which an autosave, if there is one, then saves to.
 
         Raises
         ------
@@ -270,7 +262,7 @@ class EditorModel(Observed):
             self._saved_work = _work_of(self.deformation.poses)
 
     def autosave(self) -> None:
-        """Save soon, if there is a path to save to and something to save."""
+        """Save soon, if there is a file to save to and something to save."""
         with self.locked():
             if self._autosave is not None and self.has_shape:
                 self._autosave.submit(self.document)
@@ -295,12 +287,7 @@ class EditorModel(Observed):
         if self._session is not None:
             self._session.deformation.close()
 
-    def _is_unsaved(self, session: _Session) -> bool:
-        poses = session.deformation.poses
-        return any(len(pose.pose) for pose in poses) and _work_of(poses) != self._saved_work
-
     def _traced(self, deformation: Deformation) -> _Session:
-        """The session of what is traced now."""
         tracing = self.tracing
         assert tracing.image is not None
         if tracing.domain is not None:
@@ -310,12 +297,12 @@ class EditorModel(Observed):
         )
 
     def _change_picture(self, domain: Domain, image: Array) -> None:
-        """Begin with another picture, or go on with one that was there before."""
+        """Begin with a new picture, or go on with one that had a session before."""
         shelved = next((s for s in self._shelf if s[0].image is image), None)
         if shelved is None:
             if self._named_path is not None and self._session is not None:
                 if self._autosave is not None:
-                    self._autosave.flush()  # its name is not free
+                    self._autosave.flush()  # so that the next file gets another name
                 self._save_to(free_sibling(self._named_path))
             self._replace(Deformation(domain, begin=False))
             return
@@ -329,7 +316,7 @@ class EditorModel(Observed):
             _apply(deformation, domain)
 
     def _save_to(self, path: Path) -> None:
-        """From now on this file is kept up to date; what is pending for another is saved there."""
+        """Autosave to this file, after what is pending for another one is saved there."""
         old = self._autosave
         if old is not None:
             if old.path.resolve() == path.resolve():
@@ -366,7 +353,7 @@ class EditorModel(Observed):
             self.autosave()
 
     def _follow(self, session: _Session, domain: Domain) -> None:
-        """Undo, or a dropped hole, has changed the outline: the tracing shows that one too."""
+        """Show the outline in the tracing after undo, or a dropped hole, has changed it."""
         tracing = self.tracing
         if tracing.image is not session.image or tracing.domain is None:
             return
@@ -379,11 +366,10 @@ class EditorModel(Observed):
         self._session = self._traced(session.deformation)
 
     def _saved(self, error: Exception | None) -> None:
-        """After a save in the background, in its thread."""
         self.save_error = error
         if error is None:
             self._note_autosave()
-        self._announce("saved")  # without the lock, which may be held by who waits for the save
+        self._announce("saved")  # not by _tell: a thread that waits for the save may hold the lock
 
     def _note_autosave(self) -> None:
         if (path := self.autosave_path) is None:
@@ -394,19 +380,19 @@ class EditorModel(Observed):
 
 
 def _apply(deformation: Deformation, domain: Domain) -> int:
-    """Deform another outline of the same picture; how many handles do not lie in it."""
+    """Deform another outline of the same picture; how many handles that loses."""
     before = _count_handles(deformation)
     deformation.set_domain(domain)
     return max(before - _count_handles(deformation), 0)
 
 
 def _work_of(poses: Sequence[EditedPose]) -> tuple[Any, ...]:
-    """What somebody chose in all poses; equal values are the same work."""
+    """The user's choices in all poses, to be compared."""
     return tuple((pose.name, pose.pose, pose.energy, pose.options, pose.method) for pose in poses)
 
 
 def _check_place(path: Path) -> None:
-    """Raise where a session file can neither be nor be written."""
+    """Raise unless a session file can be at this path."""
     if path.is_dir():
         raise DocumentError(f"{path.absolute()} is a folder; name a file")
     if not path.parent.is_dir():

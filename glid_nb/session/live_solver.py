@@ -1,4 +1,4 @@
-"""Solving while somebody drags: the latest target wins, and goes on from the one before."""
+"""Solving during a drag: each solve continues the one before, and the latest target wins."""
 
 from __future__ import annotations
 
@@ -21,53 +21,46 @@ from glid_nb.solvers.discretisation import Discretisation, discretise
 Array = NDArray[Any]
 
 FRAME_INTERVAL = 1 / 40
-"""Least number of seconds between two frames of one solve; its last frame always comes."""
-# Panels only ever get finer; beyond this multiple of a fresh domain's a solve takes fresh ones.
+"""Least number of seconds between two frames of one solve; the last frame is always sent."""
+# Panels are only ever split; with more than this multiple of the initial number, start afresh.
 _MOST_REFINED = 3.0
 
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """What to solve.
-
-    Parameters
-    ----------
-    pose : EditedPose
-        Handles, targets, energy, options, method, and the map to start from.
-    chain : int
-        Tasks of one chain continue one another's maps; another chain starts at its own.
-    single : bool
-        Stop after one compiled call, or one iteration of another method.
-    """
+    """What to solve."""
 
     pose: EditedPose
+    """Handles, targets, energy, options, method, and the map to start from."""
     chain: int
+    """A task continues from the map of the task before it only if both are of one chain."""
     single: bool = False
+    """Stop after one compiled call, or one iteration of another method."""
 
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """A map on the way to a solution, or the solution."""
+    """A map during a solve, or its final one."""
 
     task: Task
     map: HarmonicMap
-    """Certified. The task's own while a method works on a mesh."""
+    """Certified; for a method on a mesh the task's own."""
     history: tuple[Iteration, ...]
     """All iterations of this gesture so far."""
     solution: Solution | None
     """None while the solve goes on."""
     panels: Panels | None = None
-    """Of the boundary; None where the method has none."""
+    """Of the boundary; None for a method without panels."""
     sigma2_lower: Array = field(default_factory=lambda: np.empty(0))
     """(p,) certified bound per panel; empty when it is not known."""
     mesh: MeshMap | None = None
     """The map of a method on a mesh, which may fold."""
     starts: tuple[int, ...] = ()
-    """Which of the gesture's iterations began a solve, the targets having moved before."""
+    """Numbers of the gesture's iterations at which the targets had moved."""
 
     @property
     def bound(self) -> float:
-        """What is proved of sigma_2 everywhere; NaN when the solver did not say."""
+        """The certified lower bound on sigma_2; NaN when the solver has not given one."""
         if len(self.sigma2_lower):
             return float(self.sigma2_lower.min())
         known = self.history[-1].sigma2_lower if self.history else None
@@ -75,14 +68,14 @@ class Frame:
 
 
 class LiveSolver:
-    """Solves one task after the other, each from what the one before it has reached.
+    """Solves one task after the other, each from the map that the one before has reached.
 
     Parameters
     ----------
     publish : bound method
-        Called with every :class:`Frame`. Its object is not kept alive by this.
+        Called with every :class:`Frame`; its object is not kept alive.
     failed : bound method
-        Called with an exception that a solve raised.
+        Called with the exception that a solve raised; likewise.
     """
 
     def __init__(
@@ -97,10 +90,10 @@ class LiveSolver:
         self._bounds = np.empty(0)
 
     def solve(self, task: Task, worker: LatestWins[Task]) -> None:
-        """Run the task's method, and publish what it comes to.
+        """Run the task's method and publish its frames.
 
         A newer task interrupts this between two compiled calls, or two iterations of another
-        method than ours. So every task moves the shape, and the last one is solved to its end.
+        method. So every task moves the shape, and the last one is solved to its end.
         """
         continued = self._last_chain == task.chain and self._last is not None
         last = self._last if continued else None
@@ -110,7 +103,7 @@ class LiveSolver:
         self._starts = (*earlier, start)
         try:
             result = self._result(task, worker, last, before)
-        except Exception as error:  # shown to the user; the next task begins anew
+        except Exception as error:  # shown to the user; the next task starts from its own map
             self._last = None
             self._failed(error)
             return
@@ -128,7 +121,6 @@ class LiveSolver:
         last: Result | None,
         before: tuple[Iteration, ...],
     ) -> Result:
-        """Run the task's method, showing where it is as often as frames are due."""
         edited, method = task.pose, task.pose.method
         calls = iterations = 0
         self._bounds = np.empty(0)
@@ -136,12 +128,12 @@ class LiveSolver:
         def callback(progress: Progress) -> bool:
             nonlocal calls, iterations
             if progress.sigma2_lower is None and not progress.history:
-                # The start of a method: every task takes a step from there.
+                # The report before the first iteration: every task takes at least a step.
                 return worker.cancelled
             calls += 1
             self._bounds = np.empty(0) if progress.sigma2_lower is None else progress.sigma2_lower
             moved, iterations = len(progress.history) > iterations, len(progress.history)
-            # The panels that a call without an iteration has split are kept for the next task.
+            # A first call may only split panels; those are kept for the next task.
             if worker.overtaken or (task.single and (moved or calls > 1)):
                 return True  # the frame comes with the result
             if moved and self._is_time():
@@ -150,8 +142,7 @@ class LiveSolver:
                 self._publish(self._frame(task, progress.map, history, None, disc))
             return False
 
-        # The shape is under a hand: it must go on from where it is, without turning as a whole.
-        # A single handle takes it along.
+        # During a drag the shape must not turn as a whole; a single handle takes it along.
         align = isinstance(method, Newton) and len(edited.pose) == 1
         options = replace(edited.options, align=align, restarts=0)
         start = _starting_point(edited, last)
@@ -166,7 +157,6 @@ class LiveSolver:
         solution: Solution | None,
         discretisation: Discretisation | None,
     ) -> Frame:
-        """What the method has reached; the map of a mesh stands beside the task's."""
         panels = None if discretisation is None else discretisation.panels
         bounds = self._bounds
         if panels is None or len(bounds) != len(panels):
@@ -176,7 +166,7 @@ class LiveSolver:
         return Frame(task, certified, history, solution, panels, bounds, mesh, self._starts)
 
     def _is_time(self) -> bool:
-        """Whether the next frame is due; the time counts from now on if it is."""
+        """Whether the next frame is due; if so, the interval starts again."""
         now = time.monotonic()
         due = now - self._published >= FRAME_INTERVAL
         if due:
@@ -190,7 +180,7 @@ def _starting_point(edited: EditedPose, last: Result | None) -> DeformationMap |
         return start
     conformal = edited.options.conformal and "conformal" in edited.method.options
     if conformal and np.abs(start.psi - start.psi[0]).max() > 0:
-        # The one conformal map that is always at hand.
+        # The solver needs a conformal start; the identity is one.
         return HarmonicMap.identity(start.domain)
     if last is None or last.n_panels is None:
         return start

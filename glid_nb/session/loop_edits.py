@@ -1,4 +1,4 @@
-"""Edits of a cage's vertices by hand, as functions of loops that may become invalid."""
+"""Edits of a cage's vertices, as functions of loops that need not be a valid cage."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from glid_nb.geometry import Cage, GeometryError
 
 Loop: TypeAlias = NDArray[np.float64]
 Loops: TypeAlias = tuple[Loop, ...]
-"""The exterior, then the holes: read-only (n, 2) arrays. They need not bound a domain."""
+"""The exterior, then the holes: read-only (n, 2) arrays, valid as a cage or not."""
 
 
 def move_vertex(loops: Loops, loop: int, index: int, to: ArrayLike) -> Loops:
-    """The loops with one vertex elsewhere."""
+    """The loops with one vertex moved."""
     vertices = _loop(loops, loop, index).copy()
     vertices[index] = checked_point(to)
     return _with(loops, loop, vertices)
@@ -30,12 +30,12 @@ def insert_vertex(loops: Loops, loop: int, edge: int, at: ArrayLike) -> Loops:
 
 
 def delete_vertices(loops: Loops, vertices: Iterable[tuple[int, int]]) -> Loops:
-    """The loops without some vertices (loop, index); a hole with fewer than three left goes.
+    """The loops without some vertices (loop, index); holes with fewer than three left are removed.
 
     Raises
     ------
     GeometryError
-        When the exterior loop would have fewer than three left.
+        When the exterior would have fewer than three left.
     """
     gone: dict[int, set[int]] = {}
     for loop, index in vertices:
@@ -52,7 +52,7 @@ def delete_vertices(loops: Loops, vertices: Iterable[tuple[int, int]]) -> Loops:
 
 
 def nearest_edge(loops: Loops, point: ArrayLike) -> tuple[int, int, Loop]:
-    """The edge (loop, index) next to a point, and the edge's nearest point."""
+    """The edge (loop, index) nearest to a point, and its nearest point to that."""
     p = checked_point(point)
     best = (np.inf, 0, 0, p)
     for i, loop in enumerate(loops):
@@ -68,24 +68,18 @@ def nearest_edge(loops: Loops, point: ArrayLike) -> tuple[int, int, Loop]:
 
 
 def around(loops: Loops, point: ArrayLike) -> int | None:
-    """Index of the hole loop that goes around a point, or None."""
+    """Index of the loop of the hole around a point, or None."""
     holes = enumerate(loops[1:], start=1)
     return next((i for i, loop in holes if contains(loop, point)), None)
 
 
 def contains(loop: Loop, point: ArrayLike) -> bool:
-    """Whether a loop goes around a point."""
+    """Whether a point lies inside a loop."""
     return bool(shapely.contains_xy(shapely.Polygon(loop), *checked_point(point)))
 
 
 def checked_point(point: ArrayLike) -> Loop:
-    """A finite (2,) point.
-
-    Raises
-    ------
-    GeometryError
-        When it is none.
-    """
+    """The point as a (2,) array; GeometryError unless it is a pair of finite numbers."""
     try:
         p = np.asarray(point, dtype=np.float64)
     except (TypeError, ValueError) as error:

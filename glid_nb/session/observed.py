@@ -1,4 +1,4 @@
-"""What the models of the editor share: a lock, and observers that are told of changes."""
+"""The base class of the editor's models: a lock, and observers of changes."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ Observer = Callable[[str], None]
 
 
 class Observed:
-    """A model that several threads may use, and that tells observers of its changes by name.
+    """A model that several threads may use, and that reports its changes by name to observers.
 
-    Each model has one lock; its views draw while they hold it. Observers are told, in the thread
-    that made the changes, once that thread has released it, so they may lock whatever they need.
+    Each model has one lock, which its views hold while they draw. Observers are called by the
+    thread that made the changes, after it has released the lock, so they may take other locks.
     """
 
     def __init__(self) -> None:
@@ -25,7 +25,7 @@ class Observed:
 
     @contextmanager
     def locked(self) -> Iterator[None]:
-        """Nobody else changes the model meanwhile: what is read here belongs together."""
+        """Hold the lock, so that what is read belongs to one moment."""
         self._lock.acquire()
         self._depth += 1
         due: list[Callable[[], None]] = []
@@ -43,7 +43,7 @@ class Observed:
             self._announce(*news)
 
     def observe(self, observer: Observer) -> Callable[[], None]:
-        """Call ``observer`` with the name of every change; returns what ends that."""
+        """Call ``observer`` with the name of every change; returns a function that ends this."""
         with self.locked():
             self._observers.append(observer)
 
@@ -55,17 +55,17 @@ class Observed:
         return end
 
     def _tell(self, *names: str) -> None:
-        """Tell observers of these changes, once the lock is released. It must be held."""
+        """Report these changes once the lock, which must be held, is released."""
         assert self._depth
         self._news.update(dict.fromkeys(names))
 
     def _announce(self, *names: str) -> None:
-        """Tell observers of these changes now."""
+        """Report these changes now."""
         for observer in tuple(self._observers) if names else ():
             for name in names:
                 observer(name)
 
     def _afterwards(self, act: Callable[[], None]) -> None:
-        """Do this once the lock is released, before observers are told. It must be held."""
+        """Call ``act`` once the lock, which must be held, is released, before observers."""
         assert self._depth
         self._due.append(act)

@@ -1,4 +1,4 @@
-"""Pixels as PNG, exactly: the pictures and masks of a document."""
+"""Pictures and masks of a document as PNG, without loss."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ def image_png(image: NDArray[np.uint8]) -> bytes:
 
 
 def light_png(pixels: NDArray[Any]) -> bytes:
-    """PNG, compressed lightly: a picture of 4 megapixels takes a tenth of a second."""
-    from glid_nb.export.picture import png  # noqa: PLC0415 - not for the first canvas
+    """Pixels as lightly compressed PNG: 4 megapixels take a tenth of a second."""
+    from glid_nb.export.picture import png  # noqa: PLC0415 - the first canvas does not need it
 
     return png(pixels, compress_level=1)
 
@@ -41,7 +41,7 @@ def read_png(
     Raises
     ------
     InputFileError
-        Before anything is decoded when it is another picture than announced.
+        When it is damaged; before decoding, when size or mode differ.
     """
     if not data.startswith(_SIGNATURE):
         raise InputFileError(f"{name} is no PNG picture")

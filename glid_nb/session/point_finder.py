@@ -1,4 +1,4 @@
-"""Which point of the undeformed shape is seen at a place: the inverse of a map."""
+"""The inverse of a map: the point of the undeformed shape that is drawn at a place."""
 
 from __future__ import annotations
 
@@ -20,14 +20,7 @@ _ROUNDING = 1e-9
 
 
 class PointFinder:
-    """Inverts the maps of one domain.
-
-    A coarse mesh of the domain says where to look; Newton's method finds the point.
-
-    Parameters
-    ----------
-    domain : Domain
-    """
+    """Inverts the maps of one domain by Newton's method, from a start found on a coarse mesh."""
 
     def __init__(self, domain: Domain) -> None:
         self.domain = domain
@@ -38,9 +31,9 @@ class PointFinder:
         return mesh.vertices, mesh.triangles
 
     def find(self, map: DeformationMap, point: Any) -> Array | None:
-        """The point z (2,) of the domain with f(z) = ``point``; None where there is no shape.
+        """The point z (2,) of the domain with f(z) = ``point``; None if there is none.
 
-        Where the shape overlaps itself, the sheet that is drawn last, on top, counts.
+        Where the shape overlaps itself, it is the one that is drawn last, on top.
         """
         point = np.asarray(point, dtype=float)
         if isinstance(map, MeshMap):
@@ -62,9 +55,9 @@ class PointFinder:
 def _in_triangles(
     images: Array, corners: Array, point: Array, turned_over: bool = False
 ) -> Array | None:
-    """Linear interpolation within the last of the triangles (t, 3, 2) that hold the point.
+    """Interpolate linearly in the last of the triangles (t, 3, 2) that contain the point.
 
-    Those that are turned over only count if that is asked for: coarse triangles may be where the
+    Flipped triangles are skipped unless ``turned_over``: a coarse triangle may be flipped where the
     map itself is not.
     """
     a, b, c = (images[:, k] - point for k in range(3))

@@ -36,9 +36,8 @@ class Problem:
     Parameters
     ----------
     domain : Domain
-        The shape.
     pose : Pose
-        Handles inside the shape, and their targets.
+        Handles inside the domain, and their targets.
 
     Raises
     ------
@@ -61,7 +60,7 @@ class Problem:
         data : mapping
             ``cage``, ``handles`` and ``targets`` are required, ``holes`` is optional, all in world
             coordinates. ``offset`` (a distance), ``offset_cage``, ``offset_holes`` and
-            ``hole_points`` are used when given and chosen when not. Other keys are ignored.
+            ``hole_points`` are chosen when missing. Other keys are ignored.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""What there is to say about a solve, as plain JSON values."""
+"""The report of a solve, as plain JSON values."""
 
 from __future__ import annotations
 
@@ -22,12 +22,11 @@ _LIBRARIES = ("jax", "jaxlib", "numpy", "scipy")
 
 
 def build_report(result: Result) -> dict[str, Any]:
-    """The report of a solve, the final proof included, which is made here and timed.
+    """The report of a solve, with its certificate and global injectivity, both timed.
 
     Parameters
     ----------
     result : Result
-        What :func:`glid_nb.solve` returned.
 
     Returns
     -------
@@ -100,7 +99,7 @@ def _machine() -> dict[str, Any]:
 
 
 def _plain(value: Any) -> Any:
-    """The same value of types that JSON has."""
+    """The value in JSON's types; null for numbers that are not finite."""
     if isinstance(value, Mapping):
         return {key: _plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):

@@ -1,4 +1,4 @@
-"""A document as the few lines of Python that make the same map."""
+"""A document as Python code that makes the same map."""
 
 from __future__ import annotations
 
@@ -17,24 +17,22 @@ from glid_nb.solvers import Newton
 
 
 def python_code(document: Document, picture: str = "picture.png", *, exact: bool = False) -> str:
-    """Lines that make the map of the document's active pose, as ``result.map`` or ``map``.
+    """Python code that makes the map of the document's active pose, as ``map``.
 
-    Where the pose's method works on a mesh, the lines make what it comes to, a
-    :class:`~glid_nb.MeshMap`, though the document holds a harmonic map.
-
-    The cage is traced from the picture by the document's options if that gives the document's cage;
-    a cage that was edited by hand, or that scribbles gave, stands in the text.
+    If the pose's method works on a mesh, that is a :class:`~glid_nb.MeshMap`, although the document
+    holds a harmonic map. The cage is traced from the picture if the document's options give it;
+    a cage that was edited by hand, or came from scribbles, is written out.
 
     Parameters
     ----------
     document : Document
-        It has an active pose.
+        With an active pose.
     picture : str
-        Path of the picture's file, as the lines shall name it.
+        Path of the picture's file for the code.
     exact : bool
         Write the coefficients of the document's map, some kilobytes, instead of a solve. A solve
-        ends at the same energy to ten digits, unless the pose is a hard one with several minima,
-        and the editor came to another of them on its way than a solve from the identity does.
+        ends at the same energy to ten digits, unless a hard pose has several minima and the editor
+        reached another one than a solve from the identity does.
 
     Raises
     ------
@@ -113,17 +111,17 @@ def _is_traced(document: Document) -> bool:
     try:
         cage = trace(document.image, document.trace_options).cage
     except TraceError:
-        return False  # the cage comes from other options than those that were tried last
+        return False  # the options that were tried last give no cage
     return cage.equals(document.cage)
 
 
 def _made(value: Any, module: str = "glid") -> str:
-    """The call that makes a dataclass."""
+    """The code that makes a dataclass."""
     return f"{module}.{type(value).__name__}({_changed(value)})"
 
 
 def _changed(value: Any, names: Sequence[str] | None = None) -> str:
-    """The fields of a dataclass that differ from the defaults, as keyword arguments."""
+    """The fields of a dataclass that differ from their defaults, as keyword arguments."""
     parts, default = [], type(value)()
     for name in [field.name for field in dataclasses.fields(value)] if names is None else names:
         given = getattr(value, name)

@@ -1,4 +1,4 @@
-"""What the deformation editor is doing, in words."""
+"""The status line of the deformation editor."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from glid_nb.solvers import MethodError, Status
 
 Level = Literal["idle", "working", "good", "blocked", "error"]
 
-_REACHED = 0.01  # world units: a handle this near to its target looks as if it were there
+_REACHED = 0.01  # world units; a smaller distance from the target is not visible
 
 
 @dataclass(frozen=True)
@@ -32,8 +32,8 @@ class StatusLine:
 def describe(moment: Moment, certificate_of: Callable[[HarmonicMap], Certificate]) -> StatusLine:
     """The status of an editor.
 
-    While the solver works the line has the solver's own bound on sigma_2, at rest that of the
-    map's certificate, which is asked for only then.
+    While the solver works it shows the solver's bound on sigma_2; at rest the bounds of the
+    certificate, which is only then computed.
     """
     if moment.error is not None:
         return _describe_error(moment.error)
@@ -41,7 +41,8 @@ def describe(moment: Moment, certificate_of: Callable[[HarmonicMap], Certificate
     if moment.busy and not moment.paused:
         if frame is None:
             return StatusLine("working", "Preparing the solver…")
-        return StatusLine("working", "Working" + _iterations(frame) + _bound(frame))
+        iteration = f", iteration {frame.history[-1].iteration}" if frame.history else ""
+        return StatusLine("working", f"Working{iteration}{_bound(frame)}")
 
     def proof() -> str:
         if moment.comparison is not None:
@@ -68,7 +69,6 @@ def describe(moment: Moment, certificate_of: Callable[[HarmonicMap], Certificate
 
 
 def _describe_comparison(solution: Solution, frame: Frame, proof: str) -> StatusLine:
-    """The status of a pose whose method on a mesh has ended."""
     title = frame.task.pose.method.label
     status = solution.status
     if status is Status.STOPPED:
@@ -80,19 +80,13 @@ def _describe_comparison(solution: Solution, frame: Frame, proof: str) -> Status
 
 
 def _describe_error(error: Exception) -> StatusLine:
-    """The status after the solver's thread met an exception."""
     if isinstance(error, MethodError):
         return StatusLine("blocked", str(error))
     text = str(error) or type(error).__name__
     return StatusLine("error", f"The solver failed: {text} The last certified map is shown.")
 
 
-def _iterations(frame: Frame) -> str:
-    return f", iteration {frame.history[-1].iteration}" if frame.history else ""
-
-
 def _bound(frame: Frame | None) -> str:
-    """What the solver has proved so far."""
     if frame is None:
         return ""
     if frame.mesh is not None:
@@ -110,7 +104,7 @@ def _proof(certificate: Certificate) -> str:
 
 
 def uncertified(mesh: MeshMap) -> str:
-    """What can be said of a map of a mesh, which nothing is proved of."""
+    """The number of flipped triangles of a mesh's map, which is not certified."""
     count = int(mesh.flipped.sum())
     if not count:
         return "no triangle is turned over, but a map of a mesh is not certified"
@@ -118,7 +112,7 @@ def uncertified(mesh: MeshMap) -> str:
 
 
 def _miss(state: EditState) -> str:
-    """How far the farthest handle is from its target, when that is far enough to see."""
+    """The largest distance of a handle from its target, if that is visible."""
     pose = state.pose
     if not len(pose):
         return ""

@@ -1,4 +1,4 @@
-"""A pose for a shape that nobody has posed yet: handles at its ends, one or two of them moved."""
+"""A first pose for a shape: handles at its ends, one or two of them moved."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from glid_nb.geometry import Domain, Triangulation, triangulate
 from glid_nb.solvers import Pose
 
 _MESH_VERTICES = 3000
-# All as shares of the way from the middle of the shape to its farthest point.
+# As shares of the distance, inside the shape, from its middle to its farthest point.
 _LEAST_SPACING = 0.45
 _PULL_IN = 0.15
 _TURN = np.radians(24)
-# Farther along the shape than this times the handle's way counts as another limb.
+# Points farther from a handle, inside the shape, than this times its move are on another limb.
 _APART = 2.0
 
 
@@ -30,9 +30,8 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
     Parameters
     ----------
     domain : Domain
-        The shape.
     max_handles : int
-        At most this many handles, at least 2.
+        Most handles; at least 2.
     """
     if max_handles < 2:
         raise ValueError(f"max_handles is {max_handles}; it must be at least 2")
@@ -78,12 +77,12 @@ def _spread_out(
 
 
 def _edge_lengths(mesh: Triangulation) -> scipy.sparse.csr_array:
-    """The mesh as a graph whose edges weigh their lengths."""
+    """The mesh as a symmetric graph, weighted by the lengths of its edges."""
     a = mesh.triangles.ravel()
     b = np.roll(mesh.triangles, -1, axis=1).ravel()
     lengths = np.linalg.norm(mesh.vertices[a] - mesh.vertices[b], axis=1)
     n = len(mesh.vertices)
-    # Every triangle runs counter-clockwise, so no edge is there twice in the same direction.
+    # All triangles are counter-clockwise, so no directed edge occurs twice.
     one_way = scipy.sparse.coo_array((lengths, (a, b)), shape=(n, n)).tocsr()
     return one_way.maximum(one_way.T)
 
@@ -94,10 +93,7 @@ def _swung(
     vertices: NDArray[np.float64],
     path_lengths: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """The handle turned about the middle, on the way that stays farther from the rest of the shape.
-
-    The rest is what lies much farther from the handle along the shape than the handle moves.
-    """
+    """The handle turned about the middle, in the direction that stays farther from other limbs."""
     x, y = handle - middle
     ways = []
     for turn in (_TURN, -_TURN):

@@ -1,4 +1,4 @@
-"""The model behind the cage tracer: what is chosen, what comes of it, and every way back."""
+"""The model of the cage tracer: the user's choices, the cage they give, and undo."""
 
 from __future__ import annotations
 
@@ -40,50 +40,34 @@ _KEPT_OUTCOMES = 12  # each holds a mask of the picture's size
 
 @dataclass(frozen=True)
 class TracingProblem:
-    """Why the loops that are shown are no cage.
-
-    Attributes
-    ----------
-    message
-        A sentence that says what is wrong and what to do.
-    plain
-        The same for who has picture and controls in view: no code words, no coordinates.
-    point
-        Where, (x, y) in pixels; None when it is nowhere in particular.
-    """
+    """Why the loops that are shown are not a valid cage."""
 
     message: str
+    """What is wrong and what to do."""
     plain: str
+    """The same for a user who sees the picture: without code words and coordinates."""
     point: Point | None = None
+    """Where, (x, y) in pixels; None if at no particular place."""
 
 
 @dataclass(frozen=True, eq=False)
 class TracingState:
-    """What somebody chose; everything else follows from it. Undo goes back to one of these.
-
-    Attributes
-    ----------
-    image
-        (h, w, 4) read-only uint8, or None before there is a picture.
-    options
-        How to trace, without scribbles.
-    scribbles
-        What was painted; used when ``options.method`` is "scribbles".
-    loops
-        The loops as edited by hand, world coordinates; None when they are as traced.
-    fallback
-        The last valid domain before this state, in use while this state's own is not valid.
-    """
+    """The user's choices, from which everything else follows; undo restores them."""
 
     image: NDArray[np.uint8] | None = None
+    """(h, w, 4) read-only uint8, or None before there is a picture."""
     options: TraceOptions = field(default_factory=TraceOptions)
+    """How to trace, without scribbles."""
     scribbles: Scribbles | None = None
+    """Used when ``options.method`` is "scribbles"."""
     loops: Loops | None = None
+    """The loops as edited by hand, world coordinates; None when they are as traced."""
     fallback: Domain | None = None
+    """The last valid domain before this state, used while this state's own is not valid."""
 
     @property
     def trace_options(self) -> TraceOptions:
-        """The options with the scribbles that they use."""
+        """The options, with the scribbles if they use them."""
         if self.options.method != "scribbles":
             return self.options
         return replace(self.options, scribbles=self.scribbles or _NO_SCRIBBLES)
@@ -91,42 +75,32 @@ class TracingState:
 
 @dataclass(frozen=True, eq=False)
 class TracingOutcome:
-    """What follows from a state.
-
-    Attributes
-    ----------
-    tracing
-        The automatic part; None where it failed.
-    loops
-        The loops to show, world coordinates, valid or not.
-    domain
-        From the loops if they are valid, else the state's fallback.
-    problems
-        Why they are not; empty when they are.
-    """
+    """What follows from a state."""
 
     tracing: Tracing | None
+    """The result of automatic tracing; None if it failed."""
     loops: Loops
+    """The loops to show, world coordinates, valid or not."""
     domain: Domain | None
+    """From the loops if they are valid, else the state's fallback."""
     problems: tuple[TracingProblem, ...]
+    """Why the loops are not valid; empty when they are."""
 
 
-_EMPTY = TracingOutcome(None, (), None, ())
 _NO_SCRIBBLES = Scribbles([], [])
-# TraceOptions itself refuses the method without scribbles; the state keeps them apart.
+# TraceOptions refuses the method without scribbles, but the state stores them separately.
 _METHOD_OF_SCRIBBLES: dict[str, Any] = {"method": "scribbles", "scribbles": _NO_SCRIBBLES}
 
 
 class TracingModel(Observed):
-    """Traces a cage from a picture, interactively, with undo; a widget is a view of one.
+    """Traces a cage from a picture, interactively, with undo; the model behind `CageTracer`.
 
-    Every action makes a new immutable state. A state whose loops are no cage may exist (a vertex
-    was dragged across an edge, a threshold leaves nothing): `problems` says where and why, and
-    `cage` stays the last valid one. Actions may come from several threads.
+    Every action makes a new immutable state. While its loops are not a valid cage (a vertex was
+    dragged across an edge, a threshold leaves nothing), `problems` says where and why, and `cage`
+    is the last valid one. Any thread may call the methods.
 
-    Points are in the picture's pixels, x right and y down from its top left corner. An action takes
-    an optional `gesture`, any value: consecutive actions of the same gesture, such as the moves of
-    one drag, are one step to undo.
+    Points are in pixels, x right and y down from the picture's top left corner. Consecutive actions
+    with the same `gesture`, any value, such as the moves of one drag, are one step for undo.
 
     Parameters
     ----------
@@ -138,7 +112,7 @@ class TracingModel(Observed):
     Raises
     ------
     TraceError
-        The picture cannot be read. (That it shows no shape is a problem, not an error.)
+        The picture cannot be read. (A picture without a shape is one of the `problems`.)
     """
 
     def __init__(
@@ -150,7 +124,7 @@ class TracingModel(Observed):
 
     @classmethod
     def from_document(cls, document: Document) -> TracingModel:
-        """A model that stands where the document's tracing did."""
+        """A model with the document's picture, options, scribbles and cage."""
         model = cls.__new__(cls)
         state = TracingState(
             document.image,
@@ -160,7 +134,7 @@ class TracingModel(Observed):
             document.domain,
         )
         model._begin(state)
-        # Exactly what tracing gives anew was not edited by hand.
+        # A cage that tracing gives again was not edited by hand.
         tracing = model.tracing
         if tracing is not None and tracing.cage.equals(document.cage):
             model._history = History(replace(state, loops=None))
@@ -172,11 +146,11 @@ class TracingModel(Observed):
         self._tracer: Tracer | None = None
         self._outcome_of = functools.lru_cache(_KEPT_OUTCOMES)(weakly(self._evaluate))
 
-    # What there is to see
+    # State
 
     @property
     def state(self) -> TracingState:
-        """What is chosen now."""
+        """The user's present choices."""
         return self._history.present
 
     @property
@@ -186,7 +160,7 @@ class TracingModel(Observed):
 
     @property
     def frame(self) -> PixelFrame | None:
-        """Pixels to world coordinates and back."""
+        """The conversion between pixels and world coordinates; None without a picture."""
         if self.state.image is None:
             return None
         height, width = self.state.image.shape[:2]
@@ -194,12 +168,12 @@ class TracingModel(Observed):
 
     @property
     def options(self) -> TraceOptions:
-        """The options, with the scribbles that they use."""
+        """The options, with the scribbles if they use them."""
         return self.state.trace_options
 
     @property
     def scribbles(self) -> Scribbles | None:
-        """What was painted, used or not."""
+        """The painted strokes, used or not."""
         return self.state.scribbles
 
     @property
@@ -210,7 +184,7 @@ class TracingModel(Observed):
 
     @property
     def tracing(self) -> Tracing | None:
-        """The automatic part of the outcome; None when it failed."""
+        """The result of automatic tracing; None if it failed."""
         return self.outcome.tracing
 
     @property
@@ -226,17 +200,17 @@ class TracingModel(Observed):
 
     @property
     def cage(self) -> Cage | None:
-        """The last valid cage; None before there is one."""
+        """The last valid cage, if any."""
         return None if self.domain is None else self.domain.cage
 
     @property
     def domain(self) -> Domain | None:
-        """The domain of the last valid cage; None before there is one."""
+        """The domain of the last valid cage, if any."""
         return self.outcome.domain
 
     @property
     def problems(self) -> tuple[TracingProblem, ...]:
-        """Why the loops that are shown are not the cage; empty when they are."""
+        """Why the loops that are shown are not a valid cage; empty when they are."""
         return self.outcome.problems
 
     @property
@@ -246,47 +220,47 @@ class TracingModel(Observed):
 
     @property
     def has_discarded_edits(self) -> bool:
-        """Whether the last step, such as another option, took edits by hand away."""
+        """Whether the last step, such as another option, discarded edits by hand."""
         before = self._history.past[-1] if self._history.past else self.state
         return before.loops is not None and not self.edited and before.image is self.image
 
     @property
     def can_undo(self) -> bool:
-        """Whether there is a state to go back to."""
+        """Whether there is something to undo."""
         return bool(self._history.past)
 
     @property
     def can_redo(self) -> bool:
-        """Whether a state was undone."""
+        """Whether there is something to redo."""
         return bool(self._history.future)
 
     def redo_reaches(self, image: NDArray[np.uint8] | None) -> bool:
-        """Whether a picture, this very array, is among what redo brings back."""
+        """Whether redo can bring back this picture, the same array."""
         return any(state.image is image for state in self._history.future)
 
     def on_change(self, callback: Callable[[], None]) -> Callable[[], None]:
-        """Call ``callback`` after every change; the result ends that."""
+        """Call ``callback`` after every change; returns a function that ends this."""
         return self.observe(lambda _: callback())
 
-    # What can be done
+    # Actions
 
     def open(self, image: ImageSource) -> None:
-        """Take another picture, with the default options.
+        """Open another picture, with the default options.
 
         Raises
         ------
         TraceError
-            It cannot be read; nothing has changed then.
+            It cannot be read; nothing changes.
         """
         self._step(TracingState(image=_pixels(image)))
 
     def set_options(self, gesture: Any = None, **changes: Any) -> None:
-        """Trace with changed options, fields of `TraceOptions`. Edits by hand go; undo brings them.
+        """Trace with other options, fields of `TraceOptions`; discards edits by hand.
 
         Raises
         ------
         TraceError
-            An unknown field, or a value out of its range; nothing has changed then.
+            An unknown field, or a value out of its range; nothing changes.
         """
         with self.locked():
             before = self.state
@@ -302,22 +276,22 @@ class TracingModel(Observed):
             self._step(replace(before, options=options, loops=None), gesture)
 
     def pick_background(self, point: Point) -> None:
-        """Find the foreground by the distance from the colour of a pixel."""
-        self._index(point)
+        """Trace the foreground by its distance from the colour of a pixel."""
+        self._check_inside(point)
         self.set_options(method="color", background=None, background_at=point, invert=None)
 
     def pick_component(self, point: Point) -> None:
         """Trace the component around a pixel."""
-        self._index(point)
+        self._check_inside(point)
         self.set_options(component=0, component_at=point)
 
     def paint(self, brush: Brush, stroke: ArrayLike) -> None:
-        """Add a stroke over the shape or over what is around it, (k, 2) pixels, and trace by it.
+        """Add a stroke on the shape or on the background, (k, 2) pixels, and trace by scribbles.
 
         Raises
         ------
         TraceError
-            The stroke is no list of finite points; nothing has changed then.
+            The stroke is not a list of finite points; nothing changes.
         """
         with self.locked():
             old = self.state.scribbles or _NO_SCRIBBLES
@@ -344,7 +318,7 @@ class TracingModel(Observed):
                 self._step(replace(state, scribbles=None, loops=loops))
 
     def toggle_hole(self, number: int) -> None:
-        """Drop a hole, or keep it if it was dropped. Other loops keep their edits."""
+        """Drop a hole, or keep it if it was dropped; other loops keep their edits."""
         with self.locked():
             state, frame = self.state, self.frame
             if frame is None or not 0 <= number < len(self.holes):
@@ -368,7 +342,7 @@ class TracingModel(Observed):
         )
 
     def insert_vertex(self, at: Point) -> tuple[int, int]:
-        """Add a vertex on the edge next to a point; its (loop, index)."""
+        """Add a vertex on the edge nearest to a point; returns its (loop, index)."""
         with self.locked():
             loops = self.outcome.loops
             if not loops:
@@ -378,29 +352,29 @@ class TracingModel(Observed):
         return loop, edge + 1
 
     def delete_vertices(self, vertices: Iterable[tuple[int, int]]) -> None:
-        """Delete vertices (loop, index); a hole that keeps fewer than three goes altogether.
+        """Delete vertices (loop, index); holes with fewer than three left are removed.
 
         Raises
         ------
         GeometryError
-            The exterior would keep fewer than three; nothing has changed then.
+            The exterior would have fewer than three left; nothing changes.
         """
         chosen = list(vertices)
         if chosen:
             self._edit(lambda loops: loop_edits.delete_vertices(loops, chosen))
 
     def discard_edits(self) -> None:
-        """Go back to the loops as traced; undo brings the edits back."""
+        """Go back to the loops as traced."""
         with self.locked():
             if self.edited:
                 self._step(replace(self.state, loops=None))
 
     def set_loops(self, loops: Loops) -> None:
-        """Other loops as if edited by hand, world coordinates, the exterior first."""
+        """Replace the loops, world coordinates, exterior first, as an edit by hand."""
         self._edit(lambda _: loops)
 
     def return_to(self, state: TracingState) -> None:
-        """Go to a state of before, with the fallback that it had, in a new step."""
+        """Restore an earlier state, with its fallback, as a new step."""
         with self.locked():
             if state is not self.state:
                 self._go_to(self._history.step(state))
@@ -411,30 +385,30 @@ class TracingModel(Observed):
             return self._go_to(self._history.undone())
 
     def redo(self) -> bool:
-        """Take back the last undo; whether there was one."""
+        """Go forward one step again; whether there was one."""
         with self.locked():
             return self._go_to(self._history.redone())
 
     def cancel(self, gesture: Any) -> bool:
-        """Go to where a gesture began, as if it had not; whether it was the last thing done."""
+        """Go back to before a gesture, without redo; whether it was the last thing done."""
         with self.locked():
             under_way = gesture is not None and self._history.gesture == gesture
             return under_way and self._go_to(self._history.cancelled())
 
-    # How it is done; the lock is held where these are called
+    # Internals
 
     def _step(self, state: TracingState, gesture: Any = None) -> None:
-        """Make ``state`` the present one: a step of its own, or part of a gesture under way."""
+        """Make ``state`` the present one, with its fallback."""
         with self.locked():
             before, history = self.state, self._history
             if gesture is not None and gesture == history.gesture:
-                fallback = before.fallback  # what was valid on the way, nobody chose
+                fallback = before.fallback  # valid cages within a gesture do not count
             else:
                 fallback = self.outcome.domain if state.image is before.image else None
             self._go_to(history.step(replace(state, fallback=fallback), gesture))
 
     def _go_to(self, history: History[TracingState]) -> bool:
-        """Make a history the present one; whether it is another."""
+        """Make a history the present one; whether that is a change."""
         if history is self._history:
             return False
         self._history = history
@@ -447,7 +421,7 @@ class TracingModel(Observed):
 
     def _evaluate(self, state: TracingState) -> TracingOutcome:
         if state.image is None:
-            return _EMPTY
+            return TracingOutcome(None, (), None, ())
         if self._tracer is None or self._tracer.image is not state.image:
             self._tracer = Tracer(state.image)
         frame = self._tracer.frame
@@ -488,18 +462,18 @@ class TracingModel(Observed):
         return loops if index is None else (*loops, traced[index])
 
     def _world(self, point: Point) -> NDArray[np.float64]:
-        frame = self.frame
-        if frame is None:
-            raise TraceError("there is no picture yet; open one first")
-        return frame.to_world(loop_edits.checked_point(point))
+        return self._frame_of_picture().to_world(loop_edits.checked_point(point))
 
-    def _index(self, point: Point) -> None:
+    def _check_inside(self, point: Point) -> None:
         """Raise unless the point lies in the picture."""
-        frame = self.frame
-        if frame is None:
-            raise TraceError("there is no picture yet; open one first")
+        frame = self._frame_of_picture()
         x, y = loop_edits.checked_point(point)
         frame.index_at((float(x), float(y)))
+
+    def _frame_of_picture(self) -> PixelFrame:
+        if (frame := self.frame) is None:
+            raise TraceError("there is no picture yet; open one first")
+        return frame
 
 
 def _without_strokes(options: TraceOptions) -> TraceOptions:

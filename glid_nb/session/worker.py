@@ -1,4 +1,4 @@
-"""A thread that always does the latest task: what was overtaken before it began is forgotten."""
+"""A thread that does the latest task and drops those that were replaced before they began."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ T = TypeVar("T")
 class LatestWins(Generic[T]):
     """Calls a function in a thread with the task that was submitted last.
 
-    An exception goes to :func:`threading.excepthook`, and the thread lives on. It starts with the
-    first task, and ends when this is closed, when its owner is gone, or with the process.
+    The thread starts with the first task, and ends when this is closed, when its owner is gone, or
+    with the process. Exceptions go to :func:`threading.excepthook`; the thread goes on.
 
     Parameters
     ----------
     work : callable
-        Called with a task and this worker, whose ``overtaken`` and ``cancelled`` tell a long task
-        when to end early. It must not keep the owner alive: see :func:`weakly`.
+        Called with a task and this worker; a long task ends early when ``overtaken`` or
+        ``cancelled`` say so. It must not keep the owner alive: see :func:`weakly`.
     owner : object
-        What the thread works for.
+        The object that the thread works for.
     name : str
-        The thread's.
+        The name of the thread.
     interval : float
         Least number of seconds from the end of a task to the beginning of the next.
     finish : bool
-        Whether closing does what is pending first, rather than forgetting it.
+        Whether closing does the pending task first, rather than dropping it.
     """
 
     def __init__(
@@ -49,13 +49,13 @@ class LatestWins(Generic[T]):
         self._busy = self._cancelled = self._paused = self._hurried = self._closed = False
         self._ended = -float("inf")
         self._thread: threading.Thread | None = None
-        # At the end of the process too, before the interpreter is torn down under the thread.
+        # This also ends the thread at the end of the process, before the interpreter shuts down.
         self._finalizer = weakref.finalize(owner, self._close)
 
     def submit(self, task: T, *, at_once: bool = False) -> None:
-        """Do this instead of what is pending; returns at once. ``at_once``: also while paused.
+        """Do this instead of the pending task, ``at_once`` also while paused; returns at once.
 
-        Once this is closed nothing happens.
+        A closed worker ignores it.
         """
         with self._changed:
             if self._closed:
@@ -67,20 +67,20 @@ class LatestWins(Generic[T]):
             self._changed.notify_all()
 
     def cancel(self) -> None:
-        """Forget what is pending, and ask what is being done to end early."""
+        """Drop the pending task, and ask the running one to end early."""
         with self._changed:
             self._pending, self._cancelled = None, self._busy
             self._changed.notify_all()
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait until there is nothing left to do; whether that came within ``timeout`` seconds."""
+        """Wait until there is nothing to do; whether that is within ``timeout`` seconds."""
         with self._changed:
             return self._changed.wait_for(
                 lambda: self._closed or not (self._busy or self._due()), timeout
             )
 
     def hurry(self, timeout: float | None = None) -> bool:
-        """As :meth:`wait`, and what is pending does not wait for the interval."""
+        """As :meth:`wait`, but the pending task does not wait for the interval."""
         with self._changed:
             self._hurried = True
             self._changed.notify_all()
@@ -91,24 +91,24 @@ class LatestWins(Generic[T]):
 
     @property
     def busy(self) -> bool:
-        """Whether something is being done and was not cancelled, or waits to be done."""
+        """Whether a task runs that was not cancelled, or one is due."""
         with self._changed:
             return (self._busy and not self._cancelled) or self._due()
 
     @property
     def cancelled(self) -> bool:
-        """Whether what is being done is not wanted any more."""
+        """Whether the running task was cancelled, or this is closed."""
         return self._closed or self._cancelled
 
     @property
     def overtaken(self) -> bool:
-        """Whether what is being done should make room: for a newer task, or a pause."""
+        """Whether the running task should end: cancelled, paused, or a newer one waits."""
         with self._changed:
             return self.cancelled or self._paused or self._pending is not None
 
     @property
     def paused(self) -> bool:
-        """While paused, tasks wait, but for those that were submitted ``at_once``."""
+        """While paused, only tasks that were submitted ``at_once`` are done."""
         return self._paused
 
     @paused.setter
@@ -133,7 +133,7 @@ class LatestWins(Generic[T]):
         return self._closed
 
     def close(self) -> None:
-        """End the thread and wait for that; submitting does nothing from then on."""
+        """End the thread and wait for that; later tasks are ignored."""
         self._finalizer()
 
     def _close(self) -> None:
@@ -148,7 +148,7 @@ class LatestWins(Generic[T]):
         return self._pending is not None and (not self._paused or self._pending[1])
 
     def _next(self) -> tuple[T] | None:
-        """The next task, once it is time for it; None when there will be none."""
+        """Wait for the next task; None once this is closed."""
         with self._changed:
             while True:
                 self._changed.wait_for(lambda: self._closed or self._due())
@@ -165,7 +165,7 @@ class LatestWins(Generic[T]):
         while (taken := self._next()) is not None:
             try:
                 self._work(*taken, self)
-            except Exception:  # reported as any thread's, and this one goes on
+            except Exception:  # reported like that of any thread, but this thread goes on
                 arguments = (*sys.exc_info(), threading.current_thread())
                 threading.excepthook(threading.ExceptHookArgs(arguments))
             finally:

@@ -12,6 +12,7 @@ from glid_nb.energies import ENERGIES, CustomEnergy, Energy, energy_by_name
 from glid_nb.methods import METHODS
 from glid_nb.session.deformation import Deformation
 from glid_nb.solvers import Method, Options
+from glid_nb.widgets.arguments import check_keywords
 from glid_nb.widgets.edit_controls import EditControls
 from glid_nb.widgets.field_rows import FULL, FieldRows, control_of
 
@@ -29,6 +30,7 @@ class SolverPanel(EditControls):
     """
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
+        check_keywords(type(self), kwargs)
         method = FieldRows(self._set_method)
         self.method = _menu(_methods(), "What solves: ours, or another to compare with")
         method.build({"name": ("Method", self.method)})
