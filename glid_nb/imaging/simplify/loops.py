@@ -73,7 +73,7 @@ def passed_over(loops: Loops, kept: NDArray[np.bool_]) -> list[NDArray[np.intp]]
 
 
 def significance(loop: Points) -> NDArray[np.float64]:
-    """(n,) tolerances at which Ramer, Douglas and Peucker's algorithm drops an (n, 2) loop's points.
+    """(n,) tolerances at which Ramer, Douglas and Peucker's algorithm drops the points of a loop.
 
     They are infinite for two vertices far apart. Keeping the vertices above a tolerance gives the
     algorithm's result for it, so one computation serves all tolerances and numbers of vertices.
