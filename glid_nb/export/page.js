@@ -1,4 +1,4 @@
-// Shows a textured mesh, deformed or not. Everything it needs is in the page.
+// Shows a textured mesh, deformed or not, from the data in the page.
 "use strict";
 (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
@@ -12,9 +12,7 @@
   if (!gl) return fail("This page needs WebGL 2, which this browser does not offer.");
 
   const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
-  const deformed = new Float32Array(bytes(data.deformed));
-  const source = new Float32Array(bytes(data.source));
-  const texture = new Float32Array(bytes(data.texture));
+  const floats = (text) => new Float32Array(bytes(text));
   const triangles = new Uint32Array(bytes(data.triangles));
 
   const compile = (kind, text) => {
@@ -43,28 +41,26 @@
     gl.bufferData(target, values, gl.STATIC_DRAW);
     return made;
   };
-  const positions = { deformed: buffer(gl.ARRAY_BUFFER, deformed), source: buffer(gl.ARRAY_BUFFER, source) };
-  buffer(gl.ARRAY_BUFFER, texture);
+  const deformed = buffer(gl.ARRAY_BUFFER, floats(data.deformed));
+  const source = buffer(gl.ARRAY_BUFFER, floats(data.source));
+  buffer(gl.ARRAY_BUFFER, floats(data.texture));
   gl.enableVertexAttribArray(1);
   gl.vertexAttribPointer(1, 2, gl.FLOAT, false, 0, 0);
   gl.enableVertexAttribArray(0);
   const faces = buffer(gl.ELEMENT_ARRAY_BUFFER, triangles);
-  const edges = buffer(gl.ELEMENT_ARRAY_BUFFER, edgesOf(triangles));
+  const lines = edgesOf(triangles);
+  const edges = buffer(gl.ELEMENT_ARRAY_BUFFER, lines);
   gl.enable(gl.BLEND);
   gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
 
   function edgesOf(t) {
-    const seen = new Set();
-    const list = [];
+    const found = new Map();
     for (let i = 0; i < t.length; i += 3) {
       for (const [a, b] of [[t[i], t[i + 1]], [t[i + 1], t[i + 2]], [t[i + 2], t[i]]]) {
-        const key = a < b ? a * 4294967296 + b : b * 4294967296 + a;
-        if (seen.has(key)) continue;
-        seen.add(key);
-        list.push(a, b);
+        found.set(Math.min(a, b) * 2 ** 32 + Math.max(a, b), [a, b]);
       }
     }
-    return new Uint32Array(list);
+    return new Uint32Array([...found.values()].flat());
   }
 
   const view = { scale: 1, x: 0, y: 0 }; // CSS pixels per world unit; the world's point in the middle
@@ -85,12 +81,11 @@
     canvas.width = Math.round(w * ratio);
     canvas.height = Math.round(h * ratio);
     gl.viewport(0, 0, canvas.width, canvas.height);
-    gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT);
     const [sx, sy] = [(2 * view.scale) / w, (2 * view.scale) / h];
     gl.uniform2f(uniform("scale"), sx, sy);
     gl.uniform2f(uniform("shift"), -view.x * sx, -view.y * sy);
-    gl.bindBuffer(gl.ARRAY_BUFFER, boxes.source.checked ? positions.source : positions.deformed);
+    gl.bindBuffer(gl.ARRAY_BUFFER, boxes.source.checked ? source : deformed);
     gl.vertexAttribPointer(0, 2, gl.FLOAT, false, 0, 0);
     gl.uniform4f(uniform("line"), 0, 0, 0, 0);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, faces);
@@ -98,7 +93,7 @@
     if (!boxes.mesh.checked) return;
     gl.uniform4f(uniform("line"), 0, 0.45, 0.7, 0.45);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, edges);
-    gl.drawElements(gl.LINES, gl.getBufferParameter(gl.ELEMENT_ARRAY_BUFFER, gl.BUFFER_SIZE) / 4, gl.UNSIGNED_INT, 0);
+    gl.drawElements(gl.LINES, lines.length, gl.UNSIGNED_INT, 0);
   }
 
   function zoom(factor, clientX, clientY) {

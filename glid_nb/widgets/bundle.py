@@ -38,5 +38,6 @@ def bundle(entry: str) -> str:
 
 
 def stylesheet(name: str) -> str:
-    """The text of ``js/name``."""
-    return (_FOLDER / name).read_text(encoding="utf-8")
+    """The text of ``js/name``, after the rules that the canvas and the tracer share."""
+    parts = (_FOLDER / "pad/pad.css", _FOLDER / name)
+    return "\n".join(part.read_text(encoding="utf-8") for part in parts)

@@ -197,7 +197,7 @@ def _moved(image: Array, derivatives: Array) -> dict[str, Any]:
 def _material(vertex: str, fragment: str, uniforms: Uniforms, side: str = "DoubleSide") -> Any:
     return three.ShaderMaterial(
         vertexShader=vertex,
-        fragmentShader=f"#define N_COLORS {N_COLORS}\n{fragment}",
+        fragmentShader=f"#define N_COLORS {N_COLORS}\n{glsl('colors.glsl')}\n{fragment}",
         uniforms=uniforms,
         side=side,
         transparent=True,

@@ -1,9 +1,8 @@
-// The harmonic map f = F + conj(G) and its Wirtinger derivatives, from the cage and coefficients
-// (Equations (8) and (9), (D.1) and (D.2)), in single precision.
+// The harmonic map f = F + conj(G) and its Wirtinger derivatives in single precision, Equations (8),
+// (9), (D.1) and (D.2).
 //
-// The offset cage's loops stand in one chain, each beginning and ending with the same vertex. With
-// each vertex stands the reciprocal of the edge that leads to it, as complex numbers; 0 where a loop
-// begins. This is summed for every vertex of a mesh, so it divides once per edge and no more.
+// The offset cage's loops form one chain; each loop begins and ends with the same vertex. With each
+// vertex comes 1 / (the edge that leads to it), 0 where a loop begins, which saves divisions.
 // N_CHAIN and N_HOLES (at least 1; unused holes have zero coefficients) are defined before this.
 
 uniform vec4 cage[N_CHAIN];          // vertex, 1 / edge
@@ -39,7 +38,7 @@ void harmonic_map(vec2 z, out vec2 f, out vec2 fz, out vec2 fzb_conj) {
       float ratio = max(end_squared, TINY) / max(start_squared, TINY);
       vec2 angle = vec2(0.5 * log(ratio), atan(turned.y, turned.x));
       vec2 phi = coefficients[j - 1].xy, psi = coefficients[j - 1].zw;
-      // phi and psi are linear along an edge; what counts is that function, continued to z.
+      // phi and psi are linear along an edge; this continues them to z.
       vec2 phi_slope = multiply(coefficients[j].xy - phi, inverse_edge);
       vec2 psi_slope = multiply(coefficients[j].zw - psi, inverse_edge);
       F += multiply(angle, phi - multiply(phi_slope, to_start));

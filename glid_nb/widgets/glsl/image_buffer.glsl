@@ -1,5 +1,4 @@
-// The same as harmonic.glsl, but computed by the kernel and handed over as vertex attributes:
-// for cages with more vertices than a shader can hold.
+// As harmonic.glsl, but computed by the kernel, for cages that are too large for a shader.
 
 attribute vec2 image;
 attribute vec4 derivatives;  // f_z, conj(f_zbar)

@@ -1,10 +1,7 @@
-// The picture, or a colour for how much it is distorted. Colours are premultiplied by alpha.
-
-precision highp float;
+// The picture, or a colour for its distortion; premultiplied by alpha.
 
 uniform float overlay;       // 0 picture, 1 picture and grid, 2 sigma_1, 3 sigma_2, 4 k, 5 energy
 uniform vec2 color_range;    // values at the ends of the colour map
-uniform vec3 colors[N_COLORS];
 uniform float pixel;         // world units of one pixel on the screen
 uniform float grid_spacing;  // world units of the undeformed picture
 uniform sampler2D map;
@@ -16,17 +13,8 @@ varying vec2 v_fzb_conj;
 
 const float HALF_LINE = 0.6;  // pixels
 
-vec3 color_at(float t) {
-  float place = clamp(t, 0.0, 1.0) * float(N_COLORS - 1);
-  vec3 color = colors[0];
-  for (int i = 1; i < N_COLORS; i++) {
-    color = mix(color, colors[i], clamp(place - float(i - 1), 0.0, 1.0));
-  }
-  return color;
-}
-
-// How much of this pixel a line of the grid covers, from the distance that a step on the screen
-// makes in the undeformed picture: the rows of the inverse Jacobian.
+// The share of this pixel that a grid line covers; the rows of the inverse Jacobian give the
+// distance in the undeformed picture per pixel of the screen.
 float grid_cover() {
   vec2 a = v_fz, b = vec2(v_fzb_conj.x, -v_fzb_conj.y);
   vec2 f_x = a + b, f_y = vec2(b.y - a.y, a.x - b.x);
@@ -53,7 +41,7 @@ void main() {
   if (overlay > 3.5) value = g / max(r, 1e-6);
   if (overlay > 4.5) value = energy_density(r * r, g * g);
   vec3 color = color_at((value - color_range.x) / (color_range.y - color_range.x));
-  // The picture shines through, so that one still sees what is where.
+  // The picture's brightness shows through.
   float shade = dot(texel.rgb, vec3(0.299, 0.587, 0.114)) / max(texel.a, 1e-3);
   gl_FragColor = vec4(color * mix(0.72, 1.12, shade), 1.0) * texel.a;
 }

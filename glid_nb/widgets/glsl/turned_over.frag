@@ -1,6 +1,4 @@
-// Triangles that a map of a mesh has turned over: one colour. Premultiplied by alpha.
-
-precision highp float;
+// Triangles that a map of a mesh has turned over, in one colour; premultiplied by alpha.
 
 uniform vec4 mark;
 

@@ -1,7 +1,9 @@
-// The pad over the renderer: takes what the hand does and draws handles, colour bars and notices.
+// The pad over the renderer: sends pointers and keys, draws handles, colour bars and notices.
 
+import { make } from "../pad/dom.js";
 import { Link } from "../pad/link.js";
 import { Pad } from "../pad/pad.js";
+import { clearedContext } from "../pad/pen.js";
 import { View } from "../pad/view.js";
 import { drawMarks, markAt } from "./marks.js";
 import { Shapes, drawingTime, uniformVectors } from "./shapes.js";
@@ -14,31 +16,25 @@ const KEYS = new Set([
 const SAVE_VIEW_AFTER = 250; // ms
 const LEAST_SIZE = 240; // CSS pixels
 
-function element(parent, tag, name, text) {
-  const made = document.createElement(tag);
-  made.className = `glid-${name}`;
-  if (text !== undefined) made.textContent = text;
-  parent.appendChild(made);
-  return made;
+function colorBar({ title, colors, ticks }) {
+  const gradient = `background: linear-gradient(to right, ${colors.join(", ")})`;
+  const labels = ticks.map((tick) => make("span", {}, tick));
+  return make(
+    "div",
+    { className: "glid-legend-part" },
+    make("div", { className: "glid-legend-title" }, title),
+    make("div", { className: "glid-legend-bar", style: gradient }),
+    make("div", { className: "glid-legend-ticks" }, ...labels),
+  );
 }
 
-function colorBar(box, content) {
-  element(box, "div", "legend-title", content.title);
-  element(box, "div", "legend-bar").style.background =
-    `linear-gradient(to right, ${content.colors.join(", ")})`;
-  const ticks = element(box, "div", "legend-ticks");
-  for (const tick of content.ticks) element(ticks, "span", "legend-tick", tick);
-}
-
-// Changes traits, and tells the kernel.
 function save(model, changes) {
   for (const [name, value] of Object.entries(changes)) model.set(name, value);
   model.save_changes();
 }
 
-function resizeGrip(pad, model) {
-  const grip = element(pad, "div", "resize");
-  grip.title = "Drag to resize";
+function resizeGrip(model) {
+  const grip = make("div", { className: "glid-resize", title: "Drag to resize" });
   let from = null;
   const on = (name, act) =>
     grip.addEventListener(name, (e) => {
@@ -52,40 +48,31 @@ function resizeGrip(pad, model) {
   });
   on("pointermove", (e) => {
     if (!from) return;
-    const [width, height] = [from[0] + e.clientX, from[1] + e.clientY];
-    save(model, {
-      width: Math.max(LEAST_SIZE, Math.round(width)),
-      height: Math.max(LEAST_SIZE, Math.round(height)),
-    });
+    const [width, height] = [from[0] + e.clientX, from[1] + e.clientY]
+      .map((side) => Math.max(LEAST_SIZE, Math.round(side)));
+    save(model, { width, height });
   });
   for (const name of ["pointerup", "pointercancel"]) on(name, () => (from = null));
+  return grip;
 }
 
 function render({ model, el }) {
   el.classList.add("glid-pad-host");
-  const box = element(el, "div", "pad");
-  box.setAttribute("role", "application");
-  box.setAttribute("aria-label", "Deformation canvas: arrow keys move, Enter adds a handle");
+  const paper = make("canvas", { className: "glid-paper" });
+  const bars = make("div", { className: "glid-legend" });
+  const notice = make("div", { className: "glid-notice", role: "status" });
+  const label = "Deformation canvas: arrow keys move, Enter adds a handle";
+  const box = make("div", { className: "glid-pad", role: "application", "aria-label": label }, paper, bars, notice);
   box.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
-  const paper = element(box, "canvas", "paper");
-  const bars = element(box, "div", "legend");
-  const notice = element(box, "div", "notice");
-  notice.setAttribute("role", "status");
+  el.append(box);
 
   const shapes = new Shapes(model);
   let due = 0;
   const draw = () => {
     due = 0;
-    const ratio = window.devicePixelRatio || 1;
-    const { width, height } = view;
-    const size = [Math.round(width * ratio), Math.round(height * ratio)];
-    if (paper.width !== size[0] || paper.height !== size[1]) [paper.width, paper.height] = size;
-    const pen = paper.getContext("2d");
-    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    pen.clearRect(0, 0, width, height);
     const { found, held, focused } = pad ?? { held: new Map() };
     const cursor = focused ? model.get("cursor") : null;
-    drawMarks(pen, view, model.get("marks"), { hovered: found?.mark, held, cursor });
+    drawMarks(clearedContext(paper, view), view, model.get("marks"), { hovered: found?.mark, held, cursor });
   };
   const soon = () => { due = due || requestAnimationFrame(draw); };
 
@@ -110,12 +97,10 @@ function render({ model, el }) {
       const { selected, targets } = marks();
       return new Map((selected.includes(mark) ? selected : [mark]).map((i) => [i, targets[i]]));
     },
-    pans: () => false,
-    paints: () => false,
     cursor: (found) => (found ? "grab" : "crosshair"),
     changed: soon,
   }) : null;
-  if (pad) resizeGrip(box, model);
+  if (pad) box.append(resizeGrip(model));
 
   const fit = () => {
     Object.assign(view, { width: model.get("width"), height: model.get("height") });
@@ -129,9 +114,8 @@ function render({ model, el }) {
   };
   const showLegend = () => {
     const shown = [model.get("legend"), model.get("panel_legend")].filter((bar) => bar.title);
-    bars.replaceChildren();
+    bars.replaceChildren(...shown.map(colorBar));
     bars.hidden = !shown.length;
-    for (const content of shown) colorBar(element(bars, "div", "legend-part"), content);
     bars.dataset.corner = model.get("legend_corner");
   };
   const listeners = {
@@ -147,8 +131,7 @@ function render({ model, el }) {
   tell();
   let gone = false;
   shapes.load().then(() => drawingTime(box, shapes)).then((time) => {
-    if (gone) return;
-    save(model, { drawn: true, drawing_time: time });
+    if (!gone) save(model, { drawn: true, drawing_time: time });
   });
   if (model.get("uniform_vectors") === 0) save(model, { uniform_vectors: uniformVectors() || -1 });
 

@@ -1,21 +1,10 @@
 // Handles and targets, drawn over the shape: cyan disks where handles should go, black dots where
 // they are, and a line between the two.
 
-const TARGET = 7.5, IMAGE = 3.5, RING = 12; // radii, CSS pixels
+import { nearestVertex } from "../pad/hit.js";
+import { disk } from "../pad/pen.js";
 
-function disk(pen, [x, y], radius, fill, stroke, width) {
-  pen.beginPath();
-  pen.arc(x, y, radius, 0, 2 * Math.PI);
-  if (fill) {
-    pen.fillStyle = fill;
-    pen.fill();
-  }
-  if (stroke) {
-    pen.lineWidth = width;
-    pen.strokeStyle = stroke;
-    pen.stroke();
-  }
-}
+const TARGET = 7.5, IMAGE = 3.5, RING = 12; // radii, CSS pixels
 
 // Lines between pairs of points, with a border.
 function lines(pen, pairs, styles) {
@@ -32,7 +21,7 @@ function lines(pen, pairs, styles) {
   }
 }
 
-// held: places of targets by their index, where the hand has them.
+// held: where the pointer holds targets, by index.
 export function drawMarks(pen, view, marks, { hovered, held, cursor }) {
   const targets = marks.targets.map((p, i) => view.toScreen(held.get(i) || p));
   const images = marks.images.map((p) => view.toScreen(p));
@@ -56,14 +45,10 @@ export function drawMarks(pen, view, marks, { hovered, held, cursor }) {
 }
 
 // The nearest target, or else the nearest dot, within reach of a point; null for none.
-export function markAt(marks, [px, py], reach) {
+export function markAt(marks, point, reach) {
   for (const points of [marks.targets, marks.images]) {
-    let best = null, least = reach;
-    points.forEach(([x, y], mark) => {
-      const distance = Math.hypot(x - px, y - py);
-      if (distance <= least) [best, least] = [{ mark }, distance];
-    });
-    if (best) return best;
+    const found = nearestVertex([points], point, reach);
+    if (found) return { mark: found.index };
   }
   return null;
 }

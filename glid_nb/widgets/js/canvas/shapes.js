@@ -1,9 +1,4 @@
-// The three.js side: puts the kernel's coefficients and the view into pythreejs' objects, so that a
-// frame is the coefficients alone and a pan costs nothing on the wire.
-
-function modelOf(manager, reference) {
-  return manager.get_model(reference.replace("IPY_MODEL_", ""));
-}
+// Puts the kernel's coefficients and the page's view into pythreejs's objects.
 
 export class Shapes {
   constructor(model) {
@@ -16,10 +11,10 @@ export class Shapes {
 
   async load() {
     const turn = ++this.loading;
-    const manager = this.model.widget_manager;
-    const references = this.model.get("materials");
+    const { model } = this;
+    const references = [model.get("camera"), model.get("renderer"), ...model.get("materials")];
     const [camera, renderer, ...materials] = await Promise.all(
-      [this.model.get("camera"), this.model.get("renderer"), ...references].map((r) => modelOf(manager, r)),
+      references.map((r) => model.widget_manager.get_model(r.replace("IPY_MODEL_", ""))),
     );
     await Promise.all([camera, renderer, ...materials].map((m) => m.initPromise));
     if (turn !== this.loading) return; // there are newer ones
@@ -36,29 +31,25 @@ export class Shapes {
     this.materials = [];
   }
 
-  // The newest coefficients into every material.
+  // Puts the newest coefficients into every material.
   refresh() {
     const bytes = this.model.get("coefficients");
-    const floats = bytes && bytes.byteLength
+    const floats = bytes?.byteLength
       ? new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength))
       : null;
-    for (const material of this.materials) {
-      const uniforms = material.obj && material.obj.uniforms;
-      if (!uniforms) continue;
-      if (floats && uniforms.coefficients) {
-        const chain = uniforms.cage.value.length;
-        // Another domain's coefficients may arrive before its materials.
-        if (floats.length === chain + uniforms.holes.value.length) {
-          uniforms.coefficients.value = floats.subarray(0, chain);
-          uniforms.holes.value = floats.subarray(chain);
-        }
-      }
+    for (const { obj } of this.materials) {
+      const { cage, coefficients, holes } = obj?.uniforms ?? {};
+      if (!floats || !coefficients) continue;
+      const chain = cage.value.length;
+      // Another domain's coefficients may arrive before its materials.
+      if (floats.length !== chain + holes.value.length) continue;
+      coefficients.value = floats.subarray(0, chain);
+      holes.value = floats.subarray(chain);
     }
     this.see();
     this.redraw();
   }
 
-  // The view, in the terms of an orthographic camera.
   look({ x, y, unit, width, height }) {
     const w = (width / 2) * unit, h = (height / 2) * unit;
     this.frame = { left: x - w, right: x + w, top: y + h, bottom: y - h };
@@ -74,7 +65,7 @@ export class Shapes {
   }
 
   redraw() {
-    if (this.renderer) this.renderer.trigger("rerender", this.renderer, {});
+    this.renderer?.trigger("rerender", this.renderer, {});
   }
 
   close() {
@@ -84,20 +75,19 @@ export class Shapes {
   }
 }
 
-// How many vectors of uniforms a vertex shader may have here.
+// How many vectors of uniforms a vertex shader may have here; 0 without WebGL.
 export function uniformVectors() {
   const canvas = document.createElement("canvas");
   const gl = canvas.getContext("webgl2") || canvas.getContext("webgl");
   if (!gl) return 0;
   const count = gl.getParameter(gl.MAX_VERTEX_UNIFORM_VECTORS);
-  const lose = gl.getExtension("WEBGL_lose_context");
-  if (lose) lose.loseContext();
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
   return count;
 }
 
 const N_TIMED = 3; // drawings, after a first one that compiles the shaders
 
-// Milliseconds of the quickest of some drawings, 0 where there is nothing to draw on.
+// The fastest of some drawings in milliseconds, 0 without WebGL.
 export async function drawingTime(pad, shapes) {
   const times = [];
   for (let i = 0; i <= N_TIMED; i++) {
@@ -110,6 +100,5 @@ export async function drawingTime(pad, shapes) {
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for all of it
     times.push(performance.now() - start);
   }
-  const quickest = Math.min(...times.slice(1));
-  return Number.isFinite(quickest) ? quickest : 0;
+  return times.length > 1 ? Math.min(...times.slice(1)) : 0;
 }

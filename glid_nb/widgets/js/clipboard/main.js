@@ -28,9 +28,7 @@ function copiedBySelection(text) {
 }
 
 function render({ model }) {
-  const onText = async ({ number, text }) => {
-    model.send({ number, copied: await copied(text) });
-  };
+  const onText = async ({ number, text }) => model.send({ number, copied: await copied(text) });
   model.on("msg:custom", onText);
   return () => model.off("msg:custom", onText);
 }

@@ -1,20 +1,18 @@
-// Messages to the kernel, paced by it and by the page: while one batch of events is on its way, or
-// what it led to has yet to be drawn, the next one gathers. {view, events, buffers} goes to the
-// kernel, {view, ack, refusal} comes back: ack is the last event's number, refusal why it was refused.
+// Messages to the kernel. Events are gathered while the last batch is not answered, or its frame not
+// yet drawn. {view, events, buffers} goes to the kernel, {view, ack, refusal} comes back: ack is the
+// number of the last event, refusal says why it was refused.
 
-const BUSY_AFTER = 250; // ms without an answer, from when on the page says that it waits
-// ms; a kernel that died must not silence the page for ever, nor a page that is hidden
-const ACKNOWLEDGE_TIMEOUT = 2000;
+const BUSY_AFTER = 250; // ms without an answer until the page says that it waits
+const ACKNOWLEDGE_TIMEOUT = 2000; // ms until events are sent without an answer
 
 export class Link {
-  // report({busy, refusal}): an answer came, or is overdue. idle(flag): whether everything that was
-  // sent has been answered.
+  // report({busy, refusal}): an answer came, or is overdue. idle(flag): whether all is answered.
   constructor(model, report = () => {}, idle = () => {}) {
     Object.assign(this, { model, report, showIdle: idle });
     this.view = Math.random().toString(36).slice(2);
     this.queue = [];
     this.buffers = [];
-    this.answers = []; // who waits for which event's answer
+    this.answers = [];
     this.waiting = false;
     this.number = this.acknowledged = 0;
     this.receive = (message) => {
@@ -27,8 +25,8 @@ export class Link {
     return this.acknowledged === this.number;
   }
 
-  // Events of one gesture that replace one another have the same `replaces`; everything else keeps
-  // its place. The result is the kernel's refusal, or null, once it has dealt with the event.
+  // An event replaces the last one that waits if both have the same `replaces`. Resolves to the
+  // kernel's refusal, or null, when the event was handled.
   put(event, buffers = []) {
     const seq = ++this.number;
     const last = this.queue.at(-1);
@@ -59,7 +57,7 @@ export class Link {
     for (const { resolve } of due) resolve(refusal);
     this.showIdle(this.idle);
     if (ack < this.awaited) return;
-    // The frame came before this: it is drawn when the page draws next.
+    // The frame arrived before this answer; the page's next drawing shows it.
     if (document.hidden) this.release();
     else this.drawing = requestAnimationFrame(() => this.release());
   }

@@ -1,5 +1,5 @@
-// Pointers, wheel and keys over a picture. What they mean is decided by the kernel; panning and
-// zooming are done here, and what the hand holds is drawn where it is before the kernel answers.
+// Pointers, wheel and keys over a picture. The kernel decides what they mean; the page pans and
+// zooms, and draws what is dragged at the pointer before the kernel answers.
 
 const WHEEL_SPEED = 0.0015, WHEEL_LINE = 33;
 const CLICK = 4; // CSS pixels that a click may move
@@ -15,25 +15,25 @@ export function undoOrRedo(e) {
 }
 
 export class Pad {
-  // canvas says what is special to it:
-  //   reach: how near the pointer must come, CSS pixels, by its type
-  //   keys: those that the kernel acts on; the others go on to the notebook
-  //   actions: those that the page acts on, functions by their key
-  //   find(point, reach): what is there, null for nothing; with `mark` where it can be held
-  //   held(found): points by their marks that go with the hand
-  //   pans(found), paints(): whether the left button moves the view, or leaves a path
+  // Options in `canvas`:
+  //   reach: the radius that a pointer hits, CSS pixels, by its type
+  //   keys: those that go to the kernel; the others go on to the notebook
+  //   actions: functions of the page, by their key
+  //   find(point, reach): what is there, or null; with `mark` if it can be dragged
+  //   held(found): the points that a drag moves, by their marks
+  //   pans(found), painting: whether the left button moves the view, or paints a path
   //   cursor(found): the pointer's shape
-  //   removesByLongPress, wheelNeedsFocus: whether a finger that rests removes what it is on, and
-  //     whether the wheel zooms only where the keys go
-  //   changed(): what is drawn has changed
+  //   removesByLongPress: whether a long touch removes what it is on
+  //   wheelNeedsFocus: whether the wheel zooms only while the element has the focus
+  //   changed(): called when something is to be drawn again
   constructor(element, view, link, canvas) {
     Object.assign(this, { element, view, link, canvas });
-    this.pointers = new Map(); // id -> last place, of touches and of the mouse while pressed
+    this.pointers = new Map(); // id -> last place, of pressed pointers
     this.mode = null; // what the pressed pointer does: "hand", "pan" or "pinch"
-    this.grip = null; // where it took hold of which marks
-    this.held = new Map(); // marks that are drawn where the hand has them
+    this.grip = null; // where a drag began, and the points that it moves
+    this.held = new Map(); // places of dragged marks
     this.path = []; // of a pointer that paints, world points
-    this.found = this.rests = null; // what is below a pointer that rests, and where that is
+    this.found = this.rests = null; // what is below a pointer that hovers, and its place
     this.space = this.focused = false;
     element.tabIndex = 0;
     this.on("pointerdown", (e) => this.down(e));
@@ -91,7 +91,12 @@ export class Pad {
     const place = this.place(e);
     this.pointers.set(e.pointerId, place);
     this.element.setPointerCapture(e.pointerId);
-    if (this.pointers.size === 2) return this.beginPinch(e);
+    if (this.pointers.size === 2) {
+      this.takeBack(e); // the first finger's gesture was none
+      this.mode = "pinch";
+      this.span = this.spread();
+      return;
+    }
     this.start = place;
     if (e.button === 1 || (e.button === 0 && this.space)) {
       this.mode = "pan";
@@ -103,8 +108,8 @@ export class Pad {
     if (left && !e.shiftKey && mark !== undefined) {
       this.grip = { from: this.view.toWorld(place), points: this.canvas.held(found) };
     }
-    this.pans = left && this.canvas.pans(found);
-    this.path = left && this.canvas.paints() ? [this.view.toWorld(place)] : [];
+    this.pans = left && this.canvas.pans?.(found);
+    this.path = left && this.canvas.painting ? [this.view.toWorld(place)] : [];
     this.send("down", place, e);
     if (this.canvas.removesByLongPress && e.pointerType === "touch" && mark !== undefined) {
       this.longPress = setTimeout(() => this.pressedLong(e, place), LONG_PRESS);
@@ -114,7 +119,7 @@ export class Pad {
   }
 
   pressedLong(e, place) {
-    // A busy page may have moves waiting that were made in time; they cancel this.
+    // A busy page may have earlier moves waiting, which cancel this.
     this.longPress = setTimeout(() => {
       this.takeBack(e);
       this.mode = null;
@@ -122,7 +127,7 @@ export class Pad {
     }, LONG_PRESS_GRACE);
   }
 
-  // What the hand has begun in the kernel never was.
+  // Cancels the gesture that the kernel knows of.
   takeBack(e) {
     if (this.mode === "hand") this.send("cancel", this.start, e);
     this.letGo();
@@ -172,7 +177,7 @@ export class Pad {
     if (this.mode === "hand") {
       const { path } = this;
       this.send(type, place, e, path.length ? { path } : {}).then(() => {
-        if (!this.grip) this.held.clear(); // what the kernel says counts from here on
+        if (!this.grip) this.held.clear(); // from now on the kernel's places are drawn
         if (this.path === path) this.path = [];
         this.canvas.changed();
       });
@@ -186,12 +191,6 @@ export class Pad {
     clearTimeout(this.longPress);
     this.grip = null;
     this.canvas.changed();
-  }
-
-  beginPinch(e) {
-    this.takeBack(e); // two fingers were meant from the start
-    this.mode = "pinch";
-    this.span = this.spread();
   }
 
   spread() {
@@ -208,7 +207,6 @@ export class Pad {
   }
 
   wheel(e) {
-    // Without focus, where the canvas wants it, the page scrolls on past the picture.
     if (this.canvas.wheelNeedsFocus && !this.focused && !e.ctrlKey) return;
     e.preventDefault();
     e.stopPropagation();
@@ -235,7 +233,7 @@ export class Pad {
     this.send("key", middle, e, { key: isUndo(e) ? undoOrRedo(e) : e.key });
   }
 
-  // Look again for what is below the pointer, at a new place or after a change.
+  // Updates what is below the pointer.
   hover(place = this.rests) {
     this.rests = place;
     if (this.mode !== null) return;

@@ -1,8 +1,7 @@
-// What part of the world is seen: a centre, and the world's units of a CSS pixel. Kept by the page, so
-// that panning and zooming need no kernel.
+// The visible part of the world: a centre, and world units per CSS pixel.
 
 export class View {
-  // up: 1 where y points up in the world, -1 where it points down. changed(): after every change.
+  // up: 1 if the world's y points up, -1 if down. changed(): called after every change.
   constructor(changed, { up = 1, nearest, farthest }) {
     Object.assign(this, { changed, up, nearest, farthest, x: 0, y: 0, unit: 1, width: 1, height: 1 });
   }
@@ -23,7 +22,7 @@ export class View {
     this.changed();
   }
 
-  // By a factor; the world stays where it is at a place of the screen, by default in the middle.
+  // Zooms about a place on the screen, by default its middle.
   zoom(factor, place = [this.width / 2, this.height / 2]) {
     const [x, y] = this.toWorld(place);
     const unit = Math.min(this.farthest, Math.max(this.nearest, this.unit * factor));

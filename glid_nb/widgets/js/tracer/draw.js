@@ -1,13 +1,13 @@
 // Draws the stage: picture, cage, vertices, holes, strokes and the places of problems.
 
+import { disk } from "../pad/pen.js";
+
 const HALO = "rgba(255, 255, 255, 0.9)";
 const SPECK = 12; // CSS pixels; dropped holes smaller than this show under the pointer only
 const CHECK = 8; // CSS pixels per square of the checkerboard under transparent pictures
 
 export function drawStage(ctx, scene) {
-  const { width, height, ratio, view, colors } = scene;
-  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-  ctx.clearRect(0, 0, width, height);
+  const { width, height, view, colors } = scene;
   if (!scene.size) return;
   const corner = view.toScreen([0, 0]);
   const extent = scene.size.map((n) => n / view.unit);
@@ -18,7 +18,11 @@ export function drawStage(ctx, scene) {
     ctx.drawImage(scene.bitmap, ...corner, ...extent);
   }
   const loops = scene.loops.map((loop) => loop.map((p) => view.toScreen(p)));
-  if (loops.length && scene.veil) drawVeil(ctx, loops, colors, corner, extent);
+  if (loops.length && scene.showVertices) {
+    const [[left, top], [w, h]] = [corner, extent];
+    const frame = [[left, top], [left + w, top], [left + w, top + h], [left, top + h]];
+    fillPath(ctx, [...loops, frame], colors.veil); // what lies outside the cage fades
+  }
   scene.holes.forEach((hole, i) => {
     const loop = hole.loop.map((p) => view.toScreen(p));
     const hovered = scene.hover?.hole === i;
@@ -29,16 +33,16 @@ export function drawStage(ctx, scene) {
   drawStrokes(ctx, scene);
   if (loops.length) drawCage(ctx, scene, loops);
   for (const problem of scene.problems) {
-    if (problem.point) drawProblem(ctx, view.toScreen(problem.point), colors);
+    if (!problem.point) continue;
+    disk(ctx, view.toScreen(problem.point), 13, null, HALO, 5);
+    disk(ctx, view.toScreen(problem.point), 13, null, colors.warn, 2.25);
   }
 }
 
 function drawChecks(ctx, colors, [x, y], [w, h], width, height) {
-  // Only the part that is seen; a picture may be zoomed in far.
-  const left = Math.max(x, 0);
-  const top = Math.max(y, 0);
-  const right = Math.min(x + w, width);
-  const bottom = Math.min(y + h, height);
+  // Only the visible part; a picture may be zoomed in far.
+  const [left, top] = [Math.max(x, 0), Math.max(y, 0)];
+  const [right, bottom] = [Math.min(x + w, width), Math.min(y + h, height)];
   if (right <= left || bottom <= top) return;
   ctx.save();
   ctx.beginPath();
@@ -72,8 +76,13 @@ function fillPath(ctx, loops, style) {
 function strokePath(ctx, loops, style, width, dash = []) {
   ctx.lineJoin = "round";
   tracePath(ctx, loops);
+  strokeWithHalo(ctx, style, width, width + 2.25, dash);
+}
+
+// Strokes the current path over a wider pale line, which is seen on dark pictures.
+function strokeWithHalo(ctx, style, width, haloWidth, dash = []) {
   ctx.strokeStyle = HALO;
-  ctx.lineWidth = width + 2.25;
+  ctx.lineWidth = haloWidth;
   ctx.stroke();
   ctx.setLineDash(dash);
   ctx.strokeStyle = style;
@@ -82,38 +91,18 @@ function strokePath(ctx, loops, style, width, dash = []) {
   ctx.setLineDash([]);
 }
 
-// What lies outside the cage steps back.
-function drawVeil(ctx, loops, colors, [x, y], [w, h]) {
-  tracePath(ctx, loops);
-  ctx.rect(x, y, w, h);
-  ctx.fillStyle = colors.veil;
-  ctx.fill("evenodd");
-}
-
 function drawStrokes(ctx, scene) {
   if (!scene.showStrokes) return;
-  const { view, strokes: { foreground, background } } = scene;
-  const pairs = [
-    [background, scene.colors.background],
-    [foreground, scene.colors.foreground],
-  ];
+  const { view, strokes } = scene;
+  const pairs = ["background", "foreground"].map((brush) => [strokes[brush], scene.colors[brush]]);
   if (scene.stroke) pairs.push([[scene.stroke.points], scene.colors[scene.stroke.brush]]);
   ctx.lineCap = ctx.lineJoin = "round";
-  for (const [strokes, color] of pairs) {
-    for (const stroke of strokes) {
+  for (const [lines, color] of pairs) {
+    for (const line of lines) {
       ctx.beginPath();
-      stroke.forEach((p, i) => {
-        const [x, y] = view.toScreen(p);
-        if (i) ctx.lineTo(x, y);
-        else ctx.moveTo(x, y);
-      });
-      if (stroke.length === 1) ctx.lineTo(...view.toScreen(stroke[0]));
-      ctx.strokeStyle = HALO;
-      ctx.lineWidth = 8;
-      ctx.stroke();
-      ctx.strokeStyle = color;
-      ctx.lineWidth = 5;
-      ctx.stroke();
+      line.forEach((point, i) => ctx[i ? "lineTo" : "moveTo"](...view.toScreen(point)));
+      if (line.length === 1) ctx.lineTo(...view.toScreen(line[0]));
+      strokeWithHalo(ctx, color, 5, 8);
     }
   }
 }
@@ -125,65 +114,30 @@ function drawCage(ctx, scene, loops) {
   if (!scene.showVertices) return;
   const radius = vertexRadius(loops);
   loops.forEach((loop, i) =>
-    loop.forEach(([x, y], j) => {
+    loop.forEach((vertex, j) => {
       const chosen = selected.has(`${i}:${j}`);
       const hovered = hover?.vertex?.loop === i && hover.vertex.index === j;
       const r = hovered || chosen ? radius + 1.75 : radius;
-      ctx.beginPath();
-      ctx.arc(x, y, r + 1, 0, 2 * Math.PI);
-      ctx.fillStyle = HALO;
-      ctx.fill();
-      ctx.beginPath();
-      ctx.arc(x, y, r, 0, 2 * Math.PI);
-      ctx.fillStyle = chosen || hovered ? color : "white";
-      ctx.fill();
-      ctx.strokeStyle = color;
-      ctx.lineWidth = 1.5;
-      ctx.stroke();
+      disk(ctx, vertex, r + 1, HALO);
+      disk(ctx, vertex, r, chosen || hovered ? color : "white", color, 1.5);
     }),
   );
   if (hover?.edge) drawPlus(ctx, scene.view.toScreen(hover.edge.foot), color);
 }
 
-// Smaller where vertices are close together on the stage.
+// Smaller where vertices are close together.
 function vertexRadius(loops) {
-  let total = 0;
-  let count = 0;
-  for (const loop of loops) {
-    loop.forEach(([x, y], i) => {
-      const [u, v] = loop[(i + 1) % loop.length];
-      total += Math.hypot(u - x, v - y);
-      count++;
-    });
-  }
-  return Math.min(4, Math.max(1.75, (total / Math.max(count, 1)) * 0.16));
+  const edges = loops.flatMap((loop) => loop.map((a, i) => [a, loop[(i + 1) % loop.length]]));
+  const total = edges.reduce((sum, [[x, y], [u, v]]) => sum + Math.hypot(u - x, v - y), 0);
+  return Math.min(4, Math.max(1.75, (total / Math.max(edges.length, 1)) * 0.16));
 }
 
 function drawPlus(ctx, [x, y], color) {
-  ctx.beginPath();
-  ctx.arc(x, y, 7, 0, 2 * Math.PI);
-  ctx.fillStyle = "white";
-  ctx.fill();
-  ctx.strokeStyle = color;
-  ctx.lineWidth = 1.5;
-  ctx.stroke();
+  disk(ctx, [x, y], 7, "white", color, 1.5);
   ctx.beginPath();
   ctx.moveTo(x - 3.5, y);
   ctx.lineTo(x + 3.5, y);
   ctx.moveTo(x, y - 3.5);
   ctx.lineTo(x, y + 3.5);
   ctx.stroke();
-}
-
-function drawProblem(ctx, [x, y], colors) {
-  for (const [style, width] of [
-    [HALO, 5],
-    [colors.warn, 2.25],
-  ]) {
-    ctx.beginPath();
-    ctx.arc(x, y, 13, 0, 2 * Math.PI);
-    ctx.strokeStyle = style;
-    ctx.lineWidth = width;
-    ctx.stroke();
-  }
 }

@@ -1,8 +1,9 @@
 // The cage tracer's page: a toolbar, the stage with picture and cage, the panel, a status line.
 
+import { make } from "../pad/dom.js";
 import { Link } from "../pad/link.js";
 import { isUndo, undoOrRedo } from "../pad/pad.js";
-import { iconButton, make } from "./dom.js";
+import { iconButton } from "./icons.js";
 import { Panel } from "./panel.js";
 import { Stage } from "./stage.js";
 
@@ -16,8 +17,7 @@ const TOOLS = [
 const PART = 1 << 20; // bytes of a file per message
 
 function render({ model, el }) {
-  let refusal = null;
-  let busy = false;
+  let refusal = null, busy = false;
   const root = make("div", { className: "glid-tracer" });
   const link = new Link(model, (report) => {
     busy = report.busy;
@@ -29,7 +29,7 @@ function render({ model, el }) {
   });
   root.dataset.idle = true;
 
-  // Has the kernel do something, after all that was asked before.
+  // Asks the kernel for something, in order.
   const act = (type, content = {}, buffers = []) => link.put({ type, ...content }, buffers);
 
   async function upload(file) {
@@ -57,14 +57,7 @@ function render({ model, el }) {
   const toolbar = make(
     "div",
     { className: "glid-toolbar", role: "toolbar", "aria-label": "Tracer" },
-    open,
-    input,
-    gap(),
-    ...tools,
-    gap(),
-    undo,
-    redo,
-    discard,
+    open, input, gap(), ...tools, gap(), undo, redo, discard,
     make("span", { className: "glid-grow" }),
     iconButton("minus", "Zoom out (-)", () => stage.zoom(false)),
     iconButton("plus", "Zoom in (+)", () => stage.zoom(true)),
@@ -72,9 +65,8 @@ function render({ model, el }) {
   );
   const status = make("div", { className: "glid-status", role: "status", "aria-live": "polite" });
   root.append(toolbar, make("div", { className: "glid-body" }, stage.element, panel.element), status);
-  // JupyterLab's shortcuts for single keys (b: new cell, d d: delete cell) are not for keys typed
-  // here; those with Ctrl, such as saving, are, but for undo and redo. It asks for this attribute
-  // before any listener of ours on the page's elements.
+  // JupyterLab must not take single keys (b: new cell, d d: delete cell) nor undo and redo; its
+  // other shortcuts with Ctrl stay. It reads this attribute before our elements' listeners run.
   const guard = (e) => root.toggleAttribute("data-lm-suppress-shortcuts", isUndo(e) || !(e.ctrlKey || e.metaKey));
   window.addEventListener("keydown", guard, true);
   root.addEventListener("keydown", (e) => {
@@ -82,11 +74,11 @@ function render({ model, el }) {
       act(undoOrRedo(e));
       e.preventDefault();
     } else if (e.ctrlKey || e.metaKey) return;
-    e.stopPropagation(); // the notebook moves between cells by arrow keys
+    e.stopPropagation(); // arrow keys would move between cells
   });
   el.append(root);
 
-  // Here at once, and in the kernel after what was done with the tool before.
+  // Shown at once; the kernel changes the tool after what was done with the last one.
   function chooseTool(name) {
     showTool(name);
     act("tool", { name });
@@ -105,14 +97,13 @@ function render({ model, el }) {
     const { size, loops, problems, n_components: count, discarded } = model.get("shown");
     const n = loops.reduce((sum, loop) => sum + loop.length, 0);
     const holes = Math.max(loops.length - 1, 0);
-    let kind = "ok";
-    let text = `Cage with ${n} vertices and ${holes || "no"} ${holes === 1 ? "hole" : "holes"}`;
+    let kind = "ok", text = `Cage with ${n} vertices and ${holes || "no"} ${holes === 1 ? "hole" : "holes"}`;
     if (refusal) [kind, text] = ["bad", refusal];
     else if (busy) [kind, text] = ["busy", "Working…"];
     else if (!size) [kind, text] = ["idle", "No picture yet"];
     else if (problems.length) {
-      [kind, text] = ["bad", loops.length ? "This is no cage yet; the last valid cage is kept" : "There is no cage yet"];
-    } else if (discarded) text += " · your edits went with the old outline; Undo brings them back";
+      [kind, text] = ["bad", loops.length ? "This is not a valid cage; the last valid one is kept" : "There is no cage yet"];
+    } else if (discarded) text += " · your edits were lost with the old outline; Undo brings them back";
     else if (count > 1) text += ` · ${count} components in the picture`;
     root.dataset.status = kind;
     status.textContent = text;
@@ -131,8 +122,7 @@ function render({ model, el }) {
   }
 
   function showPicture() {
-    const bytes = model.get("picture");
-    stage.setPicture(bytes).catch((error) => {
+    stage.setPicture(model.get("picture")).catch((error) => {
       refusal = `The picture cannot be shown: ${error.message}`;
       showStatus();
     });

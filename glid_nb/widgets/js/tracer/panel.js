@@ -1,44 +1,44 @@
 // The controls beside the picture.
 
-import { make } from "./dom.js";
+import { make } from "../pad/dom.js";
 
 const METHODS = [
-  ["auto", "Auto", "What suits the picture"],
+  ["auto", "Auto", "Chosen for the picture"],
   ["alpha", "Alpha", "What is not transparent"],
   ["threshold", "Brightness", "What is darker, or brighter, than a threshold"],
   ["color", "Colour", "What differs from the background's colour"],
-  ["scribbles", "Scribbles", "What strokes painted over the picture tell"],
+  ["scribbles", "Scribbles", "What painted strokes mark"],
+];
+// Name, label, unit, title, and of the slider: its end (as a share of the longer side for px, of the
+// component's area for px²), the power of its scale, and its decimals.
+const NUMBERS = [
+  ["threshold", "Threshold", "0–1", "Least value of what is foreground", 1, 1, 3],
+  ["smoothing", "Smoothing", "px", "Blur before the outline is taken", 0.01, 2, 1],
+  ["offset", "Offset", "px", "How far the cage stays from the shape", 0.05, 1.5, 1],
+  ["simplify", "Simplify", "px", "How far simplification may move the outline", 0.03, 1.5, 1],
+  ["min_hole_area", "Least hole", "px²", "Smaller holes are filled", 0.1, 4, 0],
 ];
 const STEPS = 1000;
 
 // A slider with a number beside it; null, shown as "auto", lets the tracer choose.
 class NumberControl {
-  constructor(name, label, unit, title, choose) {
-    this.name = name;
-    this.choose = choose;
-    this.range = { least: 0, most: 1, power: 1, digits: 2 };
+  constructor(name, label, unit, title, share, power, digits, choose) {
+    Object.assign(this, { name, unit, share, power, digits, choose, most: 1 });
     this.slider = make("input", { type: "range", min: 0, max: STEPS, step: 1, "aria-label": label, oninput: () => this.slide(), onchange: () => (this.current = null) });
     this.number = make("input", { type: "number", className: "glid-number", min: 0, step: "any", placeholder: "auto", "aria-label": `${label} (${unit})`, onchange: () => this.type() });
     this.auto = make("button", { type: "button", className: "glid-auto", title: "Let the tracer choose", onclick: () => choose({ [name]: null }) }, "auto");
     this.element = make("div", { className: "glid-control", title, "data-name": name }, make("label", {}, label), this.auto, this.number, make("span", { className: "glid-unit" }, unit), this.slider);
   }
 
-  setRange(least, most, power, digits) {
-    this.range = { least, most: Math.max(most, least + 1e-9), power, digits };
-  }
-
-  // The value at the slider's place.
   get slid() {
-    const { least, most, power, digits } = this.range;
-    return Number((least + (most - least) * (this.slider.value / STEPS) ** power).toFixed(digits));
+    return Number((this.most * (this.slider.value / STEPS) ** this.power).toFixed(this.digits));
   }
 
   slide() {
-    this.current ??= Math.random().toString(36); // a gesture that no other view and slider has
-    const rounded = this.slid;
-    this.number.value = rounded;
+    this.current ??= Math.random().toString(36); // the gesture's name, unique among views
+    this.number.value = this.slid;
     this.auto.classList.remove("glid-on");
-    this.choose({ [this.name]: rounded }, this.current);
+    this.choose({ [this.name]: this.slid }, this.current);
   }
 
   type() {
@@ -47,15 +47,15 @@ class NumberControl {
     this.choose({ [this.name]: Number.isFinite(value) ? value : null });
   }
 
-  update(value, automatic) {
+  update(value, automatic, unitSize) {
+    this.most = Math.max(this.share * unitSize, 1e-9);
     this.auto.classList.toggle("glid-on", value === null);
+    if (this.current) return; // it is being dragged
     const seen = value ?? automatic;
-    if (this.current) return; // under the hand
-    const { least, most, power, digits } = this.range;
-    this.number.value = seen === null || seen === undefined ? "" : Number(seen.toFixed(digits));
-    if (seen === this.slid) return; // it stays where the hand left it
-    const share = Math.min(Math.max(((seen ?? least) - least) / (most - least), 0), 1);
-    this.slider.value = Math.round(STEPS * share ** (1 / power));
+    this.number.value = seen === null || seen === undefined ? "" : Number(seen.toFixed(this.digits));
+    if (seen === this.slid) return; // else rounding would move the slider
+    const share = Math.min(Math.max((seen ?? 0) / this.most, 0), 1);
+    this.slider.value = Math.round(STEPS * share ** (1 / this.power));
   }
 }
 
@@ -65,14 +65,8 @@ export class Panel {
     this.stage = stage;
     const choose = (changes, gesture = null) =>
       act("set_options", { changes, gesture, ...(gesture && { replaces: gesture }) });
-    const number = (...args) => new NumberControl(...args, choose);
-    this.numbers = {
-      threshold: number("threshold", "Threshold", "0–1", "Least value of what is foreground"),
-      smoothing: number("smoothing", "Smoothing", "px", "Blur before the outline is taken"),
-      offset: number("offset", "Offset", "px", "How far the cage stays from the shape"),
-      simplify: number("simplify", "Simplify", "px", "How far simplification may move the outline"),
-      min_hole_area: number("min_hole_area", "Least hole", "px²", "Smaller holes are filled"),
-    };
+    this.numbers = NUMBERS.map((row) => new NumberControl(...row, choose));
+    const rows = Object.fromEntries(this.numbers.map(({ name, element }) => [name, element]));
     this.methods = METHODS.map(([value, label, title]) =>
       make("button", { type: "button", title, role: "radio", "data-value": value, onclick: () => choose({ method: value }) }, label),
     );
@@ -96,19 +90,9 @@ export class Panel {
       { className: "glid-panel" },
       make("h4", {}, "Foreground"),
       make("div", { className: "glid-methods", role: "radiogroup", "aria-label": "Method" }, ...this.methods),
-      this.scribbleRow,
-      this.pickColor,
-      this.numbers.threshold.element,
-      this.invertRow,
-      this.numbers.smoothing.element,
-      this.componentRow,
+      this.scribbleRow, this.pickColor, rows.threshold, this.invertRow, rows.smoothing, this.componentRow,
       make("h4", {}, "Outline"),
-      this.numbers.offset.element,
-      this.numbers.simplify.element,
-      this.holesTitle,
-      this.numbers.min_hole_area.element,
-      this.holes,
-      this.notesBox,
+      rows.offset, rows.simplify, this.holesTitle, rows.min_hole_area, this.holes, this.notesBox,
     );
   }
 
@@ -116,14 +100,10 @@ export class Panel {
     const { options, automatic } = shown;
     this.element.hidden = !shown.size;
     if (!shown.size) return;
-    const longer = Math.max(...shown.size);
-    const { threshold, smoothing, offset, simplify, min_hole_area } = this.numbers;
-    threshold.setRange(0, 1, 1, 3);
-    smoothing.setRange(0, 0.01 * longer, 2, 1);
-    offset.setRange(0, 0.05 * longer, 1.5, 1);
-    simplify.setRange(0, 0.03 * longer, 1.5, 1);
-    min_hole_area.setRange(0, 0.1 * shown.component_area, 4, 0);
-    for (const [name, control] of Object.entries(this.numbers)) control.update(options[name], automatic?.[name]);
+    const units = { "0–1": 1, px: Math.max(...shown.size), "px²": shown.component_area };
+    for (const control of this.numbers) {
+      control.update(options[control.name], automatic?.[control.name], units[control.unit]);
+    }
     const method = options.method;
     const used = method === "auto" ? automatic?.method : method;
     for (const button of this.methods) {
@@ -154,8 +134,8 @@ export class Panel {
 
   updateHoles({ holes, n_holes: count, automatic }) {
     const kept = holes.filter((hole) => hole.kept).length;
-    const none = automatic ? "Holes: none" : "Holes";
-    this.holesTitle.textContent = count ? `Holes: ${kept} of ${count} kept` : none;
+    const found = count ? `Holes: ${kept} of ${count} kept` : "Holes: none";
+    this.holesTitle.textContent = count || automatic ? found : "Holes";
     const rows = holes.map((hole, i) => {
       const box = make("input", { type: "checkbox", checked: hole.kept, onchange: () => this.act("toggle_hole", { number: i }) });
       const area = hole.area >= 1e4 ? `${(hole.area / 1e3).toFixed(0)}k px²` : `${hole.area.toFixed(0)} px²`;
@@ -167,16 +147,15 @@ export class Panel {
         make("span", { className: "glid-unit" }, area),
       );
     });
-    // Rebuilding takes the focus from a row; it goes back to where it was.
+    // Rebuilding takes the focus; the row that had it gets it back.
     const at = [...this.holes.children].findIndex((row) => row.contains(this.holes.getRootNode().activeElement));
     this.holes.replaceChildren(...rows);
     rows[at]?.querySelector("input").focus();
   }
 
   updateTool(tool) {
-    this.paint[0].classList.toggle("glid-on", tool === "foreground");
-    this.paint[1].classList.toggle("glid-on", tool === "background");
-    this.pickColor.classList.toggle("glid-on", tool === "color");
-    this.pickComponent.classList.toggle("glid-on", tool === "component");
+    const [foreground, background] = this.paint;
+    const buttons = { foreground, background, color: this.pickColor, component: this.pickComponent };
+    for (const [name, button] of Object.entries(buttons)) button.classList.toggle("glid-on", name === tool);
   }
 }

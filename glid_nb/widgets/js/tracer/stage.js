@@ -1,10 +1,11 @@
 // The picture with the cage over it: what is below the pointer, and what is drawn.
 
+import { make } from "../pad/dom.js";
+import { holeAt, nearestEdge, nearestVertex } from "../pad/hit.js";
 import { Pad } from "../pad/pad.js";
+import { clearedContext } from "../pad/pen.js";
 import { View } from "../pad/view.js";
-import { make } from "./dom.js";
 import { drawStage } from "./draw.js";
-import { holeAt, nearestEdge, nearestVertex } from "./hit.js";
 
 const REACH = { mouse: 9, pen: 12, touch: 18 }; // CSS pixels around the pointer
 const ZOOM = 1.25; // by a button or a key
@@ -24,7 +25,7 @@ const KEYS = new Set([
 ]);
 
 export class Stage {
-  // root has the colours as CSS variables; upload(file) takes a picture that is dropped.
+  // root defines the colours as CSS variables; upload(file) takes a dropped picture.
   constructor(root, link, upload) {
     this.root = root;
     this.link = link;
@@ -34,9 +35,9 @@ export class Stage {
     this.drop = make("div", { className: "glid-drop", hidden: true }, "Drop a picture here");
     this.empty = make("div", { className: "glid-empty" }, make("p", {}, "Drop a picture here, or open one from a file."));
     this.element = make("div", { className: "glid-stage" }, this.canvas, this.empty, this.callout, this.hintText, this.drop);
-    this.shown = null;
-    this.bitmap = null;
+    this.shown = this.bitmap = null;
     this.tool = "edit";
+    this.changed = () => this.redraw();
     this.listed = null; // the hole below the pointer in the list
     this.view = new View(() => this.redraw(), { up: -1, nearest: 1 / MOST_ZOOM, farthest: 1e3 });
     this.pad = new Pad(this.canvas, this.view, link, this);
@@ -75,19 +76,18 @@ export class Stage {
     });
   }
 
-  // The state from the kernel.
   update(shown) {
     const before = this.shown?.size;
     this.shown = shown;
     this.empty.hidden = Boolean(shown.size);
     if (shown.size && String(before) !== String(shown.size)) this.fit();
-    this.pad.hover(); // what lies below the pointer may have become something else
+    this.pad.hover(); // something else may lie below the pointer now
   }
 
   async setPicture(bytes) {
     const turn = (this.turn = (this.turn ?? 0) + 1);
     const bitmap = bytes?.byteLength ? await createImageBitmap(new Blob([bytes])) : null;
-    if (turn !== this.turn) return bitmap?.close(); // another one came meanwhile
+    if (turn !== this.turn) return bitmap?.close(); // a newer one has come
     this.bitmap?.close();
     this.bitmap = bitmap;
     this.redraw();
@@ -123,14 +123,11 @@ export class Stage {
     const first = !this.width;
     Object.assign(this, { width, height });
     Object.assign(this.view, { width, height });
-    const ratio = window.devicePixelRatio || 1;
-    this.canvas.width = Math.round(width * ratio);
-    this.canvas.height = Math.round(height * ratio);
     if (first) this.fit();
     this.redraw();
   }
 
-  // The loops, with what the hand holds where it is.
+  // The loops, with vertices that are dragged where the pointer is.
   get loops() {
     const loops = this.shown?.loops ?? [];
     if (!this.pad.held.size) return loops;
@@ -141,7 +138,7 @@ export class Stage {
     return this.tool === "foreground" || this.tool === "background";
   }
 
-  // What the pad wants to know.
+  // The pad's options
 
   reach = REACH;
   keys = KEYS;
@@ -154,7 +151,7 @@ export class Stage {
   find(point, reach) {
     if (this.tool !== "edit" || !this.shown?.size) return null;
     const hole = holeAt(this.shown.holes, point);
-    // In a small hole nothing is far from the loop around it; the middle stays the hole's.
+    // Smaller reach inside a hole, so that the middle of a small one can be clicked.
     const near = hole < 0 ? reach : 0.6 * reach;
     const vertex = nearestVertex(this.loops, point, near);
     if (vertex) return { vertex, mark: `${vertex.loop}:${vertex.index}` };
@@ -171,17 +168,9 @@ export class Stage {
     return !found?.vertex && !this.painting;
   }
 
-  paints() {
-    return this.painting;
-  }
-
   cursor(found) {
     if (this.tool !== "edit") return this.tool === "component" ? "pointer" : "crosshair";
     return found?.vertex ? "grab" : found?.edge ? "copy" : found?.hole !== undefined ? "pointer" : "default";
-  }
-
-  changed() {
-    this.redraw();
   }
 
   // Drawing, at most once per frame.
@@ -198,22 +187,17 @@ export class Stage {
     this.colors ??= this.readColors();
     const { shown, painting, pad, view } = this;
     const hover = this.listed ?? (pad.mode === "pan" ? null : pad.found);
-    drawStage(this.canvas.getContext("2d"), {
+    drawStage(clearedContext(this.canvas, this), {
       width: this.width,
       height: this.height,
-      ratio: this.canvas.width / this.width,
       view,
       colors: this.colors,
-      size: shown.size,
+      ...shown,
       bitmap: this.bitmap,
       loops: this.loops,
-      holes: shown.holes,
-      problems: shown.problems,
-      strokes: shown.strokes,
       stroke: painting && pad.path.length ? { brush: this.tool, points: pad.path } : null,
       showStrokes: painting || shown.options.method === "scribbles",
       showVertices: !painting,
-      veil: !painting,
       hover,
       selected: new Set(shown.selected.map(([loop, index]) => `${loop}:${index}`)),
     });
@@ -244,7 +228,7 @@ export class Stage {
     return colors;
   }
 
-  // What is wrong, beside the place where it is.
+  // The first problem's message, beside its place.
   placeCallout() {
     const problem = this.shown.problems[0];
     this.callout.hidden = !problem || this.pad.mode === "pan";

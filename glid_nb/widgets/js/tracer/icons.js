@@ -1,15 +1,4 @@
-// Small helpers to build the page's elements.
-
-export function make(tag, properties = {}, ...children) {
-  const element = document.createElement(tag);
-  for (const [name, value] of Object.entries(properties)) {
-    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
-    else if (name in element && name !== "list") element[name] = value;
-    else element.setAttribute(name, value);
-  }
-  element.append(...children);
-  return element;
-}
+import { make } from "../pad/dom.js";
 
 // Outlines on a 16 x 16 grid.
 const PATHS = {

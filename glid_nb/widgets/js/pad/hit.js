@@ -1,4 +1,4 @@
-// What is under a point, all in the same coordinates.
+// What is at a point; all arguments in the same coordinates.
 
 const distance = ([x, y], [u, v]) => Math.hypot(x - u, y - v);
 
@@ -20,11 +20,11 @@ export function nearestEdge(loops, point, reach) {
       const b = loop[(j + 1) % loop.length];
       const along = [b[0] - a[0], b[1] - a[1]];
       const square = along[0] ** 2 + along[1] ** 2 || 1e-30;
-      const t = ((point[0] - a[0]) * along[0] + (point[1] - a[1]) * along[1]) / square;
-      const c = Math.min(Math.max(t, 0), 1);
-      const foot = [a[0] + c * along[0], a[1] + c * along[1]];
+      const dot = (point[0] - a[0]) * along[0] + (point[1] - a[1]) * along[1];
+      const t = Math.min(Math.max(dot / square, 0), 1);
+      const foot = [a[0] + t * along[0], a[1] + t * along[1]];
       const d = distance(foot, point);
-      if (d <= (best?.d ?? reach)) best = { loop: i, edge: j, foot, d };
+      if (d <= (best?.d ?? reach)) best = { foot, d };
     }),
   );
   return best;
@@ -40,11 +40,8 @@ export function contains(loop, [x, y]) {
   return inside;
 }
 
-// Index of the smallest hole around a point, -1 for none.
+// The index of the smallest hole around a point, -1 for none.
 export function holeAt(holes, point) {
-  let best = -1;
-  holes.forEach((hole, i) => {
-    if (contains(hole.loop, point) && (best < 0 || hole.area < holes[best].area)) best = i;
-  });
-  return best;
+  const around = holes.filter((hole) => contains(hole.loop, point));
+  return holes.indexOf(around.sort((a, b) => a.area - b.area)[0]);
 }
