@@ -27,8 +27,8 @@ _FINAL_ROUNDING = 1 + 1e-12
 class Jets(NamedTuple):
     """A map to second order at the starts of panels; every field is a (p,) array.
 
-    The errors bound what rounding does to the image and to its first and second derivative in
-    any unit direction. ``third`` bounds the third derivative along the whole panel.
+    The errors bound the rounding errors of the image and of its first and second derivative in any
+    unit direction. ``third`` bounds the third derivative along the whole panel.
     """
 
     f: Array
@@ -42,7 +42,7 @@ class Jets(NamedTuple):
     third: Array
 
     def at(self, index: Any) -> Jets:
-        """Those of the panels that ``index`` selects."""
+        """The jets of the panels that ``index`` selects."""
         return Jets(*(values[index] for values in self))
 
     def first(self, direction: Array) -> Array:
@@ -58,9 +58,9 @@ class Jets(NamedTuple):
 class Arcs(NamedTuple):
     """Images of panels, parametrised by the arc length of the panel; every field is an array.
 
-    ``start`` and ``end`` are the images of the ends, known to within ``error``, ``tangent_start``
-    and ``tangent_end`` the derivatives there, to within ``tangent_error``. ``bend`` bounds the
-    second derivative along the panel of the given ``length``.
+    ``start`` and ``end`` are the images of the ends, accurate to ``error``, ``tangent_start`` and
+    ``tangent_end`` the derivatives there, accurate to ``tangent_error``. ``bend`` bounds the second
+    derivative along the panel, whose length is ``length``.
     """
 
     start: Array
@@ -74,7 +74,7 @@ class Arcs(NamedTuple):
 
     @classmethod
     def between(cls, start: Array, end: Array, at_start: Jets, at_end: Jets) -> Arcs:
-        """Images of the panels from ``start`` to ``end``, for which ``at_start.third`` holds."""
+        """Images of the panels from ``start`` to ``end``, to which ``at_start.third`` applies."""
         length = np.abs(end - start)
         direction = (end - start) / np.where(length > 0, length, 1)
         # A function whose slope is at most K is at most (|start| + |end| + K l) / 2.
@@ -94,17 +94,17 @@ class Arcs(NamedTuple):
         )
 
     def at(self, index: Any) -> Arcs:
-        """Those that ``index`` selects."""
+        """The arcs that ``index`` selects."""
         return Arcs(*(values[index] for values in self))
 
     @property
     def sagitta(self) -> Array:
-        """``M l^2 / 8``: the exact image is so close to the exact chord, at equal parameters."""
+        """``M l^2 / 8``: bounds the distance of exact image and chord at equal parameters."""
         return self.bend * self.length**2 / 8
 
     @property
     def radius(self) -> Array:
-        """The same for the computed chord."""
+        """The same bound for the computed chord."""
         return self.sagitta + self.error
 
 
@@ -117,7 +117,7 @@ class JetEvaluator:
         self._singularities = basis.singularities
 
     def __call__(self, start: Array, end: Array) -> Jets:
-        """Jets at the (p,) complex points ``start``, ``third`` being for the panels to ``end``."""
+        """Jets at the (p,) complex points ``start``, with ``third`` for the panels to ``end``."""
         return in_chunks(_kernel, _CHUNK, (start, end), self._coefficients, self._singularities)
 
 
@@ -127,7 +127,7 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularitie
     values, slopes, curvatures = (c(start, singularities) @ coefficients.T for c in columns)
     jumps = modulus(cauchy.slope_jumps(coefficients, singularities)).sum(axis=0)
     third = derivative_bound_weights(start, end, singularities, 2) @ jumps
-    # Twice, for the two sums over phi and psi.
+    # Twice, for the sums over phi and over psi.
     slack = 2 * rounding.slack_factor(coefficients.shape[1]) * modulus(coefficients).max()
     first_scale, second_scale = cauchy.rounding_scale(start, singularities)
     parts: tuple[Any, ...] = (
@@ -145,7 +145,7 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularitie
 
 
 def _value_scale(z: Any, singularities: Singularities) -> Any:
-    """The scale of the terms of ``C(z)``, as ``cauchy.rounding_scale`` for the derivatives.
+    """The sum of the moduli of all terms of ``C(z)``, like ``cauchy.rounding_scale`` for ``D(z)``.
 
     ``|Log(B_{j+1} / B_j)| <= |ln |B_{j+1} / B_j|| + pi``, and 4 roundoffs beside it.
     """

@@ -1,11 +1,11 @@
 """The Lipschitz constants of bounded distortion harmonic mappings (Chen & Weber 2015).
 
-The paper replaces them by far smaller ones (Section 8); they are kept for Figure 7. On a segment,
+The paper replaces them by far smaller ones (Section 8); these are for Figure 7. On a segment,
 ``|f_z'| <= sum_j L_j |phi_j|`` with ``L_j = |z_{j+1} - z_{j-1}| / (2 pi d(z_{j-1}) d(z_j)
 d(z_{j+1}))``, a bound on ``|D_j'|``. Adding an affine function of ``z_j`` to a loop's coefficients
 changes ``f_z`` by a constant at most, so the affine function through the vertex of largest ``L_j``
-and the larger of its neighbours is subtracted first. The original has simply-connected domains;
-here every loop has its affine function, and a hole's logarithm the constant ``1 / d^2``.
+and the larger of its neighbours is subtracted first. The original is for simply-connected domains;
+here every loop has its own affine function, and a hole's logarithm the constant ``1 / d^2``.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ if TYPE_CHECKING:
 
 
 class BDHM(NamedTuple):
-    """The proof by these constants; ``m`` vertices, then ``N`` holes make ``n``."""
+    """The proof by these constants, for ``n = m + N`` vertices and holes."""
 
     length: Float[Array, " p"]
     weights: Float[Array, "n p"]
     """``L_j``."""
     first: Int[Array, "m p"]
-    """The vertex of the loop of ``z_j`` at which ``L`` is largest on this segment."""
+    """The vertex with the largest ``L`` on the loop of ``z_j``, for each segment."""
     second: Int[Array, "m p"]
     """The neighbour of ``first`` with the larger ``L``."""
 
@@ -38,19 +38,19 @@ class BDHM(NamedTuple):
     def on(
         cls, start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
     ) -> Self:
-        """``L_j`` on each segment, and where to subtract."""
+        """``L_j`` on each segment, and the vertices of the affine function."""
         vertices, following, preceding, _ = map(jnp.asarray, singularities)
         m = vertices.shape[0]
         d = distances(start, end, singularities)
         near = d[:, :m]
         chord = modulus(vertices[following] - vertices[preceding])
         weights = chord / (2 * np.pi * near[:, preceding] * near * near[:, following])
-        loop = _loops(following)
+        loop = _loop_labels(following)
         largest = jax.ops.segment_max(weights.T, loop, m)[loop].T
         candidates = jnp.where(weights == largest, jnp.arange(m), -1)
         first = jax.ops.segment_max(candidates.T, loop, m)[loop].T
-        value = jnp.take_along_axis
-        after = value(weights, following[first], 1) >= value(weights, preceding[first], 1)
+        take = jnp.take_along_axis
+        after = take(weights, following[first], 1) >= take(weights, preceding[first], 1)
         second = jnp.where(after, following[first], preceding[first])
         weights = jnp.concatenate([weights, d[:, m:] ** -2], axis=1)
         return cls(jnp.abs(end - start), weights.T, first.T, second.T)
@@ -75,7 +75,7 @@ class BDHM(NamedTuple):
     def remainder(
         self, coefficients: Complex[Array, "k n"], singularities: Singularities
     ) -> Float[Array, "k p"]:
-        """``L l``: no slope at an end takes part in it."""
+        """``L l``, which does not depend on the slopes at the ends."""
         return self.length * self.constants(coefficients, singularities)
 
     @staticmethod
@@ -84,8 +84,8 @@ class BDHM(NamedTuple):
         return segment_bounds(fz, fzb_conj, remainder)
 
 
-def _loops(following: Int[Array, " m"]) -> Int[Array, " m"]:
-    """The least index on the loop of each vertex, by pointer doubling."""
+def _loop_labels(following: Int[Array, " m"]) -> Int[Array, " m"]:
+    """The smallest index on the loop of each vertex, by pointer doubling."""
     label = jnp.arange(following.shape[0])
     for _ in range(following.shape[0].bit_length()):
         label = jnp.minimum(label, label[following])

@@ -1,4 +1,4 @@
-"""Proving a map locally injective, whatever made it (paper Section 8, Theorem 4.2)."""
+"""Proving any harmonic map locally injective (paper Section 8, Theorem 4.2)."""
 
 from __future__ import annotations
 
@@ -74,12 +74,14 @@ class Certificate:
     certified : bool
         Whether the map is proved locally injective on the closed domain.
     sigma2_lower, sigma1_upper, k_upper : float
-        Bounds on the singular values and the little dilatation. When ``certified`` they hold at
-        every point of the domain; when not, they are what is known on the boundary.
+        Bounds on the singular values and the little dilatation: on the whole domain when
+        ``certified``, otherwise on the boundary only.
     windings : tuple of int
         Turns of ``f_z`` along each loop of the cage, exterior first.
     panels : PanelCertificate
-        The same per panel.
+        The same bounds per panel.
+    kind : str
+        The kind of proof.
     reason : str
         One sentence: what is proved, or where and why the proof failed.
     """
@@ -100,12 +102,12 @@ class Certificate:
 
     @property
     def panels_split(self) -> int:
-        """How many panels stem from splitting."""
+        """Number of panels that come from splitting."""
         return int((self.panels.depth > 0).sum())
 
 
 class _Known(NamedTuple):
-    """Bounds on each panel, and the distortion that is seen at its start."""
+    """Bounds on each panel, and the distortion at its start."""
 
     bounds: PanelBounds
     sigma2_seen: Any
@@ -113,16 +115,15 @@ class _Known(NamedTuple):
     k_seen: Any
     fz_seen: Any
     slack: Any
-    """What rounding may have changed."""
+    """Bound on the rounding error."""
 
     @property
     def folded(self) -> Array:
-        """(p,) bool: the map certainly folds at the panel's start."""
+        """(p,) bool: the map is proved to fold at the panel's start."""
         return self.sigma2_seen <= -2 * self.slack
 
     @property
     def injective(self) -> Array:
-        """(p,) bool: proved on the whole panel."""
         return np.asarray(self.bounds.injective)
 
 
@@ -146,8 +147,7 @@ def certify(
     panels : Panels, optional
         Pieces of the boundary to start from; by default graded ones.
     refine : bool
-        Split panels on which the proof fails or whose bounds are loose. With ``False`` the given
-        panels are all there is, as in the paper.
+        Split panels on which the proof fails or whose bounds are loose; the paper does not.
     tightness : float
         With ``refine``, panels are split until the bounds are within this relative distance of
         values that the map attains.
@@ -177,16 +177,16 @@ def certify(
 
 
 def _to_split(known: _Known, tightness: float) -> Array:
-    """Panels whose proof fails, or that keep the overall bounds from being tight."""
+    """(p,) bool: the proof fails, or the panel keeps the overall bounds from being tight."""
     bounds, injective = known.bounds, known.injective
     worst = known.k_seen.max()
     k_slack = tightness * max(worst, 1e-3)
-    # Splitting shortens panels; it does not lessen what rounding takes from the bounds.
+    # Splitting does not reduce the allowance for rounding, so smaller gains are not worth it.
     least_gain = 4 * known.slack
     failed = ~injective & (known.sigma2_seen > least_gain)
     loose_sigma2 = known.sigma2_seen - bounds.sigma2_lower > least_gain
     loose_sigma1 = bounds.sigma1_upper - known.sigma1_seen > least_gain
-    # An unknown k belongs to a failed panel; elsewhere k is bounded and f_z is not 0.
+    # Where k is unknown the proof failed; elsewhere k is bounded and f_z is not 0.
     k_known = np.isfinite(bounds.k_upper) & (known.fz_seen > 0)
     k_gap = np.where(k_known, bounds.k_upper, 0) - np.where(k_known, known.k_seen, 0)
     loose_k = ~k_known | (k_gap * known.fz_seen > 2 * least_gain)

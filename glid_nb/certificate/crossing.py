@@ -13,9 +13,10 @@ from glid_nb.geometry.panels import cross, point_distance, segments_cross
 
 Array = NDArray[Any]
 
+# Most pairs of panels that are tried.
 _PLACES = 32
 _NEWTON_STEPS = 8
-# Half-lengths of the windows relative to the shorter arc.
+# Half-lengths of the windows, relative to the shorter arc.
 _WINDOWS = 4.0 ** -np.arange(4)
 
 
@@ -24,8 +25,8 @@ def proved_crossing(
 ) -> tuple[complex, Array] | None:
     """A double point of the image of the boundary, and the two boundary points mapped to it.
 
-    Newton's method, started from pairs of panels whose chords cross, finds a candidate. It is
-    proved on windows of the two edges about it, so that it need not be inside a panel.
+    Newton's method finds candidates, starting from pairs of panels whose chords cross. A candidate
+    is proved on windows around it on the two edges, which may extend over several panels.
 
     Parameters
     ----------
@@ -35,7 +36,7 @@ def proved_crossing(
     pairs : (2, q) int array
         Pairs of panels whose images may meet.
     evaluate : JetEvaluator
-        That of the map.
+        Of the map.
     """
     first, second = pairs
     crossing = segments_cross(
@@ -44,7 +45,7 @@ def proved_crossing(
     pairs = pairs[:, crossing]
     if not pairs.size:
         return None
-    # The flatter the arcs, the likelier that they cross as their chords do.
+    # The flatter the arcs, the more likely they cross where their chords do.
     bulge = arcs.sagitta / np.abs(arcs.end - arcs.start)
     pairs = pairs[:, np.argsort(bulge[pairs].max(axis=0))[:_PLACES]]
 
@@ -77,13 +78,12 @@ def proved_crossing(
 
 
 def _image(z: Array, direction: Array, evaluate: JetEvaluator) -> tuple[Array, Array]:
-    """Images of points, and the derivatives along the given directions."""
     jets = evaluate(z.ravel(), z.ravel())
     return jets.f.reshape(z.shape), jets.first(direction.ravel()).reshape(z.shape)
 
 
 def _arcs(low: Array, high: Array, origin: Array, direction: Array, evaluate: JetEvaluator) -> Arcs:
-    """Images of the pieces from ``low`` to ``high`` along edges, in the shape of ``low``."""
+    """Images of the pieces of edges from ``low`` to ``high``, in the shape of ``low``."""
     start, end = (origin + position * direction for position in (low, high))
     count = start.size
     jets = evaluate(np.append(start, end), np.append(end, end))
@@ -94,7 +94,7 @@ def _arcs(low: Array, high: Array, origin: Array, direction: Array, evaluate: Je
 
 
 def _certainly_cross(pair: Arcs) -> Array:
-    """Whether the arcs of index 0 and 1 are proved to meet in the interior of both.
+    """Whether the two arcs of each pair are proved to meet in the interior of both.
 
     On the unit square let ``F(s, t)`` be the difference of the points of the arcs at relative
     parameters ``s`` and ``t``, and ``L(s, t)`` the same for the chords. ``L`` is affine and has

@@ -29,7 +29,7 @@ class Hermite(NamedTuple):
     """The proof by cubic interpolants on graded panels."""
 
     factor: Float[Array, " p"]
-    """``l^4 / 384``: remainder per unit of the bound on the fourth derivative."""
+    """``l^4 / 384``, which turns a bound on the fourth derivative into the remainder."""
     weights: Float[Array, "n p"]
     """The bound on the fourth derivative per unit of each slope jump."""
 
@@ -37,7 +37,7 @@ class Hermite(NamedTuple):
     def on(
         cls, start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
     ) -> Self:
-        """The weights of the remainder on the panels."""
+        """The constants of the remainder on the panels."""
         weights = derivative_bound_weights(start, end, singularities, 4)
         return cls(jnp.abs(end - start) ** 4 / 384, weights.T)
 
@@ -50,10 +50,9 @@ class Hermite(NamedTuple):
 
     @staticmethod
     def bounds(fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]) -> PanelBounds:
-        """Bounds that hold on each whole panel.
+        """Bounds on each whole panel.
 
-        The interpolants are cut in half once, which tightens the enclosure without another
-        evaluation of the map.
+        The interpolants are halved once, which tightens the bounds without evaluating the map.
         """
         p, q = _control_points(fz), _control_points(fzb_conj)
         halves = [
@@ -62,7 +61,7 @@ class Hermite(NamedTuple):
         ]
         sigma2, sigma1, k = zip(*halves, strict=True)
 
-        # If the control polygon lies in a half plane further than e_f from 0, so does f_z.
+        # If the control points lie in a half plane further than e_f from 0, f_z avoids 0 there.
         direction = p[0] / modulus(p[0]) + p[3] / modulus(p[3])
         direction = direction / modulus(direction)
         offset = _least([jnp.real(jnp.conj(direction) * point) for point in p])
@@ -83,8 +82,8 @@ def _piece_bounds(
     p_most = _greatest([modulus(point) for point in p])
     q_most = _greatest([modulus(point) for point in q])
 
-    # |p| - |q| = (|p|^2 - |q|^2) / (|p| + |q|), the denominator being at most the control points'.
-    # Where that is negative, |q|^2 <= |p|^2 - least gives |q| <= |p| + sqrt(-least).
+    # |p| - |q| = (|p|^2 - |q|^2) / (|p| + |q|), and the control points bound the denominator.
+    # Where least is negative, |q|^2 <= |p|^2 - least gives |q| <= |p| + sqrt(-least).
     least = _least([a - b for a, b in zip(p_square, q_square, strict=True)])
     sigma2 = jnp.where(least > 0, least / (p_most + q_most), -jnp.sqrt(-least)) - e_f - e_g
     sigma1 = p_most + q_most + e_f + e_g
@@ -96,8 +95,8 @@ def _piece_bounds(
     kappa = jnp.sqrt(_greatest(ratios))
     k = (kappa * p_least + e_g) / (p_least - e_f)
     k = jnp.where((p_least_square > 0) & (p_least > e_f), k, jnp.inf)
-    # k = (sigma_1 - sigma_2) / (sigma_1 + sigma_2) grows with sigma_1 and falls with sigma_2, which
-    # bounds it by less than 1 wherever sigma_2 is proved positive.
+    # k = (sigma_1 - sigma_2) / (sigma_1 + sigma_2) grows with sigma_1 and falls with sigma_2, so
+    # the bounds on these bound it by less than 1 where sigma_2 is proved positive.
     from_sigma = (sigma1 - sigma2) / (sigma1 + sigma2)
     return sigma2, sigma1, jnp.where(sigma2 > 0, jnp.minimum(k, from_sigma), k)
 

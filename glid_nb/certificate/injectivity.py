@@ -5,15 +5,15 @@ boundary, that is, if the images of the loops are simple and do not meet each ot
 are. Along a loop the image's tangent ``f_z t + f_zbar conj(t)`` turns as ``f_z t`` does, because
 ``|f_z| > |f_zbar|``, so an image loop's turning number is that of the loop (1 for the exterior,
 -1 for each of the ``N`` holes) plus the winding of ``f_z``. The windings add up to 0, so the
-turning numbers of the images add up to ``1 - N``; each is 1 or -1 since the images are simple;
-hence exactly one image runs counter-clockwise. By the degree formula a point off the images of
-the loops has as many preimages as the winding numbers about it add up to, ``f`` preserving
-orientation: at most the 1 of that one loop. Two preimages of one point, in the interior or one of
-them on the boundary, would give points nearby, off the images, with two preimages as well.
+turning numbers of the images add up to ``1 - N``. Each is 1 or -1 since the images are simple, so
+exactly one image runs counter-clockwise. ``f`` preserves orientation, so by the degree formula the
+number of preimages of a point off the images of the loops is the sum of the winding numbers about
+it: at most 1. If a point had two preimages, at most one of them on the boundary, points nearby
+off the images would have two as well.
 
 So only the boundary is searched. The image of a straight panel of length ``l`` is within
-``M l^2 / 8`` of its chord, ``M`` bounding the second derivative along the panel; panels are split
-until that decides.
+``M l^2 / 8`` of its chord, where ``M`` bounds the second derivative along the panel. Panels are
+split until that decides.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ import shapely
 from numpy.typing import NDArray
 
 from glid_nb._runtime import double_precision
-from glid_nb.certificate.arcs import Arcs, JetEvaluator, Jets
+from glid_nb.certificate.arcs import Arcs, JetEvaluator
 from glid_nb.certificate.certify import Certificate, certify
 from glid_nb.certificate.crossing import proved_crossing
 from glid_nb.certificate.panels import after_split
@@ -55,8 +55,8 @@ class GlobalInjectivity:
     crossing : (2,) array or None
         With "no", a point at which the image of the boundary crosses itself.
     parameters : (2, 2) array or None
-        With "no", the two boundary points, one per row, that are mapped to ``crossing``. That
-        there are two such points is proved; these are their coordinates up to rounding.
+        With "no", the two boundary points, one per row, that are mapped to ``crossing``. That two
+        such points exist is proved; these are their rounded coordinates.
     """
 
     verdict: Verdict
@@ -76,10 +76,10 @@ def global_injectivity(
     ----------
     map : HarmonicMap
     certificate : Certificate, optional
-        That of ``map``; by default it is computed. Only a certified map gets an answer.
+        Of ``map``; by default it is computed. For an uncertified map the verdict is "undecided".
     max_panels : int
-        Give up when the boundary is in more pieces than this. Images that touch without crossing
-        end so, or when rounding hides their distance.
+        Give up beyond this many pieces of the boundary. That happens where images touch without
+        crossing, or are closer than rounding.
 
     Examples
     --------
@@ -101,24 +101,30 @@ def global_injectivity(
         arcs = Arcs.between(panels.start, panels.end, jets, jets.at(panels.next))
         pairs = _pairs_not_apart(arcs, panels)
         corners = ~_corner_simple(arcs, panels.next)
-        open_ = ~_simple(arcs) | corners
-        open_[panels.next[corners]] = True
-        if not open_.any() and not pairs.size:
-            return _injective(len(panels))
+        unresolved = ~_simple(arcs) | corners
+        unresolved[panels.next[corners]] = True
+        if not unresolved.any() and not pairs.size:
+            reason = (
+                f"Proved globally injective: the images of the {len(panels)} pieces of the "
+                "boundary meet only where neighbours join."
+            )
+            return GlobalInjectivity("yes", reason, len(panels))
         double_point = proved_crossing(map.domain, panels, arcs, pairs, evaluate)
         if double_point is not None:
             return _overlapping(*double_point, len(panels))
-        # The larger arc of a pair is what keeps it open; both if they are about equal.
+        # Split the larger arc of a pair, or both if they are about equal.
         first, second = pairs
         sagitta = arcs.sagitta
-        open_[first[2 * sagitta[first] >= sagitta[second]]] = True
-        open_[second[2 * sagitta[second] >= sagitta[first]]] = True
-        # Where rounding hides the shape of an arc, splitting it shows no more.
-        wanted = open_ & (sagitta > arcs.error) & panels.divisible
+        unresolved[first[2 * sagitta[first] >= sagitta[second]]] = True
+        unresolved[second[2 * sagitta[second] >= sagitta[first]]] = True
+        # Arcs flatter than their rounding error gain nothing from splitting.
+        wanted = unresolved & (sagitta > arcs.error) & panels.divisible
         if not wanted.any() or len(panels) + wanted.sum() > max_panels:
             break
-        panels, jets = _split(panels, jets, wanted, evaluate)
-    return _undecided(panels, pairs, open_)
+        parent, panels = panels.parents(wanted), panels.split(wanted)
+        new = wanted[parent]
+        jets = after_split(jets, parent, new, evaluate(panels.start[new], panels.end[new]))
+    return _undecided(panels, pairs, unresolved)
 
 
 def _pairs_not_apart(arcs: Arcs, panels: Panels) -> Array:
@@ -140,13 +146,13 @@ def _simple(arcs: Arcs) -> Array:
     """Arcs proved not to meet themselves.
 
     The derivative differs from its mean, the chord over ``l``, by at most ``M l / 2``; where that
-    is less than the mean, the arc proceeds in the chord's direction all the time.
+    is less than the mean, the arc always advances in the chord's direction.
     """
     return np.abs(arcs.end - arcs.start) - 2 * arcs.error > 4 * arcs.sagitta
 
 
 def _corner_simple(arcs: Arcs, following: Array) -> Array:
-    """Arcs proved to meet the following one in the common end only.
+    """Arcs proved to meet the following one only at their common end.
 
     Let ``p`` and ``q`` be the derivatives at that end, both pointing away from it. With
     ``phi`` the angle between them, ``|s p - t q| >= sin(phi/2) (s |p| + t |q|)`` for all
@@ -160,23 +166,6 @@ def _corner_simple(arcs: Arcs, following: Array) -> Array:
     return back_clear & ahead_clear
 
 
-def _split(
-    panels: Panels, jets: Jets, wanted: Array, evaluate: JetEvaluator
-) -> tuple[Panels, Jets]:
-    finer, parent = panels.split(wanted), panels.parents(wanted)
-    new = wanted[parent]
-    fresh = evaluate(finer.start[new], finer.end[new])
-    return finer, after_split(jets, parent, new, fresh)
-
-
-def _injective(n_panels: int) -> GlobalInjectivity:
-    reason = (
-        f"Proved globally injective: the images of the {n_panels} pieces of the boundary meet "
-        "only where neighbours join."
-    )
-    return GlobalInjectivity("yes", reason, n_panels)
-
-
 def _overlapping(image: complex, points: Array, n_panels: int) -> GlobalInjectivity:
     reason = (
         f"The map overlaps itself: the boundary points {place(points[0])} and "
@@ -185,12 +174,12 @@ def _overlapping(image: complex, points: Array, n_panels: int) -> GlobalInjectiv
     return GlobalInjectivity("no", reason, n_panels, as_points(image), as_points(points))
 
 
-def _undecided(panels: Panels, pairs: Array, open_: Array) -> GlobalInjectivity:
+def _undecided(panels: Panels, pairs: Array, unresolved: Array) -> GlobalInjectivity:
     if pairs.size:
         closest = pairs[:, np.argmin(panels.length[pairs].max(axis=0))]
         places = " and ".join(place(z) for z in panels.middle[closest])
         what = f"the images of the boundary near {places} touch or nearly do"
     else:
-        what = f"the image of the boundary is too curved near {place(panels.middle[open_][0])}"
+        what = f"the image of the boundary is too curved near {place(panels.middle[unresolved][0])}"
     reason = f"Undecided: {what}; {len(panels)} pieces of the boundary do not tell."
     return GlobalInjectivity("undecided", reason, len(panels))

@@ -1,4 +1,4 @@
-"""Proofs on panels: their input, their result, and the protocol of a kind of proof."""
+"""Proofs on panels: input, result, and the protocol of a kind of proof."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class EndValues(NamedTuple):
 
 
 class PanelBounds(NamedTuple):
-    """Proved on the whole panel, ends included; ``turning_known`` is part of the proof."""
+    """Bounds proved on the whole closed panel."""
 
     sigma2_lower: Float[Array, " p"]
     sigma1_upper: Float[Array, " p"]
@@ -34,7 +34,7 @@ class PanelBounds(NamedTuple):
     turning_known: Bool[Array, " p"]
     """Whether the change of ``arg f_z`` along the panel is proved to be ``turning`` (29)."""
     turning: Float[Array, " p"]
-    """The principal ``Arg`` of the quotient of the end values of ``f_z``."""
+    """Principal ``Arg`` of ``f_z(end) / f_z(start)``."""
 
     @property
     def injective(self) -> Bool[Array, " p"]:
@@ -43,10 +43,10 @@ class PanelBounds(NamedTuple):
 
 
 class PanelProof(Protocol):
-    """A kind of proof; an instance holds what depends on the panels alone.
+    """A kind of proof; an instance holds the constants that depend on the panels only.
 
-    Instances are JAX pytrees of arrays whose last axis is that of the panels, so a solver computes
-    them once for many maps.
+    Instances are JAX pytrees of arrays whose last axis runs over the panels. A solver computes them
+    once for many maps.
     """
 
     @classmethod
@@ -59,7 +59,7 @@ class PanelProof(Protocol):
     def remainder(
         self, coefficients: Complex[Array, "k n"], singularities: Singularities
     ) -> Float[Array, "k p"]:
-        """How far ``sum_j D_j coefficients_j`` may be from what its values at the ends suggest.
+        """Bounds how far ``sum_j D_j coefficients_j`` departs from its estimate by the end values.
 
         The caller of :meth:`bounds` adds an allowance for rounding.
         """
@@ -75,7 +75,7 @@ T = TypeVar("T")
 
 
 def after_split(known: T, parent: NDArray[Any], new: NDArray[Any], fresh: T) -> T:
-    """A pytree of NumPy arrays over panels after a split: ``fresh`` on the panels that are new."""
+    """A pytree of NumPy arrays over panels after a split, with ``fresh`` values on new panels."""
 
     def merged(values: NDArray[Any], others: NDArray[Any]) -> NDArray[Any]:
         result = values[parent]
@@ -86,5 +86,5 @@ def after_split(known: T, parent: NDArray[Any], new: NDArray[Any], fresh: T) -> 
 
 
 def modulus(z: Complex[Array, " *k"]) -> Float[Array, " *k"]:
-    """``|z|`` without care for overflow, which no value here is near; it compiles to much less."""
+    """``|z|`` without protection from overflow, which cannot occur here; compiles to less code."""
     return jnp.sqrt(jnp.real(z) ** 2 + jnp.imag(z) ** 2)

@@ -24,12 +24,12 @@ if TYPE_CHECKING:
 def segment_bounds(
     fz: EndValues, fzb_conj: EndValues, variation: Float[Array, "2 p"] | list[Array]
 ) -> PanelBounds:
-    """Bounds on each segment by (26) and (27), ``variation`` being ``L_fz l`` and ``L_fzbar l``.
+    """Bounds on each segment by (26) and (27), with ``variation`` = ``L_fz l`` and ``L_fzbar l``.
 
     ``|f_z|_min   = (|f_z(v_i)| + |f_z(v_{i+1})|) / 2 - L_fz l / 2``,
     ``|f_zbar|_max = (|f_zbar(v_i)| + |f_zbar(v_{i+1})|) / 2 + L_fzbar l / 2``.
-    That the first is at least the second is Condition (26), which reads
-    ``sigma_2(v_i) + sigma_2(v_{i+1}) >= (L_fz + L_fzbar) l`` (27). Turning is known by (28).
+    That the first is at least the second is Condition (26), equivalent to
+    ``sigma_2(v_i) + sigma_2(v_{i+1}) >= (L_fz + L_fzbar) l`` (27). (28) proves the turning.
     """
     variation_fz, variation_fzb = variation
     mean_fz = (modulus(fz.start) + modulus(fz.end)) / 2
@@ -49,7 +49,7 @@ class Lipschitz(NamedTuple):
     """The paper's proof, by its Lipschitz constants (Section 8, Appendix H)."""
 
     half_square: Float[Array, " p"]
-    """``l^2 / 2``, by which the sums count in ``L l``."""
+    """``l^2 / 2``, the factor of the sums in ``L l``."""
     weights: Float[Array, "n p"]
     """``L_j`` and ``L_j^h``."""
 
@@ -79,8 +79,8 @@ def variation(f: EndValues, remainder: Float[Array, " p"]) -> Float[Array, " p"]
     """``L l``, with the paper's Lipschitz constant of ``f_z`` or ``f_zbar`` on each segment.
 
     ``L_fz = (|f_z'(v_i)| + |f_z'(v_{i+1})|) / 2
-    + l/2 (sum_j L_j |s_j - s_{j+1}| + sum_j L_j^h |phi_j|)``, of which ``remainder`` is the sums'
-    part of ``L l``.
+    + l/2 (sum_j L_j |s_j - s_{j+1}| + sum_j L_j^h |phi_j|)``; ``remainder`` is the second term
+    times ``l``.
     """
     return (modulus(f.slope_start) + modulus(f.slope_end)) / 2 + remainder
 
@@ -120,7 +120,7 @@ def distances(
 def turning(fz_start: Complex[Array, " p"], fz_end: Complex[Array, " p"]) -> Float[Array, " p"]:
     """``Arg(f_z(v_{i+1}) / f_z(v_i))``, the change of ``arg f_z`` along each segment (29).
 
-    By Theorem 8.1 it is that if ``|f_z(v_i)| + |f_z(v_{i+1})| > L_fz l`` (28).
+    Theorem 8.1 proves this if ``|f_z(v_i)| + |f_z(v_{i+1})| > L_fz l`` (28).
     """
     return jnp.angle(fz_end * jnp.conj(fz_start))
 
@@ -132,8 +132,8 @@ def windings(turning: NDArray[np.float64], loop: NDArray[np.intp], n_loops: int)
 
 
 def fz_vanishes(turning: Float[Array, " p"]) -> Bool[Array, ""]:
-    """Whether ``f_z`` has zeros in the domain: whether the sum (30) of all turnings is not 0.
+    """Whether ``f_z`` has zeros in the domain: the sum (30) of all turnings is not 0.
 
-    Corollary 8.2; where all turnings are known, the sum is a multiple of ``2 pi`` but for rounding.
+    Corollary 8.2; up to rounding the sum is a multiple of ``2 pi`` if all turnings are known.
     """
     return jnp.abs(jnp.sum(turning)) > 1

@@ -1,14 +1,14 @@
-"""How much rounding can change what the certificate computes.
+"""Bounds on the rounding errors of the certificate.
 
 The certificate's inequalities are evaluated in double precision. Each panel's remainder is
 enlarged by ``slack_factor(n) * scale * max_j |phi_j|``, a first-order running error bound
 (Higham, Accuracy and Stability of Numerical Algorithms, Section 3) for the ``n``-term sums
-``f_z = sum_j D_j phi_j`` whose terms have moduli adding up to at most ``scale * max |phi_j|``:
-``n`` roundings for the sum, and 64 that cover the computation of ``D_j`` itself, of the control
-points and of the Bernstein coefficients.
+``f_z = sum_j D_j phi_j``, the moduli of whose terms add up to at most ``scale * max |phi_j|``:
+``n`` roundings for the sum, and 64 for computing ``D_j``, control points and Bernstein
+coefficients.
 
 A solver carries values along, ``f_z + t df_z``, instead of computing them anew. Each step adds the
-error of a sum whose coefficients ``t dphi`` have up to twice the largest modulus that was met.
+error of a sum whose coefficients ``t dphi`` have up to twice the largest modulus so far.
 """
 
 from __future__ import annotations
@@ -33,10 +33,10 @@ def slack_factor(n_columns: int) -> float:
 
 
 def carried_slack_factor(n_columns: int) -> float:
-    """The factor for carried values, of the largest modulus met on the way.
+    """The factor for carried values, relative to the largest modulus so far.
 
-    One error for the first sum, two for each step, and two more: a proof from carried values then
-    also succeeds with values computed anew.
+    One error for the first sum, two for each step, and two more, so that a proof from carried
+    values also succeeds with values computed anew.
     """
     return (1 + 2 * CARRIED_STEPS + 2) * slack_factor(n_columns)
 
@@ -44,7 +44,7 @@ def carried_slack_factor(n_columns: int) -> float:
 def panel_scale(
     start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
 ) -> Float[Array, " p"]:
-    """Per panel, a scale of the terms of ``f_z`` and of ``l f_z'`` at its two ends."""
+    """Per panel, the larger scale of the terms of ``f_z`` and ``l f_z'`` at its two ends."""
     length = jnp.abs(end - start)
     scales = [rounding_scale(z, singularities) for z in (start, end)]
     return jnp.maximum(*(value + length * slope for value, slope in scales))

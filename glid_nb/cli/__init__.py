@@ -1,4 +1,7 @@
-"""The command line, ``glid-nb``: one module per command, all on the package's public face."""
+"""The command line, ``glid-nb``: one module per command, on the package's public face.
+
+A command's module has ``add_arguments(parser)`` and ``run(chosen)``; its docstring is the help.
+"""
 
 from glid_nb.cli.main import main
 

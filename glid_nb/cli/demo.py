@@ -1,8 +1,8 @@
 """From a picture to a certified deformation, with everything to look at.
 
-Traces the cage, poses it, solves, and writes into --out: deformed.png (the picture deformed),
-overview.png (a figure of it all), cage.json, map.json and report.json. IMAGE is a file or the
-name of a bundled sample (see `glid-nb samples`). Without --pose a sample takes its own gentle pose;
+Traces the cage, poses it, solves, and writes into --out: deformed.png (the deformed picture),
+overview.png (a figure with all of it), cage.json, map.json and report.json. IMAGE is a file or the
+name of a bundled sample (see `glid-nb samples`). Without --pose a sample takes its gentle pose;
 for any other picture handles are placed automatically and one or two of them moved.
 """
 
@@ -33,12 +33,11 @@ from glid_nb.cli.trace import cage_data, size_in_words
 
 DEFAULT_SAMPLE = "gecko"
 DEFAULT_POSE = "gentle"
-# Less than this share of the shape may fall outside of the picture before all of it is shown.
+# The picture is zoomed out if more than this share of the shape leaves its frame.
 _CROPPED = 1e-3
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument(
         "image",
         nargs="?",
@@ -64,7 +63,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(chosen: argparse.Namespace) -> None:
-    """Run the command."""
     out: Path = chosen.out
     check_folder(out)
     energy, options = energy_of(chosen), options_of(chosen)
@@ -106,7 +104,7 @@ def run(chosen: argparse.Namespace) -> None:
 
 
 def _source(image: str) -> tuple[Path, str | None]:
-    """The picture's file, and the sample's name if it is one; files go before samples."""
+    """The picture's file, and the sample's name if it is one. A file of that name has priority."""
     path, names = Path(image), glid_nb.samples.names()
     if path.exists():
         return path, None
@@ -120,7 +118,7 @@ def _source(image: str) -> tuple[Path, str | None]:
 def _pose(
     wanted: str | None, sample: str | None, domain: glid_nb.Domain
 ) -> tuple[glid_nb.Pose, str]:
-    """The pose, and in words where it comes from."""
+    """The pose, and where it comes from, in words."""
     if wanted is None and sample is None:
         return glid_nb.suggest_pose(domain), "chosen automatically (give your own with --pose)"
     if wanted is not None and (sample is None or Path(wanted).exists()):
@@ -138,8 +136,8 @@ def _pose(
 def _deformed(
     image: NDArray[np.unsignedinteger], harmonic_map: glid_nb.HarmonicMap
 ) -> tuple[bytes, bool]:
-    """The deformed picture as PNG, and whether it had to be zoomed out to show all of it."""
-    # Slow to import, and not needed by --help.
+    """The deformed picture as PNG, and whether it was zoomed out to show all of it."""
+    # Slow to import, and --help does not need them.
     from glid_nb.export.picture import png  # noqa: PLC0415
     from glid_nb.imaging.render import rendering  # noqa: PLC0415
 

@@ -1,7 +1,7 @@
-"""The flags of the energy, the solver and the tracing, called as the fields that they set.
+"""The flags of the energy, the solver and the tracing, named like the fields that they set.
 
-A flag that is not given is None, and its field is left to the library, which also checks the
-values and says what there is to choose from.
+A flag that is not given is None and leaves its field at the library's default. The library checks
+the values and lists the choices.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ _WITH_S = " and ".join(name for name, energy in ENERGIES.items() if "s" in energ
 
 
 def add_solver_flags(parser: argparse.ArgumentParser) -> None:
-    """Add the flags of the energy and the solver."""
     add = parser.add_argument_group("energy and solver").add_argument
     add(
         "--energy",
@@ -67,7 +66,6 @@ def add_solver_flags(parser: argparse.ArgumentParser) -> None:
 
 
 def add_trace_flags(parser: argparse.ArgumentParser) -> None:
-    """Add the flags of the tracing."""
     add = parser.add_argument_group("tracing").add_argument
     pixel: dict[str, Any] = {"type": float, "nargs": 2, "metavar": ("X", "Y")}
     add(
@@ -111,12 +109,12 @@ def add_trace_flags(parser: argparse.ArgumentParser) -> None:
 
 
 def energy_of(chosen: argparse.Namespace) -> glid_nb.Energy:
-    """The energy that the flags name.
+    """The chosen energy.
 
     Raises
     ------
     InputError
-        It is unknown, its parameter is not positive, or it has none and one is given.
+        The name is unknown, or --s is not positive or given for an energy without it.
     """
     energy = glid_nb.energy_by_name(chosen.energy, chosen.s)
     if chosen.s is not None and not hasattr(energy, "s"):
@@ -125,12 +123,10 @@ def energy_of(chosen: argparse.Namespace) -> glid_nb.Energy:
 
 
 def options_of(chosen: argparse.Namespace) -> glid_nb.Options:
-    """The solver's options that the flags name."""
     return glid_nb.Options(**_given(chosen, glid_nb.Options))
 
 
 def trace_options_of(chosen: argparse.Namespace) -> glid_nb.TraceOptions:
-    """The options of the tracing that the flags name."""
     options = _given(chosen, glid_nb.TraceOptions)
     if "scribbles" in options:
         options["scribbles"] = glid_nb.Scribbles.load(chosen.scribbles)
@@ -138,6 +134,6 @@ def trace_options_of(chosen: argparse.Namespace) -> glid_nb.TraceOptions:
 
 
 def _given(chosen: argparse.Namespace, kind: Any) -> dict[str, Any]:
-    """The fields of a dataclass for which there are values."""
+    """The fields of a dataclass whose flags are given, with their values."""
     values = {field.name: getattr(chosen, field.name, None) for field in dataclasses.fields(kind)}
     return {name: value for name, value in values.items() if value is not None}

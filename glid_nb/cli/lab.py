@@ -1,7 +1,7 @@
 """Open JupyterLab on the editor's notebook.
 
-The notebook is copied into the folder as editor.ipynb, unless there is one already. What stands
-after `--` goes to JupyterLab as it is.
+The notebook is copied into the folder as editor.ipynb, unless there is one already. Arguments
+after `--` are passed to JupyterLab.
 """
 
 from __future__ import annotations
@@ -17,13 +17,11 @@ import glid_nb
 from glid_nb._errors import InputError
 
 NOTEBOOK = "editor.ipynb"
-"""Name of the copy."""
 
-_NAME = Path("notebooks") / "02_editor.ipynb"
+_BUNDLED = Path("notebooks") / "02_editor.ipynb"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument(
         "folder",
         nargs="?",
@@ -39,7 +37,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(chosen: argparse.Namespace) -> None:
-    """Run the command."""
     if importlib.util.find_spec("jupyterlab") is None:
         raise InputError(
             "JupyterLab is not installed here; install it with: pip install 'glid-nb[lab]'"
@@ -52,16 +49,16 @@ def run(chosen: argparse.Namespace) -> None:
         return
     folder.mkdir(parents=True, exist_ok=True)
     if not notebook.exists():
-        shutil.copyfile(bundled_notebook(), notebook)
+        shutil.copyfile(_bundled_notebook(), notebook)
     status = subprocess.run(command, check=False).returncode
     if status:
         raise InputError(f"JupyterLab ended with the exit code {status}")
 
 
-def bundled_notebook() -> Path:
-    """The editor's notebook: inside an installed package, or beside it in a checkout."""
+def _bundled_notebook() -> Path:
+    """The editor's notebook: in an installed package, or beside it in a checkout."""
     package = Path(glid_nb.__file__).resolve().parent
     for folder in (package, package.parent):
-        if (folder / _NAME).is_file():
-            return folder / _NAME
-    raise InputError(f"{_NAME} is missing from this installation; install glid-nb again")
+        if (folder / _BUNDLED).is_file():
+            return folder / _BUNDLED
+    raise InputError(f"{_BUNDLED} is missing from this installation; install glid-nb again")

@@ -1,4 +1,4 @@
-"""The parser of all commands, and what happens to errors."""
+"""The parser of all commands, and the handling of errors."""
 
 from __future__ import annotations
 
@@ -16,28 +16,22 @@ COMMANDS = (demo, trace, solve, render, samples, lab)
 BAD_INPUT = (OSError, InputError)
 """Errors told in one line. Any other, a plain ValueError too, is a bug and keeps its traceback."""
 
-EXIT_OK = 0
-EXIT_BAD_INPUT = 1
-EXIT_USAGE = 2
-EXIT_INTERRUPTED = 130
-
 
 def one_line(error: BaseException) -> str:
-    """The exception's message without line breaks, and with the file first."""
+    """The exception's message on one line, with the file first."""
     if isinstance(error, OSError) and error.filename is not None and error.strerror:
         return f"{error.filename}: {error.strerror}"
     return " ".join(str(error).split())
 
 
 class OneLineParser(argparse.ArgumentParser):
-    """A parser that says what is wrong in one line instead of printing the whole usage."""
+    """A parser whose errors are one line, without the usage."""
 
     def error(self, message: str) -> NoReturn:
-        self.exit(EXIT_USAGE, f"glid-nb: error: {message} (see {self.prog} --help)\n")
+        self.exit(2, f"glid-nb: error: {message} (see {self.prog} --help)\n")
 
 
 def build_parser() -> argparse.ArgumentParser:
-    """The parser of the whole command line."""
     parser = OneLineParser(
         prog="glid-nb",
         description="Locally injective image deformation: from a picture to a map that is proved "
@@ -62,22 +56,19 @@ def build_parser() -> argparse.ArgumentParser:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command; the exit code is 0, 1 for bad input, 2 for wrong usage.
+    """Run one command; the exit code is 0, 1 for bad input, 2 for wrong usage, 130 after Ctrl-C.
 
-    Parameters
-    ----------
-    arguments : sequence of str, optional
-        The words after ``glid-nb``; by default those of the process.
+    ``arguments`` are the words after ``glid-nb``, by default those of the process.
     """
     chosen = build_parser().parse_args(arguments)
     try:
         chosen.run(chosen)
     except KeyboardInterrupt:
         print("glid-nb: interrupted", file=sys.stderr)
-        return EXIT_INTERRUPTED
+        return 130
     except BAD_INPUT as error:
         if chosen.debug:
             raise
         print(f"glid-nb: error: {one_line(error)}", file=sys.stderr)
-        return EXIT_BAD_INPUT
-    return EXIT_OK
+        return 1
+    return 0

@@ -21,7 +21,7 @@ _INJECTIVE = {
 
 
 def check_file(path: Path) -> None:
-    """Raise an OSError if a file cannot be made at ``path``, before hours are spent on it."""
+    """Raise an OSError if no file can be made at ``path``."""
     if path.is_dir():
         raise IsADirectoryError(21, "is a folder; name a file", str(path))
     if not path.parent.is_dir():
@@ -36,7 +36,7 @@ def check_png(path: Path) -> None:
 
 
 def check_folder(path: Path) -> None:
-    """Raise an OSError if a folder cannot be made at ``path``."""
+    """Raise an OSError if no folder can be made at ``path``."""
     first = next(part for part in (path, *path.parents) if part.exists())
     if not first.is_dir():
         raise NotADirectoryError(20, "is a file; name a folder", str(first))
@@ -52,7 +52,7 @@ def write_all(files: dict[Path, bytes | str]) -> None:
 
 
 def summary_json(report: Mapping[str, Any], files: Iterable[Path], **extra: Any) -> str:
-    """The report without its long parts, and where the files are, as one JSON object."""
+    """The report without its long parts, and the paths of the files, as one JSON object."""
     short = {key: value for key, value in report.items() if key not in _LONG}
     return json.dumps({**extra, **short, "files": {path.name: str(path) for path in files}})
 
@@ -60,17 +60,7 @@ def summary_json(report: Mapping[str, Any], files: Iterable[Path], **extra: Any)
 def summary_text(
     report: Mapping[str, Any], files: Iterable[Path], rows: Iterable[tuple[str, str]] = ()
 ) -> str:
-    """The report on one screen.
-
-    Parameters
-    ----------
-    report : mapping
-        As built by ``build_report``.
-    files : iterable of Path
-        What was written.
-    rows : iterable of (name, text)
-        Rows to put first.
-    """
+    """The report of ``build_report`` on one screen: ``rows`` of (name, text) and ``files`` too."""
     table = [*rows, *_rows(report), *_written(files)]
     width = max(len(name) for name, _ in table)
     lines = []
@@ -81,7 +71,6 @@ def summary_text(
 
 
 def _written(files: Iterable[Path]) -> list[tuple[str, str]]:
-    """A row for every folder."""
     folders = groupby(files, key=lambda path: path.parent)
     rows = [("written", f"{folder}: {', '.join(p.name for p in f)}") for folder, f in folders]
     return rows or [("written", "nothing; name files with --out and --report")]

@@ -1,4 +1,4 @@
-"""Progress on stderr, for what takes over a second."""
+"""Progress on stderr for steps that take over a second."""
 
 from __future__ import annotations
 
@@ -9,27 +9,27 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
+# Seconds before a step is announced.
 PATIENCE = 1.0
-"""Seconds that a step may take unannounced."""
 
 _REFRESH = 0.2
-# Where lines pile up, in a log file say, one in so many seconds is enough.
+# Seconds between lines where they are kept, as in a log file.
 _REPEAT = 15.0
 _ERASE_LINE = "\r\x1b[K"
 
 
 class Progress:
-    """Says what is going on, but only where it takes longer than a second.
+    """Reports steps that take longer than a second.
 
-    On a terminal one line is rewritten as details come in and erased at the end; elsewhere a line
-    is written when a step turns out to be long, every 15 seconds, and when it has ended.
+    On a terminal one line is updated and finally erased; elsewhere a line is written when a step
+    turns out to be long, every 15 seconds, and at its end.
 
     Parameters
     ----------
     stream : text stream, optional
         Where to write; stderr by default.
     patience : float, optional
-        Seconds that a step may take unannounced; :data:`PATIENCE` by default.
+        Seconds before a step is announced; :data:`PATIENCE` by default.
     """
 
     def __init__(self, stream: TextIO | None = None, patience: float | None = None) -> None:
@@ -38,7 +38,7 @@ class Progress:
 
     @contextmanager
     def step(self, doing: str) -> Iterator[Callable[[str], None]]:
-        """Run a step called ``doing``; yields a function that takes what is known meanwhile."""
+        """Run a step called ``doing``; yields a function that sets the detail to show."""
         details: list[str] = []
         done = threading.Event()
         start = time.perf_counter()
@@ -48,7 +48,7 @@ class Progress:
             seconds = time.perf_counter() - start
             return ", ".join([f"{doing}: {seconds:.1f} s", *details[-1:]])
 
-        def speak() -> None:
+        def report() -> None:
             if done.wait(self._patience):
                 return
             self._write(f"{_ERASE_LINE}{line()}" if live else f"glid-nb: {doing} ...\n")
@@ -56,14 +56,14 @@ class Progress:
                 self._write(f"{_ERASE_LINE}{line()}" if live else f"glid-nb: {line()} ...\n")
             self._write(_ERASE_LINE if live else f"glid-nb: {line()}\n")
 
-        # The step may be one long call into compiled code, so another thread has to speak.
-        speaker = threading.Thread(target=speak, daemon=True)
-        speaker.start()
+        # The step may be one long call into compiled code, so another thread reports.
+        reporter = threading.Thread(target=report, daemon=True)
+        reporter.start()
         try:
             yield details.append
         finally:
             done.set()
-            speaker.join()
+            reporter.join()
 
     def _write(self, text: str) -> None:
         self._stream.write(text)

@@ -1,7 +1,7 @@
 """Warp a picture through a map.
 
-The picture must be the one that the map's cage was traced from, or another one of the same size.
-Its longer side is 20 world units.
+The picture must be the one that the map's cage was traced from, or one of the same size. Its
+longer side is 20 world units.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ MAX_SIDE = 20_000
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument("image", type=Path, metavar="IMAGE", help="the picture's file")
     parser.add_argument("map", type=Path, metavar="map.json", help="as `glid-nb solve` writes it")
     parser.add_argument(
@@ -40,7 +39,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(chosen: argparse.Namespace) -> None:
-    """Run the command."""
     check_png(chosen.out)
     glid_nb.enable_compilation_cache()
     harmonic_map = glid_nb.HarmonicMap.load(chosen.map)

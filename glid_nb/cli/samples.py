@@ -11,21 +11,21 @@ _KINDS = ("gentle", "extreme")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument("--json", action="store_true", help="print the list as JSON")
 
 
 def run(chosen: argparse.Namespace) -> None:
-    """Run the command."""
     names = samples.names()
-    width = max(map(len, names))
     if chosen.json:
-        print(json.dumps({name: _files(name) for name in names}))
+        files = {
+            name: {
+                "picture": str(samples.path(name)),
+                "poses": {kind: str(samples.pose_path(name, kind)) for kind in _KINDS},
+            }
+            for name in names
+        }
+        print(json.dumps(files))
         return
+    width = max(map(len, names))
     for name in names:
         print(f"{name:<{width}}  {samples.path(name)}  (poses: {', '.join(_KINDS)})")
-
-
-def _files(name: str) -> dict[str, object]:
-    poses = {kind: str(samples.pose_path(name, kind)) for kind in _KINDS}
-    return {"picture": str(samples.path(name)), "poses": poses}

@@ -20,7 +20,6 @@ from glid_nb.cli.solving import check_interrupted, run_solver
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument("problem", type=Path, metavar="PROBLEM.json", help="what is solved")
     parser.add_argument("--out", type=Path, metavar="map.json", help="where the map goes")
     parser.add_argument("--report", type=Path, metavar="report.json", help="where the report goes")
@@ -36,7 +35,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(chosen: argparse.Namespace) -> None:
-    """Run the command."""
     for path in (chosen.out, chosen.report):
         if path is not None:
             check_file(path)

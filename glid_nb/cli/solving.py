@@ -22,8 +22,7 @@ def run_solver(
 ) -> tuple[glid_nb.Result, dict[str, Any]]:
     """The result and its report.
 
-    Ctrl-C ends the solve with the last certified map, whose files are then written as usual; a
-    second one abandons it.
+    Ctrl-C ends the solve with the last certified map; a second Ctrl-C raises KeyboardInterrupt.
     """
     glid_nb.enable_compilation_cache()
     with (
@@ -48,7 +47,7 @@ def check_interrupted(result: glid_nb.Result) -> None:
 
 
 def _in_words(state: glid_nb.Progress) -> str:
-    if not state.history:  # the first step was refused: panels are split before it is tried again
+    if not state.history:  # the first step was refused, so panels are split first
         return "before the first iteration, splitting panels"
     last = state.history[-1]
     return f"iteration {last.iteration}, energy {last.energy:.6g}"
@@ -56,7 +55,7 @@ def _in_words(state: glid_nb.Progress) -> str:
 
 @contextmanager
 def _interruptible() -> Iterator[Callable[[], bool]]:
-    """Make the first Ctrl-C a request, which the function yielded tells of."""
+    """Turn the first Ctrl-C into a request; yields a function that tells whether it was made."""
     asked = threading.Event()
     if threading.current_thread() is not threading.main_thread():
         yield asked.is_set

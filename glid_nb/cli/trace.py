@@ -20,7 +20,6 @@ from glid_nb.cli.progress import Progress
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument("image", type=Path, metavar="IMAGE", help="the picture's file")
     parser.add_argument(
         "--out", type=Path, metavar="cage.json", required=True, help="where the cage goes"
@@ -29,7 +28,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(chosen: argparse.Namespace) -> None:
-    """Run the command."""
     check_file(chosen.out)
     options = trace_options_of(chosen)
     image = glid_nb.read_image(chosen.image)
@@ -42,7 +40,7 @@ def run(chosen: argparse.Namespace) -> None:
 
 
 def cage_data(tracing: glid_nb.Tracing) -> dict[str, Any]:
-    """What cage.json holds."""
+    """The content of cage.json."""
     return {
         **tracing.cage.to_dict(),
         "image_size_px": [tracing.frame.width, tracing.frame.height],

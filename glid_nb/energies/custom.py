@@ -13,7 +13,7 @@ from glid_nb.energies.energy import Differentials, Energy, EnergyError
 if TYPE_CHECKING:
     from glid_nb.energies.energy import Scalars
 
-# JAX rebuilds energies often; each function is tried out once.
+# JAX rebuilds energies often; each function is checked once.
 _checked: weakref.WeakSet[Callable[..., Any]] = weakref.WeakSet()
 
 
@@ -27,14 +27,14 @@ class CustomEnergy(Energy):
     Parameters
     ----------
     function : callable
-        ``E(x, y) -> scalar``, twice differentiable by JAX. It should be least at the isometry
-        ``E(1, 0)``. Use one function object for many solves: each new one compiles anew.
+        ``E(x, y) -> scalar``, twice differentiable by JAX, with its minimum at the isometry
+        ``E(1, 0)``. Use one function object for many solves; each new one is compiled anew.
 
     Raises
     ------
     EnergyError
-        When it cannot be called with two numbers or differentiated, returns no single number, or
-        is not finite at the isometry.
+        It cannot be called with two numbers, does not return one, cannot be differentiated, or is
+        not finite at the isometry.
 
     Examples
     --------
@@ -62,7 +62,7 @@ class CustomEnergy(Energy):
 
     @classmethod
     def parameters(cls) -> tuple[str, ...]:
-        """None: its constants are the function's own."""
+        """Empty: its parameters are constants of the function."""
         return ()
 
     def density(self, x: Scalars, y: Scalars) -> Scalars:

@@ -34,28 +34,27 @@ class Differentials(NamedTuple):
 class Energy(ABC):
     """A pointwise distortion measure ``E(x, y)`` of ``x = |f_z|^2`` and ``y = |f_zbar|^2``.
 
-    Defined for orientation-preserving maps, ``x > y >= 0``; the solver treats every other sample
-    as infinitely bad and never asks there.
+    Defined for orientation-preserving maps, ``x > y >= 0``; the solver takes it as infinite at all
+    other samples.
 
     Subclasses are frozen dataclasses decorated with :func:`register_energy`. Their fields are the
-    parameters, positive numbers with a default; another value of a parameter runs the same compiled
-    program.
+    parameters: positive numbers with a default. All values of a parameter share a compiled program.
     """
 
     name: ClassVar[str]
-    """Its short name, as the command line and files write it."""
+    """Short name, for the command line and files."""
     label: ClassVar[str]
-    """What a menu calls it."""
+    """Name in menus."""
     shader: ClassVar[str | None] = None
     """:meth:`density` in GLSL, an expression of ``x``, ``y`` and the parameter ``s``."""
     is_barrier: ClassVar[bool] = True
-    """Whether it grows without bound where a map degenerates, and so keeps a solve from there."""
+    """Whether it grows without bound as a map degenerates."""
     indefinite_across_f_only: ClassVar[bool] = False
-    """Whether, of the eigenvalues of ``K`` (23), ``lambda_1 = 2 alpha_1`` alone can be negative: a
-    Hessian is then projected by a correction at a fifth of its own cost."""
+    """Whether ``lambda_1 = 2 alpha_1`` is the only eigenvalue of ``K`` (23) that can be negative.
+    The Hessian is then projected by a correction at a fifth of its own cost."""
 
     def __new__(cls, *_: Any, **__: Any) -> Self:
-        settle()  # JAX may have been imported by others since
+        settle()  # other code may have imported JAX in the meantime
         return super().__new__(cls)
 
     def __post_init__(self) -> None:
@@ -84,11 +83,11 @@ ENERGIES: dict[str, type[Energy]] = {}
 
 
 def register_energy(cls: type[E]) -> type[E]:
-    """Class decorator: a frozen dataclass of numbers becomes an energy with a name.
+    """Class decorator: register a frozen dataclass of numbers in ENERGIES and as a JAX pytree.
 
-    Compiled programs take it, not by JAX's ``register_dataclass``: jaxlib 0.10 takes trees of
-    different dataclasses with the same fields for equal, and now and then runs for one energy what
-    was compiled for another. Here the class is part of the tree's structure.
+    JAX's ``register_dataclass`` does not do: jaxlib 0.10 takes trees of different dataclasses with
+    the same fields for equal and sometimes runs one energy with the program compiled for another.
+    Here the class is part of the tree's structure.
     """
     names = cls.parameters()
 
@@ -106,13 +105,12 @@ def register_energy(cls: type[E]) -> type[E]:
 def energy_by_name(name: str, s: float | None = None) -> Energy:
     """The energy called ``name``, such as "iso", "exp", "amips", "mips" or "arap".
 
-    ``s`` is the parameter of ``exp`` and ``amips`` (default 1); the others have none and ignore it,
-    but it must be positive all the same.
+    ``s`` is the parameter of ``exp`` and ``amips`` (default 1); the others ignore it.
 
     Raises
     ------
     EnergyError
-        For an unknown name, or an ``s`` that is not positive.
+        The name is unknown, or ``s`` is not positive.
     """
     if not isinstance(name, str) or name not in ENERGIES:
         raise EnergyError(f"unknown energy {name!r}; choose one of {', '.join(ENERGIES)}")
@@ -123,12 +121,12 @@ def energy_by_name(name: str, s: float | None = None) -> Energy:
 
 
 def as_energy(energy: Energy | str | None) -> Energy:
-    """An energy, or the one of that name, or the symmetric Dirichlet energy for None.
+    """The energy given as such or by name; the symmetric Dirichlet energy for None.
 
     Raises
     ------
     EnergyError
-        For an unknown name, or something that is not an energy.
+        The name is unknown, or ``energy`` is not an energy.
     """
     if isinstance(energy, str | None):
         return energy_by_name(energy or "iso")
@@ -143,8 +141,8 @@ def as_energy(energy: Energy | str | None) -> Energy:
 def _checked_parameter(energy: str, name: str, value: Any) -> Any:
     """A parameter as a positive finite float.
 
-    Inside a traced program it is a JAX tracer, whose range was checked when it was stored; that
-    passes through, and so do the placeholders, plain objects, around which JAX rebuilds values.
+    JAX tracers, whose range was checked outside the traced program, and the plain objects with
+    which JAX rebuilds pytrees are returned unchanged.
     """
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
         number = float(value)

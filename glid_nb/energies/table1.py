@@ -155,8 +155,8 @@ class MIPS(Energy):
 class ARAP(Energy):
     """``E_ARAP = (sigma_1 - 1)^2 + (sigma_2 - 1)^2`` (Section 6).
 
-    For an orientation-preserving map ``2 (x + y) - 4 sqrt(x) + 2``. It stays finite where the
-    map degenerates, so it is no barrier: the certificate alone keeps a solve from folding.
+    For an orientation-preserving map ``2 (x + y) - 4 sqrt(x) + 2``. It stays finite where the map
+    degenerates; only the certificate keeps a solve from folding.
     """
 
     name: ClassVar[str] = "arap"

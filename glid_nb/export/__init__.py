@@ -1,21 +1,13 @@
 """Results for other programs: pictures, meshes, drawings, pages and animations.
 
-Pure functions of a picture and a map that return bytes or text; who calls them writes the files.
+Pure functions of a picture and a map that return bytes or text; writing files is the caller's job.
 """
 
-from glid_nb.export.animation import animation_bytes
-from glid_nb.export.cage_svg import cage_svg
-from glid_nb.export.mesh import TexturedMesh, mesh_glb, mesh_obj, textured_mesh
-from glid_nb.export.page import page_html
-from glid_nb.export.picture import picture_png
-
-__all__ = [
-    "TexturedMesh",
-    "animation_bytes",
-    "cage_svg",
-    "mesh_glb",
-    "mesh_obj",
-    "page_html",
-    "picture_png",
-    "textured_mesh",
-]
+from glid_nb.export.cage_svg import cage_svg as cage_svg
+from glid_nb.export.mesh import TexturedMesh as TexturedMesh
+from glid_nb.export.mesh import mesh_glb as mesh_glb
+from glid_nb.export.mesh import mesh_obj as mesh_obj
+from glid_nb.export.mesh import textured_mesh as textured_mesh
+from glid_nb.export.page import page_html as page_html
+from glid_nb.export.picture import animation_bytes as animation_bytes
+from glid_nb.export.picture import picture_png as picture_png

@@ -13,10 +13,9 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.solvers import Pose
 
-# The polylines stray from the curves by less than this, world units; the picture is 20 long.
-TOLERANCE = 0.002
-_START = 4  # parts per edge to begin with
-_ROUNDS = 12
+TOLERANCE = 0.002  # world units between polylines and curves; the picture is 20 long
+_START = 4  # parts per edge before refinement
+_ROUNDS = 12  # of refinement
 _MARGIN = 0.02  # around everything, as a share of the longer side
 
 
@@ -27,9 +26,7 @@ def cage_svg(
     source: bool = False,
     pose: Pose | None = None,
 ) -> str:
-    """Draw the image of a map's cage.
-
-    The edges' images are curves; they are drawn as polylines within 0.002 world units of them.
+    """Draw the image of a map's cage: curves, as polylines within 0.002 world units of them.
 
     Parameters
     ----------
@@ -60,8 +57,8 @@ def cage_svg(
     parts = [_path("source-cage", cage_loops, GREY, line, dash=4 * line)] if source else []
     parts.append(_path("cage", loops, BLUE, line))
     if pose is not None and len(pose):
-        parts += _disks("targets", frame.to_pixel(pose.targets), radius, CYAN)
-        parts += _disks("handles", frame.to_pixel(map(pose.handles)), radius / 2, INK)
+        parts.append(_disks("targets", frame.to_pixel(pose.targets), radius, CYAN))
+        parts.append(_disks("handles", frame.to_pixel(map(pose.handles)), radius / 2, INK))
     body = "\n  ".join(parts)
     return (
         '<?xml version="1.0" encoding="UTF-8"?>\n'
@@ -83,7 +80,7 @@ def _deformed_loop(
     following = np.roll(loop, -1, axis=0)
 
     def at(t: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Images of points on the loop, whose vertex i is at t = i."""
+        # Vertex i of the loop is at t = i.
         edge = np.minimum(t.astype(np.intp), n - 1)
         share = (t - edge)[:, None]
         return map(loop[edge] * (1 - share) + following[edge] * share)
@@ -113,6 +110,6 @@ def _path(
     )
 
 
-def _disks(name: str, points: NDArray[np.float64], radius: float, color: str) -> list[str]:
+def _disks(name: str, points: NDArray[np.float64], radius: float, color: str) -> str:
     disks = "".join(f'<circle cx="{x:.3f}" cy="{y:.3f}" r="{radius:.3f}"/>' for x, y in points)
-    return [f'<g id={quoteattr(name)} fill="{color}" stroke="white">{disks}</g>']
+    return f'<g id={quoteattr(name)} fill="{color}" stroke="white">{disks}</g>'

@@ -13,7 +13,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.mesh import deformed_mesh
 
-# trimesh takes a second to import, which only an export should cost: the functions import it.
+# trimesh takes a second to import, so only the functions that need it do.
 if TYPE_CHECKING:
     from trimesh import Trimesh
     from trimesh.visual.material import Material
@@ -21,8 +21,7 @@ if TYPE_CHECKING:
 VERTICES = 5000
 """About how many vertices a mesh gets by default."""
 
-# Height, in world units, of the highest sheet over the lowest where the shape overlaps itself.
-_RELIEF = 0.02
+_RELIEF = 0.02  # world units from the lowest to the highest sheet of an overlapping shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,14 +31,13 @@ class TexturedMesh:
     Attributes
     ----------
     positions : (v, 3) array
-        World units, y up. z rises by 0.02 from what is covered to what covers it, so that a viewer
-        with a depth buffer shows the sheets of an overlapping shape in the right order.
+        World units, y up. z rises by 0.02 from the lowest sheet to the highest, so that viewers
+        with a depth buffer draw an overlapping shape in the right order.
     texture_coordinates : (v, 2) array
         (u, v) in the picture, (0, 0) at its bottom left corner.
     triangles : (t, 3) int array
         Counter-clockwise, the lower ones first.
     texture : (h, w, 4) uint8 array
-        The picture.
     """
 
     positions: NDArray[np.float64]
@@ -61,7 +59,6 @@ def textured_mesh(
     image : (h, w, 4), (h, w, 3) or (h, w) array
         The picture that the map's cage was traced from.
     map : HarmonicMap
-        The map.
     n_vertices : int
         About how many vertices to spread evenly, at least 3.
     tolerance : float, optional
@@ -86,14 +83,14 @@ def textured_mesh(
 def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
     """A mesh as Wavefront OBJ: ``name.obj``, ``name.mtl`` and ``name-texture.png``, by name.
 
-    They belong into one folder: the OBJ file names the material file, and that the texture.
+    They must stay in one folder: the OBJ file refers to the material file, and that to the texture.
     """
     from trimesh.exchange.obj import export_obj  # noqa: PLC0415
     from trimesh.visual.material import SimpleMaterial  # noqa: PLC0415
 
     material = SimpleMaterial(
         image=Image.fromarray(mesh.texture),
-        name=f"{name}-texture",  # which trimesh makes the picture's name as well
+        name=f"{name}-texture",  # trimesh names the texture's file after it
         diffuse=[255, 255, 255, 255],
         ambient=[255, 255, 255, 255],
         specular=[0, 0, 0, 255],
@@ -111,7 +108,7 @@ def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
 
 
 def mesh_glb(mesh: TexturedMesh) -> bytes:
-    """A mesh as binary glTF 2.0 (.glb), its texture inside."""
+    """A mesh as binary glTF 2.0 (.glb), with its texture."""
     from trimesh.visual.material import PBRMaterial  # noqa: PLC0415
 
     material = PBRMaterial(
@@ -131,5 +128,5 @@ def _trimesh(mesh: TexturedMesh, material: Material) -> Trimesh:
     from trimesh.visual import TextureVisuals  # noqa: PLC0415
 
     visual = TextureVisuals(uv=mesh.texture_coordinates, material=material)
-    # process: it would merge vertices and so reorder them.
+    # Processing would merge vertices and reorder them.
     return Trimesh(mesh.positions, mesh.triangles, visual=visual, process=False)

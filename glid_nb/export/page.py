@@ -23,7 +23,7 @@ _FOLDER = Path(__file__).parent
 _VERTICES = 4000
 _TOLERANCE = 0.004  # world units; the picture is 20 long
 _MARGIN = 0.04  # of the canvas, as in a rendering with view="fit"
-# What a proof of local injectivity leaves open, by what is known of it.
+# By the verdict on global injectivity.
 _OVERLAPS = {
     "yes": "no part lies over another",
     "no": "parts of the shape lie over one another",
@@ -38,23 +38,21 @@ def page_html(
     title: str = "Deformed picture",
     tolerance: float = _TOLERANCE,
 ) -> str:
-    """A page that shows the warped picture, to zoom and move, from a file or a server.
+    """A page that shows the warped picture, with zoom and pan.
 
-    The page holds the triangulated shape and the picture; it evaluates no map. Its security policy
-    forbids it the network.
+    It holds the triangulated shape and the picture; its security policy blocks the network.
 
     Parameters
     ----------
     image : (h, w, 4), (h, w, 3) or (h, w) array
         The picture that the map's cage was traced from.
     map : HarmonicMap
-        The map.
     certificate : Certificate, optional
-        Its proof. Its bounds are then stated, and whether the shape overlaps itself.
+        The map's certificate, to state its bounds and whether the shape overlaps itself.
     title : str
         The page's title and heading.
     tolerance : float
-        How far straight edges may stray from the map, world units.
+        World units that the mesh's straight edges may stray from the map.
     """
     texture = as_rgba8(image)
     height, width = texture.shape[:2]
@@ -77,7 +75,7 @@ def page_html(
         "script": _read("page.js"),
         "data": json.dumps(data, allow_nan=False),
     }
-    # In one pass: what is put in is not searched again.
+    # One pass, so that inserted text is not searched for placeholders.
     return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _read("page.html"))
 
 

@@ -1,7 +1,6 @@
-"""Figures of results: the overview, and the plots it and the editor are made of.
+"""Figures of results: the overview, and the plots that it shares with the editor.
 
-Names are loaded on first use: the editor takes its colours from `glid_nb.figures.style` long before
-anything needs matplotlib.
+Names are loaded on first use: `glid_nb.figures.style` must not import matplotlib.
 """
 
 import lazy_loader as _lazy

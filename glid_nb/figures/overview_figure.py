@@ -39,23 +39,19 @@ from glid_nb.imaging.texture import Texture
 if TYPE_CHECKING:
     from glid_nb.solvers import Pose, Result
 
-# Inches: the least width, the height of the plots with all that is written around them, of what is
-# written around the pictures, and most that a picture has.
-_NARROWEST = 4.5
-_PLOTS, _WRITTEN, _TALLEST = 2.2, 0.75, 3.0
-
-# Columns narrower than so many inches have the entries of a legend one below the other.
-_KEY = 2.1
+# Inches.
+_NARROWEST = 4.5  # figure
+_PLOTS = 2.2  # height of the plots with their text
+_WRITTEN = 0.75  # height of the text above and below a picture
+_TALLEST = 3.0  # picture
+_LEGEND_ROW = 2.1  # columns narrower than this list their legend's entries vertically
 
 _NAMES = ("Source", "Deformation", "Distortion", "Energy", "Newton steps", "Certificate")
 
-# How much smaller than it could be a picture is drawn for the sake of a common scale.
-_SHRINK = 1.7
-
+_SHRINK = 1.7  # a common scale may make a picture smaller by this factor
 _DPI = 300
 _TICKS = (1, 1.1, 1.2, 1.5, 2, 3, 5, 10, 20, 50, 100, 1000, 10_000)
-# Handles that miss their target by more than this share of the shape's size get a line.
-_MISS = 0.004
+_MISS = 0.004  # handles farther from their target, relative to the shape's size, get a line
 
 Floats = NDArray[np.float64]
 
@@ -63,14 +59,13 @@ Floats = NDArray[np.float64]
 def overview(
     image: ArrayLike | Texture, result: Result, pose: Pose | None = None, *, width: float = 7.0
 ) -> Figure:
-    """A figure that shows a solve at one glance.
+    """A figure that summarises a solve.
 
-    Above, at one scale unless their sizes differ a lot: the picture with the cage, the offset cage
-    and the handles; the deformed picture with targets (cyan discs) and the handles' images (black
-    dots), joined by a line where they differ; the distortion max(sigma_1, 1 / sigma_2) over the
-    deformed shape. Where it overlaps itself, both look as `render` draws it. Below: the energies
-    and the Newton steps per iteration, and the certified lower bound on sigma_2 along the boundary
-    with the sampled sigma_2.
+    The upper row has one scale unless sizes differ a lot: the picture with the cage, the offset
+    cage and the handles; the deformed picture with targets (cyan discs) and the handles' images
+    (black dots), joined by a line where they differ; the distortion max(sigma_1, 1 / sigma_2) over
+    the deformed shape. The lower row: the energies and the Newton steps per iteration, and along
+    the boundary the certified lower bound on sigma_2 and the sampled sigma_2.
 
     Parameters
     ----------
@@ -79,22 +74,22 @@ def overview(
     result : Result
         What :func:`glid_nb.solve` returned.
     pose : Pose, optional
-        Other handles and targets to show than those of the solve.
+        Handles and targets to show instead of the solve's.
     width : float
-        Inches, at least 4.5; text keeps its size.
+        Inches, at least 4.5; the text's size does not depend on it.
 
     Returns
     -------
     matplotlib.figure.Figure
-        With an Agg canvas of its own and 300 dots per inch, outside of pyplot's list of figures.
-        ``figure.savefig(path)`` writes it; so does `figure_png` into memory.
+        With its own Agg canvas and 300 dots per inch, unknown to pyplot. ``figure.savefig(path)``
+        writes it to a file, `figure_png` to memory.
 
     Raises
     ------
     ValueError
-        The figure would be too narrow for its text, or the picture is none.
+        The width is too small, or the image is not a picture.
     TypeError
-        The result's map is one of a mesh.
+        The result's map is a map of a mesh.
     """
     if not width >= _NARROWEST:
         raise ValueError(f"width is {width} inches; the text needs at least {_NARROWEST}")
@@ -106,7 +101,7 @@ def overview(
     cage, outer = map.domain.cage, map.domain.offset_cage
     outline = [map(along_loop(loop, 8)) for loop in cage.loops]
     source = _box(outer.exterior)
-    target = _reaching(_box(np.concatenate(outline)), pose.targets)
+    target = _enlarged(_box(np.concatenate(outline)), pose.targets)
     views = _common_scale(source, target)
 
     across, up = np.ptp(views[0], axis=0)
@@ -119,7 +114,7 @@ def overview(
     for axes in pictures:
         axes.set_axis_off()
     for axes, letter, name in zip((*pictures, *plots), "abcdef", _NAMES, strict=True):
-        _name(axes, letter, name, (0, 4) if axes in pictures else (-24, 26))
+        _label(axes, letter, name, (0, 4) if axes in pictures else (-24, 26))
 
     _mark_source(pictures[0], map, pose)
     _mark_result(pictures[1], map, pose, outline)
@@ -130,21 +125,19 @@ def overview(
     StepPlot(plots[1]).update(result.history)
     CertificatePlot(plots[2], cage).update(certificate, map)
 
-    figure.draw_without_rendering()  # lays the axes out, so that pictures can have their pixels
+    figure.draw_without_rendering()  # lays out the axes, whose pixels the pictures need
     figure.set_layout_engine("none")
     for axes, view in zip(pictures, views[[0, 1, 1]], strict=True):
         _fit(axes, view)
-    frame = PixelFrame(texture.width, texture.height)
-    corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * [frame.width, frame.height]
+    pixels = PixelFrame(texture.width, texture.height)
+    corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * [pixels.width, pixels.height]
     quad = np.array([[0, 1, 2], [0, 2, 3]])
-    at = _frame_of(pictures[0])
-    _show(
-        pictures[0],
-        render_mesh(texture, corners, at.to_pixel(frame.to_world(corners)), quad, at.size),
-    )
-    at = _frame_of(pictures[1])
-    _show(pictures[1], draw_mesh(texture, shown, at))
-    _show(pictures[2], draw_mesh(strip, shown, at, places))
+    frame = _frame_of(pictures[0])
+    positions = frame.to_pixel(pixels.to_world(corners))
+    _show(pictures[0], render_mesh(texture, corners, positions, quad, frame.size))
+    frame = _frame_of(pictures[1])
+    _show(pictures[1], draw_mesh(texture, shown, frame))
+    _show(pictures[2], draw_mesh(strip, shown, frame, places))
     return figure
 
 
@@ -156,28 +149,24 @@ def figure_png(figure: Figure) -> bytes:
 
 
 def _box(points: Floats) -> Floats:
-    """The lower and the upper corner, (2, 2), around points, with a margin."""
+    """(2, 2) lower and upper corner of the points' bounding box, with a margin."""
     low, high = points.min(axis=0), points.max(axis=0)
     room = 0.02 * (high - low).max()
     return np.stack([low - room, high + room])
 
 
-def _reaching(box: Floats, points: Floats) -> Floats:
-    """The box enlarged to hold the points, though not by more than a quarter of its size a side."""
+def _enlarged(box: Floats, points: Floats) -> Floats:
+    """The box enlarged to hold the points, by at most a quarter of its size on each side."""
     if not len(points):
         return box
     size = np.ptp(box, axis=0).max()
     low, high = points.min(axis=0) - 0.03 * size, points.max(axis=0) + 0.03 * size
-    return np.stack(
-        [
-            low.clip(box[0] - 0.25 * size, box[0]),
-            high.clip(box[1], box[1] + 0.25 * size),
-        ]
-    )
+    low, high = low.clip(box[0] - 0.25 * size, box[0]), high.clip(box[1], box[1] + 0.25 * size)
+    return np.stack([low, high])
 
 
 def _common_scale(*boxes: Floats) -> Floats:
-    """Boxes of one shape around these, and of one size unless one would be tiny in it."""
+    """Boxes with one aspect ratio around these, of one size unless one would be tiny in it."""
     sizes = np.array([np.ptp(box, axis=0) for box in boxes])
     common = sizes.max(axis=0)
     could_grow = (common / sizes).min(axis=1)
@@ -186,8 +175,8 @@ def _common_scale(*boxes: Floats) -> Floats:
     return np.stack([middle - half, middle + half], axis=1)
 
 
-def _name(axes: Axes, letter: str, name: str, shift: tuple[float, float]) -> None:
-    """The panel's letter and name, shifted by points from the axes' upper left corner."""
+def _label(axes: Axes, letter: str, name: str, shift: tuple[float, float]) -> None:
+    """Write letter and name, shifted by points from the axes' upper left corner."""
     for text, indent, weight in ((letter, 0, "bold"), (name, 10, "normal")):
         axes.annotate(
             text,
@@ -202,7 +191,7 @@ def _name(axes: Axes, letter: str, name: str, shift: tuple[float, float]) -> Non
 
 
 def _fit(axes: Axes, view: Floats) -> None:
-    """Show this box in the middle of the axes, as large as possible and not stretched."""
+    """Centre this box in the axes, as large as possible and not stretched."""
     size = axes.get_window_extent().size
     half = size * (np.ptp(view, axis=0) / size).max() / 2
     low, high = view.mean(axis=0) - half, view.mean(axis=0) + half
@@ -210,7 +199,6 @@ def _fit(axes: Axes, view: Floats) -> None:
 
 
 def _frame_of(axes: Axes) -> OutputFrame:
-    """The pixels of picture axes."""
     (xmin, xmax), (ymin, ymax) = axes.get_xlim(), axes.get_ylim()
     box = axes.get_window_extent()
     size = max(1, round(box.width)), max(1, round(box.height))
@@ -218,7 +206,7 @@ def _frame_of(axes: Axes) -> OutputFrame:
 
 
 def _show(axes: Axes, picture: NDArray[np.uint8]) -> None:
-    """Put an RGBA picture of the axes' own resolution onto white behind everything else."""
+    """Put an RGBA picture of the axes' own resolution behind everything else, on white."""
     alpha = picture[..., 3:] / 255
     opaque = np.rint(picture[..., :3] * alpha + 255 * (1 - alpha)).astype(np.uint8)
     extent = (*axes.get_xlim(), *axes.get_ylim())
@@ -226,17 +214,15 @@ def _show(axes: Axes, picture: NDArray[np.uint8]) -> None:
 
 
 def _mark_source(axes: Axes, map: HarmonicMap, pose: Pose) -> None:
-    """The cages and the handles."""
     cage, outer = map.domain.cage.loops, map.domain.offset_cage.loops
     _draw_loops(axes, [*outer, *cage], color="white", linewidth=1.4, alpha=0.7)
     _draw_loops(axes, cage, color=BLUE, linewidth=0.6, label="cage")
     _draw_loops(axes, outer, color=GREY, linewidth=0.4, label="offset cage")
     _draw_dots(axes, pose.handles, INK, 3.4, edge=0.6, label="handles")
-    _key(axes)
+    _add_legend(axes)
 
 
 def _mark_result(axes: Axes, map: HarmonicMap, pose: Pose, outline: list[Floats]) -> None:
-    """The targets, the handles' images, and lines between those that differ."""
     images = map(pose.handles) if len(pose) else pose.handles
     size = float(np.ptp(np.concatenate(outline), axis=0).max())
     apart = np.linalg.norm(images - pose.targets, axis=1) > _MISS * size
@@ -246,7 +232,7 @@ def _mark_result(axes: Axes, map: HarmonicMap, pose: Pose, outline: list[Floats]
     )
     _draw_dots(axes, pose.targets, CYAN, 5.0, edge=0.6, label="targets")
     _draw_dots(axes, images, "black", 2.2, edge=0.0, label="handles' images")
-    _key(axes)
+    _add_legend(axes)
 
 
 def _distortion(
@@ -254,12 +240,12 @@ def _distortion(
 ) -> tuple[NDArray[np.uint8], Floats]:
     """The distortion's colours as a strip to draw with, and each vertex's place in it.
 
-    The colour bar comes below the axes.
+    Also adds the colour bar below the axes.
     """
-    fz, fzb = (np.abs(v) for v in map.wirtinger(mesh.vertices))
+    abs_fz, abs_fzb = (np.abs(v) for v in map.wirtinger(mesh.vertices))
     with np.errstate(divide="ignore"):
-        distortion = np.maximum(fz + fzb, 1 / np.maximum(fz - fzb, 0))
-    # Spots beside a corner of the cage must not take the scale from the rest.
+        distortion = np.maximum(abs_fz + abs_fzb, 1 / np.maximum(abs_fz - abs_fzb, 0))
+    # Peaks at the cage's corners must not dominate the scale.
     highest = max(1.25, min(_quantile(distortion, mesh, 0.995), 1e4))
     norm, colors = LogNorm(1.0, highest), distortion_colors()
     strip = np.tile((colors(np.arange(colors.N)) * 255).round().astype(np.uint8), (2, 1, 1))
@@ -286,7 +272,7 @@ def _distortion(
 
 
 def _quantile(values: Floats, mesh: DeformedMesh, share: float) -> float:
-    """What the values at the vertices stay below on this share of the undeformed area."""
+    """Quantile of the values at the vertices, weighted by undeformed area."""
     e = mesh.vertices[mesh.triangles][:, 1:] - mesh.vertices[mesh.triangles][:, :1]
     area = np.abs(e[:, 0, 0] * e[:, 1, 1] - e[:, 0, 1] * e[:, 1, 0])
     value = values[mesh.triangles].mean(axis=1)
@@ -296,7 +282,7 @@ def _quantile(values: Floats, mesh: DeformedMesh, share: float) -> float:
 
 
 def _spaced(ticks: list[float], highest: float) -> list[float]:
-    """Those ticks that keep a tenth of the colour bar apart, the first always."""
+    """The first tick, and those at least a tenth of the colour bar after the one before."""
     kept: list[float] = []
     for tick in ticks:
         if not kept or np.log(tick / kept[-1]) > 0.1 * np.log(highest):
@@ -305,7 +291,7 @@ def _spaced(ticks: list[float], highest: float) -> list[float]:
 
 
 def _draw_loops(axes: Axes, loops: Iterable[Floats], label: str = "", **style: Any) -> None:
-    """Closed lines, of which the legend names one."""
+    """Closed lines with one entry in the legend."""
     for loop in loops:
         points = np.concatenate([loop, loop[:1]]).T
         axes.plot(*points, solid_joinstyle="round", zorder=2, label=label, **style)
@@ -328,10 +314,9 @@ def _draw_dots(
     )
 
 
-def _key(axes: Axes) -> None:
-    """A legend below the axes."""
+def _add_legend(axes: Axes) -> None:
     handles, _ = axes.get_legend_handles_labels()
-    fits = axes.figure.bbox.width / 3 > _KEY * axes.figure.dpi
+    fits = axes.figure.bbox.width / 3 > _LEGEND_ROW * axes.figure.dpi
     axes.legend(
         loc="upper center",
         bbox_to_anchor=(0.5, 0.0),

@@ -1,15 +1,14 @@
 """The plots of a solve: energy, Newton steps, time per iteration, certificate.
 
-Each is drawn once and then updated, so the same code makes a page of a paper and a display that
-moves while the solver works: ``update`` says whether the axes' limits changed, and ``artists`` are
-what has to be drawn anew when they did not.
+Each is drawn once and then updated, so the same code serves a printed figure and the editor's live
+plots. ``update`` says whether the axes' limits changed; if not, only ``artists`` need drawing.
 """
 
 from __future__ import annotations
 
 import itertools
 from collections.abc import Collection, Sequence
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -37,59 +36,26 @@ from glid_nb.figures.style import (
 from glid_nb.geometry import Cage
 from glid_nb.harmonic import HarmonicMap
 
-# Points from the axis down to its name.
-_AXIS_NAME = 12.0
+if TYPE_CHECKING:
+    from glid_nb.solvers import Iteration
 
-# Above axes narrower than so many inches a line of text does not fit beside the legend, which is
-# so many points high.
-_WIDE, _LEGEND_HEIGHT = 3.0, 12.0
+_AXIS_NAME = 12.0  # points from the axis down to its name
+_WIDE = 3.0  # inches; above narrower axes a line of text does not fit beside the legend
+_LEGEND_HEIGHT = 12.0  # points
+_NARROW = 1.3  # inches; above narrower axes the legend does not fit
+_LOG_FROM = 20.0  # an energy that falls by this factor gets a logarithmic axis
+_DECADES = 12  # most decades that a logarithmic axis shows
+_DOTTED = 12  # most iterations that are drawn with dots; a single one needs its dot to be seen
 
-# Above axes narrower than so many inches not even the legend fits.
-_NARROW = 1.3
-
-# An energy is drawn on a logarithmic axis when it falls by this factor or more.
-_LOG_FROM = 20.0
-
-# Decades that a logarithmic axis shows at most below the largest value.
-_DECADES = 12
-
-# Up to so many iterations each has a dot of its own; one alone would not be seen without.
-_DOTTED = 12
-
-# Limits of axes are round numbers: they change seldom while values do, and only a change of limits
-# needs a whole new drawing.
+# Round limits change seldom, and only a change of limits needs a full redraw.
 _ROUND = MaxNLocator(1, steps=[1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10], min_n_ticks=1)
 _ROUND_ITERATIONS = MaxNLocator(3, steps=[1, 2, 5, 10], integer=True)
 
-# The mean width of a character, as a share of the font's size.
-_CHARACTER = 0.62
-
-# The certificate's axis ends at this multiple of what nine tenths of the boundary stay below.
-_PEAK = 1.5
-
-# Where the true sigma_2 is sampled within each panel.
-_SAMPLES = np.array([0.0, 0.25, 0.5, 0.75, 1.0])
+_CHARACTER = 0.62  # mean width of a character over the font's size
+_PEAK = 1.5  # the certificate's axis ends at this multiple of the 90th percentile
+_SAMPLES = np.array([0.0, 0.25, 0.5, 0.75, 1.0])  # where sigma_2 is sampled within a panel
 
 Floats = NDArray[np.float64]
-
-
-class IterationRecord(Protocol):
-    """What the plots read of one iteration; `glid_nb.solvers` has more."""
-
-    @property
-    def iteration(self) -> int: ...
-    @property
-    def energy(self) -> float: ...
-    @property
-    def energy_iso(self) -> float: ...
-    @property
-    def energy_p2p(self) -> float: ...
-    @property
-    def step(self) -> float | None: ...
-    @property
-    def decrement(self) -> float | None: ...
-    @property
-    def time(self) -> float: ...
 
 
 class Plot:
@@ -116,21 +82,17 @@ class Plot:
         return self.axes.plot([], [], **style)[0]
 
     def _area(self, color: str, **style: Any) -> Any:
-        """A filled polygon, empty so far."""
         style = {"facecolor": color, "linewidth": 0, "animated": self._animated, **style}
         return self.axes.fill([0.0], [0.0], **style)[0]
 
     def _note(self, legend: bool = True) -> Text:
-        """An empty line of text above the axes at the right, where no curve gets.
-
-        Beside the legend where the axes are wide, above it where they are not.
-        """
+        """Text above the axes at the right: beside the legend if they are wide, else above it."""
         above = _LEGEND_HEIGHT if legend and self._inches < _WIDE else 2.0
         style = {"ha": "right", "va": "bottom", "annotation_clip": False, "in_layout": False}
         return _beside(self.axes, "", (1, 1), above, animated=self._animated, **style)
 
     def _legend(self, *lines: Line2D) -> None:
-        """Above the axes, or inside at the upper right of a narrow plot that does not move."""
+        """Above the axes, or inside those of a narrow plot that is not animated."""
         place: dict[str, Any] = {"loc": "upper right", "borderaxespad": 0.0}
         if self._animated or self._inches > _NARROW:
             place = {"loc": "lower left", "bbox_to_anchor": (-0.03, 1.0), "borderaxespad": 0.3}
@@ -146,21 +108,19 @@ class Plot:
 
 
 class _OverIterations(Plot):
-    """A plot with a value per iteration."""
-
     def __init__(self, axes: Axes, animated: bool = False) -> None:
         super().__init__(axes, animated)
         axes.set_xlabel("iteration", fontsize=SMALL, labelpad=2)
         axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
 
     def _dots(self, color: str) -> Line2D:
-        """Faint dots for what a line leaves out."""
+        """Faint dots for the iterations that a line leaves out."""
         style = {"linestyle": "none", "marker": "o", "markersize": 1.6, "markeredgewidth": 0.0}
         return self._line(color, alpha=0.35, zorder=1.5, **style)
 
     def _limit_iterations(self, x: Floats) -> None:
         first, last = (float(x[0]), float(x[-1])) if len(x) else (0.0, 1.0)
-        if first == last:  # one iteration stands in the middle
+        if first == last:  # centre a single iteration
             low, high = first - 1, first + 1
         else:
             ticks = _ROUND_ITERATIONS.tick_values(first, last)
@@ -169,7 +129,7 @@ class _OverIterations(Plot):
         self.axes.set_xlim(low - room, high + room)
 
     def _limit_decades(self, positive: Floats) -> None:
-        """Whole decades around the values, the lowest left out where they span too many."""
+        """Show whole decades around the values, without the lowest if they span too many."""
         axes = self.axes
         axes.set_yscale("log")
         axes.yaxis.set_major_locator(LogLocator(numticks=6))
@@ -197,7 +157,7 @@ class EnergyPlot(_OverIterations):
 
     def update(
         self,
-        history: Sequence[IterationRecord],
+        history: Sequence[Iteration],
         start_energy: float | None = None,
         starts: Collection[int] = (),
         solving: bool = False,
@@ -205,8 +165,8 @@ class EnergyPlot(_OverIterations):
         """Show these iterations; True when the limits or the scale of the axes changed.
 
         ``start_energy`` is the total before the first of them, drawn at iteration 0. ``starts`` are
-        the iterations that began with moved targets: the lines join what they ended with, but for
-        the last one while the solver is still at it.
+        the iterations that began with moved targets, ``solving`` says whether the solver still
+        runs: the lines join the last iterations of the finished solves.
         """
         before = self._view()
         records = [(r.iteration, r.energy_p2p, r.energy_iso, r.energy) for r in history]
@@ -219,13 +179,12 @@ class EnergyPlot(_OverIterations):
         total = series[-1]
         self._within.set_data(x[~ends], total[~ends])
         self._text.set_text(f"E = {history[-1].energy:.4g}" if len(history) else "no iterations")
-        # The limits are those of the lines: how high a moved target first lifts the energy would
-        # flatten them.
+        # Only the lines count for the limits: the peaks after moved targets would flatten them.
         total = total[ends]
         values = np.concatenate([y[ends] for y in series])
         values = values[np.isfinite(values)]
         if len(total) and total[0] > _LOG_FROM * total[-1] > 0:
-            # The targets' part ends at nothing; the plot need not follow it all the way.
+            # The targets' part may fall to 0; the axis need not follow it.
             lowest = 0.1 * float(total[total > 0].min())
             self._limit_decades(values[values > lowest])
         else:
@@ -248,7 +207,7 @@ class StepPlot(_OverIterations):
 
     def update(
         self,
-        history: Sequence[IterationRecord],
+        history: Sequence[Iteration],
         starts: Collection[int] = (),
         solving: bool = False,
     ) -> bool:
@@ -281,7 +240,7 @@ class TimePlot(_OverIterations):
         self._text = self._note(legend=False)
         self.artists = self._bars, self._text
 
-    def update(self, history: Sequence[IterationRecord]) -> bool:
+    def update(self, history: Sequence[Iteration]) -> bool:
         """Show these iterations; True when the limits of the axes changed."""
         before = self._view()
         records = [(r.iteration, 1e3 * r.time) for r in history]
@@ -293,7 +252,7 @@ class TimePlot(_OverIterations):
         self._bars.set_xy(corners if len(corners) else [[0.0, 0.0]])
         usual = float(np.median(times)) if len(times) else 0.0
         self._text.set_text(f"{usual:.3g} ms per iteration" if usual else "")
-        # One iteration that had to wait must not make the others too low to see.
+        # A single slow iteration must not make the other bars too low to see.
         most = min(float(times.max()), 3 * usual) if usual else 1.0
         self.axes.set_ylim(0.0, _rounded_up(1.1 * most))
         self._limit_iterations(x)
@@ -301,26 +260,25 @@ class TimePlot(_OverIterations):
 
 
 class CertificatePlot(Plot):
-    """The certified lower bound on sigma_2 along the boundary, over the sampled truth.
+    """The certified lower bound on sigma_2 along the boundary, and the sampled sigma_2.
 
     Parameters
     ----------
     axes : Axes
     cage : Cage
-        The domain's boundary; its loops stand side by side, each with its name or, where that does
-        not fit, its number below. Make the axes about their final size first.
+        The domain's boundary. Its loops are drawn side by side, with their names below, or their
+        numbers where names do not fit; so the axes must have about their final size.
     animated : bool
-        Whether what changes is left out of a normal draw, to be blitted.
+        As in `Plot`.
     """
 
     def __init__(self, axes: Axes, cage: Cage, animated: bool = False) -> None:
         super().__init__(axes, animated)
         lengths = [float(np.linalg.norm(np.roll(p, -1, 0) - p, axis=1).sum()) for p in cage.loops]
-        self._starts = np.concatenate([[0.0], np.cumsum(lengths)])
-        axes.set_xlim(0.0, float(self._starts[-1]))
+        self._loop_starts = np.concatenate([[0.0], np.cumsum(lengths)])
+        axes.set_xlim(0.0, float(self._loop_starts[-1]))
         self._name_loops(cage)
         axes.axhline(0.0, color=VERMILION, linewidth=LINE, zorder=1)
-        # Curves may be anywhere above the axis, so the line's name is below it.
         _beside(axes, "threshold 0", (0, 0), -_AXIS_NAME, va="top", color=VERMILION)
         self._bound = self._line(BLUE, 0.9, label="certified bound", zorder=3)
         self._truth = self._line(INK, 0.45, label="σ₂, sampled", zorder=4)
@@ -332,23 +290,22 @@ class CertificatePlot(Plot):
         self.artists = self._fill, self._bound, self._truth, self._least, self._text
 
     def _name_loops(self, cage: Cage) -> None:
-        """Below the axis: lengths along the boundary, or the loops where there are several."""
         axes = self.axes
         if not cage.n_holes:
             axes.set_xlabel("arc length", fontsize=SMALL, labelpad=2)
             axes.xaxis.set_major_locator(MaxNLocator(5))
             return
-        for loop, (start, end) in enumerate(itertools.pairwise(self._starts)):
+        for loop, (start, end) in enumerate(itertools.pairwise(self._loop_starts)):
             if loop % 2:
                 axes.axvspan(start, end, color=FAINT, alpha=0.25, linewidth=0, zorder=0)
             if loop:
                 axes.axvline(start, color=FAINT, linewidth=HAIRLINE, zorder=0)
-        pixels = axes.get_window_extent().width / self._starts[-1]
+        pixels = axes.get_window_extent().width / self._loop_starts[-1]
         character = _CHARACTER * SMALL * axes.figure.dpi / 72
-        places, names = zip(*_loop_names(self._starts, character / pixels), strict=True)
+        places, names = zip(*_loop_names(self._loop_starts, character / pixels), strict=True)
         axes.set_xticks(places, names)
         if any(name[0].isdigit() for name in names):
-            middle = float(self._starts[1] / self._starts[-1] + 1.0) / 2
+            middle = float(self._loop_starts[1] / self._loop_starts[-1] + 1.0) / 2
             name = "hole" if cage.n_holes == 1 else "holes"
             _beside(axes, name, (middle, 0), -_AXIS_NAME, va="top", ha="center")
         axes.tick_params(axis="x", length=0, pad=3)
@@ -372,10 +329,10 @@ class CertificatePlot(Plot):
         before = self._view()
         panels = certificate.panels
         length, bound = panels.length, np.nan_to_num(panels.sigma2_lower, nan=-1.0)
-        # Along each loop the panels follow one another from the loop's start.
+        # The panels of a loop come in order, the first one at the loop's start.
         first = np.flatnonzero(np.diff(panels.loop, prepend=-1))
         left = np.cumsum(length) - length
-        shift = self._starts[panels.loop[first]] - left[first]
+        shift = self._loop_starts[panels.loop[first]] - left[first]
         left = left + np.repeat(shift, np.diff(first, append=len(length)))
         ends = np.stack([left, left + length], axis=1)
         levels = np.stack([bound, bound], axis=1)
@@ -398,7 +355,7 @@ class CertificatePlot(Plot):
             seen = np.asarray(map.sigma2(points)).reshape(len(bound), -1)
             places = left[:, None] + length[:, None] * _SAMPLES
             self._truth.set_data(_with_gaps(places, first), _with_gaps(seen, first))
-        # What counts is how far above 0 the curves stay, so high peaks are cut off.
+        # High peaks are cut off: what matters is the distance from 0.
         top = max(0.1, min(float(seen.max()), _PEAK * float(np.quantile(seen, 0.9))))
         bottom = min(float(seen.min()), float(bound.min()))
         high = _rounded_up(1.2 * top)
@@ -408,23 +365,22 @@ class CertificatePlot(Plot):
 
 
 def _ends(x: Floats, starts: Collection[int], solving: bool) -> NDArray[np.bool_]:
-    """Which of the iterations ``x`` were the last before one of ``starts``, or of all.
+    """Which iterations ``x`` end a solve; all of them if they belong to one solve only.
 
-    The last of all ends nothing yet while the solver is at it. Where only one solve is seen, all.
+    While the solver runs, the last iteration ends nothing.
     """
     begins = np.isin(x[1:], np.fromiter(starts, dtype=float))
     return np.append(begins, not solving)[: len(x)] if begins.any() else np.ones(len(x), dtype=bool)
 
 
 def _show(line: Line2D, x: Floats, values: Floats) -> None:
-    """The line through these points, with a dot at each while there are few."""
     line.set_data(x, values)
     line.set_marker("o" if len(x) <= _DOTTED else "")
     line.set_markersize(2.4)
 
 
 def _beside(axes: Axes, text: str, place: tuple[float, float], above: float, **style: Any) -> Text:
-    """Text so many points above a place in the axes, which is given by shares of the sides."""
+    """Text ``above`` points over a place given in fractions of the axes."""
     return axes.annotate(
         text,
         place,
@@ -437,15 +393,13 @@ def _beside(axes: Axes, text: str, place: tuple[float, float], above: float, **s
 
 
 def _rounded_up(value: float) -> float:
-    """The next round number; 0 for what is not above 0."""
     return float(_ROUND.tick_values(0.0, value)[-1]) if value > 0 else 0.0
 
 
 def _loop_names(starts: Floats, character: float) -> list[tuple[float, str]]:
-    """Where along the boundary which loop's name goes, as (place, name).
+    """(place along the boundary, name) of the loops; neighbours too short for theirs share one.
 
-    ``starts`` are the loops' starts and the boundary's end, ``character`` is the width of a
-    character. Loops next to each other that are too short for their numbers share one name.
+    ``starts`` are the loops' starts and the boundary's end, ``character`` is a character's width.
     """
     width = np.diff(starts)
 
@@ -480,5 +434,5 @@ def _winding(certificate: Certificate) -> str:
 
 
 def _with_gaps(rows: Floats, starts: NDArray[np.intp]) -> Floats:
-    """The rows one after the other, with a NaN before each that begins a loop."""
+    """The rows in one array, with a NaN before each row that starts a loop."""
     return np.insert(rows.ravel(), starts[1:] * rows.shape[1], np.nan)

@@ -1,14 +1,14 @@
-"""One look for every figure and plot: colours that colour-blind people can tell apart, sizes."""
+"""Colours (distinguishable by colour-blind people), sizes and legends of all figures and plots."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:  # half a second of imports that the editor's first canvas does not wait for
+if TYPE_CHECKING:  # matplotlib takes half a second to import; the editor's first canvas needs none
     from matplotlib.axes import Axes
     from matplotlib.colors import Colormap
 
-# The ink of axes and text, and Okabe and Ito's colours.
+# Greys, and the colours of Okabe and Ito.
 INK = "#2b2b2b"
 GREY = "#7f7f7f"
 FAINT = "#b8b8b8"
@@ -49,18 +49,8 @@ def distortion_colors() -> Colormap:
 
 def tidy(axes: Axes) -> None:
     """Two thin spines, small ticks outside, no box."""
-    for side in ("top", "right"):
-        axes.spines[side].set_visible(False)
-    for side in ("left", "bottom"):
-        axes.spines[side].set_color(INK)
-        axes.spines[side].set_linewidth(HAIRLINE)
-    axes.tick_params(
-        which="both",
-        colors=INK,
-        labelsize=SMALL,
-        width=HAIRLINE,
-        length=2.5,
-        pad=2,
-        direction="out",
-    )
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.spines[["left", "bottom"]].set(color=INK, linewidth=HAIRLINE)
+    ticks = {"colors": INK, "labelsize": SMALL, "width": HAIRLINE, "length": 2.5, "pad": 2}
+    axes.tick_params(which="both", direction="out", **ticks)
     axes.tick_params(which="minor", length=1.5)

@@ -148,7 +148,8 @@ class Cage:
         if not tolerance >= 0:
             raise GeometryError(f"tolerance must be at least 0, not {tolerance}")
         flat = xy.reshape(-1, 2)
-        reach = max(tolerance, self._rounding)
+        rounding = RESOLUTION * max(self.longer_side, float(np.abs(self.bounds).max()))
+        reach = max(tolerance, rounding)
         inside = shapely.intersects_xy(self.polygon, flat[:, 0], flat[:, 1])
         rest = np.flatnonzero(~inside)
         if rest.size:
@@ -158,10 +159,6 @@ class Cage:
             rest = rest[shapely.intersects_xy(wider, flat[rest, 0], flat[rest, 1])]
             inside[rest] = shapely.dwithin(self._outline, shapely.points(flat[rest]), reach)
         return inside.reshape(xy.shape[:-1])
-
-    @property
-    def _rounding(self) -> float:
-        return RESOLUTION * max(self.longer_side, float(np.abs(self.bounds).max()))
 
     @cached_property
     def _outline(self) -> shapely.MultiLineString:

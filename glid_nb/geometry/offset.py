@@ -90,8 +90,10 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
         local = 0.5 * local
     else:
         i = int(np.argmin(local))
+        loop = int(corners.loop[i])
         raise GeometryError(
-            f"no offset cage fits: the {corners.describe(i)} lies in a passage too narrow for any "
+            f"no offset cage fits: the {loop_name(loop)}'s vertex {i - corners.starts[loop]} at "
+            f"{place(corners.points[i])} lies in a passage too narrow for any "
             "offset; widen the passage, merge the two sides or remove the vertex",
             corners.points[i],
             "This passage is too narrow; widen it, merge its two sides or remove the point",
@@ -207,10 +209,6 @@ class _Corners:
 
     def split(self, values: NDArray[np.float64]) -> list[NDArray[np.float64]]:
         return [part.copy() for part in np.split(values, self.starts[1:-1])]
-
-    def describe(self, i: int) -> str:
-        loop = int(self.loop[i])
-        return f"{loop_name(loop)}'s vertex {i - self.starts[loop]} at {place(self.points[i])}"
 
     def passage_limits(self, min_ratio: float) -> NDArray[np.float64]:
         """(n,) greatest distances where a vertex faces an edge of its loop across the outside.

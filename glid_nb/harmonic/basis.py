@@ -1,4 +1,4 @@
-"""The basis of a domain: its singularities, padded to a bucket so that shapes share programs."""
+"""The basis of a domain, padded so that domains of similar size share compiled programs."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ class Basis(NamedTuple):
     """Columns of the harmonic subspace on a domain (paper Section 5).
 
     ``singularities`` holds the offset cage's vertices, then padding vertices on a far circle,
-    and the hole points, then padding points beside that circle. Padding columns always carry
-    zero coefficients, so they change no map; they exist so that domains whose sizes fall into
-    the same bucket run the same compiled program.
+    and the hole points, then padding points outside that circle. The coefficients of padding
+    columns are always zero, so they change no map; domains with the same number of padded columns
+    run the same compiled program.
 
     ``columns`` maps the domain's own ``n = m + N`` coefficients to padded columns. ``phi_free``
-    and ``psi_free`` say which padded columns are unknowns: the first two of each hole loop are
+    and ``psi_free`` tell which padded columns are unknowns. The first two of each hole loop are
     fixed to zero (Section 5), as is the first ``psi`` of the exterior loop; the hole columns of
-    ``psi`` are tied to ``phi_j = conj(psi_j)`` and so are not unknowns of their own.
+    ``psi`` follow from ``phi_j = conj(psi_j)``.
     """
 
     singularities: Singularities
@@ -42,9 +42,10 @@ class Basis(NamedTuple):
 
     @property
     def unknown_columns(self) -> Int[Array, " u"]:
-        """The columns with unknowns, in order, and -1 for padding: to a bucket, and of the holes.
+        """The columns with unknowns in order, and -1 where they are padded.
 
-        Those that only pad the basis and those that are fixed to zero are not among them.
+        Vertex columns are padded so that the total is a multiple of the bucket size, hole columns
+        as in the basis.
         """
         first_hole = self.n_columns - self.n_hole_columns
         own = np.flatnonzero(self.phi_free[:first_hole])
@@ -59,12 +60,12 @@ class Basis(NamedTuple):
 
     @property
     def n_exterior(self) -> int:
-        """Number of columns of the exterior loop; they are the first ones."""
+        """Number of columns of the exterior loop, which come first."""
         return int(self.singularities.previous[0]) + 1
 
     @property
     def n_hole_columns(self) -> int:
-        """Number of padded logarithm columns; they are the last ones."""
+        """Number of padded logarithm columns, which come last."""
         return len(self.singularities.hole_points)
 
     @property
@@ -73,7 +74,7 @@ class Basis(NamedTuple):
         return 2 * int(self.phi_free.sum() + self.psi_free.sum())
 
     def pad(self, coefficients: Complex[Array, " n"]) -> Complex[Array, " c"]:
-        """Coefficients of the domain's own columns, spread over the padded columns."""
+        """The domain's own coefficients in the padded columns, zeros elsewhere."""
         padded = np.zeros(self.n_columns, dtype=complex)
         padded[self.columns] = coefficients
         return padded
@@ -88,7 +89,9 @@ def build_basis(domain: Domain) -> Basis:
     m, n_holes = len(vertices), len(rho)
 
     hole_padding = next(b for b in (*_HOLE_BUCKETS, n_holes) if b >= n_holes) - n_holes
-    padding = _padding_size(m + n_holes + hole_padding, _BUCKET)
+    padding = -(m + n_holes + hole_padding) % _BUCKET
+    if padding in (1, 2):  # a loop has at least 3 vertices
+        padding += _BUCKET
     center = vertices.mean()
     far = 1e3 * np.abs(vertices - center).max()
     ring = center + far * np.exp(2j * np.pi * np.arange(padding) / max(padding, 1))
@@ -114,9 +117,3 @@ def build_basis(domain: Domain) -> Basis:
         phi_free,
         psi_free,
     )
-
-
-def _padding_size(count: int, bucket: int) -> int:
-    """The least padding to a multiple of ``bucket`` that is 0 or can form a loop (3 or more)."""
-    padding = -count % bucket
-    return padding + bucket if padding in (1, 2) else padding

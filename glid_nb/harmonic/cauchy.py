@@ -74,8 +74,7 @@ def slope_jumps(
 ) -> Complex[Array, "... n"]:
     """``s_j - s_{j+1}`` for the vertices and the coefficient itself for the holes.
 
-    These are the residues that drive every derivative of ``f_z`` (Appendix H, whose first sum has
-    the wrong sign):
+    All derivatives of ``f_z`` are sums over these (Appendix H, whose first sum has the wrong sign):
     ``f_z' = -1/(2 pi i) sum_j (s_j - s_{j+1}) / B_j - sum_k phi_{m+k} / (z - rho_k)^2``.
     """
     m = singularities.vertices.shape[0]
@@ -109,11 +108,11 @@ def higher_derivative(
 def rounding_scale(
     z: Complex[Array, " k"], singularities: Singularities
 ) -> tuple[Float[Array, " k"], Float[Array, " k"]]:
-    """Sums of the moduli of all terms that make up ``D(z)`` and ``D'(z)``.
+    """Sums of the moduli of all terms of ``D(z)`` and of ``D'(z)``.
 
     To first order the rounding error of a computed ``f_z(z)`` is at most a small multiple of
-    ``n * unit roundoff * scale * max_j |phi_j|``. A logarithm of a computed ratio near 1 has an
-    absolute, not a relative, error of a few roundoffs; the 4 beside its modulus covers that.
+    ``n * unit roundoff * scale * max_j |phi_j|``. The logarithm of a computed ratio near 1 has an
+    absolute error of a few roundoffs, which the 4 beside its modulus covers.
     """
     vertices, following, preceding, rho = singularities
     b = jnp.abs(vertices - z[:, None])
@@ -130,7 +129,7 @@ def _log_over_edge(
 ) -> Complex[Array, "k m"]:
     """``Log(B_{j+1} / B_j) / A_{j+1}``, one column per edge from vertex ``j`` to ``j + 1``.
 
-    The principal branch is right: an edge is seen under less than pi from any point off it.
+    The principal branch is right: an edge subtends an angle below pi at any point off it.
     """
     vertices, following, _, _ = singularities
     return jnp.log(b[:, following] / b) / (vertices[following] - vertices)

@@ -20,34 +20,33 @@ _MOST_KEPT = 1 << 26  # numbers, of 8 bytes each
 
 
 class FixedPoints:
-    """Images and derivatives of the same points under one map after the other.
+    """Images and derivatives of fixed points under many maps.
 
-    Most of an evaluation's time goes into one logarithm for each point and edge of the offset cage,
-    which do not depend on the coefficients. They are computed for the first map and kept in single
-    precision, up to half a gigabyte. Summed over the edges e of the offset cage, (D.1) reads
+    Most of an evaluation's time goes into a logarithm for each point and edge of the offset cage,
+    which does not depend on the map. The logarithms are computed once and kept in single precision,
+    up to half a gigabyte. Summed over the edges e of the offset cage, (D.1) reads
 
         F  = 1/(2 pi i) sum_e (phi_e + (z - z_e) s_e) L_e
         F' = 1/(2 pi i) sum_e s_e L_e
 
-    with the slope s_e of phi along the edge from z_e, so that a map is a product of one matrix.
+    with the slope s_e of phi along the edge from z_e, so one matrix product evaluates a map.
 
     Parameters
     ----------
     domain : Domain
         The domain of all maps.
     points : (k, 2) array_like
-        Where they are evaluated.
     """
 
     def __init__(self, domain: Domain, points: ArrayLike) -> None:
         self._domain, self._z = domain, as_complex(points)
         vertices, following, *_ = basis_of(domain).singularities
-        own = slice(domain.n_coefficients - domain.n_holes)  # without what pads the basis
+        own = slice(domain.n_coefficients - domain.n_holes)  # without padding
         self._vertices, self._next = np.asarray(vertices)[own], np.asarray(following)[own]
         self._kept: dict[int, Array] = {}
 
     def __call__(self, map: HarmonicMap) -> tuple[Array, Array]:
-        """(k, 2) images and (k, 4) f_z and conj(f_zbar), each as two numbers; float32."""
+        """(k, 2) images, and (k, 4) real and imaginary parts of f_z and conj(f_zbar); float32."""
         columns = np.stack([map.phi, map.psi], axis=1)
         m = len(self._vertices)
         values, holes = columns[:m] / (2j * np.pi), columns[m:]
@@ -73,9 +72,9 @@ class FixedPoints:
         return image, np.concatenate(derivatives).view(np.float32)
 
     def _matrix(self, start: int, z: Array) -> Array:
-        """The matrix of the points from the ``start``-th on, which does not depend on the map.
+        """The matrix of the chunk at ``start``.
 
-        Columns are logarithms ``L_e = Log(B_{e+1} / B_e)`` of the edges, then ``ln|z - rho|`` and
+        Columns: ``L_e = Log(B_{e+1} / B_e)`` of the edges, then ``ln|z - rho|`` and
         ``1 / (z - rho)`` of the holes.
         """
         known = self._kept.get(start)

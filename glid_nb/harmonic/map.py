@@ -26,13 +26,13 @@ Array = NDArray[Any]
 FORMAT = "glid_nb-map"
 FORMAT_VERSION = 1
 
-# Points per evaluation chunk: bounds the memory at chunk x columns complex numbers.
+# Bounds the memory of a chunk, in points times columns.
 _CHUNK_ELEMENTS = 1 << 19
 _SMALL_CHUNK = 64
 
 
 class MapError(InputError):
-    """A harmonic map's coefficients, or a file that should hold one, are not valid."""
+    """A harmonic map's coefficients, its file, or points to evaluate it at are not valid."""
 
 
 @functools.lru_cache(maxsize=64)
@@ -53,8 +53,8 @@ class HarmonicMap:
     domain : Domain
         Where the map lives.
     phi, psi : (n,) complex array_like
-        Coefficients, ``n`` = offset-cage vertices + holes, zeros of the fixed unknowns
-        included. For the holes ``phi_j = conj(psi_j)`` must hold (Section 5).
+        Coefficients, ``n`` = offset-cage vertices + holes, including those fixed to zero. For the
+        holes ``phi_j = conj(psi_j)`` must hold (Section 5).
 
     Raises
     ------
@@ -106,8 +106,7 @@ class HarmonicMap:
         Parameters
         ----------
         points : (k, 2) array_like
-            Points of the domain, in world coordinates. Outside of the cage the formula still
-            gives numbers, but nothing is proved of them; ``domain.cage.contains`` tells.
+            World coordinates. Certificates hold only for points that ``domain.cage.contains``.
 
         Returns
         -------
@@ -149,10 +148,10 @@ class HarmonicMap:
         return np.abs(fz) ** 2 - np.abs(fzb) ** 2
 
     def distance(self, other: HarmonicMap, n_points: int = 2000) -> float:
-        """Largest distance between the images under two maps, over points of the boundary.
+        """Largest distance between the images under two maps, at ``n_points`` boundary points.
 
-        Both components of the difference are harmonic, so their extremes lie on the boundary;
-        ``n_points`` boundary points sample it. The maps may have different offset cages.
+        The components of the difference are harmonic, so their extremes lie on the boundary. The
+        maps may have different offset cages.
         """
         points = as_points(uniform_panels(self.domain.cage, n_points).start)
         return float(np.linalg.norm(self(points) - other(points), axis=1).max())
@@ -169,7 +168,7 @@ class HarmonicMap:
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> HarmonicMap:
-        """The map that :meth:`to_dict` wrote; everything is validated."""
+        """The map that :meth:`to_dict` wrote; raises MapError if the data is not valid."""
         if not isinstance(data, Mapping) or data.get("format") != FORMAT:
             raise MapError(f'this is not a glid_nb map: the key "format" is not "{FORMAT}"')
         version = data.get("version")
@@ -177,7 +176,7 @@ class HarmonicMap:
             raise MapError(f"map version {version!r} is not supported; expected {FORMAT_VERSION}")
         required = ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "phi", "psi")
         for key in required:
-            # Without its offset cage or hole points a domain would choose others: another basis.
+            # A domain without these would choose others, and so have another basis.
             chosen = key in ("offset_cage", "offset_holes", "hole_points")
             if key not in data or (chosen and data[key] is None):
                 raise MapError(f'the map lacks the key "{key}"')
@@ -185,7 +184,7 @@ class HarmonicMap:
             domain = Domain.from_dict(data)
         given = [data["offset_cage"], *data["offset_holes"]]
         for i, (loop, kept) in enumerate(zip(given, domain.offset_cage.loops, strict=True)):
-            # The coefficients are in the file's order of vertices.
+            # The coefficients follow the file's order of vertices.
             if not np.array_equal(real_array(loop), kept):
                 wanted = "counter-clockwise" if i == 0 else "clockwise"
                 raise MapError(f"the offset cage's {Cage.loop_name(i)} must run {wanted}")
@@ -203,9 +202,9 @@ class HarmonicMap:
         Raises
         ------
         MapError
-            When the file is not a valid map; the message names the file and the culprit.
+            The file is not a valid map; the message names it and what is wrong.
         OSError
-            When it cannot be read.
+            It cannot be read.
         """
         with about(path, MapError):
             return cls.from_dict(parse_json(Path(path).read_bytes(), str(path)))
@@ -215,14 +214,14 @@ class HarmonicMap:
         z = as_complex(points)
         basis = basis_of(self.domain)
         coefficients = np.stack([basis.pad(self.phi), basis.pad(self.psi)])
-        # Two chunk sizes only, so that few programs are compiled whatever the number of points.
+        # Only two chunk sizes, so that few programs are compiled.
         large = max(_SMALL_CHUNK, _CHUNK_ELEMENTS // basis.n_columns)
         chunk = _SMALL_CHUNK if len(z) <= _SMALL_CHUNK else large
         return in_chunks(_compiled(kernel), chunk, (z,), coefficients, basis.singularities)
 
 
 def as_complex(points: ArrayLike) -> Array:
-    """(k, 2) real points as a (k,) complex array; complex input passes through."""
+    """(k, 2) real points, or complex ones of any shape, as a (k,) complex array."""
     array = np.asarray(points)
     if np.iscomplexobj(array):
         z = array.astype(complex).ravel()
@@ -261,7 +260,7 @@ def _compiled(kernel: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def complex_to_pairs(values: Array) -> list[list[float]]:
-    """Coefficients as [re, im] pairs, as JSON has no complex numbers."""
+    """Coefficients as [re, im] pairs for JSON."""
     return [[v.real, v.imag] for v in values.tolist()]
 
 
@@ -271,7 +270,7 @@ def complex_from_pairs(value: Any, name: str) -> Array:
     Raises
     ------
     MapError
-        For anything else; the message begins with ``name``.
+        ``value`` is anything else; the message begins with ``name``.
     """
     try:
         array = real_array(value)

@@ -14,7 +14,7 @@ from glid_nb.imaging.errors import TraceError
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.options import Point
 
-_LISTED = 50
+_LISTED = 50  # components that are described
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Component:
     Attributes
     ----------
     rank
-        Its place by area, from 0 for the largest.
+        By area, from 0 for the largest.
     area
         Number of pixels.
     bounds
@@ -46,29 +46,22 @@ class Components:
     Pixels that share a side or a corner are connected.
     """
 
-    found: NDArray[np.int32]  # (h, w) labels as they were found, 0 in the background
+    found: NDArray[np.int32]  # (h, w) labels, 0 in the background
     labels: NDArray[np.intp]  # (n,) the label of each component
     areas: NDArray[np.intp]  # (n,) in pixels, descending
     boxes: list[tuple[slice, slice]]  # (n,) rows and columns, by label
 
     @property
     def n_components(self) -> int:
-        """Number of components."""
         return len(self.areas)
 
     @cached_property
     def largest(self) -> tuple[Component, ...]:
-        """The fifty largest, or all if there are fewer."""
+        """At most fifty."""
         return tuple(map(self._described, range(min(self.n_components, _LISTED))))
 
     def component(self, rank: int) -> Component:
-        """The component of a rank.
-
-        Raises
-        ------
-        TraceError
-            There are not that many.
-        """
+        """The component of a rank; a TraceError if there is none."""
         if not 0 <= rank < self.n_components:
             raise TraceError(
                 f"component {rank} does not exist: the foreground has {self.n_components} "
@@ -86,13 +79,7 @@ class Components:
         return Component(rank, int(self.areas[rank]), bounds, (left + 0.5, rows.start + 0.5))
 
     def rank_at(self, point: Point) -> int:
-        """Rank of the component around a point (x, y) in pixel coordinates.
-
-        Raises
-        ------
-        TraceError
-            The point lies outside the image or on the background.
-        """
+        """Rank of the component at a point (x, y) in pixel coordinates; a TraceError if none."""
         height, width = self.found.shape
         row, column = PixelFrame(width=width, height=height).index_at(point, "component_at")
         label = self.found[row, column]

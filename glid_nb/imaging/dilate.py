@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from glid_nb.imaging.holes import Hole, HoleRule
 from glid_nb.imaging.outline import Outline, ring_loop, thinned
 
-_SHARE = 0.01  # of the square root of the shape's area
-_LEAST, _LEAST_SHARE = 2.0, 0.05  # pixels, but on tiny shapes no more than this share
+_SHARE = 0.01  # automatic offset, relative to the square root of the shape's area
+_LEAST, _LEAST_SHARE = 2.0, 0.05  # pixels; at least that, but on tiny shapes at most this share
 _SLIT = 0.5  # slits narrower than this times the offset on each side are closed
-_ROUGH, _FINE = 0.05, 0.03  # how far vertices may be dropped before and after, times the offset
-_SHRUNK = 0.2  # a hole that would keep less than this share of its area is moved less
+_ROUGH, _FINE = 0.05, 0.03  # tolerances of simplification before and after, times the offset
+_SHRUNK = 0.2  # a hole that would keep less than this share of its area gets a smaller offset
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,9 +25,9 @@ class Dilation:
     exterior: NDArray[np.float64]
     holes: tuple[NDArray[np.float64], ...]
     offset: float
-    least_offset: float  # what a narrow hole got instead
-    listed: tuple[Hole, ...]  # all holes, with those that the offset closed off at the end
-    notes: tuple[str, ...]  # what the offset changed
+    least_offset: float  # the smallest that a narrow hole got
+    listed: tuple[Hole, ...]  # all holes; those made by the offset come last
+    notes: tuple[str, ...]
 
 
 def dilate(
@@ -38,7 +38,7 @@ def dilate(
 ) -> Dilation:
     """Move the outline's exterior outwards and the kept holes inwards by `offset` pixels.
 
-    With an offset of None it is about 1 % of the shape's size; less if that closed a bay.
+    None: about 1 % of the shape's size, less if that would close a bay.
     """
     shape = shapely.Polygon(outline.exterior)
     if offset is None:
@@ -49,7 +49,7 @@ def dilate(
         offsets = [offset]
     tried = []
     for chosen in offsets:
-        grown = _grown(shape, chosen)
+        grown = thinned(_moved(shape, chosen, 1)[0], _FINE * chosen) if chosen > 0 else shape
         bays = [rule.hole(ring_loop(ring), by_offset=True) for ring in grown.interiors]
         tried.append((chosen, grown, bays))
         if not any(bay.kept for bay in bays):
@@ -86,9 +86,9 @@ def _place(hole: Hole) -> str:
 
 
 def _moved(region: shapely.Polygon, offset: float, sign: int) -> list[shapely.Polygon]:
-    """The region grown (sign 1) or shrunk (-1) by `offset`, its parts, the largest first.
+    """Parts of the region grown (sign 1) or shrunk (-1) by `offset`, the largest first.
 
-    Slits of the grown region, and tongues of the shrunk one, that are very narrow go.
+    Very narrow slits of the grown region and tongues of the shrunk one are removed.
     """
     slit = _SLIT * offset
     region = thinned(region, _ROUGH * offset)
@@ -97,17 +97,10 @@ def _moved(region: shapely.Polygon, offset: float, sign: int) -> list[shapely.Po
     return sorted(parts, key=lambda part: -part.area)
 
 
-def _grown(shape: shapely.Polygon, offset: float) -> shapely.Polygon:
-    return thinned(_moved(shape, offset, 1)[0], _FINE * offset) if offset > 0 else shape
-
-
 def _shrunk(
     loop: NDArray[np.float64], offset: float, min_area: float
 ) -> tuple[list[NDArray[np.float64]], float]:
-    """The parts of a hole farther than `offset` from its boundary, and the offset it could have.
-
-    A narrow hole gets a smaller offset rather than vanish.
-    """
+    """The parts that a hole shrinks to, and the offset used: less for a hole that would vanish."""
     region = shapely.Polygon(loop)
     for used in (offset, 0.5 * offset, 0.25 * offset):
         if used == 0:

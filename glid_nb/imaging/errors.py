@@ -1,19 +1,19 @@
-"""The error of everything between a picture and a cage."""
+"""Errors of tracing and rendering."""
 
 from glid_nb._errors import InputError
 
 
 class RenderError(InputError):
-    """A picture cannot be warped as asked."""
+    """A picture cannot be warped as asked; the message says why."""
 
 
 class TraceError(InputError):
-    """A picture, or a choice of options, that no cage can be traced from; the message says why.
+    """No cage can be traced from a picture with these options; the message says why.
 
     Attributes
     ----------
     plain
-        The message for who traces with the hand: it names controls rather than options.
+        The message for users of the editor: it names controls rather than options.
     """
 
     def __init__(self, message: str, plain: str | None = None) -> None:

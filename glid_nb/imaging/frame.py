@@ -1,4 +1,4 @@
-"""Pixels to world coordinates and back."""
+"""Conversion between pixel and world coordinates."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LONGER_SIDE = 20.0
 
 @dataclass(frozen=True)
 class PixelFrame:
-    """The similarity between the pixels of a picture and world coordinates.
+    """The similarity transform between the pixels of a picture and world coordinates.
 
     Pixel coordinates are continuous, (x right, y down), with (0, 0) at the top left *corner* of the
     picture: the pixel in row i and column j covers [j, j + 1] x [i, i + 1] and has its centre at
@@ -74,12 +74,12 @@ class PixelFrame:
         return np.stack([x, y], axis=-1)
 
     def index_at(self, point: tuple[float, float], name: str = "point") -> tuple[int, int]:
-        """(row, column) of the pixel around a point (x, y) in pixel coordinates.
+        """(row, column) of the pixel at a point (x, y) in pixel coordinates.
 
         Raises
         ------
         TraceError
-            It lies outside the picture; the message calls it `name`.
+            The point, called `name` in the message, lies outside the picture.
         """
         x, y = point
         if not (0 <= x < self.width and 0 <= y < self.height):

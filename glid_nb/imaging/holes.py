@@ -14,8 +14,8 @@ from PIL import Image, ImageDraw
 from glid_nb.imaging.options import Point
 from glid_nb.imaging.outline import Outline
 
-# Relative to the component, and in square pixels. A hole in the alpha channel is meant; one found
-# by colour is as likely an eye or a highlight.
+# Least area of a hole, relative to the component and in square pixels. Holes in the alpha channel
+# are intended; those found by colour may be eyes or highlights.
 _LEAST_SHARE, _LEAST_SHARE_BY_COLOR, _LEAST_AREA = 0.002, 0.0075, 9.0
 
 
@@ -26,7 +26,7 @@ class Hole:
     Attributes
     ----------
     loop
-        (k, 2) read-only vertices in pixel coordinates, as in the picture (not moved by the offset).
+        (k, 2) read-only vertices in pixel coordinates, before the offset.
     area
         In square pixels.
     bounds
@@ -36,7 +36,7 @@ class Hole:
     kept
         Whether the cage has it.
     by_offset
-        Whether it is not in the picture but was closed off by the offset.
+        Whether the offset made it, by closing a bay.
     """
 
     loop: NDArray[np.float64]
@@ -48,15 +48,14 @@ class Hole:
 
 
 class HoleRule(NamedTuple):
-    """Decides which holes are kept: by least area in square pixels, with exceptions by pixels."""
+    """Which holes are kept: those of a least area in square pixels, with exceptions by pixels."""
 
     min_area: float
-    min_bay_area: float  # for holes that the offset makes: these are gaps for sure
+    min_bay_area: float  # for holes that the offset makes, which cannot be eyes or highlights
     keep: Sequence[Point]
     drop: Sequence[Point]
 
     def hole(self, loop: NDArray[np.float64], by_offset: bool = False) -> Hole:
-        """The hole with an outline, kept or not."""
         region = shapely.Polygon(loop)
         pixel = shapely.point_on_surface(region)
         large = region.area >= (self.min_bay_area if by_offset else self.min_area)
@@ -71,13 +70,9 @@ def choose_holes(
     keep: Sequence[Point] = (),
     drop: Sequence[Point] = (),
 ) -> tuple[tuple[Hole, ...], HoleRule, tuple[str, ...]]:
-    """Apply the rule to the holes of an outline.
+    """The holes of an outline, the rule for those that the offset makes later, and notes.
 
     `method` is the one that found the foreground; the other parameters are those of `TraceOptions`.
-
-    Returns
-    -------
-    The holes, in the outline's order; the rule, for holes that are made later; notes.
     """
     least = least_bay = min_hole_area
     if least is None or least_bay is None:
@@ -111,7 +106,7 @@ def filled_mask(outline: Outline, holes: tuple[Hole, ...]) -> NDArray[np.bool_]:
     if dropped:
         filling = Image.new("1", mask.shape[::-1])
         for hole in dropped:
-            # The pixels on the hole's outline, which are drawn too, are the shape's own.
+            # This also fills the pixels on the hole's outline, which belong to the shape.
             ImageDraw.Draw(filling).polygon((hole.loop - 0.5).ravel().tolist(), fill=1, outline=1)
         mask |= np.asarray(filling)
     mask.setflags(write=False)

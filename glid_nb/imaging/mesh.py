@@ -12,14 +12,13 @@ from numpy.typing import NDArray
 from glid_nb.geometry import Cage, triangulate
 from glid_nb.harmonic import HarmonicMap
 
-# A map can bend so sharply beside its singularities that no mesh follows it there.
+# Limits of refinement: no mesh follows a map close to its singularities.
 _MOST_VERTICES = 1_000_000
 _MOST_ROUNDS = 12
 
-# The vertices among which the innermost one is looked for.
-_CANDIDATES = 2000
+_CANDIDATES = 2000  # vertices that the innermost one is chosen from
 
-# What a triangle becomes, by the sum of 1, 2 and 4 for sides 0, 1 and 2 that have a new vertex.
+# The pieces of a triangle, by the sum of 1, 2 and 4 for sides 0, 1 and 2 that have a new vertex.
 # 0 to 2 are its corners, 3 to 5 the new vertices on the sides opposite to them.
 _NONE = (-1, -1, -1)
 _PIECES = np.array(
@@ -78,9 +77,9 @@ def deformed_mesh(
     n_vertices : int
         About how many vertices to spread evenly, at least 3.
     tolerance : float, optional
-        World units, positive. Edges whose midpoint the map takes further than this from the
-        straight image edge are halved, and the triangles beside them split, until none is left
-        (or a million vertices are there). So vertices gather where the map bends.
+        World units, positive. Edges are halved, and their triangles split, until the map takes no
+        midpoint of an edge further than this from the middle of the image edge, or there are a
+        million vertices.
 
     Raises
     ------
@@ -93,7 +92,7 @@ def deformed_mesh(
     vertices, triangles = start.vertices, start.triangles
     heights = sheet_heights(map.domain.cage, vertices, triangles)
     images = map(vertices)
-    # Edges are looked at once; those found straight enough stay so.
+    # Edges that were found straight enough are not tested again.
     straight, error = np.zeros(0, np.int64), 0.0
     for _ in range(_MOST_ROUNDS):
         edges, edge_of = unique_edges(triangles)
@@ -124,12 +123,11 @@ def deformed_mesh(
 def sheet_heights(cage: Cage, vertices: Floats, triangles: Ints) -> Floats:
     """Heights that decide which part of a shape covers which where its image overlaps itself.
 
-    The map is locally injective, but an arm can still come to lie over the body. Which covers
-    which must not change from one triangle to the next, or the overlap becomes a patchwork, so the
-    heights are continuous on the shape. They grow with the distance from the shape's innermost
-    point, measured within the shape, so that limbs cover the trunk; smaller shares of the distance
-    from the point opposite and of x decide between the two ends of a ring and between a left and a
-    right arm.
+    A locally injective map can still move an arm over the body. The heights are continuous on the
+    shape, so that the order does not change from one triangle to the next. They grow with the
+    geodesic distance from the shape's innermost point, so that limbs cover the trunk; smaller
+    shares of the distance from the opposite point and of x order the two ends of a ring and the
+    left and right arm.
 
     Parameters
     ----------
@@ -157,7 +155,10 @@ def sheet_heights(cage: Cage, vertices: Floats, triangles: Ints) -> Floats:
 
 
 def unique_edges(triangles: Ints) -> tuple[Ints, Ints]:
-    """Unique edges (e, 2), and for side k of each triangle, opposite vertex k, its edge: (t, 3)."""
+    """Unique edges (e, 2), and the edge of each side of each triangle (t, 3).
+
+    Side k lies opposite vertex k.
+    """
     sides = np.stack([np.roll(triangles, -1, axis=1), np.roll(triangles, 1, axis=1)], axis=2)
     sides = np.sort(sides.reshape(-1, 2), axis=1)
     _, first, inverse = np.unique(_keys(sides), return_index=True, return_inverse=True)
@@ -169,10 +170,7 @@ def _keys(edges: Ints) -> NDArray[np.int64]:
 
 
 def _split(triangles: Ints, middle: Ints) -> Ints:
-    """Split triangles at the new vertices on their sides (t, 3), -1 for none; order kept.
-
-    Side k lies opposite vertex k.
-    """
+    """Split triangles at the new vertices on their sides (t, 3), -1 for none; order kept."""
     pieces = _PIECES[(middle >= 0) @ [1, 2, 4]]
     corners = np.concatenate([triangles, middle], axis=1)
     new = np.take_along_axis(corners, pieces.reshape(-1, 12), axis=1).reshape(-1, 4, 3)

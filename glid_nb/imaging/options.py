@@ -1,4 +1,4 @@
-"""What can be chosen when a cage is traced, checked where it is stored."""
+"""Options of tracing, validated on construction."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True, eq=False, init=False)
 class Scribbles:
-    """Strokes that a user drew over what belongs to the shape and what does not.
+    """Strokes that a user drew over the shape and over the background.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ class Scribbles:
         Either polylines, a list of (k, 2) arrays of pixel coordinates (x, y), or a boolean mask of
         the picture's shape (h, w).
     background
-        Likewise. Without any the picture's border stands for the background.
+        Likewise. If empty, the picture's border is taken as background.
     """
 
     foreground: tuple[NDArray[np.float64], ...] | NDArray[np.bool_]
@@ -49,16 +49,15 @@ class Scribbles:
     def load(cls, path: str | Path) -> Scribbles:
         """Read strokes from a JSON file.
 
-        The file is an object with the keys ``foreground`` and, optionally, ``background``, each a
-        list of strokes, a stroke being a list of ``[x, y]`` pixels from the picture's top left
-        corner.
+        It holds an object with the keys ``foreground`` and, optionally, ``background``, each a list
+        of strokes; a stroke is a list of pixels ``[x, y]`` from the picture's top left corner.
 
         Raises
         ------
         InputFileError
-            When the file holds something else; the message names the file and the culprit.
+            The file holds something else; the message names the file and the field.
         OSError
-            When it cannot be read.
+            The file cannot be read.
         """
         with about(path):
             data = read_object(path)
@@ -69,22 +68,22 @@ class Scribbles:
 
 @dataclass(frozen=True)
 class TraceOptions:
-    """How a cage is traced. None means that a value is chosen to suit the picture.
+    """How a cage is traced. None: the value is chosen to suit the picture.
 
     Parameters
     ----------
     method
         How the foreground is found: ``"alpha"`` (the alpha channel), ``"threshold"`` (brightness),
-        ``"color"`` (distance from the background's colour), ``"scribbles"`` (strokes drawn by a
-        user), or ``"auto"``: alpha where it tells something, else colour where the border is
-        uniform, else threshold; scribbles where there are any.
+        ``"color"`` (distance from the background's colour), ``"scribbles"`` (a user's strokes), or
+        ``"auto"``: scribbles if there are any, else alpha if it is informative, else colour if the
+        border is uniform, else threshold.
     threshold
-        Least value, in [0, 1], of what is foreground: of alpha (None: 0.5), of brightness (None:
-        Otsu), of the distance from the background's colour, where black and white are 1 apart
-        (None: from the distances themselves), of the probability of the scribbles (None: 0.5).
+        Least value in [0, 1] of the foreground: of alpha (None: 0.5), of brightness (None: Otsu),
+        of the distance from the background's colour, where black and white are 1 apart (None: from
+        the distances themselves), of the probability from scribbles (None: 0.5).
     invert
-        Swap foreground and background: for a threshold the dark pixels are foreground, for a colour
-        those that have it. None: no, but for a threshold whichever makes the border background.
+        Swap foreground and background: by threshold dark pixels become foreground, by colour those
+        that have the colour. None: no; by threshold, so that the border becomes background.
     background
         Background colour (red, green, blue), each in [0, 1], for ``"color"``; None: estimated from
         the border.
@@ -105,17 +104,17 @@ class TraceOptions:
     keep_holes, drop_holes
         Pixels (x, y) in holes that are kept or filled whatever their area; the later list wins.
     offset
-        How far, in pixels, the cage is moved away from the shape's outline, into the holes too.
-        None: about 1 % of the shape's size, less if that closed a bay.
+        Pixels by which the cage is moved away from the shape's outline, also into the holes.
+        None: about 1 % of the shape's size, less if that would close a bay.
     simplify
         Largest distance in pixels between the outline and its simplification, before edges that cut
-        off a part of the shape are moved outwards. None: what gives a typical character 60 to 120
-        vertices.
+        off a part of the shape are moved outwards. None: for a typical character this gives 60 to
+        120 vertices.
     max_vertices
         Most vertices that the cage may have.
     min_edge
-        Edges shorter than this many pixels are merged with a neighbour. None: a fifth of the mean
-        edge; they make the harmonic basis stiff.
+        Edges shorter than this many pixels, which make the harmonic basis stiff, are merged with a
+        neighbour. None: a fifth of the mean edge.
     max_edge
         Edges longer than this many pixels, at least 0.5, are divided evenly, so that straight limbs
         can bend. None: a twenty-fifth of the perimeter; `math.inf`: never.
@@ -207,7 +206,6 @@ def _number(value: object, name: str) -> float:
 
 
 def _numbers(value: object, count: int, name: str) -> tuple:
-    """A tuple of `count` finite floats."""
     what = "pixels (x, y)" if count == 2 else "(red, green, blue)"
     if not isinstance(value, Iterable) or isinstance(value, (str, bytes)):
         raise TraceError(f"{name} must be given as {what}, not {value!r}")

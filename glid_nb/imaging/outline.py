@@ -17,10 +17,10 @@ from glid_nb.imaging.foreground import Foreground
 _PRECISION = 0.05  # pixels; vertices that change the outline by less are dropped
 _SPECK_SHARE, _SPECK = 1e-5, 4  # smaller holes, relative to the component and in pixels, are noise
 _MOST_HOLES = 100
-# Steps (see `_steps`) of an outline whose holes are mostly noise, and of one that is itself so
-# rough that it is traced at a lower resolution. A drawing of 8,000 px has some 30,000.
+# `_steps` from which small holes are filled before tracing, and from which an outline is traced at
+# a lower resolution. A drawing of 8,000 px has some 30,000.
 _NOISY, _ROUGH = 20_000, 100_000
-_LEAST_DIFFERENCE = 0.02  # of a pixel's way between background and foreground
+_LEAST_DIFFERENCE = 0.02  # between a pixel and the level, relative to the level
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,16 +34,16 @@ class Outline:
     component: Component
     exterior: NDArray[np.float64]
     holes: tuple[NDArray[np.float64], ...]  # the largest first
-    n_specks: int  # holes that were filled, being noise or beyond the hundred largest
+    n_specks: int  # holes that were filled, as noise or as not among the hundred largest
     speck: float  # square pixels; smaller holes are noise
-    block: int  # side in pixels of the blocks traced as one; 1 but for very rough outlines
+    block: int  # side in pixels of the blocks traced as one; above 1 for very rough outlines
     inside: NDArray[np.bool_]  # (h, w) the pixels in the component or in a speck
 
 
 def find_outline(
     foreground: Foreground, components: Components, threshold: float | None, rank: int
 ) -> Outline:
-    """Trace the outline of the component of a rank by marching squares."""
+    """Trace the outline of one component by marching squares."""
     component = components.component(rank)
     xmin, ymin, xmax, ymax = component.bounds
     top, left = max(ymin - 1, 0), max(xmin - 1, 0)
@@ -61,7 +61,7 @@ def find_outline(
         field = np.pad(coarse, 1).astype(np.float32) - np.float32(0.5)
         part = coarse.repeat(block, axis=0).repeat(block, axis=1)[: part.shape[0], : part.shape[1]]
     loops = [
-        # Pixel centres are at half integers; the frame, the blocks and the crop are undone.
+        # Undo frame, blocks and crop; pixel centres are at half integers.
         (contour[:-1, ::-1] - 0.5) * block + [left, top]
         for contour in find_contours(field, 0.0, fully_connected="high")
     ]
@@ -79,14 +79,14 @@ def find_outline(
 
 
 def _steps(inside: NDArray[np.bool_]) -> int:
-    """Number of changes down the columns, about half the number of pixel sides in the outline."""
+    """Number of changes along the columns: about half the number of pixel sides in the outline."""
     return int(np.count_nonzero(inside[1:] != inside[:-1]))
 
 
 def _fill_specks(inside: NDArray[np.bool_], least: float) -> int:
-    """Fill, in place, the holes of less than `least` pixels if the mask is noisy; their number.
+    """If the mask is noisy, fill its holes of less than `least` pixels in place; their number.
 
-    Otherwise there are few, and it is faster to trace them first and drop them then.
+    If not, there are few, and it is faster to drop them after tracing.
     """
     if _steps(inside) < _NOISY:
         return 0
@@ -101,11 +101,11 @@ def _fill_specks(inside: NDArray[np.bool_], least: float) -> int:
 def _field(
     score: NDArray[np.float32], level: float, inside: NDArray[np.bool_]
 ) -> NDArray[np.float32]:
-    """The score less the level, positive exactly in the component, with a frame of one pixel.
+    """Score minus level, positive exactly in the component, with a frame of one pixel.
 
-    Values next to 0 are moved away from it, so that the level set stays clear of the pixels'
-    centres, where it would touch itself. The frame mirrors the values along the image's border: the
-    outline then runs along the border itself.
+    Values near 0 are moved away from it: a level set through the centre of a pixel could touch
+    itself. The frame repeats the border's values with the sign of the background, so the outline
+    of a component at the image's border runs along the border.
     """
     field = np.pad(score - np.float32(level), 1, mode="edge")
     least = np.float32(_LEAST_DIFFERENCE * max(min(level, 1 - level), 0.05))
@@ -116,8 +116,8 @@ def _field(
 
 
 def thinned(polygon: shapely.Polygon, tolerance: float) -> shapely.Polygon:
-    """`polygon` without the vertices that matter less than `tolerance`, if it stays a polygon."""
-    # Without regard for topology it is ten times as fast, and nearly always right.
+    """`polygon` simplified by `tolerance`, if it stays a valid polygon with all its holes."""
+    # Ignoring the topology is ten times as fast and nearly always right.
     for preserve_topology in (False, True):
         thin = polygon.simplify(tolerance, preserve_topology=preserve_topology)
         if not isinstance(thin, shapely.Polygon) or thin.is_empty:
@@ -128,7 +128,7 @@ def thinned(polygon: shapely.Polygon, tolerance: float) -> shapely.Polygon:
 
 
 def ring_loop(ring: shapely.LinearRing) -> NDArray[np.float64]:
-    """(n, 2) read-only vertices of a ring, the first not repeated."""
+    """(n, 2) read-only vertices of a ring, without the repeated last one."""
     loop = shapely.get_coordinates(ring)[:-1]
     loop.setflags(write=False)
     return loop

@@ -1,8 +1,8 @@
 """Draw a textured triangle mesh into a picture, on the CPU and without OpenGL.
 
-Triangles are cut into horizontal spans. Where an edge crosses a row of samples is computed from
-the edge's end points alone, the lower one first, so two triangles that share an edge get the same
-number to the last bit: every sample on either side belongs to exactly one of them.
+Triangles are cut into horizontal spans. The crossing of an edge with a row of samples depends only
+on the edge's end points, in the order of y, so triangles that share an edge get the same number to
+the last bit and every sample belongs to exactly one of them.
 """
 
 from __future__ import annotations
@@ -16,14 +16,12 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb.imaging.mesh import unique_edges
 from glid_nb.imaging.texture import Sampler, Texture, gradients
 
-# Pixels that are drawn at a time, and pixels on outlines among them: bounds on the memory beyond
-# the picture itself.
+# Pixels drawn at a time, and outline pixels among them. This bounds the memory.
 _BAND = 1 << 19
 _OUTLINE = 1 << 16
 
-# A pixel on an outline is resolved with this many rows of this many samples. The samples of one
-# row are shifted against those of the next, as a vertical edge would otherwise know 8 degrees of
-# coverage instead of 64.
+# Rows and columns of the samples in an outline pixel. Each row is shifted against the next, so that
+# a vertical edge has 64 levels of coverage instead of 8.
 SUBSAMPLES = 8
 _SHIFT = ((np.arange(SUBSAMPLES) * 3) % SUBSAMPLES + 0.5) / SUBSAMPLES
 _COLUMNS = (np.arange(SUBSAMPLES) + _SHIFT[:, None]) / SUBSAMPLES
@@ -42,29 +40,28 @@ def render_mesh(
 ) -> NDArray[np.uint8]:
     """Warp a picture with a triangle mesh.
 
-    Triangles may overlap: the higher one, or without heights the one later in the list, lies over
-    the other, which shows where the upper one is transparent. Triangles that share an edge leave
-    no seam and share no pixel. Outlines are anti-aliased with 64 samples per pixel, the picture
-    inside with cubic interpolation where it is magnified and an anisotropic walk over an image
-    pyramid where it is minified, on premultiplied alpha throughout.
+    Where triangles overlap, the higher one, or without heights the later one, is composed over the
+    other. Triangles that share an edge leave no seam and share no pixel. Outlines are anti-aliased
+    with 64 samples per pixel. The picture is filtered with premultiplied alpha: by cubic
+    interpolation where it is magnified, anisotropically on an image pyramid where it is minified.
 
     Parameters
     ----------
     texture : (h, w, 4) or (h, w, 3) or (h, w) array, or Texture
-        The picture: uint8, uint16 or floating point in [0, 1], straight alpha. A
-        :class:`Texture` saves the preparation when one picture is drawn many times.
+        The picture: uint8, uint16 or floating point in [0, 1], straight alpha. Pass a
+        :class:`Texture` to draw one picture many times.
     texture_xy : (v, 2) array
-        Where the vertices lie in the picture, continuous pixels: x right, y down, (0, 0) the
-        top-left corner. Parts of a triangle beyond the picture are transparent.
+        The vertices in the picture, continuous pixels: x right, y down, (0, 0) the top left
+        corner. Parts of a triangle beyond the picture are transparent.
     positions_xy : (v, 2) array
-        Where they lie in the output, continuous pixels.
+        The vertices in the output, continuous pixels.
     triangles : (t, 3) int array
         Vertex indices, either orientation.
     size : (w, h)
         Size of the output, pixels.
     heights : (v,) array, optional
-        Heights of the vertices, which only their order matters of. Where two sheets cut through
-        one another they do so along a line, while an order of triangles gives a ragged edge.
+        Heights of the vertices; only their order matters. Intersecting sheets meet along a line
+        then, while the order of triangles gives a ragged edge.
 
     Returns
     -------
@@ -74,8 +71,8 @@ def render_mesh(
     Raises
     ------
     ValueError
-        When shapes do not match, an index is out of range, a coordinate is not finite, or the
-        size is not positive. The message names the culprit.
+        Shapes do not match, an index is out of range, a coordinate is not finite, or the size is
+        not positive. The message names the argument.
     """
     width, height = _checked_size(size)
     source = _checked(texture_xy, "texture_xy", None, 2)
@@ -114,7 +111,7 @@ def render_mesh(
             colours = _composed(
                 samples, _shaded(samples, sampler), len(pixels) * SUBSAMPLES**2, height_at
             ).reshape(-1, SUBSAMPLES**2, 4)
-            # Where one sheet covers the whole pixel, its colour at the middle is sharper.
+            # Pixels covered by one sheet keep their colour at the centre, which is sharper.
             count = np.bincount(samples.place, minlength=colours.shape[0] * SUBSAMPLES**2)
             partial = (count.reshape(-1, SUBSAMPLES**2) != 1).any(axis=1)
             band[pixels[partial]] = colours[partial].mean(axis=1)
@@ -123,13 +120,13 @@ def render_mesh(
 
 
 class Samples(NamedTuple):
-    """Points of the output, each seen through a triangle; one may be seen through several.
+    """Samples of the output inside triangles; a sample is listed for every triangle over it.
 
     Attributes
     ----------
     triangle : (k,) int32 array
     place : (k,) int array
-        Which sample of the output.
+        Index of the sample.
     x, y : (k,) arrays
         Continuous output pixels.
     """
@@ -141,7 +138,7 @@ class Samples(NamedTuple):
 
 
 class ScanConverter:
-    """Which samples lie in which of the triangles with these corners (t, 3, 2), output pixels."""
+    """Finds the samples inside triangles with corners (t, 3, 2), output pixels."""
 
     def __init__(self, corners: Floats) -> None:
         order = np.argsort(corners[:, :, 1], axis=1)[:, :, None]
@@ -152,9 +149,9 @@ class ScanConverter:
             self._slope = (self._x[:, upper] - self._x[:, lower]) / rise
 
     def spans(self, top: int, bottom: int, n: int) -> tuple[Ints, Ints, Floats, Floats]:
-        """Where triangles cross the rows of samples y = (row + 1/2) / n between top and bottom.
+        """Spans of triangles on the rows of samples y = (row + 1/2) / n from top to bottom.
 
-        Returns triangle, row and the ends of the half-open interval on it, all of shape (s,).
+        Returns triangle, row, and the ends of the half-open interval, all of shape (s,).
         """
         rows = np.ceil(self._y * n - 0.5).clip(top * n, bottom * n).astype(np.int32)
         count = rows[:, 2] - rows[:, 0]
@@ -169,13 +166,13 @@ class ScanConverter:
         return triangle, row, np.minimum(one, other), np.maximum(one, other)
 
     def pixels(self, top: int, bottom: int, width: int) -> tuple[Ints, Ints]:
-        """(triangle, place) of the pixels whose centres lie in triangles, row by row from top."""
+        """(triangle, place) of the pixels whose centres lie in triangles; place 0 is at top."""
         triangle, row, left, right = self.spans(top, bottom, 1)
         start, stop = (np.ceil(x - 0.5).clip(0, width).astype(np.int32) for x in (left, right))
         return np.repeat(triangle, stop - start), _runs((row - top) * width + start, stop - start)
 
     def subsamples(self, top: int, bottom: int, touched: NDArray[np.bool_]) -> Samples:
-        """The samples of the touched pixels, of which the p-th has the numbers from 64 p on."""
+        """The samples of the touched pixels; those of the p-th are numbered from 64 p."""
         width = touched.shape[1]
         before = np.zeros(touched.size + 1, np.int32)
         np.cumsum(touched, out=before[1:])
@@ -183,21 +180,18 @@ class ScanConverter:
         line = (row // SUBSAMPLES - top) * width
         first = before[line + np.floor(left).clip(0, width).astype(np.int32)]
         count = before[line + np.ceil(right).clip(0, width).astype(np.int32)] - first
-        some = np.repeat(np.arange(len(row), dtype=np.int32), count)
-        triangle, row, left, right = triangle[some], row[some], left[some], right[some]
+        span = np.repeat(np.arange(len(row), dtype=np.int32), count)
+        triangle, row, left, right = triangle[span], row[span], left[span], right[span]
         pixel = _runs(first, count)
         x = (np.flatnonzero(touched) % width)[pixel, None] + _COLUMNS[row % SUBSAMPLES]
-        some, column = np.nonzero((x >= left[:, None]) & (x < right[:, None]))
-        place = pixel[some].astype(np.int64) * SUBSAMPLES**2
-        place += row[some] % SUBSAMPLES * SUBSAMPLES + column
-        return Samples(triangle[some], place, x[some, column], (row[some] + 0.5) / SUBSAMPLES)
+        hit, column = np.nonzero((x >= left[:, None]) & (x < right[:, None]))
+        place = pixel[hit].astype(np.int64) * SUBSAMPLES**2
+        place += row[hit] % SUBSAMPLES * SUBSAMPLES + column
+        return Samples(triangle[hit], place, x[hit, column], (row[hit] + 0.5) / SUBSAMPLES)
 
 
 def outline_edges(triangles: Ints, corners: Floats) -> NDArray[Any]:
-    """(e, 2) vertex pairs where a sheet of the mesh ends or folds over.
-
-    These are all edges but those between two triangles of the same orientation.
-    """
+    """(e, 2) edges where the mesh ends or folds: not between two triangles of one orientation."""
     edges, edge_of = unique_edges(triangles)
     e = corners[:, 1:] - corners[:, :1]
     turn = np.where(e[:, 0, 0] * e[:, 1, 1] < e[:, 0, 1] * e[:, 1, 0], -1, 1)
@@ -207,7 +201,7 @@ def outline_edges(triangles: Ints, corners: Floats) -> NDArray[Any]:
 def _bands(
     outline: Floats, width: int, height: int
 ) -> Iterator[tuple[int, int, NDArray[np.bool_]]]:
-    """(top, bottom, touched) of bands of rows, each with few pixels that an outline touches."""
+    """(top, bottom, touched) of bands of rows, each with few outline pixels."""
     rows = max(1, _BAND // width)
     ahead = [(top, min(top + rows, height)) for top in range(0, height, rows)][::-1]
     while ahead:
@@ -221,7 +215,7 @@ def _bands(
 
 
 def _touched(segments: Floats, top: int, bottom: int, width: int) -> NDArray[np.bool_]:
-    """(rows, width), which pixels any of the segments (e, 2, 2) touches."""
+    """(rows, width) mask of the pixels that segments (e, 2, 2) touch."""
     touched = np.zeros((bottom - top, width), dtype=bool)
     order = np.argsort(segments[:, :, 1], axis=1)[:, :, None]
     a, b = np.moveaxis(np.take_along_axis(segments, order, axis=1), 1, 0)
@@ -232,7 +226,7 @@ def _touched(segments: Floats, top: int, bottom: int, width: int) -> NDArray[np.
     a, b = np.repeat(a, count, axis=0), np.repeat(b, count, axis=0)
     rise = b[:, 1] - a[:, 1]
     slope = np.divide(b[:, 0] - a[:, 0], rise, out=np.zeros_like(rise), where=rise > 0)
-    # Where the segment enters and leaves the row of pixels.
+    # The x at which the segment enters and leaves the row of pixels.
     enter = np.where(a[:, 1] >= row, a[:, 0], a[:, 0] + (row - a[:, 1]) * slope)
     leave = np.where(b[:, 1] <= row + 1, b[:, 0], a[:, 0] + (row + 1 - a[:, 1]) * slope)
     margin = 1e-6 * (1 + np.abs(enter) + np.abs(leave))
@@ -259,9 +253,10 @@ def _order_of_triangles(samples: Samples) -> Floats:
 
 
 def _shaded(samples: Samples, sampler: Sampler) -> NDArray[np.float32]:
-    """(k, 4) colours of subsamples: all those of a triangle in a pixel get that at their centroid.
+    """(k, 4) colours of subsamples: one look-up for those of a triangle in a pixel.
 
-    A look-up covers a whole pixel, so one at each sample would blur the outline.
+    It is made at their centroid: a look-up filters over a whole pixel, so one at each sample would
+    blur the outline.
     """
     n_triangles = int(samples.triangle.max(initial=0)) + 1
     pixel = samples.place // SUBSAMPLES**2

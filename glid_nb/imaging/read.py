@@ -1,4 +1,4 @@
-"""Pictures from files and arrays, brought to one form: (h, w, 4) RGBA of 8 or 16 bit."""
+"""Pictures from files and arrays as (h, w, 4) RGBA of 8 or 16 bit."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from PIL.TiffImagePlugin import TiffImageFile
 from glid_nb.imaging.errors import TraceError
 
 MAX_SIDE = 8000
-"""Most pixels a side may have."""
+"""Longest side in pixels that is accepted."""
 
 ImageSource = str | os.PathLike[str] | bytes | Image.Image | ArrayLike
 """What is accepted as a picture: a path, a file's bytes, a PIL image or an array."""
@@ -38,11 +38,10 @@ def read_image(source: ImageSource, name: str | None = None) -> RGBA:
     Parameters
     ----------
     source
-        Path of a file or its bytes (PNG, JPEG, TIFF, GIF, WebP, BMP and what else Pillow reads; of
-        several frames the first), a PIL image, or an array as in `as_rgba`. The orientation in a
-        JPEG's EXIF record is applied and palettes are resolved.
+        Path or bytes of a file (PNG, JPEG, TIFF, GIF, WebP, BMP or what else Pillow reads; its
+        first frame), a PIL image, or an array as in `as_rgba`. EXIF orientation is applied.
     name
-        What error messages call the picture; by default a file's path.
+        The picture's name in error messages; by default a file's path.
 
     Returns
     -------
@@ -53,8 +52,8 @@ def read_image(source: ImageSource, name: str | None = None) -> RGBA:
     Raises
     ------
     TraceError
-        The file is missing, no picture or damaged, or an address; or the picture is empty or too
-        large.
+        The file is missing, damaged or not a picture, the path is a URL, or the picture is empty
+        or too large.
     """
     if isinstance(source, Image.Image):
         return _from_pillow(source, name or "the PIL image")
@@ -144,7 +143,7 @@ def as_rgba8(image: ArrayLike) -> NDArray[np.uint8]:
 
 
 def check_size(width: int, height: int, name: str = "the image") -> None:
-    """Raise if a side is longer than `MAX_SIDE`; ``name`` is what the message calls the picture."""
+    """Raise a TraceError about ``name`` if a side is longer than `MAX_SIDE`."""
     if max(width, height) > MAX_SIDE:
         raise TraceError(
             f"{name} is too large, {width} x {height} pixels; a side may have at most "
@@ -160,7 +159,7 @@ def _from_float(array: NDArray[Any]) -> NDArray[np.uint16]:
             f"the image holds {array[place]} in row {row}, column {column}; "
             "replace NaN and infinite values"
         )
-    # Interpolation overshoots by a rounding or two.
+    # Interpolation may overshoot by rounding errors.
     if low < -1e-6 or high > 1 + 1e-6:
         raise TraceError(
             f"a float image must lie in [0, 1], this one holds {low if low < -1e-6 else high:.6g}; "
@@ -175,7 +174,7 @@ def _from_float(array: NDArray[Any]) -> NDArray[np.uint16]:
 
 @contextlib.contextmanager
 def _naming(name: str) -> Iterator[None]:
-    """Make a TraceError of anything that a decoder raises for a damaged file: nearly any error."""
+    """Turn errors of decoders, which may be of any type, into a TraceError."""
     try:
         yield
     except TraceError:
@@ -188,13 +187,13 @@ def _naming(name: str) -> Iterator[None]:
 
 def _decode(data: bytes, name: str) -> RGBA:
     if not data:
-        raise TraceError(f"{name} is empty: there is not one byte in it")
+        raise TraceError(f"{name} is empty")
     with _naming(name):
         try:
             picture = Image.open(io.BytesIO(data))
         except UnidentifiedImageError as error:
             if data.startswith(_TIFF_STARTS):
-                return _from_tifffile(data, name)  # kinds that Pillow lacks
+                return _from_tifffile(data, name)  # formats that Pillow does not know
             raise TraceError(
                 f"{name} is not in a picture format that can be read; save it as PNG or JPEG first"
             ) from error
@@ -228,7 +227,7 @@ def _from_tifffile(data: bytes, name: str) -> RGBA:
 
 
 def _from_array(array: NDArray[Any], name: str) -> RGBA:
-    """The pixels that a file held; Pillow has 16 bit as integers of 32."""
+    # Pillow gives 16-bit pixels as 32-bit integers.
     if array.dtype in (np.int32, np.uint16):
         low, high = int(array.min()), int(array.max())
         if low < 0 or high > 65535:

@@ -18,22 +18,16 @@ from glid_nb.imaging.texture import Texture
 
 View = Literal["source", "fit"]
 
-# Straight mesh edges may stray from the map by this many output pixels.
-_TOLERANCE_PX = 0.25
-
-# One vertex of the first, even mesh for this many output pixels, within the limits below.
-_PIXELS_PER_VERTEX = 500
-_EVEN_VERTICES = 1000, 8000
-
-# With view="fit", room around the shape, as a share of the output's sides.
-_MARGIN = 0.04
-# World units by which a cage may reach beyond its picture: traced outlines are dilated.
-_OVERHANG = 2.0
+_TOLERANCE_PX = 0.25  # straight mesh edges may stray from the map by this many output pixels
+_PIXELS_PER_VERTEX = 500  # output pixels per vertex of the mesh before refinement
+_EVEN_VERTICES = 1000, 8000  # least and most of these vertices
+_MARGIN = 0.04  # room around the shape with view="fit", as a share of the output's sides
+_OVERHANG = 2.0  # world units by which a cage may reach beyond its picture, due to its offset
 
 
 @dataclass(frozen=True)
 class OutputFrame:
-    """The similarity between the plane and the pixels of an output picture.
+    """The similarity transform from world coordinates to the pixels of an output picture.
 
     Parameters
     ----------
@@ -50,13 +44,13 @@ class OutputFrame:
     centre: tuple[float, float]
 
     def to_pixel(self, world: ArrayLike) -> NDArray[np.float64]:
-        """Continuous pixel coordinates of world coordinates, (k, 2) in and out."""
+        """Continuous pixel coordinates of world coordinates; shape (k, 2) in and out."""
         offset = (np.asarray(world, dtype=np.float64) - self.centre) * self.pixels_per_unit
         return np.array(self.size) / 2 + offset * [1, -1]
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:
-        """What the picture shows, world units: (xmin, ymin, xmax, ymax)."""
+        """The rectangle shown, (xmin, ymin, xmax, ymax) in world units."""
         half = np.array(self.size) / (2 * self.pixels_per_unit)
         low, high = self.centre - half, self.centre + half
         return float(low[0]), float(low[1]), float(high[0]), float(high[1])
@@ -71,11 +65,9 @@ class Rendering:
     picture : (h, w, 4) uint8 array
         RGBA, straight alpha.
     frame : OutputFrame
-        What part of the plane it shows.
     mesh : DeformedMesh
-        The mesh that was drawn.
     outside : float
-        Share of the deformed shape's area that lies outside of the frame, from 0 to 1.
+        Share of the deformed shape's area outside the frame, from 0 to 1.
     error_px : float
         How far the mesh's straight edges stray from the map, output pixels.
     """
@@ -116,23 +108,23 @@ def rendering(
     Parameters
     ----------
     image : (h, w, 4), (h, w, 3) or (h, w) array, or Texture
-        The picture that the map's cage was traced from, or another one of the same proportions;
-        its longer side is 20 world units.
+        The picture that the map's cage was traced from, or one of the same aspect ratio; its longer
+        side is 20 world units.
     map : HarmonicMap
     size : (w, h), optional
         Pixels of the result; by default the image's own.
     n_vertices : int, optional
-        About how many vertices the mesh gets, evenly spread. By default it is refined where the
-        map bends until straight edges stray from the map by less than 0.25 output pixels.
+        About how many vertices the mesh gets, evenly spread. By default it is refined until its
+        straight edges stray from the map by less than 0.25 output pixels.
     view : "source" or "fit"
-        Show the part of the plane that the image covers, letter-boxed when ``size`` has other
-        proportions; or all of the deformed shape, with a margin.
+        Show the rectangle of the image, letter-boxed if ``size`` has another aspect ratio; or all
+        of the deformed shape, with a margin.
 
     Raises
     ------
     RenderError
-        When an argument is out of range, the map's cage does not fit the picture, or the map
-        collapses the shape; the message says which.
+        An argument is out of range, the map's cage does not fit the picture, or the map collapses
+        the shape; the message says which.
     """
     if view not in get_args(View):
         raise RenderError(f"unknown view {view!r}; choose one of {', '.join(get_args(View))}")
@@ -167,7 +159,7 @@ def rendering(
 
 
 def _check_fits(frame: PixelFrame, map: HarmonicMap) -> None:
-    """Raise a RenderError when the cage was traced from a picture of other proportions."""
+    """Raise a RenderError if the cage was traced from a picture of another aspect ratio."""
     xmin, ymin, xmax, ymax = frame.bounds
     low, high = map.domain.cage.exterior.min(axis=0), map.domain.cage.exterior.max(axis=0)
     beyond = max(xmin - low[0], ymin - low[1], high[0] - xmax, high[1] - ymax)
@@ -188,8 +180,8 @@ def draw_mesh(
 ) -> NDArray[np.uint8]:
     """The RGBA pixels of a textured mesh.
 
-    ``places`` (v, 2) are the vertices' in the texture, pixels; by default where they lie undeformed
-    in the picture that their cage was traced from.
+    ``places`` (v, 2) are the vertices in the texture, pixels; by default their undeformed positions
+    in the picture that the cage was traced from.
     """
     texture = texture if isinstance(texture, Texture) else Texture.from_image(texture)
     if places is None:
@@ -199,12 +191,12 @@ def draw_mesh(
 
 
 def outline_points(map: HarmonicMap) -> NDArray[np.float64]:
-    """Points on the exterior loop, close enough together to bound the deformed shape."""
+    """Points on the exterior loop, dense enough to bound the deformed shape."""
     return along_loop(map.domain.cage.exterior, 16)
 
 
 def along_loop(loop: NDArray[np.float64], per_edge: int) -> NDArray[np.float64]:
-    """Points along a polygon (n, 2), evenly spread on each edge."""
+    """(n * per_edge, 2) points along a polygon (n, 2), evenly spread on each edge."""
     t = np.linspace(0, 1, per_edge, endpoint=False)[:, None]
     return (loop[:, None] + t * (np.roll(loop, -1, axis=0) - loop)[:, None]).reshape(-1, 2)
 

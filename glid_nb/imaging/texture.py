@@ -1,4 +1,4 @@
-"""A picture prepared for filtered look-ups: premultiplied alpha, a pyramid of half sizes."""
+"""Filtered texture look-ups: an image pyramid with premultiplied alpha, anisotropic sampling."""
 
 from __future__ import annotations
 
@@ -12,39 +12,29 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb._jax import jax, jit, jnp, lax
 from glid_nb.imaging.read import as_rgba
 
-# Look-ups are computed in pieces of this many points: one compiled program, bounded memory.
-_CHUNK = 1 << 15
-
-# Most look-ups along the longer axis of a pixel's footprint.
-_MOST_PROBES = 16
-
-# Up to this level of detail the next coarser pyramid level is left out.
-_SHARP = 0.2
-
+_CHUNK = 1 << 15  # points per call of the compiled program; this bounds the memory
+_MOST_PROBES = 16  # look-ups along the longer axis of a pixel's footprint
+_SHARP = 0.2  # up to this level of detail only the finest pyramid level is used
 _MAX_LEVELS = 32
-
-# Smaller pictures and meshes are padded to this, so that all of them share one program.
+# Smaller pictures and meshes are padded, so that they share one compiled program.
 _LEAST_TEXELS = 1 << 16
 _LEAST_TRIANGLES = 1 << 12
-
-# Rows of the picture that are converted at a time, which bounds the memory of the conversion.
-_ROWS = 256
+_ROWS = 256  # rows of a picture that are converted at a time, to bound the memory
 
 
 @dataclass(frozen=True, eq=False)
 class Texture:
     """An image pyramid with premultiplied alpha, 16 bits per channel.
 
-    Level ``l`` holds averages over ``2^l x 2^l`` blocks of pixels. Colours are multiplied by alpha
-    before anything is averaged or interpolated, so the invisible colours of transparent pixels
-    never bleed into visible ones.
+    Level ``l`` holds averages over ``2^l x 2^l`` blocks of pixels. Premultiplication keeps the
+    colours of transparent pixels from bleeding into visible ones.
 
     Attributes
     ----------
     width, height : int
         Size of the picture, pixels.
     texels : (n, 4) uint16 JAX array
-        All levels one after the other, each row by row; the tail up to a round size is zero.
+        All levels one after the other, each row by row; padded with zeros.
     levels : (l, 3) int32 array
         First texel, width and height of every level.
     """
@@ -66,7 +56,7 @@ class Texture:
         Raises
         ------
         TraceError
-            When it is no picture; the message says why.
+            The image is not a picture; the message says why.
         """
         pixels = as_rgba(image)
         height, width = pixels.shape[:2]
@@ -94,13 +84,13 @@ class Texture:
 
 
 def _bucket(n: int, least: int) -> int:
-    """The next of eight sizes per octave, so that inputs of similar size share a program."""
+    """``n`` rounded up to one of eight sizes per octave: similar inputs share a program."""
     grain = 1 << max(n.bit_length() - 4, 0)
     return max(-(-n // grain) * grain, least)
 
 
 def _premultiplied(pixels: NDArray[Any]) -> NDArray[np.uint32]:
-    """Premultiplied 16-bit colours of 8 or 16-bit RGBA pixels."""
+    """16-bit colours of 8 or 16-bit RGBA pixels."""
     wide = pixels.astype(np.uint32) * (257 if pixels.dtype == np.uint8 else 1)
     wide[..., :3] = (wide[..., :3] * wide[..., 3:] + 32767) // 65535
     return wide
@@ -118,8 +108,8 @@ def _halved(finer: NDArray[np.uint16]) -> NDArray[np.uint32]:
 def gradients(corners: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Slopes along x and y, (t, k, 2), of linear functions on triangles.
 
-    ``corners`` (t, 3, 2) are the triangles' and ``values`` (t, 3, k) the functions' values there.
-    Triangles without area have slope 0: they cover no sample, so theirs are never used.
+    ``values`` (t, 3, k) are the functions' values at the ``corners`` (t, 3, 2). Triangles without
+    area get slope 0; they cover no sample.
     """
     e, rise = corners[:, 1:] - corners[:, :1], values[:, 1:] - values[:, :1]
     with np.errstate(over="ignore", invalid="ignore"):
@@ -131,14 +121,12 @@ def gradients(corners: NDArray[np.float64], values: NDArray[np.float64]) -> NDAr
 
 
 class Sampler:
-    """Looks a texture up through the triangles of a mesh.
+    """Samples a texture through the triangles of a mesh, with anisotropic filtering.
 
-    A disc of one output pixel maps to an ellipse in the texture. Along its longer axis up to 16
-    look-ups are averaged, so that a stretched part is neither blurred across the stretch nor left
-    to flicker along it; each takes the pyramid level of the shorter axis. Colours are interpolated
-    with Catmull-Rom cubics, which reproduce the picture where it is neither turned nor scaled,
-    within the two nearest levels. Outside of the picture they fade to transparent within one
-    output pixel.
+    A disc of one output pixel maps to an ellipse in the texture. Up to 16 look-ups along its longer
+    axis are averaged, each at the pyramid level of the shorter axis. Colours are interpolated
+    between the two nearest levels and within a level by Catmull-Rom cubics, which reproduce an
+    undeformed picture. Outside the picture they fade to transparent within one output pixel.
 
     Parameters
     ----------
@@ -162,7 +150,7 @@ class Sampler:
         detail = np.log2(np.maximum(step, 1.0))
         softened = np.maximum(detail - _SHARP, 0) / (1 - _SHARP)
         detail = np.where(detail < 1, softened, detail).clip(0, max(len(texture.levels) - 2, 0))
-        # The anchor is rounded first, so that single precision costs nothing at the anchor itself.
+        # The anchor is rounded to single precision first, so that its own place stays exact.
         anchor = positions.mean(axis=1).astype(np.float32).astype(np.float64)
         at_anchor = texture_corners[:, 0] + np.einsum(
             "tka,ta->tk", jacobian, anchor - positions[:, 0]
@@ -193,7 +181,7 @@ class Sampler:
         """
         result = np.empty((len(triangle), 4), np.float32)
         n_lookups = self._n_lookups[triangle]
-        # Points that need as many look-ups come together, so that few wait for the greediest.
+        # Sorted, because all points of a chunk take as many look-ups as its last one.
         order = np.argsort(n_lookups, kind="stable")
         for start in range(0, len(order), _CHUNK):
             part = order[start : start + _CHUNK]
@@ -215,7 +203,7 @@ def _colours(
     points: jax.Array,
     n_lookups: int,
 ) -> jax.Array:
-    """(c, 4) premultiplied colours; single precision whatever the caller's JAX configuration."""
+    """(c, 4) premultiplied colours in single precision, with any JAX configuration."""
     row = table[triangle]
     dx, dy = points[0] - row[:, 0], points[1] - row[:, 1]
     u = row[:, 2] + row[:, 4] * dx + row[:, 5] * dy
@@ -239,12 +227,12 @@ def _colours(
 
     total = jnp.zeros((points.shape[1], 4), jnp.float32)
     total = lax.fori_loop(0, n_lookups, lookup, total) * np.float32(1 / 65535)
-    # Distance by which the point lies outside of the picture, in output pixels.
+    # Distance from the picture, in output pixels.
     width, height = levels[0, 1].astype(jnp.float32), levels[0, 2].astype(jnp.float32)
     outside = jnp.maximum(jnp.maximum(-u, u - width), jnp.maximum(-v, v - height))
     outside = outside / jnp.maximum(probes * jnp.hypot(step_u, step_v), 1e-6)
     total = total * jnp.clip(1 - outside, 0, 1)[:, None]
-    # Cubics overshoot: keep 0 <= colour <= alpha <= 1, and the hue where alpha exceeds 1.
+    # Cubics overshoot: restore 0 <= colour <= alpha <= 1, keeping the hue where alpha exceeds 1.
     total = total / jnp.maximum(total[:, 3:], 1)
     alpha = jnp.maximum(total[:, 3:], 0)
     return jnp.concatenate([jnp.clip(total[:, :3], 0, alpha), alpha], axis=1)

@@ -15,12 +15,7 @@ from glid_nb.geometry import Cage
 from glid_nb.imaging.components import Component, Components, find_components
 from glid_nb.imaging.dilate import Dilation, dilate
 from glid_nb.imaging.errors import TraceError
-from glid_nb.imaging.foreground import (
-    Foreground,
-    find_foreground,
-    scaled_picture,
-    smoothed,
-)
+from glid_nb.imaging.foreground import Foreground, find_foreground, scaled_picture, smoothed
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.holes import Hole, choose_holes, filled_mask
 from glid_nb.imaging.options import TraceOptions
@@ -28,15 +23,15 @@ from glid_nb.imaging.outline import Outline, find_outline
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.imaging.simplify import Simplified, simplify
 
-_CUT_OFF = 0.002  # of the shape's area outside the cage is worth a note
-_LEFT_OUT = 0.01  # likewise, of the foreground in other components
+_CUT_OFF = 0.002  # share of the shape's area outside the cage that is worth a note
+_LEFT_OUT = 0.01  # likewise, share of the foreground in other components
 
 T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False)
 class Tracing:
-    """A traced cage and how it came about.
+    """A traced cage and how it was made.
 
     Attributes
     ----------
@@ -45,7 +40,7 @@ class Tracing:
     mask
         (h, w) read-only, the pixels of the shape; holes that were dropped are filled.
     frame
-        Pixels to world coordinates and back.
+        Conversion between pixel and world coordinates.
     notes
         Sentences about what was chosen, filled, moved or repaired.
     method
@@ -57,7 +52,7 @@ class Tracing:
     components
         The largest components of the foreground, at most fifty.
     n_components
-        Number of all components.
+        Their number without that limit.
     outline
         (n, 2) read-only, the shape's exterior outline in pixel coordinates before the offset.
     holes
@@ -94,7 +89,7 @@ def trace(image: ImageSource, options: TraceOptions | None = None, **changes: An
     Raises
     ------
     TraceError
-        The picture cannot be read or shows no shape, or an option is out of its range.
+        The picture cannot be read or shows no shape, or an option is out of range.
 
     Examples
     --------
@@ -109,18 +104,17 @@ def trace(image: ImageSource, options: TraceOptions | None = None, **changes: An
 
 
 def with_changes(options: TraceOptions | None, changes: dict[str, Any]) -> TraceOptions:
-    """`options` with fields replaced; an unknown name is refused with a hint."""
+    """`options` with fields replaced; a TraceError with a suggestion for an unknown name."""
     known = (field.name for field in fields(TraceOptions))
     check_keywords("trace", changes, known, TraceError)
     return replace(options if options is not None else TraceOptions(), **changes)
 
 
 class Tracer:
-    """Traces one picture again and again, doing only what changed options need.
+    """Traces one picture repeatedly and reuses what changed options do not affect.
 
-    The stages are plain functions with immutable results: foreground, components, outline, holes,
-    dilation, simplification. A stage runs again if an option of its own, or a result that it
-    depends on, is a different one than last time. Not for use by several threads at once.
+    The stages are foreground, components, outline, holes, dilation and simplification. A stage runs
+    again if one of its options, or a result that it depends on, has changed. Not thread-safe.
 
     Parameters
     ----------
@@ -133,11 +127,11 @@ class Tracer:
         """The picture, (h, w, 4)."""
         height, width = self.image.shape[:2]
         self.frame = PixelFrame(width=width, height=height)
-        """Pixels to world coordinates and back."""
+        """Conversion between pixel and world coordinates."""
         self._stages: dict[str, tuple[tuple[Any, ...], Any]] = {}
 
     def trace(self, options: TraceOptions | None = None) -> Tracing:
-        """Trace; see `trace`."""
+        """Trace a cage, as `trace` does."""
         o = options if options is not None else TraceOptions()
         foreground = self.foreground(o)
         components = self._stage(
@@ -177,7 +171,7 @@ class Tracer:
         )
 
     def foreground(self, options: TraceOptions) -> Foreground:
-        """How much each pixel is foreground, the first two stages."""
+        """The smoothed foreground score, the first two stages."""
         o = options
         how = (o.method, o.invert, o.background, o.background_at, o.scribbles, self._scaled)
         rated = self._stage("rated", find_foreground, self.image, *how)
@@ -207,15 +201,14 @@ class Tracer:
         return simplified, Cage(to_world(simplified.exterior), map(to_world, simplified.holes))
 
     def _stage(self, name: str, function: Callable[..., T], *inputs: Any) -> T:
-        """The stage's last result if its inputs are the same, else a new one."""
-        # Arrays and the stages' results are the same if they are one object, options if equal.
+        # Options are compared by value, arrays and results of stages by identity.
         if name not in self._stages or self._stages[name][0] != inputs:
             self._stages[name] = (inputs, function(*inputs))
         return self._stages[name][1]
 
 
 def _component_notes(components: Components, rank: int, options: TraceOptions) -> list[str]:
-    """A note if much of the foreground is left out though nobody picked a component."""
+    """A note if much of the foreground is left out and no component was chosen."""
     others = components.areas.sum() - components.areas[rank]
     share = others / components.areas.sum()
     if options.component_at is not None or options.component or share < _LEFT_OUT:
@@ -237,7 +230,6 @@ def _roughness_notes(outline: Outline) -> list[str]:
 
 
 def _coverage_notes(outline: Outline, holes: tuple[Hole, ...], simplified: Simplified) -> list[str]:
-    """A note if a visible part of the shape lies outside the cage."""
     shape = shapely.Polygon(outline.exterior, [hole.loop for hole in holes if hole.kept])
     cage = shapely.Polygon(simplified.exterior, simplified.holes)
     share = shape.difference(cage).area / shape.area

@@ -11,8 +11,8 @@ name            holes  shows
 ``bar``         0      checks and circles on the plainest shape
 ==============  =====  ====================================================
 
-The pictures are RGBA with a transparent ground, their longer side 20 world units like that of any
-picture. In a checkout ``python -m studies.samples.draw`` draws them anew.
+The pictures are RGBA with a transparent background. In a checkout
+``python -m studies.samples.draw`` draws them again.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ _PICTURES = Path(__file__).parent / "pictures"
 
 
 class SampleError(InputError):
-    """There is no such sample or no such pose of it."""
+    """There is no such sample, or it has no such pose."""
 
 
 def names() -> tuple[str, ...]:
-    """Names of the samples."""
+    """Names of the samples, in the table's order."""
     return _NAMES
 
 
@@ -55,7 +55,7 @@ def path(name: str) -> Path:
 
 
 def image(name: str) -> NDArray[np.uint8]:
-    """A sample's pixels: RGBA (h, w, 4), not premultiplied, row 0 at the top.
+    """(h, w, 4) RGBA pixels of a sample, not premultiplied, row 0 at the top.
 
     Raises
     ------

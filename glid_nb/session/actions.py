@@ -44,10 +44,8 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
         if (gap < _LEAST_DISTANCE * cage.longer_side).any():
             raise EditError(f"there already is a handle at {_text(point)}")
     wanted = _places_now(state, points) if targets is None else _points(targets, "to")
-    return _with_pose(
-        state,
-        Pose(np.concatenate([pose.handles, points]), np.concatenate([pose.targets, wanted])),
-    )
+    handles = np.concatenate([pose.handles, points])
+    return _with_pose(state, Pose(handles, np.concatenate([pose.targets, wanted])))
 
 
 def remove_handles(state: EditState, indices: Iterable[int]) -> EditState:
@@ -213,9 +211,9 @@ def _checked_indices(state: EditState, indices: Iterable[int]) -> Array:
         raise EditError(
             f"handles are named by their indices, whole numbers, not by {indices!r:.60}"
         ) from error
-    wrong = [i for i in chosen if not 0 <= i < len(state.pose)]
-    if wrong:
-        raise EditError(f"there is no handle {wrong[0]}; the pose has {len(state.pose)}")
+    for i in chosen:
+        if not 0 <= i < len(state.pose):
+            raise EditError(f"there is no handle {i}; the pose has {len(state.pose)}")
     return chosen
 
 

@@ -70,13 +70,8 @@ class NamedPose:
                 f"the name of a pose must have 1 to {_LONGEST_NAME} characters, "
                 f"not {len(self.name)}"
             )
-        for key, kind in (
-            ("pose", Pose),
-            ("energy", Energy),
-            ("options", Options),
-            ("map", HarmonicMap),
-            ("method", Method),
-        ):
+        kinds = (Pose, Energy, Options, HarmonicMap, Method)
+        for key, kind in zip(("pose", "energy", "options", "map", "method"), kinds, strict=True):
             _check_kind(f"{key} of the pose {self.name!r}", getattr(self, key), kind)
         with about(f"the pose {self.name!r}", DocumentError):
             self.pose.check_inside(self.map.domain)

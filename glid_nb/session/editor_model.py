@@ -198,7 +198,7 @@ class EditorModel(Observed):
                 return Application()
             assert image is not None  # a domain comes from a picture
             if session is not None and session.image is image:
-                self._session = self._traced(session.deformation)
+                self._session = self._session_of(session.deformation)
                 return Application(_apply(session.deformation, domain))
             done = Application()
             if session is not None:
@@ -216,7 +216,7 @@ class EditorModel(Observed):
             raise EditError("there is no cage yet; open a picture and trace a shape first")
         state = session.deformation.state
         if self.tracing.image is session.image:
-            session = self._traced(session.deformation)
+            session = self._session_of(session.deformation)
         return Document(
             session.image,
             state.domain.cage,
@@ -287,7 +287,7 @@ class EditorModel(Observed):
         if self._session is not None:
             self._session.deformation.close()
 
-    def _traced(self, deformation: Deformation) -> _Session:
+    def _session_of(self, deformation: Deformation) -> _Session:
         tracing = self.tracing
         assert tracing.image is not None
         if tracing.domain is not None:
@@ -334,7 +334,7 @@ class EditorModel(Observed):
         self._replace(Deformation.from_state(state, begin=False))
 
     def _replace(self, deformation: Deformation) -> None:
-        old, self._session = self._session, self._traced(deformation)
+        old, self._session = self._session, self._session_of(deformation)
         if old is not None:
             self._afterwards(old.deformation.close)  # its thread may wait for the lock
         self._tell("replaced")
@@ -363,7 +363,7 @@ class EditorModel(Observed):
                 tracing.return_to(source)
             else:
                 tracing.set_loops(domain.cage.loops)
-        self._session = self._traced(session.deformation)
+        self._session = self._session_of(session.deformation)
 
     def _saved(self, error: Exception | None) -> None:
         self.save_error = error
@@ -381,9 +381,13 @@ class EditorModel(Observed):
 
 def _apply(deformation: Deformation, domain: Domain) -> int:
     """Deform another outline of the same picture; how many handles that loses."""
-    before = _count_handles(deformation)
+
+    def n_handles() -> int:
+        return sum(len(pose.pose) for pose in deformation.poses)
+
+    before = n_handles()
     deformation.set_domain(domain)
-    return max(before - _count_handles(deformation), 0)
+    return max(before - n_handles(), 0)
 
 
 def _work_of(poses: Sequence[EditedPose]) -> tuple[Any, ...]:
@@ -400,7 +404,3 @@ def _check_place(path: Path) -> None:
             f"{path}: the folder {path.parent.absolute()} does not exist; make it first, or name a "
             "file elsewhere"
         )
-
-
-def _count_handles(deformation: Deformation) -> int:
-    return sum(len(pose.pose) for pose in deformation.poses)

@@ -136,7 +136,9 @@ class LiveSolver:
             # A first call may only split panels; those are kept for the next task.
             if worker.overtaken or (task.single and (moved or calls > 1)):
                 return True  # the frame comes with the result
-            if moved and self._is_time():
+            now = time.monotonic()
+            if moved and now - self._published >= FRAME_INTERVAL:
+                self._published = now
                 history = continued_history(before, progress.history)
                 disc = progress.discretisation
                 self._publish(self._frame(task, progress.map, history, None, disc))
@@ -161,17 +163,8 @@ class LiveSolver:
         bounds = self._bounds
         if panels is None or len(bounds) != len(panels):
             bounds = np.empty(0)
-        mesh = map if isinstance(map, MeshMap) else None
-        certified = task.pose.map if isinstance(map, MeshMap) else map
+        mesh, certified = (map, task.pose.map) if isinstance(map, MeshMap) else (None, map)
         return Frame(task, certified, history, solution, panels, bounds, mesh, self._starts)
-
-    def _is_time(self) -> bool:
-        """Whether the next frame is due; if so, the interval starts again."""
-        now = time.monotonic()
-        due = now - self._published >= FRAME_INTERVAL
-        if due:
-            self._published = now
-        return due
 
 
 def _starting_point(edited: EditedPose, last: Result | None) -> DeformationMap | Result:

@@ -20,27 +20,27 @@ class Observed:
         self._lock = threading.RLock()
         self._depth = 0
         self._observers: list[Observer] = []
-        self._due: list[Callable[[], None]] = []
-        self._news: dict[str, None] = {}  # in order, each once
+        self._actions: list[Callable[[], None]] = []
+        self._changes: dict[str, None] = {}  # in order, each once
 
     @contextmanager
     def locked(self) -> Iterator[None]:
         """Hold the lock, so that what is read belongs to one moment."""
         self._lock.acquire()
         self._depth += 1
-        due: list[Callable[[], None]] = []
-        news: tuple[str, ...] = ()
+        actions: list[Callable[[], None]] = []
+        changes: tuple[str, ...] = ()
         try:
             yield
         finally:
             self._depth -= 1
             if not self._depth:
-                due, self._due = self._due, []
-                news, self._news = tuple(self._news), {}
+                actions, self._actions = self._actions, []
+                changes, self._changes = tuple(self._changes), {}
             self._lock.release()
-            for act in due:
+            for act in actions:
                 act()
-            self._announce(*news)
+            self._announce(*changes)
 
     def observe(self, observer: Observer) -> Callable[[], None]:
         """Call ``observer`` with the name of every change; returns a function that ends this."""
@@ -57,7 +57,7 @@ class Observed:
     def _tell(self, *names: str) -> None:
         """Report these changes once the lock, which must be held, is released."""
         assert self._depth
-        self._news.update(dict.fromkeys(names))
+        self._changes.update(dict.fromkeys(names))
 
     def _announce(self, *names: str) -> None:
         """Report these changes now."""
@@ -68,4 +68,4 @@ class Observed:
     def _afterwards(self, act: Callable[[], None]) -> None:
         """Call ``act`` once the lock, which must be held, is released, before observers."""
         assert self._depth
-        self._due.append(act)
+        self._actions.append(act)

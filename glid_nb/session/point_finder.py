@@ -81,9 +81,8 @@ def _in_triangles(
 def _newton(map: HarmonicMap, start: Array, point: Array) -> Array | None:
     z = np.array(start)
     for _ in range(_NEWTON_STEPS):
-        gap = map(z[None])[0] - point
+        w = complex(*(map(z[None])[0] - point))
         fz, fzb = (complex(d[0]) for d in map.wirtinger(z[None]))
-        w = complex(*gap)
         determinant = abs(fz) ** 2 - abs(fzb) ** 2
         if not determinant > 0:
             return None

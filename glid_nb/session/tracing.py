@@ -118,7 +118,7 @@ class TracingModel(Observed):
     def __init__(
         self, image: ImageSource | None = None, options: TraceOptions | None = None
     ) -> None:
-        chosen = options if options is not None else TraceOptions()
+        chosen = TraceOptions() if options is None else options
         pixels = None if image is None else _pixels(image)
         self._begin(TracingState(pixels, _without_strokes(chosen), chosen.scribbles))
 
@@ -452,13 +452,13 @@ class TracingModel(Observed):
         frame, loops = self.frame, state.loops
         assert frame is not None
         assert loops is not None
-        pixel = frame.to_world(hole.pixel)
+        inside = frame.to_world(hole.pixel)
         if hole.kept:
-            index = loop_edits.around(loops, pixel)
+            index = loop_edits.around(loops, inside)
             return loops if index is None else (*loops[:index], *loops[index + 1 :])
         tracing = self._evaluate(replace(state, loops=None)).tracing
         traced = () if tracing is None else tracing.cage.loops
-        index = loop_edits.around(traced, pixel)
+        index = loop_edits.around(traced, inside)
         return loops if index is None else (*loops, traced[index])
 
     def _world(self, point: Point) -> NDArray[np.float64]:

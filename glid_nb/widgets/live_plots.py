@@ -14,15 +14,10 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from glid_nb.certificate import Certificate
-from glid_nb.figures.plots import (
-    CertificatePlot,
-    EnergyPlot,
-    IterationRecord,
-    StepPlot,
-    TimePlot,
-)
+from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot, TimePlot
 from glid_nb.geometry import Cage
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.solvers import Iteration
 from glid_nb.widgets.plots_frame import plot_boxes
 
 Array = NDArray[Any]
@@ -68,7 +63,7 @@ class LivePlots:
 
     def draw(
         self,
-        history: Sequence[IterationRecord],
+        history: Sequence[Iteration],
         certificate: Certificate | None,
         map: HarmonicMap | None = None,
         starts: Collection[int] = (),

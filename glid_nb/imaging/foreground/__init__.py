@@ -1,4 +1,4 @@
-"""Telling a picture's foreground from its background."""
+"""Separation of a picture's foreground from its background."""
 
 from glid_nb.imaging.foreground.fields import scaled_picture as scaled_picture
 from glid_nb.imaging.foreground.find import find_foreground as find_foreground

@@ -1,4 +1,4 @@
-"""The frame of pixels along a picture's border, which mostly shows the background."""
+"""The border of a picture, which mostly shows the background."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 _SHARE = 0.01  # width of the frame relative to the shorter side
 _LEVELS = 16  # per channel, to find the most frequent colour
 _SAME = 0.1  # colours closer than this (black to white is 1) count as one
-_UNIFORM = 0.6
+_UNIFORM = 0.6  # share of the border with one colour
 
 
 @dataclass(frozen=True)
@@ -23,12 +23,12 @@ class BorderColor:
 
     @property
     def is_uniform(self) -> bool:
-        """Whether the border tells a background colour at all."""
+        """Whether `color` can be taken for the background's."""
         return self.share >= _UNIFORM
 
 
 def border_pixels(array: NDArray) -> NDArray:
-    """(k, ...) pixels of a frame 1 % wide, at least one pixel; of a wide one a regular sample."""
+    """(k, ...) pixels of a frame 1 % wide, at least one pixel; a regular sample of a wide one."""
     height, width = array.shape[:2]
     frame = max(1, round(_SHARE * min(height, width)))
     if 2 * frame >= min(height, width):
@@ -39,7 +39,7 @@ def border_pixels(array: NDArray) -> NDArray:
         array[frame:-frame, :frame],
         array[frame:-frame, -frame:],
     )
-    step = max(1, frame // 4)  # a sample of the frames of large pictures
+    step = max(1, frame // 4)
     return np.concatenate([side[::step, ::step].reshape(-1, *array.shape[2:]) for side in sides])
 
 
@@ -53,7 +53,7 @@ def border_color(image: NDArray[np.unsignedinteger]) -> BorderColor | None:
     codes = np.ravel_multi_index(tuple(bins.T), (_LEVELS,) * 3)
     most = np.bincount(codes).argmax()
     color = scaled[codes == most].mean(axis=0)
-    for _ in range(3):  # a few steps towards the mode: the bin may have cut it
+    for _ in range(3):  # a few steps towards the mode, which may lie at the bin's boundary
         color = np.median(scaled[_distances(scaled, color) <= _SAME], axis=0)
     distance = _distances(scaled, color)
     near = distance <= _SAME
@@ -69,9 +69,9 @@ def _distances(colors: NDArray[np.float64], color: NDArray[np.float64]) -> NDArr
 def border_is_bright(
     image: NDArray[np.unsignedinteger], values: NDArray[np.float32], threshold: float
 ) -> bool:
-    """Whether most of the picture's border, where it is not transparent, is above the threshold.
+    """Whether most of the border's pixels that are not transparent are above the threshold.
 
-    True for a transparent border: then dark ink on nothing is the likely picture.
+    True for a transparent border, as the picture is then likely dark ink on nothing.
     """
     border = border_pixels(values)[border_pixels(image[..., 3]) > 0]
     return not border.size or float(np.mean(border > threshold)) >= 0.5

@@ -1,4 +1,4 @@
-"""What the methods measure at every pixel: alpha, brightness, distance from a colour."""
+"""Fields that the methods measure: alpha, brightness, distance from a colour."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from PIL import Image
 from glid_nb.imaging.errors import TraceError
 from glid_nb.imaging.read import as_rgba8
 
-_LEAST_SHARE = 0.001
+_LEAST_SHARE = 0.001  # of transparent or opaque pixels; fewer are a speck
 _WEIGHTS = (0.2125, 0.7154, 0.0721)  # of red, green and blue, as in skimage.color.rgb2gray
-_ROWS = 64
-_WALKED_PIXELS = 40_000  # solved in a quarter of a second; the outline is smooth in between
+_ROWS = 64  # rows per block, which fit the cache and bound the memory
+_WALKED_PIXELS = 40_000  # of the random walker, which takes a quarter of a second for them
 
 
 def alpha(image: NDArray[np.unsignedinteger]) -> NDArray[np.float32]:
@@ -23,19 +23,18 @@ def alpha(image: NDArray[np.unsignedinteger]) -> NDArray[np.float32]:
 
 
 def is_opaque(image: NDArray[np.unsignedinteger]) -> bool:
-    """Whether alpha is 1 everywhere."""
     return bool(image[..., 3].min() == np.iinfo(image.dtype).max)
 
 
 def alpha_is_informative(image: NDArray[np.unsignedinteger]) -> bool:
-    """Whether more than a speck is transparent, and more than a speck is not."""
+    """Whether more than a speck is transparent and more than a speck is opaque."""
     transparent = np.count_nonzero(image[..., 3] < np.iinfo(image.dtype).max / 2)
     total = image.shape[0] * image.shape[1]
     return _LEAST_SHARE < transparent / total < 1 - _LEAST_SHARE
 
 
 def check_alpha(image: NDArray[np.unsignedinteger]) -> None:
-    """Raise where alpha is the same everywhere."""
+    """Raise a TraceError if alpha is constant."""
     low, high = image[..., 3].min(), image[..., 3].max()
     if low == high == 0:
         raise TraceError("the image has no foreground: it is fully transparent")
@@ -63,8 +62,8 @@ def color_distance(
 ) -> NDArray[np.float32]:
     """(h, w) Euclidean distance from a colour in sRGB, over sqrt(3): black to white is 1.
 
-    Not a perceptual distance: this one is linear along an anti-aliased edge, so the edge is found
-    with sub-pixel accuracy, and sixty times as fast to compute as CIELAB.
+    It is linear along an anti-aliased edge, so the edge is found with sub-pixel accuracy, and sixty
+    times as fast to compute as a perceptual distance in CIELAB.
     """
     scale = np.float32(1 / (np.iinfo(image.dtype).max * np.sqrt(3)))
     centre = np.array(color, dtype=np.float32) * np.float32(1 / np.sqrt(3))
@@ -93,11 +92,10 @@ def scaled_picture(image: NDArray[np.unsignedinteger]) -> NDArray[np.float64]:
         small = small.resize(size, Image.Resampling.BOX)
     data = np.asarray(small, dtype=np.float64) / 255
     data[..., :3] *= data[..., 3:]
-    if data[..., 3].min() == data[..., 3].max():  # it would only weaken the colours' weight
+    if data[..., 3].min() == data[..., 3].max():  # it would weaken the contrast of the colours
         data = data[..., :3]
     return data
 
 
 def _row_blocks(image: NDArray[np.unsignedinteger]) -> Iterator[slice]:
-    """Slices of a few rows each, which fit the cache and bound the memory."""
     return (slice(start, start + _ROWS) for start in range(0, len(image), _ROWS))

@@ -1,4 +1,4 @@
-"""Choosing a method and running it."""
+"""Find the foreground: choose a method and run it."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ def find_foreground(
     scribbles: Scribbles | None = None,
     scaled: Callable[[], NDArray[np.float64]] | None = None,
 ) -> Foreground:
-    """Rate every pixel of an (h, w, 4) RGBA image; the parameters are those of `TraceOptions`.
+    """Score the pixels of an (h, w, 4) RGBA image, without smoothing.
 
-    The field is not smoothed yet: see `smoothed`. ``scaled`` gives the image's `scaled_picture`, so
-    that it need not be made anew for every scribble.
+    The parameters are those of `TraceOptions`; ``scaled`` returns the image's `scaled_picture`, so
+    that callers can keep it between scribbles.
 
     Raises
     ------
@@ -47,7 +47,7 @@ def find_foreground(
     elif method == "scribbles":
         if scribbles is None:
             raise TraceError("the method 'scribbles' needs scribbles")
-        # Imported when there are scribbles: scikit-image's segmentation takes a while to import.
+        # scikit-image's segmentation is slow to import.
         from glid_nb.imaging.foreground.scribbles import scribble_score  # noqa: PLC0415
 
         small = fields.scaled_picture(image) if scaled is None else scaled()
@@ -60,7 +60,7 @@ def find_foreground(
         if invert is None:
             inverted = border_is_bright(image, score, threshold)
             side = "darker" if inverted else "brighter"
-            notes.append(f"what is {side} than the border counts as foreground")
+            notes.append(f"everything {side} than the border counts as foreground")
     else:
         color, spread, more = _background(image, background, background_at)
         notes += more
@@ -68,9 +68,9 @@ def find_foreground(
     if inverted:
         score = 1 - score
     if method in ("threshold", "color") and not fields.is_opaque(image):
-        score = score * fields.alpha(image)  # what is transparent is background, inverted or not
+        score = score * fields.alpha(image)  # transparent pixels are background in any case
     if method == "color":
-        # Inverted, the colour is the shape's own and tells nothing of the background's.
+        # Inverted, the colour is the shape's, so the spread of the border's colours is irrelevant.
         threshold = otsu(histogram(1 - score)) if inverted else color_threshold(score, spread)
     score = score.view()
     score.setflags(write=False)
@@ -79,7 +79,7 @@ def find_foreground(
 
 def _check_not_uniform(image: NDArray[np.unsignedinteger]) -> None:
     first = image[0, 0]
-    # A coarse sample decides for nearly every picture.
+    # A coarse sample suffices for nearly every picture.
     if (image[::37, ::37] != first).any() or (image != first).any():
         return
     scale = 255 / np.iinfo(image.dtype).max
@@ -96,18 +96,18 @@ def _choose_method(
     background_at: Point | None,
     scribbles: Scribbles | None,
 ) -> tuple[Method, str]:
-    """A method and the reason in words."""
+    """A method and the reason for it, as a note."""
     if scribbles is not None:
         return "scribbles", "scribbles, which were given"
     if background is not None or background_at is not None:
-        return "color", "colour distance, for a background colour was given"
+        return "color", "colour distance, as a background colour was given"
     if fields.alpha_is_informative(image):
-        return "alpha", "alpha, for part of the image is transparent"
+        return "alpha", "alpha, as part of the image is transparent"
     border = border_color(image)
     if border is not None and border.is_uniform:
-        return "color", f"colour distance, for {border.share:.0%} of the border has one colour"
+        return "color", f"colour distance, as {border.share:.0%} of the border has one colour"
     return "threshold", (
-        "brightness, for the border has no single colour: a guess; if it is wrong, choose another "
+        "brightness, as the border has no single colour; if this guess is wrong, choose another "
         "method, mark the background's colour, or scribble on foreground and background"
     )
 

@@ -7,12 +7,12 @@ from numpy.typing import NDArray
 
 _BINS = 256
 _SAMPLES = 2_000_000  # a histogram of more tells nothing new
-_INCLUSIVE = 0.12  # a colour threshold that keeps parts resembling the background
-_BETWEEN = 0.1  # of the shape's pixels may lie between the background and Otsu's threshold
+_INCLUSIVE = 0.12  # a colour threshold that keeps parts similar to the background
+_BETWEEN = 0.1  # share of the shape's pixels between the background and Otsu's threshold
 
 
 def histogram(score: NDArray[np.float32]) -> NDArray[np.float64]:
-    """(256,) shares of the values of a field in [0, 1]; of a regular sample if it is large."""
+    """(256,) relative frequencies of a field in [0, 1]; from a regular sample if it is large."""
     step = int(np.ceil(np.sqrt(score.size / _SAMPLES)))
     sample = score[::step, ::step]
     bins = np.minimum((sample * _BINS).astype(np.intp), _BINS - 1)
@@ -21,10 +21,10 @@ def histogram(score: NDArray[np.float32]) -> NDArray[np.float64]:
 
 
 def otsu(shares: NDArray[np.float64]) -> float:
-    """Otsu's threshold in [0, 1]: the one with the largest variance between the two classes.
+    """Otsu's threshold in [0, 1], which maximises the variance between the two classes.
 
-    Where a range of thresholds separates equally well, as in drawings with few colours, this is its
-    middle (scikit-image's `threshold_otsu` returns the low end, where anti-aliased pixels are).
+    If a range of thresholds separates equally well, as in drawings with few colours, its middle:
+    scikit-image's `threshold_otsu` returns the low end, where anti-aliased pixels are.
     """
     centres = (np.arange(_BINS) + 0.5) / _BINS
     low = np.cumsum(shares)[:-1]
@@ -35,7 +35,7 @@ def otsu(shares: NDArray[np.float64]) -> float:
         between = low * high * (low_sum / low - high_sum / high) ** 2
     between = np.where((low > 1e-12) & (high > 1e-12), between, 0.0)
     best = np.flatnonzero(between >= between.max() * (1 - 1e-3))
-    # The first run only: a second one is another plateau.
+    # The first plateau only.
     run = best[: 1 + int(np.argmax(np.append(np.diff(best) > 1, True)))]
     return float((run[0] + run[-1] + 2) / 2 / _BINS)
 
@@ -43,9 +43,9 @@ def otsu(shares: NDArray[np.float64]) -> float:
 def color_threshold(distance: NDArray[np.float32], spread: float) -> float:
     """A threshold for the distance from the background's colour.
 
-    Otsu's, if little lies between the background and it: then its middle position gives the best
-    edges. Otherwise parts of the shape resemble the background, and the threshold goes as low as
-    the background's own spread allows.
+    Otsu's, which gives the best edges, if few pixels lie between the background and it. Otherwise
+    parts of the shape resemble the background, and the threshold is as low as the background's own
+    spread allows.
     """
     shares = histogram(distance)
     middle = otsu(shares)

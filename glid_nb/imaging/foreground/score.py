@@ -1,4 +1,4 @@
-"""The result of every method: how much each pixel is foreground."""
+"""The foreground score, the result of every method."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from scipy.ndimage import gaussian_filter
 from glid_nb.imaging.errors import TraceError
 
 _SMOOTHING = 0.001  # of the longer side
-_LEAST_SMOOTHING = 0.5  # less is not worth the time
+_LEAST_SMOOTHING = 0.5  # pixels; less is not worth the time
 
 
 class _Words(NamedTuple):
-    """What messages say of a method, in the terms of options and in those of controls."""
+    """A method in messages, in terms of options and, ``plain``, of the editor's controls."""
 
     measure: str
     control: str
@@ -68,18 +68,17 @@ _WORDS = {
 class Foreground:
     """A field over the picture that is high in the foreground.
 
-    It is kept, rather than a mask, for two reasons: its level set has sub-pixel accuracy, and
-    another threshold needs no new field.
+    Unlike a mask, it has a level set with sub-pixel accuracy and serves all thresholds.
     """
 
     score: NDArray[np.float32]  # (h, w) read-only, in [0, 1], sampled at the pixels' centres
     method: str  # never "auto"
-    automatic_threshold: float  # the one that was found, in the terms of `TraceOptions.threshold`
-    inverted: bool  # low values of what the method measures are foreground; score is 1 minus them
-    notes: tuple[str, ...]  # what was chosen
+    automatic_threshold: float  # as in `TraceOptions.threshold`
+    inverted: bool  # score is 1 minus what the method measures
+    notes: tuple[str, ...]
 
     def threshold(self, threshold: float | None = None) -> float:
-        """`threshold`, or the automatic one."""
+        """`threshold`, or by default the automatic one."""
         return self.automatic_threshold if threshold is None else threshold
 
     def level(self, threshold: float | None = None) -> float:
@@ -88,13 +87,7 @@ class Foreground:
         return 1 - value if self.inverted else value
 
     def mask(self, threshold: float | None = None) -> NDArray[np.bool_]:
-        """(h, w) which pixels are foreground.
-
-        Raises
-        ------
-        TraceError
-            None is, or all are.
-        """
+        """(h, w) mask of the foreground; a TraceError if it would be empty or full."""
         mask = self.score > self.level(threshold)
         words, value = _WORDS[self.method], self.threshold(threshold)
         if not mask.any():
@@ -113,9 +106,9 @@ class Foreground:
 
 
 def smoothed(foreground: Foreground, sigma: float | None) -> Foreground:
-    """The field after a Gaussian filter of standard deviation ``sigma`` in pixels, 0 for none.
+    """The field after a Gaussian filter of standard deviation ``sigma`` in pixels.
 
-    By default a thousandth of the longer side, and none for fields that are smooth as they are.
+    None: 0.1 % of the longer side, or 0 for alpha and scribbles.
     """
     score = foreground.score
     if sigma is None:

@@ -1,9 +1,8 @@
 """Foreground by a user's scribbles: the random walker of Grady (2006), by scikit-image.
 
-Its direct solver takes 0.27 s for 40,000 pixels, on one core. Its conjugate gradients take 4 to
-30 s on our contrasts (weights from 1e-10 to 1) and end far from the solution. A solver of our own
-that kept the factor between strokes took 0.15 s, then 0.01 to 0.25 s for an added stroke: not
-enough faster for its 150 lines.
+Its direct solver takes 0.27 s for 40,000 pixels on one core. Its conjugate gradients take 4 to 30 s
+with our contrasts (weights from 1e-10 to 1) and end far from the solution. A solver of our own that
+kept the factor between strokes took 0.15 s, then 0.01 to 0.25 s per stroke: not worth 150 lines.
 """
 
 from __future__ import annotations
@@ -17,18 +16,18 @@ from glid_nb.imaging.errors import TraceError
 from glid_nb.imaging.options import Scribbles
 
 _FOREGROUND, _BACKGROUND = 1, 2
-# How much an edge in the picture hinders the walker. scikit-image's default of 130 is for noisy
-# pictures; with it the outline of a photograph runs midway between the strokes, off the edges.
+# How much an edge in the picture hinders the walker. With scikit-image's default of 130, meant for
+# noisy pictures, the outline of a photograph runs midway between the strokes, not along edges.
 _BETA = 1000.0
 
 
 def scribble_score(
     scaled: NDArray[np.float64], scribbles: Scribbles, shape: tuple[int, int]
 ) -> tuple[NDArray[np.float32], tuple[str, ...]]:
-    """(h, w) probability that a random walker from the pixel meets the foreground strokes first.
+    """Probability that a random walker from a pixel meets the foreground strokes first, and notes.
 
-    Computed on ``scaled``, the picture's `scaled_picture`, and interpolated to ``shape``, that of
-    the picture. Also notes.
+    Computed on ``scaled``, the picture's `scaled_picture`, and interpolated to the picture's
+    ``shape`` (h, w).
     """
     size = scaled.shape[0], scaled.shape[1]
     labels, notes = _labels(scribbles, shape, size)
@@ -54,7 +53,7 @@ def _probability(scaled: NDArray[np.float64], labels: NDArray[np.int32]) -> NDAr
 def _labels(
     scribbles: Scribbles, shape: tuple[int, int], size: tuple[int, int]
 ) -> tuple[NDArray[np.int32], tuple[str, ...]]:
-    """Labels of the scaled picture's pixels, 0 where there is no stroke, and notes."""
+    """Labels of the scaled picture's pixels, 0 without a stroke, and notes."""
     foreground = _drawn(scribbles.foreground, shape, size, "foreground")
     background = _drawn(scribbles.background, shape, size, "background")
     if not foreground.any():
@@ -107,7 +106,7 @@ def _drawn(
         return drawn
     picture = Image.new("1", (size[1], size[0]))
     for stroke in strokes:
-        # A stroke may leave the picture, but not by so much that drawing it would take forever.
+        # Clipped, as a stroke that goes far outside would take forever to draw.
         points = np.clip(np.floor(stroke * factor[::-1]), -max(size), 2 * max(size))
         ImageDraw.Draw(picture).point(points[0].tolist(), fill=1)
         ImageDraw.Draw(picture).line(points.ravel().tolist(), fill=1)

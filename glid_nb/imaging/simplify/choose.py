@@ -1,4 +1,4 @@
-"""Choosing the vertices of a cage: how many, and which."""
+"""Choose how many vertices a cage has, and which."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from glid_nb.imaging.simplify.edges import divide_long_edges, merge_short_edges
 from glid_nb.imaging.simplify.enclose import enclosing
 from glid_nb.imaging.simplify.loops import Loops, Points, significance
 
-# What the automatic tolerance aims at, in this order: about _VERTICES, without leaving the offset;
-# not many more than _MANY, without leaving a few times the offset; never more than _MOST.
+# Numbers of vertices for the automatic tolerance: about _VERTICES while it is below the offset, not
+# many more than _MANY while it is below a few times the offset, and never more than _MOST.
 _VERTICES, _MANY, _MOST = 75, 115, 300
 _VERTICES_PER_HOLE = 6
-_FAR = 3.0
+_FAR = 3.0  # times the offset
 _LEAST_TOLERANCE = 0.25  # pixels
-_SHARE = 0.01  # of the square root of the area: the automatic tolerance where the offset is smaller
-_LOOP_SHARE = 0.08  # likewise, of each loop's own area: small holes keep their form
-_GAP, _LEAST_GAP = 0.25, 0.1  # times the room, and in pixels: what loops keep apart if they can
+_SHARE = 0.01  # replaces a smaller offset, relative to the square root of the area
+_LOOP_SHARE = 0.08  # most tolerance relative to the loop's own area; small holes keep their form
+_GAP, _LEAST_GAP = 0.25, 0.1  # distance of loops, relative to the room and in pixels
 _MARGIN = 0.5  # of the offset may be cut off
 
 
@@ -29,8 +29,8 @@ _MARGIN = 0.5  # of the offset may be cut off
 class Simplified:
     """Simplified loops, in pixel coordinates.
 
-    ``tolerance`` is the largest distance in pixels that dropping vertices moved the outline by.
-    Repairs make it smaller in places; merging a short edge can add that edge's length.
+    ``tolerance`` is the largest distance in pixels by which dropping vertices moved the outline.
+    Repairs reduce it in places; merging a short edge can add that edge's length.
     """
 
     exterior: Points
@@ -58,10 +58,10 @@ def simplify(
     tolerance
         Largest distance in pixels that the outline may move; None: chosen for about 80 vertices.
     offset
-        How far the loops were moved away from the shape, in pixels. The automatic tolerance stays
-        below it if it can, and then the shape stays inside.
+        Pixels by which the loops were moved away from the shape. The automatic tolerance stays
+        below it if possible, so that the shape stays inside.
     room
-        The loops are at least about this far apart, in pixels, and shall stay so in proportion.
+        Pixels that the loops are about apart; they keep a part of it.
     max_vertices, min_edge, max_edge
         As in `TraceOptions`.
     """
@@ -87,7 +87,7 @@ def simplify(
                 break
         if excess > 0:
             notes.append(
-                f"max_vertices={max_vertices} is too few: the loops need {kept.sum()} to keep apart"
+                f"max_vertices={max_vertices} is too few: the loops need {kept.sum()} to stay apart"
             )
     moved = enclosing(ranked.loops, kept, _MARGIN * offset, gap)
     divided = divide_long_edges(moved, max_edge, max_vertices)
@@ -97,7 +97,7 @@ def simplify(
 
 
 class _Ranked:
-    """Loops, how much each vertex matters, and the three of each loop that are always kept."""
+    """Loops with the importance of each vertex, and the three of each loop that are always kept."""
 
     def __init__(self, loops: tuple[Points, ...]) -> None:
         number = np.repeat(np.arange(len(loops)), [len(loop) for loop in loops])
@@ -110,7 +110,7 @@ class _Ranked:
     def choose(
         self, limits: NDArray[np.float64], min_edge: float | None, gap: float
     ) -> tuple[NDArray[np.bool_], list[str]]:
-        """Which vertices to keep with a tolerance for each loop, and notes."""
+        """(n,) mask of the vertices kept with a tolerance per loop, and notes."""
         kept = (self.importance > limits[self.loops.number]) | self.fixed
         notes = repair(self.loops, self.importance, kept, gap)
         merge_short_edges(self.loops, kept, min_edge, gap)
@@ -129,7 +129,7 @@ class _Ranked:
         return max(tolerance, for_count(_MOST))
 
     def tolerance_for_count(self, count: int) -> float:
-        """The least tolerance that keeps `count` vertices, or three a loop."""
+        """The least tolerance that keeps `count` vertices, or three per loop."""
         rest = np.sort(self.importance[~self.fixed])[::-1]
         room = min(max(count - int(self.fixed.sum()), 0), len(rest) - 1)
         return float(rest[room]) if len(rest) else 0.0

@@ -1,4 +1,4 @@
-"""Where simplified loops meet, or nearly do, and putting vertices back there."""
+"""Put vertices back where simplified loops meet or nearly meet."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from glid_nb.imaging.simplify.loops import Loops, passed_over
 def repair(
     loops: Loops, importance: NDArray[np.float64], kept: NDArray[np.bool_], gap: float
 ) -> list[str]:
-    """Put vertices back, in place, where simplified loops meet or nearly do; a note if any were."""
+    """Put vertices back into `kept` where simplified loops meet or nearly meet; notes."""
     before = np.count_nonzero(kept)
     place = loops.points[0]
     while True:
         simplified, over = loops[kept], passed_over(loops, kept)
         edges = [edge for edge in edges_in_conflict(simplified, gap) if len(over[edge])]
-        if not edges:  # only now, with no crossings left, can loops be said to contain others
+        if not edges:  # containment is defined once there are no crossings
             edges = _jumped(simplified, over)
         if not edges:
             break
@@ -36,10 +36,10 @@ def repair(
 
 
 def edges_in_conflict(loops: Loops, gap: float) -> NDArray[np.intp]:
-    """The edges that cross, or come closer than `gap` to, an edge elsewhere.
+    """The edges that cross another edge or come closer to it than `gap`.
 
-    Edges of one loop are elsewhere to each other if the way along the loop is several gaps long;
-    nearer ones, as the sides of a short edge, only count when they cross.
+    Edges that are less than a few gaps apart along the same loop, such as the neighbours of a short
+    edge, only count if they cross.
     """
     segments, length, after = loops.segments(), loops.lengths, loops.after
     e, f = shapely.STRtree(segments).query(segments, predicate="dwithin", distance=gap)
@@ -56,7 +56,7 @@ def edges_in_conflict(loops: Loops, gap: float) -> NDArray[np.intp]:
 
 
 def _jumped(simplified: Loops, over: list[NDArray[np.intp]]) -> list[int]:
-    """The edges that passed over a whole other loop when vertices were dropped."""
+    """The edges that passed over a whole loop when vertices were dropped."""
     separate = simplified.split(simplified.points)
     starts = np.array([loop[0] for loop in separate])
     inside = np.array([shapely.contains_xy(shapely.Polygon(loop), *starts.T) for loop in separate])
@@ -69,7 +69,7 @@ def _jumped(simplified: Loops, over: list[NDArray[np.intp]]) -> list[int]:
     found = []
     for pair in np.argwhere(wrong):
         for number, other in (pair, pair[::-1]):
-            # Which edge passed over the loop: the nearest one with vertices to put back.
+            # Take the nearest edge with vertices to put back.
             edges = np.flatnonzero(mendable & (simplified.number == number))
             if len(edges):
                 distance = shapely.distance(segments[edges], shapely.Point(starts[other]))

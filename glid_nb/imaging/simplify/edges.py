@@ -1,4 +1,4 @@
-"""Edges that are too short are merged, edges that are too long are divided."""
+"""Merge short edges and divide long ones."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from glid_nb.imaging.simplify.loops import Loops, Points
 
 _MIN_EDGE = 0.2  # of the mean edge
 _MAX_EDGE = 0.04  # of the perimeter
-_PER_LOOP = 12  # edges longer than a loop's perimeter over this never count as short
-_FEWEST, _LEAST_ANGLE = 4, 0.05  # what merging leaves of a loop, and at its corners
+_PER_LOOP = 12  # edges longer than a loop's perimeter over this are never short
+_FEWEST, _LEAST_ANGLE = 4, 0.05  # edges of a loop, and angles in it, that merging leaves
 
 
 def merge_short_edges(
     loops: Loops, kept: NDArray[np.bool_], min_edge: float | None, gap: float
 ) -> None:
-    """Drop an end of every edge shorter than `min_edge`, in place, where nothing is in the way."""
+    """Drop an end of every edge shorter than `min_edge` from `kept` where nothing is in the way."""
     length = loops[kept].lengths
     if min_edge is None:
         min_edge = _MIN_EDGE * float(length.mean())
@@ -38,7 +38,7 @@ def merge_short_edges(
 def _droppable(
     loops: Loops, blocked: NDArray[np.bool_], shortest: NDArray[np.float64]
 ) -> NDArray[np.intp]:
-    """Vertices at short edges, one per edge, so far apart that each can be judged by itself."""
+    """Vertices at short edges, one per edge, so far apart that dropping them is independent."""
     length, around = loops.lengths, _around(loops)
     bases = shapely.linestrings(loops.points[around[:, [1, 3]]])
     height = np.asarray(shapely.distance(shapely.points(loops.points), bases))
@@ -60,22 +60,23 @@ def _droppable(
 
 
 def _around(loops: Loops) -> NDArray[np.intp]:
-    """(n, 5) for each vertex those from two before to two after."""
+    """(n, 5) for each vertex the ones from two before to two after."""
     after, before = loops.after, np.argsort(loops.after)
     return np.stack([before[before], before, np.arange(len(after)), after, after[after]], axis=1)
 
 
 def _clear(loops: Loops, vertices: NDArray[np.intp], gap: float) -> NDArray[np.bool_]:
-    """For every vertex, whether its triangle, widened by `gap`, is clear of other edges.
+    """Whether each vertex can be dropped.
 
-    Also whether the edge that replaces the triangle's two sides leaves an angle to its neighbours.
+    Its triangle with its neighbours, widened by `gap`, must be clear of other edges, and the edge
+    that replaces the two sides must not fold back onto the edges next to it.
     """
     around = _around(loops)[vertices]
     corners = loops.points[around]
     triangle, edge = shapely.STRtree(loops.segments()).query(
         shapely.polygons(corners[:, 1:4]), predicate="dwithin", distance=gap
     )
-    # The two sides and the edges that start or end at their ends are no obstacles.
+    # The two sides and the edges next to them are no obstacles.
     own = (edge[:, np.newaxis] == around[triangle, :4]).any(axis=1)
     clear = np.ones(len(vertices), dtype=bool)
     clear[triangle[~own]] = False
@@ -91,7 +92,7 @@ def _angles(a: Points, b: Points, c: Points) -> NDArray[np.float64]:
 
 
 def divide_long_edges(loops: Loops, max_edge: float | None, max_vertices: int | None) -> Loops:
-    """Divide edges longer than `max_edge` evenly; by less where there were too many vertices."""
+    """Divide edges longer than `max_edge` evenly, into fewer parts to respect `max_vertices`."""
     length = loops.lengths
     longest = _MAX_EDGE * float(length.sum()) if max_edge is None else max_edge
     most = np.inf if max_vertices is None else max(max_vertices, len(length))

@@ -1,4 +1,4 @@
-"""Moving edges outwards where simplification would cut off a part of the shape."""
+"""Move edges outwards where simplification would cut off a part of the shape."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from glid_nb.imaging.simplify.loops import Loops, Points, passed_over
 
 
 def enclosing(loops: Loops, kept: NDArray[np.bool_], margin: float, gap: float) -> Loops:
-    """The simplified loops, with edges moved outwards that cut off more than `margin`.
+    """The simplified loops, with edges that cut off more than `margin` moved outwards.
 
-    A chord of a convex arc cuts off a part of the shape. The edge is moved in parallel by that
-    much; where this would make loops meet, it stays.
+    A chord of a convex arc cuts off a part of the shape. It is moved in parallel by the height of
+    that part, unless this would make loops meet.
     """
     simplified = loops[kept]
     areas = _areas(simplified)
     shifts = _shifts(loops, kept, areas, margin)
-    # How much an area may change: a hole may neither vanish nor turn inside out.
+    # Limits on the change of area, so that no hole vanishes or is inverted.
     low, high = np.full(len(areas), 0.3), np.full(len(areas), 1.2)
     low[0], high[0] = 0.5, np.inf
     while True:
@@ -41,7 +41,7 @@ def _areas(loops: Loops) -> NDArray[np.float64]:
 def _shifts(
     loops: Loops, kept: NDArray[np.bool_], areas: NDArray[np.float64], margin: float
 ) -> Points:
-    """(k, 2) how to move the vertices that are kept so that no edge cuts off more than `margin`."""
+    """(k, 2) shifts of the kept vertices after which no edge cuts off more than `margin`."""
     corners = loops[kept]
     outwards = np.where((areas > 0) == (np.arange(len(areas)) == 0), 1.0, -1.0)[corners.number]
     x, y = corners.edges.T
@@ -54,7 +54,7 @@ def _shifts(
             cut[k] = max(0.0, float(beyond.max()) - margin)
     preceding = np.argsort(corners.after)
     before, cut_before = normal[preceding], cut[preceding]
-    # A vertex moves to where the two moved edges meet, but not farther than twice their moves.
+    # A vertex moves to the intersection of its moved edges, but not farther than twice their moves.
     middle = before + normal
     square = np.maximum(np.sum(middle**2, axis=1), 1e-12)
     sine = before[:, 0] * normal[:, 1] - before[:, 1] * normal[:, 0]

@@ -1,4 +1,4 @@
-"""The loops of a cage in one array, and how much each of their vertices matters."""
+"""The loops of a cage in one array, and the importance of each vertex."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Points = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Loops:
-    """Closed loops, each after the one before in the same arrays, the exterior first.
+    """Closed loops, concatenated, the exterior first.
 
     ``points`` is (n, 2); ``number`` is (n,), the loop of each vertex, ascending from 0. Edge i
     leads from vertex i to vertex ``after[i]``.
@@ -29,38 +29,37 @@ class Loops:
 
     @property
     def ends(self) -> NDArray[np.intp]:
-        """Where each loop ends in the arrays."""
+        """(l,) index after the last vertex of each loop."""
         return np.cumsum(np.bincount(self.number))
 
     def split(self, values: NDArray) -> list[NDArray]:
-        """(n, ...) values of the vertices or edges, one array a loop."""
+        """Split (n, ...) values of the vertices or edges by loop."""
         return np.split(values, self.ends[:-1])
 
     @cached_property
     def after(self) -> NDArray[np.intp]:
-        """(n,) the vertex after each one."""
+        """(n,) index of the next vertex of the loop."""
         after = np.arange(1, len(self.points) + 1)
         after[self.ends - 1] = [0, *self.ends[:-1]]
         return after
 
     @cached_property
     def edges(self) -> Points:
-        """(n, 2) the vectors along the edges."""
+        """(n, 2) vectors."""
         return self.points[self.after] - self.points
 
     @property
     def lengths(self) -> NDArray[np.float64]:
-        """(n,) lengths of the edges."""
         return np.hypot(*self.edges.T)
 
     def segments(self) -> NDArray[np.object_]:
-        """(n,) shapely line strings, the edges."""
+        """(n,) the edges as shapely line strings."""
         ends = np.stack([self.points, self.points[self.after]], axis=1)
         return np.asarray(shapely.linestrings(ends), dtype=object)
 
 
 def passed_over(loops: Loops, kept: NDArray[np.bool_]) -> list[NDArray[np.intp]]:
-    """For each edge of ``loops[kept]`` the vertices of ``loops`` that it leaves out, in order."""
+    """For each edge of ``loops[kept]`` the vertices of ``loops`` that it skips, in order."""
     index = np.flatnonzero(kept)
     following = index[loops[index].after]
     ends = loops.ends[loops.number[index]]
@@ -74,13 +73,10 @@ def passed_over(loops: Loops, kept: NDArray[np.bool_]) -> list[NDArray[np.intp]]
 
 
 def significance(loop: Points) -> NDArray[np.float64]:
-    """When the algorithm of Ramer, Douglas and Peucker drops each vertex of an (n, 2) loop.
+    """(n,) tolerances at which Ramer, Douglas and Peucker's algorithm drops the points of a loop.
 
-    Returns
-    -------
-    (n,) the smallest tolerance for which the vertex is dropped; infinite for two vertices far
-    apart. Keeping the vertices above a tolerance is the algorithm's result for it, so one
-    computation serves every tolerance and every number of vertices.
+    They are infinite for two vertices far apart. Keeping the vertices above a tolerance gives the
+    algorithm's result for it, so one computation serves all tolerances and numbers of vertices.
     """
     n = len(loop)
     start = int(np.argmax(np.hypot(*(loop - loop.mean(axis=0)).T)))
@@ -106,7 +102,7 @@ def significance(loop: Points) -> NDArray[np.float64]:
 def _farthest(z: NDArray[np.complex128], a: complex, b: complex) -> tuple[int, float]:
     """The point with the largest distance from the segment from a to b, and that distance."""
     length = abs(b - a)
-    # In a frame in which the segment runs from 0 along the real axis.
+    # Rotated so that the segment runs from 0 along the real axis.
     turned = (z - a) * ((b - a).conjugate() / length if length > 0 else 1.0)
     along, across = turned.real, turned.imag
     beyond = np.maximum(np.maximum(-along, along - length), 0)
