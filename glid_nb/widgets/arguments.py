@@ -1,4 +1,4 @@
-"""What was given to a widget, refused by name before anything is made."""
+"""Checks of a widget's arguments, before anything is made."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ def check_vertices(n_vertices: Any) -> int | None:
 
 
 def check_keywords(widget: type[Widget], given: Iterable[str]) -> None:
-    """Refuse keywords that a widget does not have, neither itself nor from ipywidgets.
+    """Refuse keywords that neither a widget nor ipywidgets has.
 
     Raises
     ------
     TypeError
-        For the first of them; the message has the name that was probably meant.
+        For the first of them, with the name that was probably meant.
     """
     own = [name for name in inspect.signature(widget.__init__).parameters if name != "self"]
     traits = [name for name in widget.class_trait_names() if not name.startswith("_")]

@@ -1,4 +1,4 @@
-"""A button that asks before it does harm."""
+"""Buttons: those that act at once, and those that ask before they replace something."""
 
 from __future__ import annotations
 
@@ -10,15 +10,21 @@ import ipywidgets
 _DOUBLE_CLICK = 0.5  # seconds
 
 
-class AskingButton(ipywidgets.Button):
-    """A button that can ask "Replace?", or another question, and is answered by another click.
+def button(
+    label: str, icon: str, tooltip: str, act: Callable[[], None], width: str = "auto"
+) -> ipywidgets.Button:
+    """A button whose click calls ``act``."""
+    made = ipywidgets.Button(
+        description=label, icon=icon, tooltip=tooltip, layout=ipywidgets.Layout(width=width)
+    )
+    made.on_click(lambda _: act())
+    return made
 
-    Parameters
-    ----------
-    label, icon, tooltip : str
-    action : callable
-        What it is for: is told whether the answer was yes, and says what was done.
-    question : str
+
+class AskingButton(ipywidgets.Button):
+    """A button that can ask a question, which a second click answers with yes.
+
+    ``action`` gets whether the answer was yes, and returns what was done.
     """
 
     def __init__(
@@ -30,7 +36,6 @@ class AskingButton(ipywidgets.Button):
         question: str = "Replace?",
     ) -> None:
         self.action = action
-        """As given."""
         self._question = question
         self._label = label
         self._asked: float | None = None
@@ -43,11 +48,11 @@ class AskingButton(ipywidgets.Button):
 
     @property
     def answered(self) -> bool:
-        """Whether a click now is the answer yes, and not the second half of a double click."""
+        """Whether a click now answers yes; the second half of a double click does not."""
         return self._asked is not None and time.monotonic() - self._asked >= _DOUBLE_CLICK
 
     def ask(self, asking: bool = True) -> None:
-        """Ask, or be the button that it was."""
+        """Show the question, or the label again."""
         self._asked = time.monotonic() if asking else None
         self.description = self._question if asking else self._label
         self.button_style = "warning" if asking else ""

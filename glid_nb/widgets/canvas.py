@@ -1,4 +1,4 @@
-"""The deformation canvas: the picture under the hand."""
+"""The deformation canvas: a picture that follows its handles."""
 
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ from glid_nb.widgets.scene import Drawing, Range
 
 Array = NDArray[Any]
 
-_PANELS_INTERVAL = 0.2  # seconds: panels and ranges are made anew no more often
+_PANELS_INTERVAL = 0.2  # least seconds between two updates of panels and ranges
 _SOURCE_SHARE = 0.4  # of the width
 
 
 class DeformCanvas(ipywidgets.HBox):
     """A picture that follows its handles.
 
-    A click on the shape adds a handle, a drag moves its target (cyan), whose handle (black) follows
-    as far as a certified map allows; right click or Delete removes it. Shift-click selects several.
+    A click on the shape adds a handle, a drag moves its target (cyan); the handle (black) follows
+    as far as a certified map allows. Right click or Delete removes it. Shift-click selects several.
     Arrow keys nudge, Ctrl+Z and Ctrl+Shift+Z undo and redo, Esc cancels a drag, 0 resets the shape,
     F makes everything visible. The wheel zooms about the pointer; the middle button, or the space
     bar and a drag, pan; so do two fingers. By keyboard alone: arrow keys move a cursor, Enter
@@ -51,18 +51,18 @@ class DeformCanvas(ipywidgets.HBox):
     width, height : int
         Size of the result in CSS pixels, at least 100 each.
     n_vertices : int, optional
-        Vertices of the mesh that the picture is drawn on. By default 10,000, or fewer where the
-        page needs longer than 40 ms to draw them. At least 3.
+        Vertices of the mesh that the picture is drawn on, at least 3. By default 10,000, or fewer
+        if the page needs longer than 40 ms to draw them.
     evaluated_in : "shader" or "kernel", optional
-        Who computes the vertices. By default the shader, where it can hold the cage; a frame then
-        costs a few kB on the wire whatever the number of vertices.
+        Where the vertices are computed. By default in the shader if it can hold the cage; a frame
+        then sends a few kB whatever the number of vertices.
 
     Raises
     ------
     TraceError
         The picture cannot be read.
     TypeError, ValueError
-        A size or a number of vertices cannot be used.
+        A size or number of vertices is invalid.
     """
 
     overlay = traitlets.Enum(tuple(OVERLAYS), "texture")
@@ -80,8 +80,7 @@ class DeformCanvas(ipywidgets.HBox):
     show_source = traitlets.Bool(False)
     """Whether the undeformed shape with the handles is drawn beside the result."""
 
-    # ipywidgets closes also what was refused while it was made.
-    _complete = False
+    _complete = False  # ipywidgets also closes a widget whose constructor raised
 
     def __init__(
         self,
@@ -114,16 +113,16 @@ class DeformCanvas(ipywidgets.HBox):
         self._closed = False  # a frame may arrive while the canvas closes
         self._when_drawn: list[Callable[[], None]] = []
         self._panels_at = self._range_at = 0.0
-        # What the panels that are drawn were taken from, and these.
+        # The drawn panels, after what they were taken from.
         self._panels: tuple[PanelCertificate | Frame, tuple[Panels, Array]] | None = None
         super().__init__([self.pane], **kwargs)
-        # A box that may scroll would shrink to nothing inside another one.
+        # A box that may scroll would shrink to nothing inside another.
         self.layout.overflow, self.layout.flex = "visible", "0 0 auto"
         self.layout.align_items = "flex-start"
         self._resize()
         self.pane.stage.observe(self._resize, ["height"])
-        # Frames come from the solver's thread, events from the page's: both hold the model's lock.
-        # The solver sets the pace: while it works, its next frame acknowledges events.
+        # Frames come from the solver's thread, events from the page's; both hold the model's lock.
+        # While the solver works, its next frame acknowledges events, so it sets the pace.
         model = self.deformation
         with model.locked():
             self.pane.stage.serve(model, self, busy=lambda: model.busy)
@@ -132,7 +131,7 @@ class DeformCanvas(ipywidgets.HBox):
             if len(model.pose):
                 self.fit()
             self._complete = True
-            self._show_source()  # and what else was given as arguments
+            self._show_source()
             self._draw(model.moment, place_legend=True)
         self.pane.stage.observe(self._on_drawn, ["drawn"])
         self.observe(lambda _: self._redraw(), ["show_cage", "show_offset_cage"])
@@ -144,11 +143,11 @@ class DeformCanvas(ipywidgets.HBox):
         self.pane.fit(self.deformation.shown, self.deformation.pose.targets)
 
     def when_drawn(self, callback: Callable[[], None]) -> None:
-        """Call ``callback`` once, when the page says that it has drawn the canvas."""
+        """Call ``callback`` once, when the page has drawn the canvas."""
         self._when_drawn.append(callback)
 
     def close(self) -> None:
-        """Remove the canvas from the page and free its renderers; a model of its own ends too."""
+        """Remove the canvas, free its renderers, and close the model if the canvas made it."""
         if not self._complete:
             return
         self._stop()
@@ -186,7 +185,6 @@ class DeformCanvas(ipywidgets.HBox):
     # Drawing; the model is locked
 
     def _on_model(self, what: str) -> None:
-        """A change of the model, told in whichever thread made it."""
         with self.deformation.locked():
             if self._closed:
                 return
@@ -197,13 +195,11 @@ class DeformCanvas(ipywidgets.HBox):
                 self.pane.stage.acknowledge()
 
     def _redraw(self, *, place_legend: bool = False) -> None:
-        """Draw what is seen in another way."""
         with self.deformation.locked():
             if not self._closed:
                 self._draw(self.deformation.moment, place_legend=place_legend)
 
     def _draw(self, moment: Moment, *, place_legend: bool = False) -> None:
-        """Draw what the model is at this moment."""
         state, pose = moment.state, moment.state.pose
         images = moment.shown(pose.handles) if len(pose) else pose.handles
         cage, offset_cage = self.show_cage, self.show_offset_cage
@@ -230,7 +226,7 @@ class DeformCanvas(ipywidgets.HBox):
             self.pane.place_legend()
 
     def _color_range(self, moment: Moment) -> Range:
-        """Colours stay comparable during a drag: a range then only grows."""
+        """During a drag the range only grows, so that colours stay comparable."""
         moving, now = moment.busy or bool(moment.dragged), time.monotonic()
         if moving and not moment.solved and now - self._range_at <= _PANELS_INTERVAL:
             return "keep"
@@ -238,7 +234,7 @@ class DeformCanvas(ipywidgets.HBox):
         return "widen" if (moment.dragged if moment.solved else moving) else "fit"
 
     def _panels_of(self, moment: Moment) -> tuple[Panels, Array]:
-        """The boundary's panels; while the solver works those of not long ago."""
+        """The boundary's panels; while the solver works at most `_PANELS_INTERVAL` old."""
         frame, now = moment.frame, time.monotonic()
         if frame is None or frame.panels is None or not len(frame.sigma2_lower):
             proof = self.deformation.certificate_of(moment.map).panels
@@ -258,7 +254,7 @@ class DeformCanvas(ipywidgets.HBox):
     # From the page
 
     def handle(self, events: Sequence[Event]) -> str | None:
-        """Act on what the hand does, and show why something was refused."""
+        """Act on pointers and keys, and show why something was refused."""
         stage = self.pane.stage
         try:
             stage.notice = self.gestures.handle(events) or ""
@@ -276,26 +272,21 @@ class DeformCanvas(ipywidgets.HBox):
 
     def _show_source(self, _: Any = None) -> None:
         with self.deformation.locked():
-            if self.show_source and self.source is None:
-                self._open_source()
-            elif not self.show_source and self.source is not None:
-                self._close_source(self.source)
-
-    def _open_source(self) -> None:
-        # The two share the room that the result had.
-        stage, width = self.pane.stage, round(_SOURCE_SHARE * self.pane.stage.width)
-        stage.width -= width
-        self.source = self._pane((width, stage.height), interactive=False)
-        self.children = [self.source, self.pane]
-        self._draw(self.deformation.moment)
-        self.fit()
-
-    def _close_source(self, closing: Pane) -> None:
-        self.source = None
-        self.children = [self.pane]
-        self.pane.stage.width += closing.stage.width
-        closing.close()
-        self.fit()
+            stage, old = self.pane.stage, self.source
+            if self.show_source == (old is not None):
+                return
+            if old is None:  # both share the width that the result had
+                width = round(_SOURCE_SHARE * stage.width)
+                stage.width -= width
+                self.source = self._pane((width, stage.height), interactive=False)
+                self.children = [self.source, self.pane]
+                self._draw(self.deformation.moment)
+            else:
+                self.source = None
+                self.children = [self.pane]
+                stage.width += old.stage.width
+                old.close()
+            self.fit()
 
 
 def _as_panels(proof: PanelCertificate) -> Panels:

@@ -1,18 +1,22 @@
-"""Closing a widget with everything that it is made of."""
+"""Closing widgets: with all that they hold, and when the cell that made them runs again."""
 
 from __future__ import annotations
 
+import sys
+import weakref
 from collections.abc import Iterator
 from typing import Any
 
 import ipywidgets
 
+_made: dict[str, tuple[str, list[weakref.ref[Any]]]] = {}  # by cell: its last run, what that made
+
 
 def close_with_parts(*widgets: ipywidgets.Widget) -> None:
     """Close widgets and all widgets that they hold: children, layouts, styles, textures.
 
-    ipywidgets closes one at a time and registers every one, so what is not closed stays in the
-    kernel and in the page for good. Parts must not be shared with a widget that lives on.
+    ipywidgets closes only the widget itself; the others stay registered in the kernel and the
+    page. Parts must not be shared with a widget that stays open.
     """
     found: dict[int, ipywidgets.Widget] = {}
     waiting = list(widgets)
@@ -29,9 +33,36 @@ def close_with_parts(*widgets: ipywidgets.Widget) -> None:
 def _widgets_in(value: Any) -> Iterator[ipywidgets.Widget]:
     if isinstance(value, ipywidgets.Widget):
         yield value
-    elif isinstance(value, (list, tuple)):
-        for item in value:
+    elif isinstance(value, (list, tuple, dict)):
+        for item in value.values() if isinstance(value, dict) else value:
             yield from _widgets_in(item)
-    elif isinstance(value, dict):
-        for item in value.values():
-            yield from _widgets_in(item)
+
+
+def close_on_rerun(made: Any) -> bool:
+    """Close what earlier runs of the running notebook cell made; the next run closes ``made``.
+
+    Outside a notebook nothing happens. Returns whether something was closed.
+    """
+    here = _running_cell()
+    if here is None:
+        return False
+    cell, run = here
+    last_run, earlier = _made.get(cell, (run, []))
+    closed = []
+    if last_run != run:
+        closed = [old for reference in earlier if (old := reference()) is not None]
+        for old in closed:
+            old.close()
+        earlier = []
+    _made[cell] = (run, [*earlier, weakref.ref(made)])
+    return bool(closed)
+
+
+def _running_cell() -> tuple[str, str] | None:
+    """The cell's identity and that of its run, if the notebook tells them."""
+    ipython = sys.modules.get("IPython")
+    shell: Any = None if ipython is None else ipython.get_ipython()
+    parent = getattr(shell, "get_parent", dict)()
+    cell = parent.get("metadata", {}).get("cellId")
+    run = parent.get("header", {}).get("msg_id")
+    return (str(cell), str(run)) if cell and run else None

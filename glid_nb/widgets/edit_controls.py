@@ -1,4 +1,4 @@
-"""What boxes of controls over a deformation share."""
+"""The base of boxes of controls over a deformation."""
 
 from __future__ import annotations
 
@@ -14,10 +14,9 @@ from glid_nb.session.deformation import Deformation
 
 
 class EditControls(ipywidgets.VBox):
-    """Controls that show a deformation and change it, and say why a change was refused.
+    """Controls that show a deformation, change it, and say why a change was refused.
 
-    A subclass builds its controls, then this, shows the model by :meth:`_show`, and starts with
-    :meth:`_watch`.
+    A subclass makes its controls, calls this constructor, :meth:`_show`, and :meth:`_watch`.
     """
 
     _stop: Callable[[], None] | None = None
@@ -32,13 +31,13 @@ class EditControls(ipywidgets.VBox):
         """The model that this is a view of."""
         self.refusal = ipywidgets.HTML()
         """Why the last change was refused."""
-        # By thread: the model may change in one while a control is used in another.
+        # Per thread: the model may change in one while a control is used in another.
         self._here = threading.local()
         super().__init__([*children, self.refusal], **kwargs)
 
     @property
     def _showing(self) -> bool:
-        """Whether a control's change comes from the model, in this thread."""
+        """Whether this thread's changes of controls come from the model."""
         return getattr(self._here, "showing", False)
 
     @contextmanager
@@ -50,7 +49,7 @@ class EditControls(ipywidgets.VBox):
             self._here.showing = False
 
     def _show(self) -> None:
-        """Bring the controls up to date, without acting on that."""
+        """Update the controls, which must not change the model."""
         raise NotImplementedError
 
     def _watch(self) -> None:
@@ -70,7 +69,7 @@ class EditControls(ipywidgets.VBox):
 
     def close(self) -> None:
         """Stop watching; the model lives on."""
-        if self._stop is None:  # it was refused while it was made
+        if self._stop is None:  # the constructor raised
             return
         self._stop()
         super().close()

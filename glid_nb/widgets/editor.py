@@ -25,10 +25,9 @@ from glid_nb.session.editor_model import Application, EditorModel, find_document
 from glid_nb.session.status_line import StatusLine
 from glid_nb.session.tracing import TracingProblem
 from glid_nb.solvers import Method, Pose
-from glid_nb.widgets import cells
 from glid_nb.widgets.arguments import check_keywords, check_vertices
 from glid_nb.widgets.canvas import DeformCanvas
-from glid_nb.widgets.closing import close_with_parts
+from glid_nb.widgets.closing import close_on_rerun, close_with_parts
 from glid_nb.widgets.monitor import SolverMonitor
 from glid_nb.widgets.open_panel import OpenPanel
 from glid_nb.widgets.pose_list import PoseList
@@ -45,10 +44,10 @@ _SOLVER = 1  # among the tabs beside the canvas
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
 
-_LOST = "{} outside the new outline and went with the old one; undo brings it all back."
+_LOST = "{} outside the new outline and removed with the old one; Undo brings everything back."
 _REPLACED = (
-    "Another picture, another session. The one before{place} comes back with {step} in the Trace "
-    "tab."
+    "Another picture starts another session. The one before{place} comes back with {step} in the "
+    "Trace tab."
 )
 _NOT_VALID = "The outline in the Trace tab is not valid yet: this is the last one that was."
 _LEFT = (
@@ -56,7 +55,7 @@ _LEFT = (
     "{path} from now on."
 )
 _NOT_SAVED = (
-    "The session could not be saved: {error}. It is tried again with the next change; "
+    "The session could not be saved: {error}. The next change tries again; "
     "Save in the Files tab writes it elsewhere."
 )
 
@@ -64,32 +63,31 @@ _NOT_SAVED = (
 class Editor(ipywidgets.VBox):
     """Trace a picture, pin points of it, drag them: it follows and never folds over.
 
-    The Trace tab finds the cage, the Deform tab moves it. Everything can also be done from code, by
-    the same path: `trace`, `add_handle`, `drag`, `solve`, `save`, `load`, `export`.
+    The Trace tab finds the cage, the Deform tab moves it. All of it can be done in code: `trace`,
+    `add_handle`, `drag`, `solve`, `save`, `load`, `export`.
 
     Parameters
     ----------
     image
         A picture, as in `glid_nb.read_image`. Without one the editor asks for a file.
     path : path, optional
-        A session file. If it exists, the editor goes on from there (give the same picture or
-        none); in any case it is kept up to date while something changes. A session that is opened
-        later is kept up to date instead, and a picture that is opened later is saved beside it; so
-        is this session should another editor or program change the file.
+        A session file, which every change updates. If it exists, the editor opens it (give the
+        same picture or none). A session that is opened later is updated instead; a picture that is
+        opened later is saved beside it, as is this session if another program changes the file.
     width, height : int
         Size of the canvas in CSS pixels, at least 240 each.
     n_vertices : int, optional
-        Vertices of the mesh that the picture is drawn on. By default 10,000, or fewer where the
-        page needs longer than 40 ms to draw them. At least 3.
+        Vertices of the mesh that the picture is drawn on, at least 3. By default 10,000, or fewer
+        if the page needs longer than 40 ms to draw them.
 
     Raises
     ------
     TraceError
         The picture cannot be read.
     DocumentError
-        The session file cannot be read, or not be written where it should be.
+        The session file cannot be read or written.
     TypeError, ValueError
-        A size or a number of vertices cannot be used, or the session file is of another picture.
+        A size or number of vertices is invalid, or the session file is of another picture.
 
     Examples
     --------
@@ -106,8 +104,7 @@ class Editor(ipywidgets.VBox):
     >>> editor.close()
     """
 
-    # ipywidgets closes also what was refused while it was made.
-    _complete = False
+    _complete = False  # ipywidgets also closes a widget whose constructor raised
     _closed = False
     _told_path: Path | None = None
 
@@ -145,13 +142,13 @@ class Editor(ipywidgets.VBox):
         self._parts: list[Any] = []
         self._tracer: CageTracer | None = None
         self._panels: tuple[SolverPanel, FilePanel] | None = None
-        # Boxes that stay: a page to which tabs are given anew chooses another one by itself.
+        # These boxes stay: if the tabs' children changed, the page would select another tab.
         self._trace_box, self._deform_box = ipywidgets.VBox(), ipywidgets.VBox()
         self.tabs = ipywidgets.Tab(
             [self._trace_box, self._deform_box], titles=("Trace", "Deform"), selected_index=_DEFORM
         )
         """The two tabs."""
-        # Without a height: it lies over the page, and nothing moves below a pointer.
+        # No height: it covers the page and moves nothing.
         self.unsaved = ipywidgets.HTML(
             layout={"display": "none", "height": "0", "margin": "0", "overflow": "visible"}
         )
@@ -162,7 +159,7 @@ class Editor(ipywidgets.VBox):
         self.model.observe(self._on_model)
         self.tabs.observe(self._on_tab, ["selected_index"])
         self._complete = True
-        if cells.register(self):
+        if close_on_rerun(self):
             self.model.take_over_file()
 
     def __repr__(self) -> str:
@@ -174,7 +171,7 @@ class Editor(ipywidgets.VBox):
             f"Editor({len(state.poses)} poses, {len(state.pose)} handles in {state.current.name!r})"
         )
 
-    # The parts that the first canvas does not wait for: made when it is drawn, or asked for.
+    # These parts are made once the canvas is drawn, or when asked for.
 
     @property
     def tracer(self) -> CageTracer:
@@ -279,16 +276,15 @@ class Editor(ipywidgets.VBox):
     def export(
         self, path: str | Path, size: tuple[int, int] | None = None, view: View = "source"
     ) -> tuple[Path, ...]:
-        """Write what is shown for other programs; the suffix says how.
+        """Export what is shown as ``.png``, ``.obj``, ``.glb``, ``.svg``, ``.html`` or ``.py``.
 
-        ``.png``, ``.obj``, ``.glb``, ``.svg``, ``.html`` or ``.py``; ``size`` and ``view`` are a
-        picture's, as in `glid_nb.render`. Returns the files that were written: the one that is
-        named, then those that come with it, such as ``-texture.png`` with a mesh.
+        ``size`` and ``view`` of a picture are as in `glid_nb.render`. Returns the written files:
+        ``path``, then those that come with it, such as ``-texture.png`` with a mesh.
 
         Raises
         ------
         ExportError
-            For another suffix, or when a file that comes with it would replace another.
+            For another suffix, or if a file that comes with ``path`` would replace another.
         """
         from glid_nb.widgets.exporting import export  # noqa: PLC0415 - not for the first canvas
 
@@ -319,7 +315,7 @@ class Editor(ipywidgets.VBox):
         self._build() if what == "replaced" else self._show_saving()
 
     def _build(self) -> None:
-        """New views of new models."""
+        """Make new views of new models."""
         with self.model.locked():
             self._take_down()
             self._tracer = self._panels = self.canvas = None
@@ -334,10 +330,10 @@ class Editor(ipywidgets.VBox):
                 self.canvas.when_drawn(self._fill)
 
     def _fill(self, _: Any = None) -> None:
-        """Make what is still missing, all of it hidden behind other tabs."""
+        """Make the parts behind other tabs that are still missing."""
         with self.model.locked():
             if self._closed:
-                return  # meanwhile
+                return
             self.tracer  # noqa: B018 - made by asking
             if self.canvas is not None:
                 self._made_panels()
@@ -365,27 +361,24 @@ class Editor(ipywidgets.VBox):
         toolbar = Toolbar(canvas)
         monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
         poses = PoseList(model)
-        self.canvas, self.monitor, self.pose_list = canvas, monitor, poses
-        self.toolbar = toolbar
+        self.canvas, self.toolbar, self.monitor, self.pose_list = canvas, toolbar, monitor, poses
         self._parts += [toolbar, canvas, monitor, poses]
-        more = ipywidgets.Tab(
-            # Boxes to be filled: other children would make the page choose another tab.
+        self._side = ipywidgets.Tab(
+            # Boxes to be filled: if the children changed, the page would select another tab.
             [monitor.image, ipywidgets.VBox(), ipywidgets.VBox()],
             titles=("Monitor", "Solver", "Files"),
+            layout={"min_height": f"{_PLOTS_HEIGHT + 64}px"},
         )
-        self._side = more
-        more.observe(self._fill, ["selected_index"])
-        more.layout.min_height = f"{_PLOTS_HEIGHT + 64}px"
-        side = ipywidgets.VBox([more, poses])
-        side.layout.width = f"{_SIDE_WIDTH + 34}px"
-        side.layout.flex, side.layout.overflow = "0 0 auto", "visible"
-        left = ipywidgets.VBox([toolbar, canvas, monitor.line])
-        left.layout.flex, left.layout.overflow = "0 0 auto", "visible"
-        left.layout.margin = "0 14px 0 0"
-        body = ipywidgets.HBox([left, side])
-        body.layout.align_items = "flex-start"
-        body.layout.flex_flow, body.layout.overflow = "row wrap", "visible"
-        return body
+        self._side.observe(self._fill, ["selected_index"])
+        fixed = {"flex": "0 0 auto", "overflow": "visible"}
+        side = ipywidgets.VBox(
+            [self._side, poses], layout={**fixed, "width": f"{_SIDE_WIDTH + 34}px"}
+        )
+        left = ipywidgets.VBox(
+            [toolbar, canvas, monitor.line], layout={**fixed, "margin": "0 14px 0 0"}
+        )
+        wrapped = {"align_items": "flex-start", "flex_flow": "row wrap", "overflow": "visible"}
+        return ipywidgets.HBox([left, side], layout=wrapped)
 
     def _take_down(self) -> None:
         with self.model.locked():
@@ -395,7 +388,6 @@ class Editor(ipywidgets.VBox):
         close_with_parts(*parts, *shown)
 
     def _show_saving(self) -> None:
-        """After a save in the background: what went wrong with it."""
         error, left, path = self.model.save_error, self.model.left_path, self.model.autosave_path
         if error is not None:
             self.unsaved.value = (
@@ -414,7 +406,7 @@ class Editor(ipywidgets.VBox):
             self._panels[1].follow_autosave()
 
     def _on_tab(self, change: Any) -> None:
-        """What was traced is deformed when somebody goes to look at it."""
+        """Deform what was traced when the Deform tab is opened."""
         self._fill()
         if change["new"] == _DEFORM:
             notice = _applied_in_words(self.model.apply_tracing(), self.model.tracing.problems)
@@ -423,7 +415,7 @@ class Editor(ipywidgets.VBox):
 
 
 def _applied_in_words(done: Application, problems: tuple[TracingProblem, ...]) -> str:
-    """What somebody who comes from the Trace tab should know; empty when it is as expected."""
+    """The notice when the Deform tab is opened; empty if nothing unexpected happened."""
     if problems:
         return _NOT_VALID
     if done.replaced:

@@ -1,4 +1,4 @@
-"""What an editor can write for other programs, by the name of the file."""
+"""Exports of an editor, chosen by the file's suffix."""
 
 from __future__ import annotations
 
@@ -31,15 +31,15 @@ FORMATS = {
 """What each suffix stands for."""
 
 _BESIDE = {".obj": (".mtl", "-texture.png"), ".py": ("-source.png",)}
-"""What follows the stem in the names of the files that come with one."""
+"""Endings, after the stem, of the files that come with one."""
 
 
 class ExportError(InputError):
-    """Something cannot be exported that way."""
+    """A file cannot be exported that way."""
 
 
 class OccupiedError(ExportError):
-    """Files that belong to something else are where others would be written."""
+    """Files that the editor did not write would be replaced."""
 
     def __init__(self, paths: Sequence[Path]) -> None:
         self.paths = tuple(paths)
@@ -72,11 +72,11 @@ def export(
     *,
     replace: bool = False,
 ) -> tuple[Path, ...]:
-    """Write what is shown to a file whose suffix says how; returns the files that were written.
+    """Export what is shown in the format of the suffix; returns the written files.
 
-    What is there under the given name is replaced. The files that come with it, ``.mtl`` and
-    ``-texture.png`` of an OBJ mesh or the ``-source.png`` that a script reads, replace only those
-    of an earlier export under this name.
+    A file of the given name is replaced. The files that come with it, ``.mtl`` and ``-texture.png``
+    of an OBJ mesh or the ``-source.png`` that a script reads, replace only those of an earlier
+    export under this name.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def export(
     view : "source" or "fit"
         Whether a picture shows what the original showed, or all of the shape.
     replace : bool
-        Whether the files that come with it replace any others too.
+        Whether the files that come with it replace any others.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def export(
     path = Path(path)
     files = files_of(path)
     first, *others = _contents(model, path, size, view)
-    # What lies beside a file that is there already came with that.
+    # If the file exists, those beside it came with it.
     _write(model, path, dict(zip(files[1:], others, strict=True)), replace or path.exists())
     _write(model, path, {path: first}, replace=True)
     return files
@@ -126,7 +126,7 @@ def export_source(model: EditorModel, script: Path, *, replace: bool = False) ->
 def _contents(
     model: EditorModel, path: Path, size: tuple[int, int] | None, view: View
 ) -> list[bytes]:
-    """What is written to `files_of` the path, in that order."""
+    """The contents of `files_of` the path, in that order."""
     document, deformation = model.document, model.deformation
     image, map_ = document.image, deformation.map
     match path.suffix.lower():

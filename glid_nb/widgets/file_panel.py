@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, cast
 
+import anywidget
 import ipywidgets
 
 from glid_nb.imaging.read import MAX_SIDE
@@ -14,7 +15,7 @@ from glid_nb.imaging.render import View
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
 from glid_nb.widgets.asking_button import AskingButton
-from glid_nb.widgets.clipboard import Clipboard
+from glid_nb.widgets.bundle import bundle
 from glid_nb.widgets.exporting import FORMATS, OccupiedError, export, export_source, files_of
 from glid_nb.widgets.open_panel import existing_path, session_path
 
@@ -23,7 +24,7 @@ _WIDE = {"width": "auto", "min_width": "0", "flex": "1 1 auto"}
 _VIEWS = (("Whole shape", "fit"), ("Original frame", "source"))
 _NO_AUTOSAVE = "Changes are kept only when you save. Editor(…, path=…) saves by itself."
 _UNSAVED = (
-    "What is here is in no file yet. Click again to open the other session without it, or save it "
+    "This session is in no file yet. Click again to open the other one without saving, or save it "
     "under another name first."
 )
 _REFUSED = "#d55e00"
@@ -33,15 +34,45 @@ class _UnsavedError(Exception):
     """A question: opening a session would discard what is in no file."""
 
 
+class Clipboard(anywidget.AnyWidget):
+    """An invisible widget through which the page copies text.
+
+    Browsers allow that only soon after a click or a key.
+    """
+
+    _esm = bundle("clipboard/main.js")
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(layout=ipywidgets.Layout(display="none"), **kwargs)
+        self._number = 0
+        self._done: Callable[[bool], None] | None = None
+        self.on_msg(self._receive)
+
+    def copy(self, text: str, done: Callable[[bool], None]) -> None:
+        """Put text into the clipboard, then call ``done`` with whether the browser allowed it.
+
+        It may be called again if several pages show this, and not at all if none does or another
+        copy is asked for in between.
+        """
+        self._number += 1
+        self._done = done
+        self.send({"number": self._number, "text": text})
+
+    def _receive(self, _: Any, message: dict[str, Any], _buffers: Any) -> None:
+        done = self._done
+        if done is None or message.get("number") != self._number:
+            return
+        copied = bool(message.get("copied"))
+        if copied:
+            self._done = None  # other pages that show this may have refused
+        done(copied)
+
+
 class FilePanel(ipywidgets.VBox):
     """Files of an editor: sessions to open and save, and exports.
 
-    A file that the editor neither wrote nor opened is replaced only when its button, which then
-    says "Replace?", is clicked again.
-
-    Parameters
-    ----------
-    model : EditorModel
+    Before a file that the editor neither wrote nor opened is replaced, the button asks "Replace?"
+    and waits for a second click.
     """
 
     def __init__(self, model: EditorModel, **kwargs: Any) -> None:
@@ -55,7 +86,7 @@ class FilePanel(ipywidgets.VBox):
             "Open", "folder-open", "Go on with the session file", self._open, "Discard?"
         )
         self.autosave = ipywidgets.HTML()
-        """Where changes are saved without being asked."""
+        """Where changes are saved automatically."""
         self.format = ipywidgets.Dropdown(
             options=[(label, suffix) for suffix, label in FORMATS.items()],
             tooltip="What to export",
@@ -120,7 +151,7 @@ class FilePanel(ipywidgets.VBox):
         return self.width.value, max(1, round(self.width.value * self._aspect))
 
     def follow_autosave(self) -> None:
-        """Name the file that is kept up to date, now that it is another."""
+        """Show the file that is saved automatically, after it has changed."""
         self.path.value = str(self.model.autosave_path or self.path.value)
         self._show()
 
@@ -180,8 +211,8 @@ class FilePanel(ipywidgets.VBox):
             verb = "is" if len(question.paths) == 1 else "are"
             folder = question.paths[0].absolute().parent
             self._say(
-                f"{names} {verb} in {folder} already, and not of this editor's making. Click again "
-                "to replace, or choose another name.",
+                f"{names} {verb} in {folder} already, not written by this editor. "
+                "Click again to replace, or choose another name.",
                 _REFUSED,
             )
         except _UnsavedError as question:
@@ -202,7 +233,7 @@ class FilePanel(ipywidgets.VBox):
         )
 
     def _show(self, _: Any = None) -> None:
-        """What depends on the model and on other controls."""
+        """Update what depends on the model and on other controls."""
         self._picture.layout.display = "flex" if self.format.value == ".png" else "none"
         self._height.value = f"× {self.size[1]} px"
         path = self.model.autosave_path

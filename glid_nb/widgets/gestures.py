@@ -27,14 +27,13 @@ _ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "Arrow
 class Gestures:
     """Turns events of the page into actions on a model.
 
-    An event is a mapping with its ``type``, the place ``x``, ``y`` in the canvas's own units,
-    ``reach``, the radius of what the pointer hits, and ``unit``, the size of a CSS pixel, both in
-    the same units, ``button``, ``shift``, ``key`` and ``time`` in milliseconds. A subclass has a
-    method ``_down``, ``_move``, ... for each of the types that it takes.
+    An event is a mapping with its ``type``, the place ``x``, ``y``, the radius ``reach`` that the
+    pointer hits and the size ``unit`` of a CSS pixel, all in the canvas's units, ``button``,
+    ``shift``, ``key`` and ``time`` in ms. A subclass has a method ``_<type>`` for each type.
     """
 
     takes: ClassVar[frozenset[str]] = frozenset({"down", "move", "up", "cancel", "key"})
-    """The types of events that mean something."""
+    """The types of events that are handled."""
 
     def __init__(self, model: Observed) -> None:
         self._model = model
@@ -43,7 +42,7 @@ class Gestures:
     def handle(self, events: Iterable[Event]) -> str | None:
         """Act on events in order; returns why something was refused, or None."""
         refusal: str | None = None
-        with self._model.locked():  # one change, which is drawn once
+        with self._model.locked():  # one change, drawn once
             for event in events:
                 kind = event["type"]
                 if kind not in self.takes:
@@ -60,25 +59,16 @@ class Gestures:
 
 @dataclass
 class _Press:
-    """A pressed pointer."""
-
     start: Array
     source: Array | None
-    """The point of the undeformed shape below it; None over a handle or beside the shape."""
+    """The point of the undeformed shape below the pointer; None over a handle or beside it."""
     targets: Array | None
-    """Where the held targets were when the pointer was at ``start``; None over no handle."""
+    """Where the dragged targets were when the pointer was at ``start``; None without a handle."""
     dragging: bool = False
 
 
 class PinGestures(Gestures):
-    """Pins points of a deformation and drags them.
-
-    Parameters
-    ----------
-    deformation : Deformation
-    fit : callable
-        Called without arguments to make everything visible.
-    """
+    """Pins points of a deformation and drags them; ``fit()`` makes everything visible."""
 
     takes = Gestures.takes | {"remove"}
 
@@ -133,7 +123,7 @@ class PinGestures(Gestures):
         if press.targets is None:
             if press.source is None or moved <= _SLOP_ON_SHAPE * event["unit"]:
                 return
-            # A pull on the shape itself pins the point below the pointer and takes it along.
+            # Dragging the shape itself pins the point below the pointer.
             self._pin(press)
         assert press.targets is not None
         if not press.dragging:

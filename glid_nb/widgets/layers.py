@@ -1,16 +1,18 @@
 """Meshes that pythreejs draws: moved by a harmonic map in the shader or in the kernel, or given.
 
-Only this module, `scene` and `picture_texture` know pythreejs.
+Only this module and `scene` know pythreejs.
 """
 
 from __future__ import annotations
 
+import math
 from typing import Any, Literal
 
 import numpy as np
 import pythreejs as three
 import scipy.sparse
 from numpy.typing import NDArray
+from PIL import Image
 
 from glid_nb.figures.style import VERMILION
 from glid_nb.geometry import MeshMap
@@ -23,6 +25,8 @@ Array = NDArray[Any]
 Uniforms = dict[str, dict[str, Any]]
 EvaluatedIn = Literal["shader", "kernel"]
 
+_LARGEST_SIDE = 2048  # pixels of a texture, which every graphics card can hold
+
 
 def attribute(values: Array, *, normalized: bool = False) -> Any:
     """An array per vertex as a shader takes it; ``normalized`` makes bytes numbers up to 1."""
@@ -30,19 +34,11 @@ def attribute(values: Array, *, normalized: bool = False) -> Any:
 
 
 class Layer:
-    """A mesh with its material.
+    """A mesh of (v, 2) points in the undeformed shape and (t, 3) triangles, with its material.
 
-    Parameters
-    ----------
-    points : (v, 2) array
-        Places in the undeformed shape.
-    triangles : (t, 3) array
-    attributes : dict
-        What there is per vertex beside its place, as :func:`attribute` makes it.
-    vertex, fragment : str
-        The shaders.
-    uniforms : dict
-        At most one texture, and that last: pythreejs binds every texture to the last name.
+    ``attributes`` are further ones per vertex, made by :func:`attribute`; ``vertex`` and
+    ``fragment`` the shaders. ``uniforms`` have at most one texture, as the last item: pythreejs
+    binds every texture to the last name.
     """
 
     def __init__(
@@ -69,7 +65,7 @@ class Layer:
 
     @property
     def materials(self) -> list[Any]:
-        """All materials, of what is drawn first first."""
+        """The materials in drawing order."""
         return [self.material]
 
     @property
@@ -96,19 +92,10 @@ class Layer:
 
 
 class MapLayer(Layer):
-    """A mesh whose vertices a harmonic map moves.
+    """A mesh whose vertices a harmonic map moves, at first ``map``.
 
-    Parameters
-    ----------
-    points, triangles, attributes, uniforms
-        As of a :class:`Layer`; without what has to do with the map.
-    shaders : (str, str)
-        Names of the vertex and the fragment shader.
-    shader_map : ShaderMap
-    map : HarmonicMap
-        The first map.
-    evaluated_in : "shader" or "kernel"
-        Who computes the vertices.
+    As :class:`Layer`, without the map's attributes and uniforms; ``shaders`` names the vertex and
+    the fragment shader.
     """
 
     def __init__(
@@ -142,14 +129,9 @@ class MapLayer(Layer):
 
 
 class ComparisonLayer(Layer):
-    """The picture on a mesh that another method has moved; what is turned over has one colour.
+    """The picture on a mesh that another method moves; turned-over triangles have one colour.
 
-    Parameters
-    ----------
-    map : MeshMap
-        The first map; those that follow are of the same triangulation.
-    uniforms : dict
-        Those of ``picture.frag``, the texture last.
+    All maps are of one triangulation; ``uniforms`` are those of ``picture.frag``.
     """
 
     def __init__(self, map: MeshMap, uniforms: Uniforms) -> None:
@@ -160,7 +142,7 @@ class ComparisonLayer(Layer):
         moved = _moved(*self._evaluated(map))
         fragment = fragment_shader("picture.frag")
         super().__init__(mesh.vertices, map.layered, moved, vertex, fragment, uniforms)
-        # Turned-over triangles are seen from their back, which is all that this material draws.
+        # Turned-over triangles show their back, and this material draws only backs.
         mark: Uniforms = {
             "mark": {"value": [*rgb([VERMILION])[0], 0.9]},
             "frame": uniforms["frame"],
@@ -170,7 +152,7 @@ class ComparisonLayer(Layer):
 
     @property
     def materials(self) -> list[Any]:
-        """Of the picture, and of what is turned over."""
+        """The materials of the picture and of turned-over triangles."""
         return [self.material, self._mark]
 
     @property
@@ -187,6 +169,28 @@ class ComparisonLayer(Layer):
         fz, fzb = (self._mean @ d for d in self._operators.wirtinger(as_complex(map.images)))
         derivatives = np.stack([np.real(fz), np.imag(fz), np.real(fzb), -np.imag(fzb)], axis=1)
         return map.images.astype(np.float32), derivatives.astype(np.float32)
+
+
+def picture_texture(image: NDArray[np.uint8]) -> Any:
+    """A texture of a picture (h, w, 4), premultiplied by alpha.
+
+    Its sides are the nearest powers of two, which three.js needs for mipmaps.
+    """
+    height, width = (min(1 << round(math.log2(n)), _LARGEST_SIDE) for n in image.shape[:2])
+    picture = (
+        Image.fromarray(image).convert("RGBa").resize((width, height), Image.Resampling.BICUBIC)
+    )
+    # A DataTexture begins at the bottom.
+    pixels = np.frombuffer(picture.tobytes(), dtype=np.uint8).reshape(height, width, 4)
+    return three.DataTexture(
+        data=np.ascontiguousarray(pixels[::-1]),
+        format="RGBAFormat",
+        type="UnsignedByteType",
+        minFilter="LinearMipMapLinearFilter",
+        magFilter="LinearFilter",
+        generateMipmaps=True,
+        anisotropy=4,
+    )
 
 
 def _moved(image: Array, derivatives: Array) -> dict[str, Any]:
@@ -208,7 +212,7 @@ def _material(vertex: str, fragment: str, uniforms: Uniforms, side: str = "Doubl
 
 
 def _mesh(geometry: Any, material: Any) -> Any:
-    # A mesh that grows out of its first bounding sphere would vanish.
+    # Culling would hide a mesh that leaves its first bounding sphere.
     return three.Mesh(geometry, material, frustumCulled=False)
 
 

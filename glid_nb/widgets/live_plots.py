@@ -1,4 +1,4 @@
-"""The plots of a solve as a PNG that is quick to draw again."""
+"""The plots of a solve as a PNG, redrawn quickly."""
 
 from __future__ import annotations
 
@@ -28,17 +28,9 @@ _DPI = 100
 class LivePlots:
     """Energy beside steps and times of the iterations, the certificate below them.
 
-    What moves is drawn onto a kept background, which is only drawn again when an axis changes: a
-    few milliseconds instead of a hundred. Not for several threads at once.
-
-    Parameters
-    ----------
-    cage : Cage
-        The boundary along which the certificate is shown.
-    width, height : int
-        CSS pixels.
-    scale : float
-        Pixels of the picture per CSS pixel, for screens of high density.
+    Artists are drawn onto a stored background, which is redrawn only when an axis changes: a few
+    milliseconds instead of a hundred. Not for several threads at once. The picture has ``width``
+    times ``height`` CSS pixels, with ``scale`` pixels for each.
     """
 
     def __init__(self, cage: Cage, width: int, height: int, scale: float = 1.5) -> None:
@@ -77,10 +69,10 @@ class LivePlots:
         starts: Collection[int] = (),
         solving: bool = False,
     ) -> bytes:
-        """The plots of these iterations and this certificate as PNG; without one nothing is proved.
+        """The plots of these iterations and of this certificate, if there is one, as PNG.
 
-        With the map its sampled sigma_2 is drawn over the certified bound. ``starts`` are the
-        iterations that began with moved targets, ``solving`` whether the last of them goes on.
+        With a map its sampled sigma_2 is drawn over the certified bound. ``starts`` are the first
+        iterations after targets moved, ``solving`` tells whether the last solve goes on.
         """
         changed = [
             self._energy.update(history, starts=starts, solving=solving),

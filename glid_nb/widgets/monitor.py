@@ -1,4 +1,4 @@
-"""What the solver is doing: a line in words and plots, live."""
+"""The solver's state, live: a status line and plots."""
 
 from __future__ import annotations
 
@@ -47,11 +47,10 @@ class SolverMonitor(ipywidgets.VBox):
     width, height : int
         Size of the plots in CSS pixels.
     plots : bool
-        Whether there are plots at all.
+        Whether there are plots.
     """
 
-    # ipywidgets closes also what was refused while it was made.
-    _complete = False
+    _complete = False  # ipywidgets also closes a widget whose constructor raised
 
     def __init__(
         self,
@@ -88,12 +87,12 @@ class SolverMonitor(ipywidgets.VBox):
 
     @property
     def text(self) -> str:
-        """The status line without its looks."""
+        """The status line as plain text."""
         moment = self.deformation.moment
         return self._words(moment, self._status(moment))
 
     def refresh(self, timeout: float | None = None) -> bool:
-        """Draw what is still to be drawn; whether that was done within ``timeout`` seconds."""
+        """Draw what has changed; whether that was done within ``timeout`` seconds."""
         self._worker.submit(None)
         return self._worker.wait(timeout)
 
@@ -112,7 +111,6 @@ class SolverMonitor(ipywidgets.VBox):
             self._worker.submit(None)
 
     def _update(self, *_: Any) -> None:
-        """In the background: the line, and the plots if there is something new."""
         moment = self.deformation.moment
         status = self._status(moment)
         self.line.value = (
@@ -121,10 +119,10 @@ class SolverMonitor(ipywidgets.VBox):
             f'background:{_TONES[status.level]}"></span>'
             f"<span>{html.escape(self._words(moment, status))}</span></div>"
         )
-        # The solver comes to rest after it has told of its last frame.
+        # The solver comes to rest after its last frame was announced.
         if moment.busy:
             self._worker.submit(None)
-        # Matplotlib's figures take their time, which the first canvas should have.
+        # The first canvas does not wait for matplotlib.
         if self._with_plots and self.deformation.begun:
             self._draw(moment)
 
@@ -153,28 +151,22 @@ class SolverMonitor(ipywidgets.VBox):
             from glid_nb.widgets.live_plots import LivePlots  # noqa: PLC0415
 
             self._plots = LivePlots(cage, *self._size)
-        # Also while the present targets have no solution yet: the frame's map is still shown.
         latest = frame if frame is not None else solution
         history, starts = (latest.history, latest.starts) if latest is not None else ((), ())
         if moment.comparison is not None:
             proof, map_ = None, None
-        elif (
-            moment.busy
-            and frame is not None
-            and frame.panels is not None
-            and len(frame.sigma2_lower)
-        ):
+        elif moment.busy and frame and frame.panels is not None and len(frame.sigma2_lower):
             proof, map_ = _live_certificate(frame, frame.panels), None
         else:
             proof, map_ = self.deformation.certificate_of(moment.map), moment.map
         picture = self._plots.draw(history, proof, map_, starts, moment.busy)
-        with self.image.hold_sync():  # the page must not take the one for the other
+        with self.image.hold_sync():  # format and value in one message
             self.image.format, self.image.value = "png", picture
         self._drawn = new
 
 
 def _live_certificate(frame: Frame, panels: Panels) -> Certificate:
-    """What the solver has proved of a frame and its panels, as the plots take it."""
+    """What the solver has proved of a frame, for the plots."""
     unknown = np.full(len(panels), np.nan)
     start, end = (np.stack([np.real(z), np.imag(z)], axis=1) for z in (panels.start, panels.end))
     proof = PanelCertificate(

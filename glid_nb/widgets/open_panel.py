@@ -1,4 +1,4 @@
-"""Open a session where there is nothing else yet, and what a session file may be called."""
+"""Names of session files, and opening one before there is a picture."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _SUFFIX = ".glid"
 
 
 class FileNameError(InputError):
-    """A file cannot have that name; the message says which it can have."""
+    """A session file cannot have that name; the message says which it can have."""
 
 
 def session_path(text: str) -> Path:
@@ -47,12 +47,7 @@ def existing_path(text: str) -> Path:
 
 
 class OpenPanel(ipywidgets.VBox):
-    """Opens a session file by its name, before there is a picture.
-
-    Parameters
-    ----------
-    model : EditorModel
-    """
+    """Opens a session file by its name, before there is a picture."""
 
     def __init__(self, model: EditorModel, **kwargs: Any) -> None:
         self.model = model

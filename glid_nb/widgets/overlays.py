@@ -15,38 +15,23 @@ from glid_nb.solvers.restarts import isometry_energy
 
 Array = NDArray[Any]
 
-# Ten evenly spaced colours of `figures.style.distortion_colors`; the first canvas does not wait for
-# matplotlib to say so.
+# Ten evenly spaced colours of `figures.style.distortion_colors`, without importing matplotlib.
 _COLORS = (
     *("#fcf4b6", "#fecc8f", "#fea16e", "#f8765c", "#e75263"),
     *("#c43c75", "#a02f7f", "#7b2382", "#57157e", "#331067"),
 )
-# Of the certificate: from green through orange to vermilion, all of them seen on white and on black
-# and beside the colours above.
+# The certificate's: green, orange, vermilion, visible on white, on black and beside those above.
 _MARGIN_COLORS = (
     *("#009e73", "#339e59", "#669e40", "#999f26", "#cc9f0d"),
     *("#e49800", "#e08a00", "#dd7b00", "#d96c00", "#d55e00"),
-)
-N_COLORS = (
-    "#009e73",
-    "#339e59",
-    "#669e40",
-    "#999f26",
-    "#cc9f0d",
-    "#e49800",
-    "#e08a00",
-    "#dd7b00",
-    "#d96c00",
-    "#d55e00",
 )
 N_COLORS = len(_COLORS)
 """Stops of the colour map in the shader."""
 
 FULL_MARGIN = 0.5
-"""A certified sigma_2 from which on a panel of the boundary has the best colour."""
+"""Panels with at least this certified sigma_2 have the best colour."""
 
-# So much of the boundary, where distortion is largest, is within the ends of a colour map.
-_SHARE = 0.98
+_SHARE = 0.98  # of the boundary, where distortion is largest, lies within a colour map's range
 
 
 @dataclass(frozen=True)
@@ -58,7 +43,7 @@ class Overlay:
     label: str
     """What a menu calls it."""
     values: Callable[[Array, Array], Array] | None = None
-    """What is shown where f_z and f_zbar have these absolute values; None for nothing."""
+    """The value shown, by ``|f_z|`` and ``|f_zbar|``; None if nothing is computed."""
     start: float = 0.0
     """The value of an isometry."""
     ends: tuple[float, ...] = (1.0,)
@@ -104,8 +89,8 @@ def color_range(
 ) -> tuple[float, float]:
     """The values at the pale and at the dark end of the colour map.
 
-    In a few round steps, so that colours mean the same from frame to frame: the narrowest range
-    that nearly all of a map with these Wirtinger derivatives is in, and not less than ``least``.
+    The narrowest of a few round ranges, so that colours rarely change their meaning, that holds
+    nearly all values of a map with these Wirtinger derivatives and is no narrower than ``least``.
     """
     overlay = _overlay(name, energy)
     start, ends = overlay.start, overlay.ends
@@ -113,7 +98,7 @@ def color_range(
     if overlay.values is not None and fz is not None and fzb is not None:
         away = np.abs(overlay.values(np.abs(fz), np.abs(fzb)) - start)
         wanted = max(wanted, float(np.quantile(away, _SHARE)))
-    # A range that is kept is one of the steps, but for rounding.
+    # ``least`` is one of the steps, up to rounding.
     return start, next((end for end in ends if abs(end - start) >= wanted - 1e-9), ends[-1])
 
 
@@ -133,7 +118,7 @@ def rgb(colors: Sequence[str]) -> NDArray[np.float64]:
 
 
 def legend(name: str, energy: Energy, range_: tuple[float, float]) -> dict[str, Any]:
-    """The colour bar as the page draws it; empty where there is nothing to explain."""
+    """The colour bar for the page; empty for none."""
     if OVERLAYS[name].number < 2 or (name == "energy" and energy.shader is None):
         return {}
     low, high = range_
@@ -146,7 +131,7 @@ def legend(name: str, energy: Energy, range_: tuple[float, float]) -> dict[str, 
 
 
 def panel_legend() -> dict[str, Any]:
-    """The colour bar of the boundary's panels, as the page draws it."""
+    """The colour bar of the boundary's panels."""
     return {
         "title": "Certified σ₂ on the boundary",
         "colors": list(_MARGIN_COLORS),

@@ -1,4 +1,4 @@
-"""The kernel's end of a pad: events of the page come in, acknowledged once they have been seen."""
+"""The kernel's end of a pad: receives the page's events and acknowledges them."""
 
 from __future__ import annotations
 
@@ -14,34 +14,26 @@ Event = dict[str, Any]
 
 
 class Hand(Protocol):
-    """What events mean."""
+    """Acts on events."""
 
     def handle(self, events: Sequence[Event]) -> str | None:
-        """Act on events in order; returns why something was refused, None for nothing."""
+        """Act on events in order; returns why something was refused, or None."""
 
 
 class Pad(anywidget.AnyWidget):
     """A picture on the page that takes pointers and keys: the base of the two canvases.
 
     The page (``js/pad``) sends ``{"view": v, "events": [...]}``, one batch at a time, and waits for
-    ``{"view": v, "ack": n, "refusal": text or None}`` with the number of the last event. So the
-    kernel sets the pace, and of moves that came meanwhile only the latest is sent. Each event has a
-    ``type``, its number ``seq``, and of a pointer the place ``x``, ``y`` and further what
-    :class:`~glid_nb.widgets.gestures.Gestures` reads; where it is ``buffered``, its ``data``.
+    ``{"view": v, "ack": n, "refusal": text or None}`` with the number of the last event, so the
+    kernel sets the pace; of the moves in between only the latest is sent. An event has a ``type``,
+    a number ``seq``, what :class:`~glid_nb.widgets.gestures.Gestures` reads, and, if it is
+    ``buffered``, its ``data``.
     """
 
     def serve(self, model: Observed, hand: Hand, busy: Callable[[], bool] = lambda: False) -> None:
-        """Have a hand act on what the page sends.
+        """Have ``hand`` act on what the page sends, while ``model`` is locked.
 
-        Parameters
-        ----------
-        model : Observed
-            Locked while something is done for the page.
-        hand : Hand
-            What acts.
-        busy : callable
-            Whether the answer is not yet there when the events have been handled: then
-            :meth:`acknowledge` is to be called when it is.
+        Where ``busy()`` is true after events were handled, the caller acknowledges them later.
         """
         self._model, self._hand, self._busy = model, hand, busy
         self._waiting: dict[str, tuple[int, str | None]] = {}
@@ -49,7 +41,7 @@ class Pad(anywidget.AnyWidget):
         self.on_msg(self._receive)
 
     def acknowledge(self) -> None:
-        """Tell the page's views that what they sent was dealt with."""
+        """Tell the page's views that their events were handled."""
         with self._model.locked():
             waiting, self._waiting = self._waiting, {}
         for view, (number, refusal) in waiting.items():
@@ -75,13 +67,12 @@ class Pad(anywidget.AnyWidget):
 
 
 def answer_during_cells(widget: ipywidgets.Widget) -> None:
-    """Have a widget's messages handled where its page sends them: in a thread beside the cells.
+    """Handle a widget's messages in a thread of their own while a cell runs.
 
-    JupyterLab addresses a widget's messages to a subshell, a thread of the kernel that runs no
-    cells. ipykernel from 7.4 on redirects them to the loop that last sent something to the page,
-    which for a widget that a cell made is the main one, and there they wait until the cell that
-    runs has ended. A widget that calls this must be ready for handlers in another thread. Where the
-    kernel has no such redirection, or the page no subshell, nothing changes.
+    JupyterLab addresses them to a subshell, a kernel thread that runs no cells. ipykernel from 7.4
+    on redirects them to the loop that last sent something to the page, for a widget made by a cell
+    the main one, where they wait for the running cell. This undoes that redirection, if there is
+    one; handlers then run in another thread.
     """
     comm: Any = widget.comm
     if hasattr(comm, "_reply_subshell_for"):

@@ -21,31 +21,19 @@ Array = NDArray[Any]
 
 _SHARES = (0.0, 0.25, 0.5, 0.75)  # of an edge
 _ROOM = 1.12  # what is fitted leaves a border
-# Without a graphics processor a vertex costs tens of microseconds: more than these are not moved
-# with the hand. Fewer would show, as a picture that breaks at the mesh's edges.
+# Without a graphics processor a vertex costs tens of microseconds, so the mesh gets coarser; with
+# fewer vertices than these its edges would be visible.
 _DRAWING_TIME, _FEWEST_VERTICES = 40.0, 1500  # ms, vertices
 
 
 class Pane(ipywidgets.GridBox):
-    """A picture under a map, with marks over it; renderer and pad share one grid cell.
+    """A picture (h, w, 4) under a map, with marks over it; renderer and pad share one grid cell.
 
-    Parameters
-    ----------
-    image : (h, w, 4) uint8 array
-    map : HarmonicMap
-        The first map.
-    size : (int, int)
-        CSS pixels.
-    interactive : bool
-        Whether it takes pointers and keys.
-    n_vertices : int, optional
-        Vertices of the picture's mesh; by default as many as the page draws quickly.
-    evaluated_in : "shader" or "kernel", optional
-        Who computes the vertices; by default the shader where it can.
+    ``size`` is in CSS pixels; ``n_vertices`` of the mesh are by default as many as the page draws
+    quickly, ``evaluated_in`` is as in `DeformCanvas`.
     """
 
-    # ipywidgets closes also what was refused while it was made.
-    _complete = False
+    _complete = False  # ipywidgets also closes a widget whose constructor raised
 
     def __init__(
         self,
@@ -86,17 +74,17 @@ class Pane(ipywidgets.GridBox):
         self._complete = True
 
     def show(self, drawing: Drawing) -> None:
-        """Draw this, in one message where only the map and the marks are others."""
+        """Draw this, in one message if only the map and the marks have changed."""
         self._drawing, old = drawing, self.scene
         if drawing.map.domain is not old.domain:
             self.scene = self._new_scene(self.stage.uniform_vectors)
         self._show(old)
 
     def adapt(self) -> None:
-        """Draw anew in the way that the page can, by what it has said of itself.
+        """Adapt to the page, which has told its limits and its speed.
 
-        Where its shaders do not hold the cage, the kernel evaluates the map; where it draws too
-        slowly for a drag, it gets a coarser mesh.
+        If its shaders cannot hold the cage, the kernel evaluates the map; if it draws too slowly
+        for a drag, the mesh gets coarser.
         """
         stage, scene = self.stage, self.scene
         vectors, time = stage.uniform_vectors, stage.drawing_time
@@ -107,12 +95,11 @@ class Pane(ipywidgets.GridBox):
         wanted = max(affordable, self._fewest_vertices)
         if overflows or wanted < self._n_vertices:
             self._n_vertices = min(wanted, self._n_vertices)
-            stage.drawing_time = 0.0  # it was that of the scene before
+            stage.drawing_time = 0.0  # it was the old scene's
             self.scene = self._new_scene(vectors)
             self._show(scene)
 
     def _show(self, old: Scene) -> None:
-        """Draw with the present scene; ``old`` is the one before, or still the same."""
         drawing, scene, stage = self._drawing, self.scene, self.stage
         scene.show(drawing)
         if self._renderer.scene.children != (meshes := scene.meshes):
@@ -129,7 +116,7 @@ class Pane(ipywidgets.GridBox):
             old.close()
 
     def place_legend(self) -> None:
-        """Move the colour bars to where they hide least of the shape and of the targets."""
+        """Move the colour bars to where they hide least of the shape and the targets."""
         n_bars = bool(self.stage.legend) + bool(self.stage.panel_legend)
         if not n_bars:
             return
@@ -180,7 +167,7 @@ class Pane(ipywidgets.GridBox):
 
 
 def _images(map: DeformationMap, points: Array) -> Array:
-    """Images of points; those of the identity without a compiled program, for the first canvas."""
+    """Images of points; the identity's without JAX, which the first canvas does not wait for."""
     if isinstance(map, HarmonicMap):
         identity = HarmonicMap.identity(map.domain)
         if np.array_equal(map.phi, identity.phi) and np.array_equal(map.psi, identity.psi):

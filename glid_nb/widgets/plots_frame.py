@@ -1,4 +1,4 @@
-"""Where the plots of a solve stand, and what is seen of them before there is anything to plot."""
+"""The layout of a solve's plots, and a placeholder without matplotlib."""
 
 from __future__ import annotations
 
@@ -6,8 +6,7 @@ from typing import NamedTuple
 
 from glid_nb.figures.style import FAINT, GREY
 
-# CSS pixels. Above a plot is its legend, in the upper row below a line of text; below it are ticks
-# and the axis's name.
+# CSS pixels. A plot's legend is above it; ticks and the axis's name are below.
 _LEFT, _RIGHT, _ABOVE, _BELOW = 44, 8, 20, 32
 _ABOVE_UPPER = 31
 _BETWEEN = 46  # room for the right plot's ticks
@@ -35,7 +34,7 @@ class Boxes(NamedTuple):
 
 
 def plot_boxes(width: int, height: int) -> Boxes:
-    """Where each plot is in a picture of this size in CSS pixels."""
+    """The place of each plot in a picture of this size in CSS pixels."""
     inside = height - _ABOVE_UPPER - _ABOVE - 2 * _BELOW
     upper = _UPPER_SHARE * inside
     column = (width - _LEFT - _RIGHT - _BETWEEN) / 2
@@ -52,7 +51,7 @@ def plot_boxes(width: int, height: int) -> Boxes:
 
 
 def placeholder(width: int, height: int) -> bytes:
-    """Empty axes with what they are for, as an SVG of this size in CSS pixels."""
+    """Empty axes with their names, as an SVG of this size in CSS pixels."""
     names = ("energy", "steps", "time per iteration", "certificate")
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '

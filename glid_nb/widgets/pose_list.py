@@ -10,6 +10,7 @@ import ipywidgets
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
 from glid_nb.widgets.arguments import check_keywords
+from glid_nb.widgets.asking_button import button
 from glid_nb.widgets.edit_controls import EditControls
 
 
@@ -55,14 +56,8 @@ class PoseList(EditControls):
     def _button(
         self, label: str, icon: str, tooltip: str, act: Callable[[], None]
     ) -> ipywidgets.Button:
-        button = ipywidgets.Button(
-            description=label,
-            icon=icon,
-            tooltip=tooltip,
-            layout=ipywidgets.Layout(width="auto" if label else "36px"),
-        )
-        button.on_click(lambda _: self._act(act))
-        return button
+        width = "auto" if label else "36px"
+        return button(label, icon, tooltip, lambda: self._act(act), width)
 
     def _show(self) -> None:
         state = self.deformation.state

@@ -1,4 +1,4 @@
-"""Lines of a width in pixels along curves of the undeformed shape, as triangles for a shader."""
+"""Lines along curves of the undeformed shape as triangles, with a width in pixels."""
 
 from __future__ import annotations
 
@@ -17,9 +17,7 @@ Array = NDArray[Any]
 
 _PIECES_PER_SIDE = 80
 _PANEL_PIECES = 2
-# The map is not defined beyond the offset cage, so its outline is drawn a little inside, by this
-# share of its distance to the cage.
-_INSIDE = 0.15
+_INSIDE = 0.15  # of its distance to the cage, by which the offset cage is drawn inside the domain
 
 
 class Ribbon(NamedTuple):
@@ -55,7 +53,7 @@ def cage_ribbon(domain: Domain) -> Ribbon:
 
 
 def offset_ribbon(domain: Domain) -> Ribbon:
-    """The offset cage's loops, drawn a little on the side of the cage."""
+    """The offset cage's loops, moved slightly towards the cage."""
     rings = [shapely.LinearRing(loop) for loop in domain.offset_cage.loops]
     outline = shapely.MultiLineString([np.vstack([p, p[:1]]) for p in domain.cage.loops])
     gap = min(float(shapely.distance(ring, outline)) for ring in rings)

@@ -17,7 +17,14 @@ from glid_nb.geometry.panels import Panels
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.solvers import DeformationMap
-from glid_nb.widgets.layers import ComparisonLayer, EvaluatedIn, Layer, MapLayer, attribute
+from glid_nb.widgets.layers import (
+    ComparisonLayer,
+    EvaluatedIn,
+    Layer,
+    MapLayer,
+    attribute,
+    picture_texture,
+)
 from glid_nb.widgets.overlays import (
     FULL_MARGIN,
     OVERLAYS,
@@ -26,7 +33,6 @@ from glid_nb.widgets.overlays import (
     margin_stops,
     rgb,
 )
-from glid_nb.widgets.picture_texture import picture_texture
 from glid_nb.widgets.ribbons import (
     Ribbon,
     cage_ribbon,
@@ -44,12 +50,11 @@ N_VERTICES = 10_000
 
 _RANGE_SAMPLES = 256  # of the boundary, where distortion is largest
 _GRID_LINES = 40  # along the longer side
-_COLUMN = 8.0  # of triangles that are drawn after one another: width in rows' heights
+_COLUMN = 8.0  # width of a column of triangles in drawing order, in heights of a row
 _CAGE_WIDTH, _OFFSET_WIDTH, _PANEL_WIDTH = 0.9, 0.6, 2.8  # half, in pixels
 
 
-def _no_points() -> Array:
-    return np.empty((0, 2))
+_NO_POINTS = np.empty((0, 2))
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,9 +64,9 @@ class Drawing:
     map: HarmonicMap
     comparison: MeshMap | None = None
     """A map of a mesh, drawn in place of the harmonic one."""
-    targets: Array = field(default_factory=_no_points)
+    targets: Array = field(default_factory=lambda: _NO_POINTS)
     """(h, 2) where the handles should go."""
-    images: Array = field(default_factory=_no_points)
+    images: Array = field(default_factory=lambda: _NO_POINTS)
     """(h, 2) where they are."""
     selected: tuple[int, ...] = ()
     """Indices of selected handles."""
@@ -70,7 +75,7 @@ class Drawing:
     energy: Energy = field(default_factory=SymmetricDirichlet)
     """Whose density the overlay "energy" shows."""
     color_range: Range = "fit"
-    """What becomes of the ends of the overlay's colour map."""
+    """Whether the range of the overlay's colour map is kept, only widened, or fitted."""
     cage: bool = False
     """Whether the cage is drawn."""
     offset_cage: bool = False
@@ -85,20 +90,10 @@ class Drawing:
 
 
 class Scene:
-    """The picture and the lines of one domain, under one map.
+    """The picture and the lines of one domain, under one map; at first ``map``.
 
-    Parameters
-    ----------
-    image : (h, w, 4) uint8 array
-        Straight alpha.
-    map : HarmonicMap
-        The first map; its domain is the scene's.
-    n_vertices : int
-        Vertices of the picture's mesh.
-    evaluated_in : "shader" or "kernel", optional
-        Who computes the vertices; by default the shader where it can hold the domain.
-    uniform_vectors : int
-        What the page's shaders hold.
+    The image is (h, w, 4) uint8 with straight alpha; its mesh has about ``n_vertices``. By default
+    the shader computes the vertices if ``uniform_vectors`` suffice for the domain.
     """
 
     def __init__(
@@ -155,10 +150,7 @@ class Scene:
         return [material for layer in self.drawn for material in layer.materials]
 
     def show(self, drawing: Drawing) -> None:
-        """Draw this; the map must be of the scene's domain.
-
-        The layers may be others afterwards: see :meth:`close_replaced`.
-        """
+        """Draw this; the map must be of the scene's domain. See also :meth:`close_replaced`."""
         self.map = drawing.map
         self._show_comparison(drawing.comparison)
         self._show_overlay(drawing)
@@ -174,7 +166,7 @@ class Scene:
             layer.show_map(drawing.map)
 
     def close_replaced(self) -> None:
-        """Free layers that are no longer drawn, once the page has let go of them."""
+        """Free layers that are no longer drawn, once the page has the new ones."""
         while self._replaced:
             self._replaced.pop().close()
 
@@ -256,7 +248,7 @@ class Scene:
         half_width: float,
         margins: Array | None = None,
     ) -> MapLayer:
-        """A line of one colour, or coloured by margin with borders of it where there are some."""
+        """A line in one colour; with margins coloured by them between borders of that colour."""
         by_margin = 0.0 if margins is None else 1.0
         if margins is None:
             margins = np.zeros(len(line.points), dtype=np.uint8)
@@ -278,7 +270,7 @@ class Scene:
 
     def _picture_uniforms(self) -> dict[str, dict[str, Any]]:
         xmin, ymin, xmax, ymax = self.frame.bounds
-        # The shader cannot know a user's own function; the picture is shown instead.
+        # A user's own energy has no shader expression; the picture is shown instead.
         unknown = self._overlay == "energy" and self._energy.shader is None
         number = 0 if unknown else OVERLAYS[self._overlay].number
         return {
@@ -298,11 +290,10 @@ def _set_visible(layer: Layer | None, visible: bool) -> None:
 
 
 def drawing_order(mesh: Triangulation) -> Array:
-    """The triangles row by row within columns of some vertices' width.
+    """The triangles row by row within columns a few vertices wide.
 
-    A vertex costs the shader a sum over the cage, and whatever draws remembers the results of the
-    last few only. In this order a row's vertices are still known when the next row needs them, so
-    each is shaded little more than once.
+    A vertex costs the shader a sum over the cage, and only the last few results are cached. In this
+    order each vertex is shaded little more than once.
     """
     rows = np.unique(np.round(mesh.vertices[mesh.n_boundary :, 1], 9))
     if len(rows) < 2:

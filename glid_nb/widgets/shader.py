@@ -1,4 +1,4 @@
-"""What the shaders are told: of a domain, of a map at every frame, and of the energies."""
+"""Uniforms and defines of the shaders: domain, map, energies."""
 
 from __future__ import annotations
 
@@ -24,13 +24,7 @@ _GLSL = Path(__file__).parent / "glsl"
 
 
 class ShaderMap:
-    """A domain as the shader ``harmonic.glsl`` takes it.
-
-    Parameters
-    ----------
-    domain : Domain
-        Its offset cage and hole points are constants of the shader's uniforms.
-    """
+    """A domain as the shader ``harmonic.glsl`` takes it: its offset cage and hole points."""
 
     def __init__(self, domain: Domain) -> None:
         self.domain = domain
@@ -47,7 +41,7 @@ class ShaderMap:
         """(c, 4) float32: a vertex, and 1 over the edge that leads to it; 0 where none does."""
         self._far = [1e3 * float(np.abs(vertices).max()), 0, 0, 0]
         self.n_holes = len(_padded(np.zeros((domain.n_holes, 4)), self._far))
-        """Holes of the shader; those that the domain does not have do nothing."""
+        """Holes of the shader, also unused ones."""
 
     @property
     def n_chain(self) -> int:
@@ -59,7 +53,7 @@ class ShaderMap:
         return 2 * self.n_chain + self.n_holes + _OTHER_VECTORS <= vectors
 
     def coefficients(self, map: HarmonicMap) -> tuple[Array, Array]:
-        """What changes from frame to frame: (c, 4) phi and psi, (h, 4) hole points and phi."""
+        """The data of a frame: (c, 4) phi and psi, (h, 4) hole points and phi."""
         n = map.domain.n_coefficients
         chain = _vectors(map.phi[self._index], map.psi[self._index])
         holes = _vectors(self.domain.hole_points_complex, map.phi[n - self.domain.n_holes :])

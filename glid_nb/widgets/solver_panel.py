@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import Any, Literal, get_args, get_origin
 
 import ipywidgets
 
@@ -13,11 +13,43 @@ from glid_nb.methods import METHODS
 from glid_nb.session.deformation import Deformation
 from glid_nb.solvers import Method, Options
 from glid_nb.widgets.arguments import check_keywords
+from glid_nb.widgets.asking_button import button
 from glid_nb.widgets.edit_controls import EditControls
-from glid_nb.widgets.field_rows import FULL, FieldRows, control_of
 
 _WORKS_ON = {"harmonic": "", "mesh": " · mesh", "linear": " · linear"}
 _CUSTOM = CustomEnergy.label, CustomEnergy.name
+_FULL = {"width": "auto"}
+
+
+class FieldRows(ipywidgets.GridBox):
+    """Rows of a label and a control, one for each of several fields of a value.
+
+    ``on_change`` is called with a field's name and value when a control changes, also by `show`.
+    """
+
+    def __init__(self, on_change: Callable[[str, Any], None]) -> None:
+        self._on_change = on_change
+        self.controls: dict[str, Any] = {}
+        """By the field's name."""
+        columns = "124px minmax(0, 1fr)"
+        super().__init__([], layout={"grid_template_columns": columns, "grid_gap": "2px 8px"})
+
+    def build(self, controls: Mapping[str, tuple[str, Any]]) -> None:
+        """Show these rows: by the field's name a label and a control."""
+        old = self.children
+        self.controls = {name: control for name, (_, control) in controls.items()}
+        for name, control in self.controls.items():
+            control.observe(lambda change, name=name: self._on_change(name, change["new"]), "value")
+        rows = ((ipywidgets.Label(label), control) for label, control in controls.values())
+        self.children = [part for row in rows for part in row]
+        self.layout.display = None if controls else "none"
+        for part in old:
+            part.close()
+
+    def show(self, value: Any) -> None:
+        """Show the fields of a value."""
+        for name, control in self.controls.items():
+            control.value = getattr(value, name)
 
 
 class SolverPanel(EditControls):
@@ -42,7 +74,7 @@ class SolverPanel(EditControls):
         self._energy = FieldRows(self._set_energy)
         self.energy = _menu([(e.label, name) for name, e in ENERGIES.items()], "What is minimised")
         self.s = ipywidgets.BoundedFloatText(
-            1.0, min=1e-3, max=100.0, step=0.1, layout=FULL, tooltip="The energy's parameter s"
+            1.0, min=1e-3, max=100.0, step=0.1, layout=_FULL, tooltip="The energy's parameter s"
         )
         self._energy.build({"name": ("Energy", self.energy), "s": ("s", self.s)})
         self.options = FieldRows(self._set_option)
@@ -57,11 +89,11 @@ class SolverPanel(EditControls):
             self.conformal,
         ) = self.options.controls.values()
         self.pause = ipywidgets.ToggleButton(
-            description="Pause", icon="pause", tooltip="Let the solver wait", layout=FULL
+            description="Pause", icon="pause", tooltip="Let the solver wait", layout=_FULL
         )
-        self.step = _button("Step", "step-forward", "One frame's iterations", deformation.step)
-        self.reset = _button("Reset", "refresh", "The undeformed shape (0)", deformation.reset)
-        self.clear = _button(
+        self.step = button("Step", "step-forward", "One frame's iterations", deformation.step)
+        self.reset = button("Reset", "refresh", "The undeformed shape (0)", deformation.reset)
+        self.clear = button(
             "Clear handles", "eraser", "Let go of all handles", deformation.clear_handles
         )
         buttons = ipywidgets.HBox(
@@ -98,7 +130,7 @@ class SolverPanel(EditControls):
         self.about.value = f"<div style='line-height:1.3;opacity:0.75'>{html.escape(text)}</div>"
         if type(method) is not self._shown:
             self._shown = type(method)
-            made = ((k, control_of(method.kinds()[k], v)) for k, v in method.defaults().items())
+            made = ((k, _control_of(method.kinds()[k], v)) for k, v in method.defaults().items())
             self.settings.build({k: (k.replace("_", " "), c) for k, c in made if c is not None})
         self.settings.show(method)
 
@@ -135,7 +167,7 @@ class SolverPanel(EditControls):
 
 
 def _methods() -> list[tuple[str, str]]:
-    """All methods, ours first; on what each works, and which lacks its package."""
+    """Labels and names of all methods, ours first."""
     return [
         (
             method.label
@@ -148,7 +180,6 @@ def _methods() -> list[tuple[str, str]]:
 
 
 def _option_controls(options: Options) -> dict[str, tuple[str, Any]]:
-    """By the option's name a label and a control."""
     weight = ipywidgets.FloatLogSlider(
         options.p2p_weight,
         min=0,
@@ -156,7 +187,7 @@ def _option_controls(options: Options) -> dict[str, tuple[str, Any]]:
         step=0.25,
         readout_format=".0e",
         continuous_update=False,
-        layout=FULL,
+        layout=_FULL,
         tooltip="How strongly handles are drawn to their targets",
     )
     sampling = _menu(
@@ -180,10 +211,10 @@ def _option_controls(options: Options) -> dict[str, tuple[str, Any]]:
         min=1,
         max=7,
         continuous_update=False,
-        layout=FULL,
+        layout=_FULL,
         tooltip="Newton iterations between two frames",
     )
-    conformal = ipywidgets.Checkbox(indent=False, layout=FULL, tooltip="No shear anywhere")
+    conformal = ipywidgets.Checkbox(indent=False, layout=_FULL, tooltip="No shear anywhere")
     return {
         "p2p_weight": ("Weight λ", weight),
         "sampling": ("Sampling", sampling),
@@ -194,11 +225,18 @@ def _option_controls(options: Options) -> dict[str, tuple[str, Any]]:
     }
 
 
+def _control_of(kind: Any, default: Any) -> Any:
+    """A control for values of an annotated kind, or None."""
+    if get_origin(kind) is Literal:
+        return ipywidgets.Dropdown(options=get_args(kind), value=default, layout=_FULL)
+    if kind is bool:
+        return ipywidgets.Checkbox(default, indent=False, layout=_FULL)
+    if kind is int:
+        return ipywidgets.IntText(default, continuous_update=False, layout=_FULL)
+    if kind is float:
+        return ipywidgets.FloatText(default, continuous_update=False, layout=_FULL)
+    return None
+
+
 def _menu(options: Any, tooltip: str) -> ipywidgets.Dropdown:
-    return ipywidgets.Dropdown(options=options, layout=FULL, tooltip=tooltip)
-
-
-def _button(label: str, icon: str, tooltip: str, act: Callable[[], None]) -> ipywidgets.Button:
-    button = ipywidgets.Button(description=label, icon=icon, tooltip=tooltip, layout=FULL)
-    button.on_click(lambda _: act())
-    return button
+    return ipywidgets.Dropdown(options=options, layout=_FULL, tooltip=tooltip)

@@ -1,4 +1,4 @@
-"""The pad over a renderer: pointers and keys in, handles and colour bar out."""
+"""The pad over a renderer."""
 
 from __future__ import annotations
 
@@ -13,19 +13,17 @@ from glid_nb.widgets.pad import Pad
 
 _REFERENCE: dict[str, Any] = ipywidgets.widget_serialization
 
-
 CORNERS = ("bottom right", "bottom left", "top right", "top left")
-"""Where a colour bar may be, the usual place first."""
+"""Places of a colour bar, the usual one first."""
 
 _LEGEND_SIZE = np.array([222, 75])  # CSS pixels, with its distance to the border
 
 
 class Stage(Pad):
-    """What lies over a pythreejs renderer in the same place.
+    """Lies over a pythreejs renderer.
 
-    It draws handles and targets, hands pointers and keys to the kernel in world coordinates, pans
-    and zooms the renderer's camera without the kernel, and puts the coefficients of a map into the
-    renderer's materials, so that a frame is these coefficients and the marks.
+    It draws handles and targets, sends pointers and keys to the kernel in world coordinates, pans
+    and zooms without the kernel, and puts a map's coefficients into the renderer's materials.
     """
 
     _esm = bundle("canvas/main.js")
@@ -59,19 +57,19 @@ class Stage(Pad):
     """Where the colour bars are."""
 
     notice = traitlets.Unicode("").tag(sync=True)
-    """Why the last thing that was tried is not possible; empty for nothing."""
+    """Why the last action was refused; empty for nothing."""
 
     interactive = traitlets.Bool(True).tag(sync=True)
     """Whether the pad takes pointers and keys."""
 
     uniform_vectors = traitlets.Int(0).tag(sync=True)
-    """How many vectors of uniforms the page's shaders hold; 0 while no page has said."""
+    """How many vectors of uniforms the page's shaders hold; 0 while unknown."""
 
     drawing_time = traitlets.Float(0.0).tag(sync=True)
-    """Milliseconds that the page needs to draw the renderer once; 0 while no page has said."""
+    """Milliseconds that the page needs to draw the renderer once; 0 while unknown."""
 
     drawn = traitlets.Bool(False).tag(sync=True)
-    """Whether a page has drawn it: what was put off until then can begin."""
+    """Whether a page has drawn it."""
 
     renderer = traitlets.Instance(ipywidgets.Widget).tag(sync=True, **_REFERENCE)
     """The pythreejs renderer below."""
@@ -84,16 +82,9 @@ class Stage(Pad):
 
 
 def emptiest_corner(points: Any, width: int, height: int, bars: int = 1) -> str:
-    """The corner of :data:`CORNERS` where a colour bar hides the fewest points.
+    """The corner of :data:`CORNERS` where colour bars hide the fewest points.
 
-    Parameters
-    ----------
-    points : (k, 2) array_like
-        In CSS pixels from the lower left.
-    width, height : int
-        Of the pad.
-    bars : int
-        How many colour bars there are, one below the other.
+    ``points`` are (k, 2), in CSS pixels from the lower left of a pad of this size.
     """
     x, y = np.asarray(points, dtype=float).T
     beside = {"left": x < _LEGEND_SIZE[0], "right": x > width - _LEGEND_SIZE[0]}
@@ -109,8 +100,12 @@ def emptiest_corner(points: Any, width: int, height: int, bars: int = 1) -> str:
 
 def marks_of(targets: Any, images: Any, selected: Any) -> dict[str, Any]:
     """The trait ``marks``: points rounded to what a screen can show."""
+
+    def rounded(points: Any) -> list[list[float]]:
+        return [[round(float(x), 5), round(float(y), 5)] for x, y in points]
+
     return {
-        "targets": [[round(float(x), 5), round(float(y), 5)] for x, y in targets],
-        "images": [[round(float(x), 5), round(float(y), 5)] for x, y in images],
+        "targets": rounded(targets),
+        "images": rounded(images),
         "selected": [int(i) for i in selected],
     }

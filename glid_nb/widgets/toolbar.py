@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import ipywidgets
 
+from glid_nb.widgets.asking_button import button
 from glid_nb.widgets.canvas import DeformCanvas
 from glid_nb.widgets.overlays import OVERLAYS
 
@@ -19,21 +19,16 @@ _TOGGLES = (
 
 
 class Toolbar(ipywidgets.HBox):
-    """Undo, redo, reset, fit, and what the canvas shows.
-
-    Parameters
-    ----------
-    canvas : DeformCanvas
-    """
+    """Undo, redo, reset, fit, and what the canvas shows."""
 
     def __init__(self, canvas: DeformCanvas, **kwargs: Any) -> None:
         model = canvas.deformation
         self.canvas = canvas
         """The canvas that the buttons belong to."""
-        self.undo = _icon("undo", "Undo (Ctrl+Z)", model.undo)
-        self.redo = _icon("repeat", "Redo (Ctrl+Shift+Z)", model.redo)
-        self.reset = _icon("home", "The undeformed shape (0)", model.reset)
-        self.fit = _icon("expand", "Make everything visible (F)", canvas.fit)
+        self.undo = button("", "undo", "Undo (Ctrl+Z)", model.undo, "38px")
+        self.redo = button("", "repeat", "Redo (Ctrl+Shift+Z)", model.redo, "38px")
+        self.reset = button("", "home", "The undeformed shape (0)", model.reset, "38px")
+        self.fit = button("", "expand", "Make everything visible (F)", canvas.fit, "38px")
         self.overlay = ipywidgets.Dropdown(
             options=[(overlay.label, name) for name, overlay in OVERLAYS.items()],
             tooltip="What the shape shows",
@@ -68,9 +63,3 @@ class Toolbar(ipywidgets.HBox):
     def _show(self) -> None:
         model = self.canvas.deformation
         self.undo.disabled, self.redo.disabled = not model.can_undo, not model.can_redo
-
-
-def _icon(name: str, tooltip: str, act: Callable[[], None]) -> ipywidgets.Button:
-    button = ipywidgets.Button(icon=name, tooltip=tooltip, layout=ipywidgets.Layout(width="38px"))
-    button.on_click(lambda _: act())
-    return button

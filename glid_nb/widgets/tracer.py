@@ -1,4 +1,4 @@
-"""The cage tracer: a picture with its cage drawn over it, and controls for both."""
+"""The cage tracer: a picture with its cage, and controls."""
 
 from __future__ import annotations
 
@@ -22,10 +22,9 @@ from glid_nb.widgets.tracer_view import described, displayed
 
 
 class CageTracer(Pad):
-    """Traces a cage around the shape in a picture, with the hand and the eye.
+    """Traces a cage around the shape in a picture and edits it by hand.
 
-    The widget is a view of a `TracingModel`, which does the work and can be driven without a
-    browser; what either does shows in the other.
+    The widget is a view of a `TracingModel`, which does the work and needs no browser.
 
     Parameters
     ----------
@@ -64,7 +63,8 @@ class CageTracer(Pad):
     height = traitlets.Int(460, min=240).tag(sync=True)
     """Height of the picture's area in CSS pixels, at least 240."""
 
-    _stop: Callable[[], None] | None = None  # a widget is closed though its making failed
+    # ipywidgets also closes a widget whose constructor raised.
+    _stop: Callable[[], None] | None = None
 
     def __init__(
         self,
@@ -124,22 +124,18 @@ class CageTracer(Pad):
         super().close()
 
     def handle(self, events: Sequence[Event]) -> str | None:
-        """Act on what the hand does."""
+        """Act on pointers and keys."""
         hand = self.gestures
         refusal = hand.handle(events)
-        # The model has told of its changes; these two are not its own.
-        if (hand.tool, hand.selected) != (self.shown["tool"], _vertices(self.shown["selected"])):
+        # The model announces its own changes; tool and selection are not the model's.
+        selected = [list(vertex) for vertex in hand.selected]
+        if (hand.tool, selected) != (self.shown["tool"], self.shown["selected"]):
             self._push()
         return refusal
 
     def _push(self) -> None:
-        """Bring the page up to date."""
         with self.tracing_model.locked(), self.hold_sync():
             if self.tracing_model.image is not self._pushed_image:
                 self._pushed_image = self.tracing_model.image
                 self.picture = displayed(self._pushed_image)
             self.shown = described(self.gestures)
-
-
-def _vertices(listed: list[list[int]]) -> tuple[tuple[int, ...], ...]:
-    return tuple(map(tuple, listed))

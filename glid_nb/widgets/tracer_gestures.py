@@ -35,21 +35,18 @@ class Found:
 
 @dataclass(eq=False)
 class _Press:
-    """A pressed pointer; it names the gesture of what it does to the model."""
+    """A pressed pointer; also the identity of its gesture for the model."""
 
     tool: str
     start: Array
     found: Found
     offset: Array = field(default_factory=lambda: np.zeros(2))
-    """From the pointer to the vertex that it holds."""
+    """From the pointer to the dragged vertex."""
     moved: bool = False
 
 
 class TraceGestures(Gestures):
-    """Edits and paints a tracing; what the panel beside the picture asks for is done here too.
-
-    Places are in pixels of the picture.
-    """
+    """Edits and paints a tracing, also for the panel; places are in pixels of the picture."""
 
     takes = Gestures.takes | {
         *("tool", "upload", "set_options", "toggle_hole"),
@@ -76,7 +73,7 @@ class TraceGestures(Gestures):
 
     def find(self, point: Array, reach: float) -> Found:
         """What is at a point."""
-        # In a small hole nothing is far from the loop around it; the middle stays the hole's.
+        # Smaller reach inside a hole, so that the middle of a small one can be clicked.
         holes = self.model.holes
         around = [i for i, hole in enumerate(holes) if loop_edits.contains(hole.loop, point)]
         hole = min(around, key=lambda i: holes[i].area) if around else None
@@ -114,7 +111,7 @@ class TraceGestures(Gestures):
     def _move(self, event: Event) -> None:
         press, point = self._press, place(event)
         if press is None or press.found.vertex is None:
-            return  # the page moves the view, or leaves a path
+            return  # the page moves the view, or paints a path
         press.moved |= np.hypot(*(point - press.start)) > _CLICK * event["unit"]
         if press.moved:
             x, y = point + press.offset
@@ -177,7 +174,7 @@ class TraceGestures(Gestures):
             self.tool = _TOOLS[key.lower()]
 
     def _nudge(self, event: Event) -> None:
-        """Move the selected vertex; keys soon after one another are one step."""
+        """Move the selected vertex; keys in quick succession are one step of the history."""
         if len(self.selected) != 1:
             return
         if event["time"] - self._last_nudge >= _BURST:
@@ -213,7 +210,7 @@ class TraceGestures(Gestures):
         self.model.discard_edits()
 
     def _undo(self, event: Event) -> None:
-        """One step back; during a drag, to where that began."""
+        """Undo one step; during a drag, the drag."""
         if self._press is not None:
             self._cancel(event)
         else:
@@ -229,7 +226,7 @@ class TraceGestures(Gestures):
 
 
 class _Upload:
-    """A file that arrives in parts: a websocket message has a largest size."""
+    """A file that arrives in parts, since a websocket message has a largest size."""
 
     def __init__(self) -> None:
         self._name: str | None = None

@@ -1,4 +1,4 @@
-"""What the page needs to know of a tracing, as plain JSON values and as picture bytes."""
+"""A tracing for the page: plain JSON values and the picture's bytes."""
 
 from __future__ import annotations
 
@@ -16,14 +16,13 @@ from PIL import Image
 from glid_nb.imaging import Hole, TraceOptions
 from glid_nb.widgets.tracer_gestures import TraceGestures
 
-# The page draws the picture no larger than this; the cage is traced on the picture itself.
-_LONGEST_SIDE = 1600
+_LONGEST_SIDE = 1600  # of the picture that the page draws; the cage is traced on the original
 _LISTED_HOLES = 40
 _MOST_POINTS = 200  # of a hole's outline, and of a stroke
 
 
 def described(gestures: TraceGestures) -> dict[str, Any]:
-    """The state of a tracing and of the hand; points in pixels, rounded to hundredths."""
+    """The state of a tracing and its tools; points in pixels, rounded to hundredths."""
     model = gestures.model
     frame, outcome = model.frame, model.outcome
     tracing = outcome.tracing
@@ -103,7 +102,6 @@ def _hole(hole: Hole) -> dict[str, Any]:
 
 
 def _strokes(strokes: Any) -> list[list[list[float]]]:
-    """The strokes; of a mask, which has none, nothing."""
     if strokes is None or isinstance(strokes, np.ndarray):
         return []
     return [_rounded(stroke) for stroke in strokes]
