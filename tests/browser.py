@@ -428,13 +428,18 @@ class SharedLab:
 
     def start_session(self, path: str) -> None:
         """Tie a notebook that is not open yet to the kernel."""
+        self._watch.errors.clear()
         self.page.evaluate(_START_SESSION, {"path": path, "id": self._kernel})
 
     def clear(self) -> None:
-        """Close the notebook on the page and everything that was made in the kernel."""
+        """Close the notebook on the page and everything that was made in the kernel.
+
+        What the page says of widgets that are closed behind its back is not kept.
+        """
         raised = self.page.evaluate(_EXECUTE, {"id": self._kernel, "code": _CLEAR_KERNEL})
         assert raised is None, f"closing what the notebook had made raised {raised}"
         self.page.evaluate("() => window.jupyterapp.shell.currentWidget?.dispose()")
+        self._watch.errors.clear()
 
     def check(self) -> None:
         """Fail if there were errors in the console since the last check."""

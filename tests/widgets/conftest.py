@@ -70,14 +70,16 @@ def open_notebook(
             **settings: Any,
         ) -> NotebookPage:
             shared = shown_by is None and not settings
+            if shown_by is None:
+                stack.callback(lab.clear)  # after the page was checked
             page = lab.page if shared else stack.enter_context(watched_page(browser, **settings))
             if shown_by is None:
                 book: NotebookPage = LabNotebook(page, jupyter, cells, lab=lab)
             else:
                 book = shown_by(page, jupyter, cells)
+                stack.callback(book.shut_down)
             if shared:
                 stack.callback(lab.check)
-            stack.callback(book.shut_down)
             return book
 
         yield open_one
