@@ -102,7 +102,7 @@ function render({ model, el }) {
     else if (busy) [kind, text] = ["busy", "Working…"];
     else if (!size) [kind, text] = ["idle", "No picture yet"];
     else if (problems.length) {
-      [kind, text] = ["bad", loops.length ? "This is not a valid cage; the last valid one is kept" : "There is no cage yet"];
+      [kind, text] = ["bad", loops.length ? "This is not a valid cage; the last valid cage is kept" : "There is no cage yet"];
     } else if (discarded) text += " · your edits were lost with the old outline; Undo brings them back";
     else if (count > 1) text += ` · ${count} components in the picture`;
     root.dataset.status = kind;
