@@ -58,7 +58,7 @@ _HARMLESS = (
     re.compile(r"reading 'schema'\).*/static/notebook/notebook_core", re.DOTALL),
     # On a slow machine it opens its path before its file browser is there, and refuses a font.
     re.compile(r"'filebrowser:open-path' not registered.*/static/notebook/", re.DOTALL),
-    re.compile(r"Failed to load resource.*403.*/static/notebook/\w+\.woff2"),
+    re.compile(r"Failed to load resource.*403.*/static/(notebook|lab)/\w+\.woff2"),
     # Voila fetches fonts and MathJax from elsewhere, and tries to load extensions of JupyterLab.
     re.compile(r"ERR_(NAME_NOT_RESOLVED|INTERNET_DISCONNECTED).*https://cdn"),
     re.compile(r"shared module is not a function.*@jupyterlab/.*/voila/", re.DOTALL),
