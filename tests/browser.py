@@ -324,7 +324,7 @@ class NotebookPage(abc.ABC):
 class LabNotebook(NotebookPage):
     """One notebook, open in JupyterLab or in Notebook (``interface``), its cells run.
 
-    With ``lab``, in the kernel of that page; else in one of its own.
+    With ``lab``, in the kernel of that page, which `SharedLab.clear` empties; else in its own one.
     """
 
     def __init__(
@@ -336,7 +336,6 @@ class LabNotebook(NotebookPage):
         lab: SharedLab | None = None,
     ) -> None:
         super().__init__(page, server, cells)
-        self._lab = lab
         where = f"lab/workspaces/{self._name}/tree" if interface == "lab" else "notebooks"
         self._url = f"{server.url}/{where}/{self._name}.ipynb"
         if lab is not None:
@@ -401,9 +400,6 @@ class LabNotebook(NotebookPage):
         )
 
     def shut_down(self) -> None:
-        if self._lab is not None:
-            self._lab.clear()
-            return
         self.page.evaluate(
             "() => window.jupyterapp.shell.currentWidget?.sessionContext?.shutdown()"
         )
