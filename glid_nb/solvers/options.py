@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import numbers
-from dataclasses import dataclass
-from typing import Any, Literal, get_args
+from dataclasses import dataclass, field, fields
+from typing import Any, Literal
 
 import numpy as np
 
@@ -22,6 +22,11 @@ HessianKind = Literal["adaptive", "projected", "exact"]
 
 class OptionError(InputError):
     """A setting is out of range."""
+
+
+def _shown(label: str, help: str, **choices: str) -> dict[str, Any]:
+    """How flags and controls present a field; ``choices`` are values and their labels."""
+    return {"label": label, "help": help, "choices": choices}
 
 
 @dataclass(frozen=True)
@@ -69,27 +74,69 @@ class Options:
         When a value is out of range; the message names it.
     """
 
-    sampling: Sampling = "graded"
-    certificate: CertificateKind = "hermite"
-    hessian: HessianKind = "adaptive"
-    p2p_weight: float = 1e5
-    conformal: bool = False
-    align: bool = True
-    restarts: int = 3
-    max_iterations: int | None = None
-    tolerance: float = 1e-10
-    corrections: int = MOST_CORRECTIONS
-    iterations_per_call: int = _MOST_PER_CALL
+    sampling: Sampling = field(
+        default="graded",
+        metadata=_shown(
+            "Sampling",
+            "Where the energy is integrated",
+            graded="Graded panels",
+            uniform="Uniform (paper)",
+        ),
+    )
+    certificate: CertificateKind = field(
+        default="hermite",
+        metadata=_shown(
+            "Certificate",
+            "How local injectivity is proved",
+            hermite="Hermite–Bernstein",
+            lipschitz="Lipschitz (paper)",
+            bdhm="Lipschitz (BDHM)",
+        ),
+    )
+    hessian: HessianKind = field(
+        default="adaptive",
+        metadata=_shown(
+            "Hessian",
+            "The matrix of Newton's method",
+            adaptive="Adaptive",
+            projected="Projected (paper)",
+            exact="Exact",
+        ),
+    )
+    p2p_weight: float = field(
+        default=1e5, metadata=_shown("Weight λ", "How strongly handles are drawn to their targets")
+    )
+    conformal: bool = field(
+        default=False,
+        metadata=_shown("Conformal maps only", "No shear anywhere, conformal maps only"),
+    )
+    align: bool = field(
+        default=True, metadata=_shown("Align", "Begin at the best rigid motion to the targets")
+    )
+    restarts: int = field(
+        default=3, metadata=_shown("Restarts", "Other ways to try after a high energy")
+    )
+    max_iterations: int | None = field(
+        default=None,
+        metadata=_shown("Iterations", "Most iterations of one attempt; Newton's method makes 200"),
+    )
+    tolerance: float = field(
+        default=1e-10, metadata=_shown("Tolerance", "Relative decrease at which the solve ends")
+    )
+    corrections: int = field(
+        default=MOST_CORRECTIONS, metadata=_shown("Corrections", "Most steps by an old Hessian")
+    )
+    iterations_per_call: int = field(
+        default=_MOST_PER_CALL,
+        metadata=_shown("Iterations / frame", "Iterations between two frames"),
+    )
 
     def __post_init__(self) -> None:
-        for name, kinds in (
-            ("sampling", Sampling),
-            ("certificate", CertificateKind),
-            ("hessian", HessianKind),
-        ):
-            value, allowed = getattr(self, name), get_args(kinds)
-            if value not in allowed:
-                raise OptionError(f"unknown {name} {value!r}; choose one of {', '.join(allowed)}")
+        for known in fields(self):
+            value, choices = getattr(self, known.name), known.metadata["choices"]
+            if choices and value not in tuple(choices):
+                names = ", ".join(choices)
+                raise OptionError(f"unknown {known.name} {value!r}; choose one of {names}")
         for name in ("conformal", "align"):
             if not isinstance(getattr(self, name), bool | np.bool_):
                 raise OptionError(f"{name} must be True or False, got {getattr(self, name)!r}")
