@@ -108,7 +108,7 @@ class Options:
     )
     conformal: bool = field(
         default=False,
-        metadata=_shown("Conformal maps only", "No shear anywhere, conformal maps only"),
+        metadata=_shown("Conformal maps only", "No shear anywhere"),
     )
     align: bool = field(
         default=True, metadata=_shown("Align", "Begin at the best rigid motion to the targets")
