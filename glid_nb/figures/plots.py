@@ -350,8 +350,7 @@ class CertificatePlot(Plot):
         seen = levels
         self._truth.set_data([], [])
         if map is not None:
-            along = (panels.end - panels.start)[:, None] * _SAMPLES[:, None]
-            points = (panels.start[:, None] + along).reshape(-1, 2)
+            points = panels.start[:, None] + (panels.end - panels.start)[:, None] * _SAMPLES
             seen = np.asarray(map.sigma2(points)).reshape(len(bound), -1)
             places = left[:, None] + length[:, None] * _SAMPLES
             self._truth.set_data(_with_gaps(places, first), _with_gaps(seen, first))

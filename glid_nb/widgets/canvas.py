@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import ipywidgets
-import numpy as np
 import traitlets
 from numpy.typing import NDArray
 
@@ -239,7 +238,7 @@ class DeformCanvas(ipywidgets.HBox):
         if frame is None or frame.panels is None or not len(frame.sigma2_lower):
             proof = self.deformation.certificate_of(moment.map).panels
             if self._panels is None or self._panels[0] is not proof:
-                self._panels = (proof, (_as_panels(proof), proof.sigma2_lower))
+                self._panels = (proof, (proof, proof.sigma2_lower))
         elif (
             self._panels is None
             or not isinstance(before := self._panels[0], Frame)
@@ -287,8 +286,3 @@ class DeformCanvas(ipywidgets.HBox):
                 stage.width += old.stage.width
                 old.close()
             self.fit()
-
-
-def _as_panels(proof: PanelCertificate) -> Panels:
-    start, end = (points @ np.array([1, 1j]) for points in (proof.start, proof.end))
-    return Panels(start, end, proof.loop, proof.depth, np.empty(0, dtype=int))

@@ -168,9 +168,9 @@ class SolverMonitor(ipywidgets.VBox):
 def _live_certificate(frame: Frame, panels: Panels) -> Certificate:
     """What the solver has proved of a frame, for the plots."""
     unknown = np.full(len(panels), np.nan)
-    start, end = (np.stack([np.real(z), np.imag(z)], axis=1) for z in (panels.start, panels.end))
     proof = PanelCertificate(
-        start, end, panels.loop, panels.depth, frame.sigma2_lower, unknown, unknown
+        *(panels.start, panels.end, panels.loop, panels.depth, panels.next),
+        *(frame.sigma2_lower, unknown, unknown),
     )
     least = float(frame.sigma2_lower.min())
     return Certificate(
