@@ -33,7 +33,7 @@ from glid_nb.figures.style import (
     VERMILION,
     tidy,
 )
-from glid_nb.geometry import Cage
+from glid_nb.geometry import Cage, loop_name
 from glid_nb.harmonic import HarmonicMap
 
 if TYPE_CHECKING:
@@ -410,7 +410,7 @@ def _loop_names(starts: Floats, character: float) -> list[tuple[float, str]]:
     first = 0
     while first < len(width):
         last = first
-        name = Cage.loop_name(first).removesuffix(" loop")
+        name = loop_name(first).removesuffix(" loop")
         if not fits(name, first) and first:
             name = str(first)
             while not fits(name, first) and last + 1 < len(width):
@@ -428,7 +428,7 @@ def _winding(certificate: Certificate) -> str:
     text = f"winding number {certificate.winding}"
     if any(certificate.windings):
         each = enumerate(certificate.windings)
-        loops = (f"{Cage.loop_name(i).removesuffix(' loop')} {turns}" for i, turns in each)
+        loops = (f"{loop_name(i).removesuffix(' loop')} {turns}" for i, turns in each)
         text += f" ({', '.join(loops)})"
     return text.replace("-", "\N{MINUS SIGN}")
 
