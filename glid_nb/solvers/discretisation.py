@@ -139,9 +139,8 @@ class Discretisation:
         if not self.can_refine:
             raise ValueError("the uniform sampling of the paper is fixed; it cannot be refined")
         chosen = chosen & self.panels.divisible
-        panels, old = self.panels.split(chosen), _rows_of(self.matrices, len(self.panels))
-        count = np.where(chosen, 2, 1)
-        parent = np.repeat(np.arange(len(self.panels)), count)
+        panels, parent = self.panels.split(chosen)
+        old = _rows_of(self.matrices, len(self.panels))
         children = np.flatnonzero(chosen[parent])
         second = children[1::2]
 
