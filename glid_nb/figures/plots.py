@@ -33,7 +33,7 @@ from glid_nb.figures.style import (
     VERMILION,
     tidy,
 )
-from glid_nb.geometry import Cage
+from glid_nb.geometry import Cage, loop_name
 from glid_nb.harmonic import HarmonicMap
 
 if TYPE_CHECKING:
@@ -350,8 +350,7 @@ class CertificatePlot(Plot):
         seen = levels
         self._truth.set_data([], [])
         if map is not None:
-            along = (panels.end - panels.start)[:, None] * _SAMPLES[:, None]
-            points = (panels.start[:, None] + along).reshape(-1, 2)
+            points = panels.start[:, None] + (panels.end - panels.start)[:, None] * _SAMPLES
             seen = np.asarray(map.sigma2(points)).reshape(len(bound), -1)
             places = left[:, None] + length[:, None] * _SAMPLES
             self._truth.set_data(_with_gaps(places, first), _with_gaps(seen, first))
@@ -410,7 +409,7 @@ def _loop_names(starts: Floats, character: float) -> list[tuple[float, str]]:
     first = 0
     while first < len(width):
         last = first
-        name = Cage.loop_name(first).removesuffix(" loop")
+        name = loop_name(first).removesuffix(" loop")
         if not fits(name, first) and first:
             name = str(first)
             while not fits(name, first) and last + 1 < len(width):
@@ -428,7 +427,7 @@ def _winding(certificate: Certificate) -> str:
     text = f"winding number {certificate.winding}"
     if any(certificate.windings):
         each = enumerate(certificate.windings)
-        loops = (f"{Cage.loop_name(i).removesuffix(' loop')} {turns}" for i, turns in each)
+        loops = (f"{loop_name(i).removesuffix(' loop')} {turns}" for i, turns in each)
         text += f" ({', '.join(loops)})"
     return text.replace("-", "\N{MINUS SIGN}")
 

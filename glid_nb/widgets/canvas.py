@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import ipywidgets
-import numpy as np
 import traitlets
 from numpy.typing import NDArray
 
@@ -17,8 +16,8 @@ from glid_nb.geometry import Domain
 from glid_nb.geometry.panels import Panels
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.live_solver import Frame
-from glid_nb.session.moment import Moment
+from glid_nb.session.document import certificate_of
+from glid_nb.session.edit_state import Frame, Moment
 from glid_nb.widgets.arguments import LEAST_CANVAS, check_keywords, check_vertices
 from glid_nb.widgets.gestures import Event, PinGestures
 from glid_nb.widgets.layers import EvaluatedIn
@@ -140,7 +139,7 @@ class DeformCanvas(ipywidgets.HBox):
 
     def fit(self) -> None:
         """Make the whole shape and all targets visible."""
-        self.pane.fit(self.deformation.shown, self.deformation.pose.targets)
+        self.pane.fit(self.deformation.moment.shown, self.deformation.pose.targets)
 
     def when_drawn(self, callback: Callable[[], None]) -> None:
         """Call ``callback`` once, when the page has drawn the canvas."""
@@ -237,9 +236,9 @@ class DeformCanvas(ipywidgets.HBox):
         """The boundary's panels; while the solver works at most `_PANELS_INTERVAL` old."""
         frame, now = moment.frame, time.monotonic()
         if frame is None or frame.panels is None or not len(frame.sigma2_lower):
-            proof = self.deformation.certificate_of(moment.map).panels
+            proof = certificate_of(moment.map).panels
             if self._panels is None or self._panels[0] is not proof:
-                self._panels = (proof, (_as_panels(proof), proof.sigma2_lower))
+                self._panels = (proof, (proof, proof.sigma2_lower))
         elif (
             self._panels is None
             or not isinstance(before := self._panels[0], Frame)
@@ -287,8 +286,3 @@ class DeformCanvas(ipywidgets.HBox):
                 stage.width += old.stage.width
                 old.close()
             self.fit()
-
-
-def _as_panels(proof: PanelCertificate) -> Panels:
-    start, end = (points @ np.array([1, 1j]) for points in (proof.start, proof.end))
-    return Panels(start, end, proof.loop, proof.depth, np.empty(0, dtype=int))

@@ -18,9 +18,9 @@ from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.imaging.render import View
-from glid_nb.session import Document
+from glid_nb.session import Document, NamedPose
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.edit_state import EditedPose, EditError
+from glid_nb.session.edit_state import EditError
 from glid_nb.session.editor_model import Application, EditorModel, find_document
 from glid_nb.session.status_line import StatusLine
 from glid_nb.session.tracing import TracingProblem
@@ -209,7 +209,7 @@ class Editor(ipywidgets.VBox):
     @property
     def comparison(self) -> MeshMap | None:
         """What a method on a mesh has come to, uncertified; None for other methods."""
-        return self.deformation.comparison
+        return self.deformation.moment.comparison
 
     @property
     def certificate(self) -> Certificate:
@@ -222,9 +222,9 @@ class Editor(ipywidgets.VBox):
         return self.deformation.pose
 
     @property
-    def poses(self) -> tuple[EditedPose, ...]:
+    def poses(self) -> tuple[NamedPose, ...]:
         """All poses."""
-        return self.deformation.poses
+        return self.deformation.state.poses
 
     @property
     def status(self) -> StatusLine:

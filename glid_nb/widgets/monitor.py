@@ -14,8 +14,8 @@ from glid_nb.certificate import Certificate
 from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.geometry.panels import Panels
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.live_solver import Frame
-from glid_nb.session.moment import Moment
+from glid_nb.session.document import certificate_of
+from glid_nb.session.edit_state import Frame, Moment
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.arguments import check_keywords
@@ -133,7 +133,7 @@ class SolverMonitor(ipywidgets.VBox):
         return status.text + (f" · {rate} {'frame' if rate == 1 else 'frames'}/s" if rate else "")
 
     def _status(self, moment: Moment) -> StatusLine:
-        return describe(moment, self.deformation.certificate_of)
+        return describe(moment)
 
     def _rate(self) -> int:
         now = time.monotonic()
@@ -158,7 +158,7 @@ class SolverMonitor(ipywidgets.VBox):
         elif moment.busy and frame and frame.panels is not None and len(frame.sigma2_lower):
             proof, map_ = _live_certificate(frame, frame.panels), None
         else:
-            proof, map_ = self.deformation.certificate_of(moment.map), moment.map
+            proof, map_ = certificate_of(moment.map), moment.map
         picture = self._plots.draw(history, proof, map_, starts, moment.busy)
         with self.image.hold_sync():  # format and value in one message
             self.image.format, self.image.value = "png", picture
@@ -168,9 +168,9 @@ class SolverMonitor(ipywidgets.VBox):
 def _live_certificate(frame: Frame, panels: Panels) -> Certificate:
     """What the solver has proved of a frame, for the plots."""
     unknown = np.full(len(panels), np.nan)
-    start, end = (np.stack([np.real(z), np.imag(z)], axis=1) for z in (panels.start, panels.end))
     proof = PanelCertificate(
-        start, end, panels.loop, panels.depth, frame.sigma2_lower, unknown, unknown
+        *(panels.start, panels.end, panels.loop, panels.depth, panels.next),
+        *(frame.sigma2_lower, unknown, unknown),
     )
     least = float(frame.sigma2_lower.min())
     return Certificate(
