@@ -7,8 +7,7 @@ import html
 import json
 import re
 from pathlib import Path
-
-from typing_extensions import Buffer
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -95,7 +94,7 @@ def _bounds(points: NDArray[np.float64]) -> list[float]:
     return [*points.min(axis=0).tolist(), *points.max(axis=0).tolist()]
 
 
-def _base64(data: Buffer) -> str:
+def _base64(data: bytes | NDArray[Any]) -> str:
     return base64.b64encode(data).decode("ascii")
 
 

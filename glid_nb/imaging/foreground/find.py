@@ -9,14 +9,16 @@ from numpy.typing import NDArray
 
 from glid_nb._arguments import read_only
 from glid_nb.imaging.errors import TraceError
-from glid_nb.imaging.foreground.levels import color_threshold, histogram, otsu
 from glid_nb.imaging.foreground.measure import (
     RGBA,
     border_color,
     border_is_bright,
     brightness,
     color_distance,
+    color_threshold,
     full,
+    histogram,
+    otsu,
 )
 from glid_nb.imaging.foreground.score import Foreground
 from glid_nb.imaging.foreground.scribbles import scaled_picture, scribble_score
