@@ -168,9 +168,9 @@ class HarmonicMap:
         version = data.get("version")
         if version != FORMAT_VERSION:
             raise MapError(f"map version {version!r} is not supported; expected {FORMAT_VERSION}")
-        # A domain without one of these would choose it, and so have another basis.
         for key in ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "phi", "psi"):
-            if data.get(key) is None:
+            # A domain without one of its parts would choose it, and so have another basis.
+            if key not in data or (data[key] is None and key not in ("phi", "psi")):
                 raise MapError(f'the map lacks the key "{key}"')
         with about("the map's domain is not valid", MapError):
             domain = Domain.from_dict(data)
