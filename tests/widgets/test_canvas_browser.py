@@ -116,7 +116,7 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     for label in ("Cage", "Offset", "Certificate"):
         page.locator(".glid-tools button", has_text=label).click()
     book.wait_for(
-        "canvas.show_panels and canvas.show_cage and canvas.pane.scene.panels is not None"
+        "canvas.show_panels and canvas.show_cage and 'panels' in canvas.pane.scene.lines"
     )
     page.wait_for_timeout(500)
     book.screenshot("editor-overlays")
