@@ -1,15 +1,21 @@
-"""Strict checks of arguments: a wrong type, number or keyword is refused by name."""
+"""Strict checks of arguments, refused by name, and arrays as immutable values."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from numbers import Integral
-from typing import Any
+import functools
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import fields
+from numbers import Integral, Real
+from types import NoneType
+from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._errors import did_you_mean
+
+A = TypeVar("A", bound=NDArray[Any])
 
 
 def check_type(
@@ -54,6 +60,50 @@ def check_keywords(
             raise error(f"{name} has no argument {keyword!r:.60}{hint}")
 
 
+@functools.cache
+def field_kinds(cls: type) -> dict[str, Any]:
+    """The annotations of a dataclass's fields, resolved."""
+    hints = get_type_hints(cls)
+    return {field.name: hints[field.name] for field in fields(cls)}
+
+
+def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str:
+    """What a value of an annotated kind must be, if this one is not; empty if it is.
+
+    ``limits``, such as a field's metadata, may hold the ends of a number's range: "least" and
+    "most", or "above". By default numbers are at least 0.
+    """
+    if get_origin(kind) is Literal:
+        allowed = get_args(kind)
+        known = any(type(value) is type(one) and value == one for one in allowed)
+        return "" if known else f"one of {', '.join(map(str, allowed))}"
+    if get_args(kind):
+        each = [unmet(one, value, limits) for one in get_args(kind)]
+        return "" if "" in each else " or ".join(text for text in each if text != "None")
+    if kind is NoneType:
+        return "" if value is None else "None"
+    if kind is bool:
+        return "" if isinstance(value, bool | np.bool_) else "True or False"
+    if kind not in (int, float):
+        return "" if isinstance(value, kind) else f"a {kind.__name__}"
+    limits = limits or {}
+    least, most, above = limits.get("least", 0), limits.get("most"), limits.get("above", -math.inf)
+    if (
+        isinstance(value, Integral if kind is int else Real)
+        and not isinstance(value, bool)
+        and math.isfinite(value)
+        and least <= value
+        and above < value
+        and (most is None or value <= most)
+    ):
+        return ""
+    if kind is int:
+        return f"a whole number {f'from {least} to' if most else 'of at least'} {most or least}"
+    if "above" in limits:
+        return f"a finite number greater than {above:g}"
+    return f"a finite number {'' if 'least' in limits else 'of '}at least {least:g}"
+
+
 def real_array(value: Any) -> NDArray[np.float64]:
     """``value`` as a new float64 array; a missing number (None) becomes NaN.
 
@@ -74,6 +124,30 @@ def real_array(value: Any) -> NDArray[np.float64]:
         return np.array([_number(v) for v in array.ravel()]).reshape(array.shape)
     except OverflowError as error:
         raise ValueError("a number is too large for floating point") from error
+
+
+def number_pairs(
+    value: Any, wanted: str, error: type[Exception], shape: str = ""
+) -> NDArray[np.float64]:
+    """(n, 2) numbers as a new float64 array, also for an empty list; NaN and infinity pass.
+
+    The message of the ``error`` begins with ``wanted``, "handles must be a list of [x, y] pairs",
+    for another shape with ``shape`` if that is given.
+    """
+    try:
+        pairs = real_array(value)
+    except (TypeError, ValueError) as problem:
+        raise error(f"{wanted} ({problem})") from problem
+    pairs = pairs.reshape(-1, 2) if pairs.shape == (0,) else pairs
+    if pairs.ndim != 2 or pairs.shape[1] != 2:
+        raise error(f"{shape or wanted + '; the shape is'} {pairs.shape}")
+    return pairs
+
+
+def read_only(array: A) -> A:
+    """The array itself, which nobody can write to from now on."""
+    array.setflags(write=False)
+    return array
 
 
 def _number(value: Any) -> float:

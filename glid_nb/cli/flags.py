@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 import dataclasses
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args, get_type_hints
 
 import glid_nb
 from glid_nb.energies import ENERGIES
@@ -26,43 +26,20 @@ def add_solver_flags(parser: argparse.ArgumentParser) -> None:
         help="; ".join(f"{name}: {energy.label}" for name, energy in ENERGIES.items()),
     )
     add("--s", type=float, metavar="S", help=f"parameter of {_WITH_S}, above 0 (default 1)")
-    add("--p2p-weight", type=float, metavar="L", help="weight of the targets (default 1e5)")
-    add(
-        "--conformal",
-        action="store_const",
-        const=True,
-        help="allow conformal maps only (no shear)",
-    )
-    add(
-        "--sampling",
-        metavar="{graded,uniform}",
-        help="where the energy is integrated: graded panels (default) or the paper's samples",
-    )
-    add(
-        "--certificate",
-        metavar="{hermite,lipschitz,bdhm}",
-        help="how injectivity is proved: ours (default), the paper's Lipschitz bounds, or BDHM's "
-        "looser ones",
-    )
-    add(
-        "--hessian",
-        metavar="{adaptive,projected,exact}",
-        help="exact where positive definite (default), the paper's projection, or always exact",
-    )
-    add(
-        "--no-align",
-        dest="align",
-        action="store_const",
-        const=False,
-        help="begin at the identity itself, not at its best rigid motion to the targets",
-    )
-    add(
-        "--restarts",
-        type=int,
-        metavar="N",
-        help="other ways to try where the first ends at a high energy (default 3)",
-    )
-    add("--max-iterations", type=int, metavar="K", help="most Newton iterations (default 200)")
+    kinds = get_type_hints(glid_nb.Options)
+    for field in dataclasses.fields(glid_nb.Options):
+        kind, choices = kinds[field.name], field.metadata["choices"]
+        text = field.metadata["help"][0].lower() + field.metadata["help"][1:]
+        if field.default is not None:
+            text += f" (default {field.default})"
+        flag = f"--{field.name.replace('_', '-')}"
+        if choices:
+            text += "; " + ", ".join(f"{value}: {label}" for value, label in choices.items())
+            add(flag, metavar=f"{{{','.join(choices)}}}", help=text)
+        elif kind is bool:
+            add(flag, action=argparse.BooleanOptionalAction, help=text)
+        else:
+            add(flag, type=get_args(kind)[0] if get_args(kind) else kind, metavar="N", help=text)
 
 
 def add_trace_flags(parser: argparse.ArgumentParser) -> None:

@@ -22,7 +22,7 @@ from glid_nb._bounds import rounded_down
 from glid_nb.certificate import Certificate
 from glid_nb.figures import style
 from glid_nb.figures.style import BLUE, FAINT, GREEN, INK, SKY, SMALL, VERMILION
-from glid_nb.geometry import Cage
+from glid_nb.geometry import Cage, loop_name
 from glid_nb.harmonic import HarmonicMap
 
 if TYPE_CHECKING:
@@ -350,7 +350,7 @@ def _loop_names(starts: Floats, character: float) -> list[tuple[float, str]]:
     for _, loops in itertools.groupby(range(len(starts) - 1), group):
         together = list(loops)
         first, last = together[0], together[-1]
-        name = Cage.loop_name(first).removesuffix(" loop")
+        name = loop_name(first).removesuffix(" loop")
         if first and not (first == last and fits(name, first)):
             name = str(first) if first == last else f"{first}–{last}"
         names.append((float(starts[first] + starts[last + 1]) / 2, name))
@@ -360,7 +360,7 @@ def _loop_names(starts: Floats, character: float) -> list[tuple[float, str]]:
 def _winding(certificate: Certificate) -> str:
     """The winding number of ``f_z``, and each loop's own where they are not all 0."""
     each = enumerate(certificate.windings)
-    loops = (f"{Cage.loop_name(i).removesuffix(' loop')} {turns}" for i, turns in each)
+    loops = (f"{loop_name(i).removesuffix(' loop')} {turns}" for i, turns in each)
     text = f"winding number {certificate.winding}"
     text += f" ({', '.join(loops)})" if any(certificate.windings) else ""
     return text.replace("-", "\N{MINUS SIGN}")

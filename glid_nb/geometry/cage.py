@@ -11,6 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import read_only
 from glid_nb.geometry._checks import RESOLUTION, check_loops, checked_vertices
 from glid_nb.geometry._loops import GeometryError, edge_lengths, loop_list, loop_name, signed_area
 
@@ -68,11 +69,6 @@ class Cage:
         """The loops as nested lists under the keys ``cage`` and ``holes``, ready for JSON."""
         return {"cage": self.exterior.tolist(), "holes": [hole.tolist() for hole in self.holes]}
 
-    @staticmethod
-    def loop_name(index: int) -> str:
-        """The name of loop `index` in messages: "exterior loop", "hole 1", "hole 2", ..."""
-        return loop_name(index)
-
     @property
     def loops(self) -> tuple[NDArray[np.float64], ...]:
         """The exterior loop, then the holes."""
@@ -81,7 +77,7 @@ class Cage:
     @cached_property
     def loops_complex(self) -> tuple[NDArray[np.complex128], ...]:
         """The loops as read-only complex128 arrays x + iy."""
-        return tuple(_read_only(loop[:, 0] + 1j * loop[:, 1]) for loop in self.loops)
+        return tuple(read_only(loop[:, 0] + 1j * loop[:, 1]) for loop in self.loops)
 
     def equals(self, other: Cage) -> bool:
         """Whether all loops have the same vertices in the same order."""
@@ -149,31 +145,16 @@ class Cage:
             raise GeometryError(f"tolerance must be at least 0, not {tolerance}")
         flat = xy.reshape(-1, 2)
         rounding = RESOLUTION * max(self.longer_side, float(np.abs(self.bounds).max()))
-        reach = max(tolerance, rounding)
         inside = shapely.intersects_xy(self.polygon, flat[:, 0], flat[:, 1])
-        rest = np.flatnonzero(~inside)
-        if rest.size:
-            # Distances are slow; a wider polygon rules out most points.
-            wider = shapely.buffer(self.polygon, 2 * max(reach, 1e-4 * self.longer_side))
-            shapely.prepare(wider)
-            rest = rest[shapely.intersects_xy(wider, flat[rest, 0], flat[rest, 1])]
-            inside[rest] = shapely.dwithin(self._outline, shapely.points(flat[rest]), reach)
+        # Distances are slow, and NaN has none.
+        rest = ~inside & np.isfinite(flat).all(axis=1)
+        near = shapely.points(flat[rest])
+        inside[rest] = shapely.dwithin(self.polygon, near, max(tolerance, rounding))
         return inside.reshape(xy.shape[:-1])
-
-    @cached_property
-    def _outline(self) -> shapely.MultiLineString:
-        outline = shapely.MultiLineString([np.vstack([loop, loop[:1]]) for loop in self.loops])
-        shapely.prepare(outline)
-        return outline
-
-
-def _read_only(array: NDArray[Any]) -> NDArray[Any]:
-    array.setflags(write=False)
-    return array
 
 
 def _oriented(loop: NDArray[np.float64], ccw: bool) -> NDArray[np.float64]:
     """A read-only copy of the loop with the given orientation and the same vertex 0."""
     if (signed_area(loop) > 0) != ccw:
         loop = np.concatenate([loop[:1], loop[:0:-1]])
-    return _read_only(np.array(loop))
+    return read_only(np.array(loop))

@@ -167,7 +167,7 @@ def panels_along(loops: Sequence[Array]) -> Panels:
 
 def _clearance(domain: Domain, start: Array, end: Array) -> Array:
     """(p,) distances of segments to the nearest singularity of ``f_z``."""
-    singular = np.concatenate([*domain.offset_loops_complex, domain.hole_points_complex])
+    singular = np.concatenate([*domain.offset_cage.loops_complex, domain.hole_points_complex])
     return point_distance(singular, start[:, None], end[:, None]).min(axis=1, initial=np.inf)
 
 

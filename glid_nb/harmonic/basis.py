@@ -82,7 +82,7 @@ class Basis(NamedTuple):
 
 def build_basis(domain: Domain) -> Basis:
     """The basis of ``domain``: Cauchy coordinates of its offset cage plus one log per hole."""
-    loops = domain.offset_loops_complex
+    loops = domain.offset_cage.loops_complex
     sizes = [len(loop) for loop in loops]
     vertices = np.concatenate(loops)
     rho = domain.hole_points_complex

@@ -16,7 +16,7 @@ from glid_nb._errors import InputError, about
 from glid_nb._jax import jax, jnp
 from glid_nb._json import parse_json, write_json
 from glid_nb._runtime import double_precision, in_chunks
-from glid_nb.geometry import Cage, Domain, as_points, uniform_panels
+from glid_nb.geometry import Domain, as_points, loop_name, uniform_panels
 from glid_nb.harmonic import cauchy
 from glid_nb.harmonic.basis import Basis, build_basis
 from glid_nb.harmonic.cauchy import Singularities
@@ -95,7 +95,7 @@ class HarmonicMap:
     @classmethod
     def identity(cls, domain: Domain) -> HarmonicMap:
         """The identity map: ``phi`` = the exterior offset vertices, everything else 0."""
-        exterior = domain.offset_loops_complex[0]
+        exterior = domain.offset_cage.loops_complex[0]
         phi = np.zeros(domain.n_coefficients, dtype=complex)
         phi[: len(exterior)] = exterior
         return cls(domain, phi, np.zeros_like(phi))
@@ -187,7 +187,7 @@ class HarmonicMap:
             # The coefficients follow the file's order of vertices.
             if not np.array_equal(real_array(loop), kept):
                 wanted = "counter-clockwise" if i == 0 else "clockwise"
-                raise MapError(f"the offset cage's {Cage.loop_name(i)} must run {wanted}")
+                raise MapError(f"the offset cage's {loop_name(i)} must run {wanted}")
         phi, psi = (complex_from_pairs(data[key], f'"{key}"') for key in ("phi", "psi"))
         return cls(domain, phi, psi)
 

@@ -9,7 +9,8 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb.geometry import Cage, GeometryError
+from glid_nb._arguments import read_only
+from glid_nb.geometry import GeometryError, loop_name
 
 Loop: TypeAlias = NDArray[np.float64]
 Loops: TypeAlias = tuple[Loop, ...]
@@ -48,7 +49,7 @@ def delete_vertices(loops: Loops, vertices: Iterable[tuple[int, int]]) -> Loops:
             "The outline needs at least 3 points; move them instead",
         )
     rest = (np.delete(loop, list(gone.get(i, ())), axis=0) for i, loop in enumerate(loops))
-    return tuple(_read_only(loop) for i, loop in enumerate(rest) if i == 0 or len(loop) >= 3)
+    return tuple(read_only(loop) for i, loop in enumerate(rest) if i == 0 or len(loop) >= 3)
 
 
 def nearest_edge(loops: Loops, point: ArrayLike) -> tuple[int, int, Loop]:
@@ -94,16 +95,10 @@ def _loop(loops: Loops, loop: int, index: int) -> Loop:
         raise GeometryError(f"there is no loop {loop}; there are {len(loops)}, counted from 0")
     if not 0 <= index < len(loops[loop]):
         raise GeometryError(
-            f"{Cage.loop_name(loop)} has no vertex {index}; it has {len(loops[loop])}, "
-            "counted from 0"
+            f"{loop_name(loop)} has no vertex {index}; it has {len(loops[loop])}, counted from 0"
         )
     return loops[loop]
 
 
 def _with(loops: Loops, index: int, loop: Loop) -> Loops:
-    return (*loops[:index], _read_only(loop), *loops[index + 1 :])
-
-
-def _read_only(loop: Loop) -> Loop:
-    loop.setflags(write=False)
-    return loop
+    return (*loops[:index], read_only(loop), *loops[index + 1 :])

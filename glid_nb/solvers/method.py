@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import functools
 import importlib
 import importlib.util
-import math
-import numbers
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, fields
-from typing import Any, ClassVar, Literal, get_args, get_origin, get_type_hints
+from typing import Any, ClassVar, Literal
 
-import numpy as np
-
+from glid_nb._arguments import field_kinds, unmet
 from glid_nb._errors import InputError
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
@@ -84,7 +80,7 @@ class Method:
 
     def __post_init__(self) -> None:
         for name, kind in self.kinds().items():
-            expected = _unmet(kind, getattr(self, name))
+            expected = unmet(kind, getattr(self, name))
             if expected:
                 raise MethodError(
                     f"the setting {name!r} of the method {self.name!r} must be {expected}, "
@@ -98,7 +94,7 @@ class Method:
     @classmethod
     def kinds(cls) -> Mapping[str, Any]:
         """What each setting may be, as an annotation."""
-        return _kinds(cls)
+        return field_kinds(cls)
 
     @classmethod
     def defaults(cls) -> Mapping[str, Any]:
@@ -173,32 +169,3 @@ class Method:
             f"the method {self.name!r} works in the harmonic subspace and cannot start from a "
             "map of a mesh; give a HarmonicMap, or none"
         )
-
-
-@functools.cache
-def _kinds(method: type[Method]) -> dict[str, Any]:
-    hints = get_type_hints(method)
-    return {f.name: hints[f.name] for f in fields(method)}
-
-
-def _unmet(kind: Any, value: Any) -> str:
-    """What a value of an annotated kind must be, if this one is not; empty if it is."""
-    if get_origin(kind) is Literal:
-        allowed = get_args(kind)
-        known = any(type(value) is type(one) and value == one for one in allowed)
-        return "" if known else f"one of {', '.join(map(str, allowed))}"
-    if get_args(kind):
-        each = [_unmet(one, value) for one in get_args(kind)]
-        return "" if "" in each else " or ".join(each)
-    if kind is type(None):
-        return "" if value is None else "None"
-    if kind is bool:
-        return "" if isinstance(value, bool | np.bool_) else "True or False"
-    if kind not in (int, float):
-        return "" if isinstance(value, kind) else f"a {kind.__name__}"
-    whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
-    if kind is int:
-        return "" if whole and int(value) >= 0 else "a whole number of at least 0"
-    real = whole or (isinstance(value, numbers.Real) and not isinstance(value, bool))
-    fits = real and math.isfinite(value) and float(value) >= 0
-    return "" if fits else "a finite number of at least 0"

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import math
-import numbers
-from dataclasses import dataclass
-from typing import Any, Literal, get_args
+from dataclasses import dataclass, field, fields
+from typing import Any, Literal
 
-import numpy as np
-
+from glid_nb._arguments import field_kinds, unmet
 from glid_nb._errors import InputError
 from glid_nb.certificate.rounding import CARRIED_STEPS
 from glid_nb.solvers.discretisation import CertificateKind, Sampling
@@ -22,6 +19,14 @@ HessianKind = Literal["adaptive", "projected", "exact"]
 
 class OptionError(InputError):
     """A setting is out of range."""
+
+
+def _option(
+    default: Any, label: str, help: str, choices: dict[str, str] | None = None, **limits: float
+) -> Any:
+    """A field; how flags and controls present it, its values and their labels, its range."""
+    shown = {"label": label, "help": help, "choices": choices or {}}
+    return field(default=default, metadata={**shown, **limits})
 
 
 @dataclass(frozen=True)
@@ -69,37 +74,61 @@ class Options:
         When a value is out of range; the message names it.
     """
 
-    sampling: Sampling = "graded"
-    certificate: CertificateKind = "hermite"
-    hessian: HessianKind = "adaptive"
-    p2p_weight: float = 1e5
-    conformal: bool = False
-    align: bool = True
-    restarts: int = 3
-    max_iterations: int | None = None
-    tolerance: float = 1e-10
-    corrections: int = MOST_CORRECTIONS
-    iterations_per_call: int = _MOST_PER_CALL
+    sampling: Sampling = _option(
+        "graded",
+        "Sampling",
+        "Where the energy is integrated",
+        {"graded": "Graded panels", "uniform": "Uniform (paper)"},
+    )
+    certificate: CertificateKind = _option(
+        "hermite",
+        "Certificate",
+        "How local injectivity is proved",
+        {
+            "hermite": "Hermite–Bernstein",
+            "lipschitz": "Lipschitz (paper)",
+            "bdhm": "Lipschitz (BDHM)",
+        },
+    )
+    hessian: HessianKind = _option(
+        "adaptive",
+        "Hessian",
+        "The matrix of Newton's method",
+        {"adaptive": "Adaptive", "projected": "Projected (paper)", "exact": "Exact"},
+    )
+    p2p_weight: float = _option(
+        1e5, "Weight λ", "How strongly handles are drawn to their targets", above=0
+    )
+    conformal: bool = _option(False, "Conformal maps only", "No shear anywhere")
+    align: bool = _option(True, "Align", "Begin at the best rigid motion to the targets")
+    restarts: int = _option(3, "Restarts", "Other ways to try after a high energy")
+    max_iterations: int | None = _option(
+        None, "Iterations", "Most iterations of one attempt; Newton's method makes 200"
+    )
+    tolerance: float = _option(
+        1e-10, "Tolerance", "Relative decrease at which the solve ends", least=0
+    )
+    corrections: int = _option(
+        MOST_CORRECTIONS, "Corrections", "Most steps by an old Hessian", most=MOST_CORRECTIONS
+    )
+    iterations_per_call: int = _option(
+        _MOST_PER_CALL,
+        "Iterations / frame",
+        "Iterations between two frames",
+        least=1,
+        most=_MOST_PER_CALL,
+    )
 
     def __post_init__(self) -> None:
-        for name, kinds in (
-            ("sampling", Sampling),
-            ("certificate", CertificateKind),
-            ("hessian", HessianKind),
-        ):
-            value, allowed = getattr(self, name), get_args(kinds)
-            if value not in allowed:
-                raise OptionError(f"unknown {name} {value!r}; choose one of {', '.join(allowed)}")
-        for name in ("conformal", "align"):
-            if not isinstance(getattr(self, name), bool | np.bool_):
-                raise OptionError(f"{name} must be True or False, got {getattr(self, name)!r}")
-        _check_number("p2p_weight", self.p2p_weight, 0.0, strict=True)
-        _check_number("tolerance", self.tolerance, 0.0, strict=False)
-        _check_integer("restarts", self.restarts, 0)
-        if self.max_iterations is not None:
-            _check_integer("max_iterations", self.max_iterations, 0)
-        _check_integer("corrections", self.corrections, 0, MOST_CORRECTIONS)
-        _check_integer("iterations_per_call", self.iterations_per_call, 1, _MOST_PER_CALL)
+        kinds = field_kinds(Options)
+        for known in fields(self):
+            value, choices = getattr(self, known.name), known.metadata["choices"]
+            if choices and value not in tuple(choices):
+                names = ", ".join(choices)
+                raise OptionError(f"unknown {known.name} {value!r}; choose one of {names}")
+            expected = unmet(kinds[known.name], value, known.metadata)
+            if expected:
+                raise OptionError(f"{known.name} must be {expected}, got {value!r}")
 
     @classmethod
     def paper(cls, **changes: Any) -> Options:
@@ -116,18 +145,3 @@ class Options:
             "corrections": 0,
         }
         return cls(**{**settings, **changes})
-
-
-def _check_number(name: str, value: Any, least: float, strict: bool) -> None:
-    real = isinstance(value, numbers.Real) and not isinstance(value, bool)
-    valid = real and math.isfinite(value)
-    if not valid or (value <= least if strict else value < least):
-        relation = "greater than" if strict else "at least"
-        raise OptionError(f"{name} must be a finite number {relation} {least:g}, got {value!r}")
-
-
-def _check_integer(name: str, value: Any, least: int, most: float = math.inf) -> None:
-    whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
-    if not whole or not least <= int(value) <= most:
-        wanted = f"of at least {least}" if most == math.inf else f"from {least} to {most}"
-        raise OptionError(f"{name} must be a whole number {wanted}, got {value!r}")

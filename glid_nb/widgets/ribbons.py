@@ -52,7 +52,7 @@ def ribbon(start: Array, end: Array) -> Ribbon:
 
 def cage_ribbon(domain: Domain) -> Ribbon:
     """The cage's loops."""
-    return _loops_ribbon(domain.cage_loops_complex, domain.cage.longer_side)
+    return _loops_ribbon(domain.cage.loops_complex, domain.cage.longer_side)
 
 
 def offset_ribbon(domain: Domain) -> Ribbon:

@@ -28,7 +28,7 @@ class ShaderMap:
 
     def __init__(self, domain: Domain) -> None:
         self.domain = domain
-        loops = domain.offset_loops_complex
+        loops = domain.offset_cage.loops_complex
         starts = np.cumsum([0, *map(len, loops)])
         # Each loop as a chain that begins with its last vertex.
         sizes = zip(starts, map(len, loops), strict=False)

@@ -66,7 +66,7 @@ def test_rounding_stays_within_its_bound() -> None:
     f = np.zeros(len(z), dtype=extended)
     fz = np.zeros(len(z), dtype=extended)
     offset = 0
-    for loop in DOMAIN.offset_loops_complex:
+    for loop in DOMAIN.offset_cage.loops_complex:
         vertices = loop.astype(extended)
         phi, psi = (c[offset : offset + len(loop)].astype(extended) for c in (map.phi, map.psi))
         offset += len(loop)

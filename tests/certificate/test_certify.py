@@ -138,7 +138,7 @@ def test_the_identity() -> None:
 def holomorphic(name: str, function: Any, antiholomorphic: Any = lambda z: 0 * z) -> HarmonicMap:
     """The map that interpolates functions at all offset vertices (their Cauchy transform)."""
     d = domain(name)
-    vertices = np.concatenate(d.offset_loops_complex)
+    vertices = np.concatenate(d.offset_cage.loops_complex)
     no_logarithms = np.zeros(d.n_holes)
     return HarmonicMap(
         d,
@@ -316,10 +316,10 @@ def test_a_long_thin_domain_with_small_features() -> None:
     loop = [[0, 0], [10, 0], [10, 0.1], [5.05, 0.1], [5, 0.02], [4.95, 0.1], [0, 0.1], [0, 0]][:-1]
     d = Domain.from_cage(Cage(loop), 0.002)
     rng = np.random.default_rng(0)
-    z = np.array(d.offset_loops_complex[0])
+    z = np.array(d.offset_cage.loops_complex[0])
     phi = z * np.exp(0.05j * z.real) + 1e-4 * (
         rng.normal(size=len(z)) + 1j * rng.normal(size=len(z))
     )
-    check = DenseCheck.on(d.cage_loops_complex, [z], np.empty(0), 20_000)
+    check = DenseCheck.on(d.cage.loops_complex, [z], np.empty(0), 20_000)
     truth = check.measure(phi, 0.01 * z)
     check_sound(certify(HarmonicMap(d, phi, 0.01 * z)), truth)

@@ -38,7 +38,7 @@ def _holomorphic(
     domain: Domain, h: Callable[[Array], Array], antiholomorphic: complex = 0
 ) -> HarmonicMap:
     """``h(z) + conj(antiholomorphic * z)``, as nearly as the offset cage's vertices allow."""
-    z = np.concatenate(domain.offset_loops_complex)
+    z = np.concatenate(domain.offset_cage.loops_complex)
     holes = np.zeros(domain.n_holes)
     return HarmonicMap(domain, np.append(h(z), holes), np.append(antiholomorphic * z, holes))
 

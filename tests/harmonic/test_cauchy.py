@@ -33,10 +33,10 @@ COUNT = 50
 def parts(name: str) -> tuple[Any, Any, Array]:
     """Offset loops, hole points and points of the domain, those near its boundary included."""
     d = domain(name)
-    inside = points_inside(d.cage_loops_complex, COUNT, seed=1)
-    corners = np.concatenate([loop[:4] for loop in d.cage_loops_complex])[:8]
+    inside = points_inside(d.cage.loops_complex, COUNT, seed=1)
+    corners = np.concatenate([loop[:4] for loop in d.cage.loops_complex])[:8]
     z = np.concatenate([inside, corners, inside])[:COUNT]
-    return d.offset_loops_complex, d.hole_points @ np.array([1, 1j]), z
+    return d.offset_cage.loops_complex, d.hole_points @ np.array([1, 1j]), z
 
 
 def own_columns(kernel: Any, name: str, z: Array) -> Array:

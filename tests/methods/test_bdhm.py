@@ -35,8 +35,10 @@ def run(name: str, bounds: tuple[float, float, float]) -> Result:
 def measured(map: HarmonicMap) -> Measured:
     domain = map.domain
     rho = domain.hole_points @ np.array([1, 1j])
-    loops = domain.cage_loops_complex
-    return DenseCheck.on(loops, domain.offset_loops_complex, rho, 100_000).measure(map.phi, map.psi)
+    loops = domain.cage.loops_complex
+    return DenseCheck.on(loops, domain.offset_cage.loops_complex, rho, 100_000).measure(
+        map.phi, map.psi
+    )
 
 
 @pytest.mark.parametrize("bounds", [LOOSE, TIGHT], ids=["loose", "tight"])
@@ -144,7 +146,7 @@ def penalised(start: HarmonicMap, share: float, weight: float = 1e4, count: int 
     problem_ = BoundedProblem(domain, pose, 1e5)
     k, sigma1, sigma2 = TIGHT
     along = (np.arange(count) + 0.5) / count
-    loops = domain.cage_loops_complex
+    loops = domain.cage.loops_complex
     edges = np.concatenate([np.stack([loop, np.roll(loop, -1)], axis=1) for loop in loops])
     points = (edges[:, :1] + (edges[:, 1:] - edges[:, :1]) * along).ravel()
     samples = problem_.samples_at(points)

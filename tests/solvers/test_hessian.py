@@ -278,7 +278,7 @@ def discretised() -> tuple[Domain, Matrices, Array, Array, Array]:
     p = len(matrices.real)
     z = np.concatenate([panels.start, panels.middle])
     rows = np.concatenate([np.arange(len(panels)), p + np.arange(len(panels))])
-    dense = cauchy_first(z, d.offset_loops_complex, d.hole_points @ np.array([1, 1j]))
+    dense = cauchy_first(z, d.offset_cage.loops_complex, d.hole_points @ np.array([1, 1j]))
     map = random_map("ring", 0.05, 4)
     y = np.concatenate([map.phi.real, map.phi.imag, map.psi.real, map.psi.imag])
     return d, matrices, rows, dense, y
@@ -424,7 +424,7 @@ def test_quadrature_weights_integrate_over_the_boundary() -> None:
     assert np.asarray(matrices.hessian_weights).sum() == pytest.approx(1, rel=1e-13)
     edges = [
         (a, b)
-        for loop in d.cage_loops_complex
+        for loop in d.cage.loops_complex
         for a, b in zip(loop, np.roll(loop, -1), strict=True)
     ]
     nodes, gauss = np.polynomial.legendre.leggauss(20)

@@ -199,7 +199,7 @@ def test_start_in_another_gauge_is_the_same_start() -> None:
     cold = ring()
     map = cold.map
     phi, psi = map.phi.copy(), map.psi.copy()
-    exterior, hole = map.domain.offset_loops_complex
+    exterior, hole = map.domain.offset_cage.loops_complex
     phi[: len(exterior)] += 0.7 - 0.2j
     psi[: len(exterior)] -= np.conj(0.7 - 0.2j)
     inner = slice(len(exterior), len(exterior) + len(hole))

@@ -1,8 +1,9 @@
-"""Even triangulations of a cage, for display."""
+"""Triangle meshes of a cage, and the piecewise linear maps on them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import pythoncdt
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import read_only
 from glid_nb.geometry._loops import (
     GeometryError,
     as_points,
@@ -19,6 +21,8 @@ from glid_nb.geometry._loops import (
     subdivided,
 )
 from glid_nb.geometry.cage import Cage
+
+Array = NDArray[Any]
 
 # Least distance of lattice points from the boundary, in spacings: closer ones make flat triangles;
 _MARGIN = 0.55
@@ -48,8 +52,84 @@ class Triangulation:
     n_boundary: int
 
     def __post_init__(self) -> None:
-        self.vertices.setflags(write=False)
-        self.triangles.setflags(write=False)
+        read_only(self.vertices)
+        read_only(self.triangles)
+
+    @cached_property
+    def find(self) -> Any:
+        """A function of x and y: the triangle of each point, -1 for none."""
+        from matplotlib.tri import Triangulation as Planar  # noqa: PLC0415 - slow to import
+
+        return Planar(*self.vertices.T, self.triangles).get_trifinder()
+
+
+@dataclass(frozen=True, eq=False)
+class MeshMap:
+    """A triangle mesh and the images of its vertices.
+
+    Parameters
+    ----------
+    triangulation : Triangulation
+        The mesh of the domain.
+    images : (v, 2) array
+        Images of its vertices, world coordinates.
+    """
+
+    triangulation: Triangulation
+    images: Array
+
+    def __post_init__(self) -> None:
+        images = read_only(np.array(self.images, dtype=float))
+        if images.shape != self.triangulation.vertices.shape:
+            raise ValueError(
+                f"there are images of shape {images.shape} for vertices of shape "
+                f"{self.triangulation.vertices.shape}; give one image per vertex"
+            )
+        object.__setattr__(self, "images", images)
+
+    def __call__(self, points: ArrayLike) -> Array:
+        """Images of (k, 2) points; one off the mesh moves with a triangle at the nearest vertex."""
+        xy = np.atleast_2d(np.asarray(points, dtype=float))
+        if xy.ndim != 2 or xy.shape[1] != 2:
+            raise ValueError(f"points have shape {xy.shape}; expected (k, 2)")
+        mesh = self.triangulation
+        triangle = mesh.find(xy[:, 0], xy[:, 1])
+        beside = triangle < 0
+        if beside.any():
+            from scipy.spatial import KDTree  # noqa: PLC0415 - only for points off the mesh
+
+            nearest = KDTree(mesh.vertices).query(xy[beside])[1]
+            of_vertex = np.zeros(len(mesh.vertices), dtype=int)
+            of_vertex[mesh.triangles.ravel()] = np.repeat(np.arange(len(mesh.triangles)), 3)
+            triangle[beside] = of_vertex[nearest]
+        corners = mesh.triangles[triangle]
+        a, b, c = (mesh.vertices[corners[:, i]] for i in range(3))
+        matrix = np.stack([b - a, c - a], axis=-1)
+        weights = np.linalg.solve(matrix, (xy - a)[..., None])[..., 0]
+        weights = np.column_stack([1 - weights.sum(axis=1), weights])
+        return np.einsum("ki,kid->kd", weights, self.images[corners])
+
+    @property
+    def areas(self) -> Array:
+        """(t,) signed areas of the image triangles."""
+        a, b, c = (self.images[self.triangulation.triangles[:, i]] for i in range(3))
+        u, v = b - a, c - a
+        return 0.5 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+
+    @property
+    def flipped(self) -> Array:
+        """(t,) bool: image triangles that are turned over or flat."""
+        return ~(self.areas > 0)
+
+    @property
+    def layered(self) -> Array:
+        """(t, 3) triangles from the left of the undeformed shape to its right.
+
+        Drawn in this order, overlapping sheets stay apart.
+        """
+        mesh = self.triangulation
+        middle = mesh.vertices[mesh.triangles, 0].mean(axis=1)
+        return mesh.triangles[np.argsort(middle, kind="stable")]
 
 
 def triangulate(
@@ -99,7 +179,7 @@ def triangulate(
 
 def _checked_points(cage: Cage, points: ArrayLike | None) -> NDArray[np.float64]:
     wanted = np.asarray([] if points is None else points, dtype=float).reshape(-1, 2)
-    outside = np.flatnonzero(~cage.contains(wanted)) if len(wanted) else np.empty(0, dtype=int)
+    outside = np.flatnonzero(~cage.contains(wanted))
     if outside.size:
         i = int(outside[0])
         raise GeometryError(
@@ -118,7 +198,7 @@ def _with_points(
     position = np.real((z[:, None] - loop) * along.conj()) / np.abs(along) ** 2
     position = np.clip(position, 0, 1)
     gap = np.abs(z[:, None] - loop - position * along)
-    edge = gap.argmin(axis=1) if len(z) else np.empty(0, dtype=int)
+    edge = gap.argmin(axis=1)
     which = np.arange(len(z))
     on = gap[which, edge] <= tolerance
     ends = np.stack([loop[edge], np.roll(loop, -1)[edge]])
