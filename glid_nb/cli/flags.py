@@ -50,21 +50,12 @@ def add_trace_flags(parser: argparse.ArgumentParser) -> None:
         metavar="{auto,alpha,threshold,color,scribbles}",
         help="how the foreground is found (default: what suits the picture)",
     )
-    add(
-        "--scribbles",
-        type=Path,
-        metavar="FILE.json",
-        help="strokes, as lists of [x, y] pixels, under the keys foreground and background",
-    )
+    strokes = "strokes, as lists of [x, y] pixels, under the keys foreground and background"
+    add("--scribbles", type=Path, metavar="FILE.json", help=strokes)
     add("--invert", action=argparse.BooleanOptionalAction, help="swap foreground and background")
     add("--threshold", type=float, metavar="T", help="least value of the foreground, 0 to 1")
-    add(
-        "--background",
-        type=float,
-        nargs=3,
-        metavar=("R", "G", "B"),
-        help="background colour, each 0 to 1 (default: estimated from the border)",
-    )
+    color = "background colour, each 0 to 1 (default: estimated from the border)"
+    add("--background", type=float, nargs=3, metavar=("R", "G", "B"), help=color)
     add("--background-at", help="a pixel that shows the background's colour", **pixel)
     add("--smoothing", type=float, metavar="PX", help="blur before the outline is taken")
     add("--component", type=int, metavar="I", help="which component, 0 being the largest")
@@ -76,13 +67,8 @@ def add_trace_flags(parser: argparse.ArgumentParser) -> None:
     add("--min-edge", type=float, metavar="PX", help="shorter edges are merged")
     add("--max-edge", type=float, metavar="PX", help="longer edges are divided")
     for verb, done in (("keep", "kept"), ("drop", "filled")):
-        add(
-            f"--{verb}-hole",
-            dest=f"{verb}_holes",
-            action="append",
-            help=f"a pixel in a hole that is {done} whatever its size; may be repeated",
-            **pixel,
-        )
+        text = f"a pixel in a hole that is {done} whatever its size; may be repeated"
+        add(f"--{verb}-hole", dest=f"{verb}_holes", action="append", help=text, **pixel)
 
 
 def energy_of(chosen: argparse.Namespace) -> glid_nb.Energy:

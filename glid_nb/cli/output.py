@@ -61,19 +61,17 @@ def summary_text(
     report: Mapping[str, Any], files: Iterable[Path], rows: Iterable[tuple[str, str]] = ()
 ) -> str:
     """The report of ``build_report`` on one screen: ``rows`` of (name, text) and ``files`` too."""
-    table = [*rows, *_rows(report), *_written(files)]
-    width = max(len(name) for name, _ in table)
-    lines = []
-    for name, group in groupby(table, key=lambda row: row[0]):
-        for i, (_, text) in enumerate(group):
-            lines.append(f"{name if i == 0 else '':<{width}}  {text}".rstrip())
-    return "\n".join(lines)
-
-
-def _written(files: Iterable[Path]) -> list[tuple[str, str]]:
     folders = groupby(files, key=lambda path: path.parent)
-    rows = [("written", f"{folder}: {', '.join(p.name for p in f)}") for folder, f in folders]
-    return rows or [("written", "nothing; name files with --out and --report")]
+    written = [f"{folder}: {', '.join(path.name for path in f)}" for folder, f in folders]
+    written = written or ["nothing; name files with --out and --report"]
+    table = [*rows, *_rows(report), *(("written", text) for text in written)]
+    width = max(len(name) for name, _ in table)
+    names = [name for name, _ in table]
+    lines = (
+        f"{'' if name == before else name:<{width}}  {text}".rstrip()
+        for before, (name, text) in zip(["", *names], table, strict=False)
+    )
+    return "\n".join(lines)
 
 
 def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:

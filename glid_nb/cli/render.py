@@ -12,7 +12,7 @@ from pathlib import Path
 import glid_nb
 from glid_nb._errors import about
 from glid_nb.cli.output import check_png, write_all
-from glid_nb.cli.progress import Progress
+from glid_nb.cli.progress import step
 
 MAX_SIDE = 20_000
 
@@ -44,7 +44,7 @@ def run(chosen: argparse.Namespace) -> None:
     harmonic_map = glid_nb.HarmonicMap.load(chosen.map)
     image = glid_nb.read_image(chosen.image)
     size = tuple(chosen.size or image.shape[1::-1])
-    with about(chosen.map), Progress().step("rendering"):
+    with about(chosen.map), step("rendering"):
         picture = glid_nb.export.picture_png(image, harmonic_map, size, chosen.view)
     write_all({chosen.out: picture})
     print(f"{chosen.out}: {size[0]} x {size[1]} pixels")

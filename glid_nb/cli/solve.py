@@ -14,9 +14,8 @@ import glid_nb
 from glid_nb._errors import about
 from glid_nb._json import json_text
 from glid_nb.cli.flags import add_solver_flags, energy_of, options_of
-from glid_nb.cli.output import check_file, summary_json, summary_text, write_all
-from glid_nb.cli.progress import Progress
-from glid_nb.cli.solving import check_interrupted, run_solver
+from glid_nb.cli.output import check_file
+from glid_nb.cli.solving import finish, run_solver
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -42,15 +41,11 @@ def run(chosen: argparse.Namespace) -> None:
     energy, options = energy_of(chosen), options_of(chosen)
     start = glid_nb.HarmonicMap.load(chosen.start) if chosen.start else None
     with about(chosen.start or chosen.problem):
-        result, report = run_solver(
-            problem.domain, problem.pose, energy, options, Progress(), start
-        )
-    files: dict[Path, bytes | str] = {}
+        result, report = run_solver(problem.domain, problem.pose, energy, options, start)
     assert isinstance(result.map, glid_nb.HarmonicMap)
+    files: dict[Path, bytes | str] = {}
     if chosen.out:
         files[chosen.out] = json_text(result.map.to_dict())
     if chosen.report:
         files[chosen.report] = json_text(report)
-    write_all(files)
-    print(summary_json(report, files) if chosen.json else summary_text(report, files))
-    check_interrupted(result)
+    finish(result, report, files, chosen.json)

@@ -18,7 +18,8 @@ from glid_nb._arguments import real_array
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.session.edit_state import EditedPose, EditError, EditState
+from glid_nb.session.document import NamedPose
+from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.solvers import Method, Pose
 
 Array = NDArray[Any]
@@ -117,7 +118,7 @@ def set_domain(state: EditState, domain: Domain) -> EditState:
     """Replace the domain: all poses keep the handles inside it and restart at the identity."""
     identity = HarmonicMap.identity(domain)
 
-    def moved(pose: EditedPose) -> EditedPose:
+    def moved(pose: NamedPose) -> NamedPose:
         inside = domain.cage.contains(pose.pose.handles)
         kept = Pose(pose.pose.handles[inside], pose.pose.targets[inside])
         return pose.changed(pose=kept, map=identity)
@@ -174,7 +175,7 @@ def go_to_pose(state: EditState, index: int) -> EditState:
     return replace(state, active=_checked_pose(state, index))
 
 
-def _with_inserted(state: EditState, index: int, pose: EditedPose) -> EditState:
+def _with_inserted(state: EditState, index: int, pose: NamedPose) -> EditState:
     poses = (*state.poses[:index], pose, *state.poses[index:])
     return replace(state, poses=poses, active=index)
 

@@ -29,7 +29,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.map import complex_from_pairs, complex_to_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE
-from glid_nb.session.archive import read_archive, write_archive
+from glid_nb.session.archive import image_png, light_png, read_archive, read_png, write_archive
 from glid_nb.session.document import (
     Document,
     DocumentError,
@@ -37,7 +37,6 @@ from glid_nb.session.document import (
     certificate_of,
     check_count,
 )
-from glid_nb.session.png import image_png, light_png, read_png
 from glid_nb.solvers import Method, Newton, Options, Pose
 
 T = TypeVar("T")
@@ -55,26 +54,17 @@ _MOST_BYTES = {
     **dict.fromkeys(_MASKS.values(), MAX_SIDE**2),
 }
 _KEYS = {
-    "format": check_text,
-    "version": anything,
-    "image_size_px": anything,
-    "domain": check_object,
+    **dict.fromkeys(("format", "version", "image_size_px", "domain", "active"), anything),
     "trace_options": check_object,
     "poses": check_list,
-    "active": anything,
 }
-_POSE_KEYS_OF_VERSION_1 = {
-    "name": check_text,
+_POSE_KEYS = {
+    **dict.fromkeys(("name", "energy", "options", "phi", "psi"), anything),
     "handles": check_points,
     "targets": check_points,
-    "energy": check_object,
-    "options": check_object,
-    "phi": anything,
-    "psi": anything,
 }
-_POSE_KEYS = {**_POSE_KEYS_OF_VERSION_1, "method": check_object}
 _DOMAIN_KEYS = ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "notes")
-_MOST_ITERATIONS = 200  # written where max_iterations is None, the method's own limit
+_MOST_ITERATIONS = 200  # was written where max_iterations is None, the method's own limit
 _MASK = "mask"  # written instead of strokes; the pixels are in another member
 _NEVER = "never"  # TraceOptions.max_edge == inf, which JSON cannot say
 
@@ -125,7 +115,7 @@ def load_document(path: str | Path) -> Document:
             if name not in members:
                 raise DocumentError(f"{name} is missing; this is no glid_nb document")
         data = parse_json(members[_JSON], _JSON, "JSON", nan=False)
-        pose_keys = _POSE_KEYS if _checked_version(data) > 1 else _POSE_KEYS_OF_VERSION_1
+        since_2 = {"method": anything} if _checked_version(data) > 1 else {}
         check_fields(data, _JSON, _KEYS, {"scribbles": check_object})
         size = _checked_size(data["image_size_px"])
         image = np.asarray(read_png(members[_IMAGE], size, "RGBA", _IMAGE), dtype=np.uint8)
@@ -134,7 +124,7 @@ def load_document(path: str | Path) -> Document:
         options = _trace_options_from_dict(data["trace_options"], scribbles)
         check_count(data["poses"])
         poses = tuple(
-            _pose_from_dict(f"poses[{i}]", pose, domain, pose_keys)
+            _pose_from_dict(f"poses[{i}]", pose, domain, {**_POSE_KEYS, **since_2})
             for i, pose in enumerate(data["poses"])
         )
         return Document(image, domain.cage, domain, options, scribbles, poses, data["active"])
@@ -166,13 +156,18 @@ def _checked_size(value: Any) -> tuple[int, int]:
 
 
 def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
-    where = f"poses[{index}] ({pose.name!r})"
-    _check_certified(pose.map, where)
+    with about(f"poses[{index}] ({pose.name!r})", DocumentError):
+        _check_certified(pose.map)
+        energy = pose.energy
+        if isinstance(energy, CustomEnergy):
+            raise DocumentError(
+                "its energy is a Python function, which cannot be saved; choose a named energy"
+            )
     return {
         "name": pose.name,
         **pose.pose.to_dict(),
-        "energy": _energy_to_dict(pose.energy, where),
-        "options": _options_to_dict(pose.options),
+        "energy": {"name": energy.name, **{k: getattr(energy, k) for k in energy.parameters()}},
+        "options": dataclasses.asdict(pose.options),
         "method": {"name": pose.method.name, "settings": pose.method.settings},
         "phi": complex_to_pairs(pose.map.phi),
         "psi": complex_to_pairs(pose.map.psi),
@@ -182,8 +177,7 @@ def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
 def _pose_from_dict(where: str, data: Any, domain: Domain, keys: Mapping[str, Any]) -> NamedPose:
     with about(where, DocumentError):
         check_fields(data, where, keys)
-    where = f"{where} ({data['name']!r:.60})"
-    with about(where, DocumentError):
+    with about(f"{where} ({data['name']!r:.60})", DocumentError):
         phi, psi = (complex_from_pairs(data[key], key) for key in ("phi", "psi"))
         pose = NamedPose(
             data["name"],
@@ -193,34 +187,20 @@ def _pose_from_dict(where: str, data: Any, domain: Domain, keys: Mapping[str, An
             HarmonicMap(domain, phi, psi),
             _method_from_dict(data["method"]) if "method" in keys else Newton(),
         )
-    _check_certified(pose.map, where)
+        _check_certified(pose.map)
     return pose
 
 
-def _check_certified(map: HarmonicMap, where: str) -> None:
+def _check_certified(map: HarmonicMap) -> None:
     certificate = certificate_of(map)
     if not certificate.certified:
-        raise DocumentError(f"{where}: its map is not certified. {certificate.reason}")
-
-
-def _energy_to_dict(energy: Energy, where: str) -> dict[str, Any]:
-    if isinstance(energy, CustomEnergy):
-        raise DocumentError(
-            f"{where}: its energy is a Python function, which cannot be saved; choose a named "
-            "energy"
-        )
-    return {"name": energy.name, **{name: getattr(energy, name) for name in energy.parameters()}}
+        raise DocumentError(f"its map is not certified. {certificate.reason}")
 
 
 def _energy_from_dict(data: Any) -> Energy:
     with about("energy"):
         check_fields(data, "energy", {"name": check_text}, {"s": anything})
         return energy_by_name(data["name"], data.get("s"))
-
-
-def _options_to_dict(options: Options) -> dict[str, Any]:
-    most = _MOST_ITERATIONS if options.max_iterations is None else options.max_iterations
-    return {**dataclasses.asdict(options), "max_iterations": most}
 
 
 def _options_from_dict(data: Any) -> Options:
@@ -247,11 +227,8 @@ def _domain_from_dict(data: Any) -> Domain:
 
 
 def _trace_options_to_dict(options: TraceOptions) -> dict[str, Any]:
-    data = {f.name: getattr(options, f.name) for f in dataclasses.fields(options)}
-    data["scribbles"] = options.scribbles is not None
-    if data["max_edge"] == math.inf:
-        data["max_edge"] = _NEVER
-    return data
+    data = {**vars(options), "scribbles": options.scribbles is not None}
+    return {**data, "max_edge": _NEVER} if options.max_edge == math.inf else data
 
 
 def _trace_options_from_dict(data: Any, scribbles: Scribbles | None) -> TraceOptions:

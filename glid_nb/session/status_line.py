@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
 from glid_nb._bounds import rounded_down, rounded_up
 from glid_nb.certificate import Certificate
 from glid_nb.geometry import MeshMap
-from glid_nb.harmonic import HarmonicMap
-from glid_nb.session.edit_state import EditState, Solution
-from glid_nb.session.live_solver import Frame
-from glid_nb.session.moment import Moment
+from glid_nb.session.document import Solution, certificate_of
+from glid_nb.session.edit_state import EditState, Frame, Moment
 from glid_nb.solvers import MethodError, Status
 
 Level = Literal["idle", "working", "good", "blocked", "error"]
@@ -29,7 +26,7 @@ class StatusLine:
     text: str
 
 
-def describe(moment: Moment, certificate_of: Callable[[HarmonicMap], Certificate]) -> StatusLine:
+def describe(moment: Moment) -> StatusLine:
     """The status of an editor.
 
     While the solver works it shows the solver's bound on sigma_2; at rest the bounds of the

@@ -57,20 +57,13 @@ class TracingState:
     image: NDArray[np.uint8] | None = None
     """(h, w, 4) read-only uint8, or None before there is a picture."""
     options: TraceOptions = field(default_factory=TraceOptions)
-    """How to trace, without scribbles."""
+    """How to trace; with scribbles only if the method uses them."""
     scribbles: Scribbles | None = None
-    """Used when ``options.method`` is "scribbles"."""
+    """The painted strokes, used or not."""
     loops: Loops | None = None
     """The loops as edited by hand, world coordinates; None when they are as traced."""
     fallback: Domain | None = None
     """The last valid domain before this state, used while this state's own is not valid."""
-
-    @property
-    def trace_options(self) -> TraceOptions:
-        """The options, with the scribbles if they use them."""
-        if self.options.method != "scribbles":
-            return self.options
-        return replace(self.options, scribbles=self.scribbles or _NO_SCRIBBLES)
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,8 +81,6 @@ class TracingOutcome:
 
 
 _NO_SCRIBBLES = Scribbles([], [])
-# TraceOptions refuses the method without scribbles, but the state stores them separately.
-_METHOD_OF_SCRIBBLES: dict[str, Any] = {"method": "scribbles", "scribbles": _NO_SCRIBBLES}
 
 
 class TracingModel(Observed):
@@ -118,26 +109,19 @@ class TracingModel(Observed):
     def __init__(
         self, image: ImageSource | None = None, options: TraceOptions | None = None
     ) -> None:
-        chosen = TraceOptions() if options is None else options
-        pixels = None if image is None else _pixels(image)
-        self._begin(TracingState(pixels, _without_strokes(chosen), chosen.scribbles))
+        self._begin(_state(None if image is None else _pixels(image), options or TraceOptions()))
 
     @classmethod
     def from_document(cls, document: Document) -> TracingModel:
         """A model with the document's picture, options, scribbles and cage."""
         model = cls.__new__(cls)
-        state = TracingState(
-            document.image,
-            _without_strokes(document.trace_options),
-            document.scribbles,
-            document.cage.loops,
-            document.domain,
-        )
-        model._begin(state)
+        state = _state(document.image, document.trace_options, document.scribbles)
+        edited = replace(state, loops=document.cage.loops, fallback=document.domain)
+        model._begin(edited)
         # A cage that tracing gives again was not edited by hand.
-        tracing = model.tracing
+        tracing = model.outcome.tracing
         if tracing is not None and tracing.cage.equals(document.cage):
-            model._history = History(replace(state, loops=None))
+            model._history = History(replace(edited, loops=None))
         return model
 
     def _begin(self, state: TracingState) -> None:
@@ -168,24 +152,14 @@ class TracingModel(Observed):
 
     @property
     def options(self) -> TraceOptions:
-        """The options, with the scribbles if they use them."""
-        return self.state.trace_options
-
-    @property
-    def scribbles(self) -> Scribbles | None:
-        """The painted strokes, used or not."""
-        return self.state.scribbles
+        """How to trace; with scribbles only if the method uses them."""
+        return self.state.options
 
     @property
     def outcome(self) -> TracingOutcome:
         """What follows from the state; computed on first use."""
         with self._lock:
             return self._outcome_of(self.state)
-
-    @property
-    def tracing(self) -> Tracing | None:
-        """The result of automatic tracing; None if it failed."""
-        return self.outcome.tracing
 
     @property
     def loops(self) -> tuple[NDArray[np.float64], ...]:
@@ -196,7 +170,8 @@ class TracingModel(Observed):
     @property
     def holes(self) -> tuple[Hole, ...]:
         """The holes of the shape, kept or not."""
-        return () if self.tracing is None else self.tracing.holes
+        tracing = self.outcome.tracing
+        return () if tracing is None else tracing.holes
 
     @property
     def cage(self) -> Cage | None:
@@ -238,10 +213,6 @@ class TracingModel(Observed):
         """Whether redo can bring back this picture, the same array."""
         return any(state.image is image for state in self._history.future)
 
-    def on_change(self, callback: Callable[[], None]) -> Callable[[], None]:
-        """Call ``callback`` after every change; returns a function that ends this."""
-        return self.observe(lambda _: callback())
-
     # Actions
 
     def open(self, image: ImageSource) -> None:
@@ -266,10 +237,10 @@ class TracingModel(Observed):
             before = self.state
             if "scribbles" in changes:
                 raise TraceError("scribbles are painted: use paint(...) and clear_scribbles()")
-            if changes.get("method") == "scribbles":
-                changes = {**changes, **_METHOD_OF_SCRIBBLES}
-            elif "method" in changes:
-                changes = {**changes, "scribbles": None}
+            if "method" in changes:
+                used = changes["method"] == "scribbles"
+                strokes = (before.scribbles or _NO_SCRIBBLES) if used else None
+                changes = {**changes, "scribbles": strokes}
             options = with_changes(before.options, changes)
             if options == before.options and before.loops is None:
                 return
@@ -306,7 +277,7 @@ class TracingModel(Observed):
                 raise
             except (TypeError, ValueError) as error:
                 raise TraceError(f"a stroke must be a list of pixels (x, y): {error}") from error
-            options = with_changes(self.state.options, _METHOD_OF_SCRIBBLES)
+            options = replace(self.options, method="scribbles", scribbles=scribbles)
             self._step(replace(self.state, options=options, scribbles=scribbles, loops=None))
 
     def clear_scribbles(self) -> None:
@@ -314,8 +285,10 @@ class TracingModel(Observed):
         with self.locked():
             state = self.state
             if state.scribbles is not None:
-                loops = None if state.options.method == "scribbles" else state.loops
-                self._step(replace(state, scribbles=None, loops=loops))
+                options, loops = state.options, state.loops
+                if options.method == "scribbles":
+                    options, loops = replace(options, scribbles=_NO_SCRIBBLES), None
+                self._step(replace(state, options=options, scribbles=None, loops=loops))
 
     def toggle_hole(self, number: int) -> None:
         """Drop a hole, or keep it if it was dropped; other loops keep their edits."""
@@ -428,7 +401,7 @@ class TracingModel(Observed):
         problems: list[TracingProblem] = []
         tracing = None
         try:
-            tracing = self._tracer.trace(state.trace_options)
+            tracing = self._tracer.trace(state.options)
         except (TraceError, GeometryError) as error:
             problems.append(_problem(error, frame))
         loops, cage = state.loops, None
@@ -476,8 +449,13 @@ class TracingModel(Observed):
         return frame
 
 
-def _without_strokes(options: TraceOptions) -> TraceOptions:
-    return replace(options, scribbles=_NO_SCRIBBLES if options.method == "scribbles" else None)
+def _state(
+    image: NDArray[np.uint8] | None, options: TraceOptions, scribbles: Scribbles | None = None
+) -> TracingState:
+    """A state without edits; the strokes are those of the options if no others are given."""
+    scribbles = options.scribbles if scribbles is None else scribbles
+    used = options.method == "scribbles"
+    return TracingState(image, options if used else replace(options, scribbles=None), scribbles)
 
 
 def _problem(error: TraceError | GeometryError, frame: PixelFrame) -> TracingProblem:

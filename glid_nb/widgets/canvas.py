@@ -13,7 +13,8 @@ from glid_nb._arguments import check_count
 from glid_nb.geometry import Domain
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.moment import Moment
+from glid_nb.session.document import certificate_of
+from glid_nb.session.edit_state import Moment
 from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.gestures import Event, PinGestures
 from glid_nb.widgets.layers import EvaluatedIn
@@ -211,7 +212,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         """The boundary's panels; while the solver works at most `_PANELS_INTERVAL` old."""
         frame, now, domain = moment.frame, time.monotonic(), moment.state.domain
         if frame is None or frame.panels is None or not len(frame.sigma2_lower):
-            proof = self.deformation.certificate_of(moment.map).panels
+            proof = certificate_of(moment.map).panels
             self._panels = (None, proof, proof.sigma2_lower)
         elif (
             self._panels[0] is not domain

@@ -17,9 +17,9 @@ from glid_nb.certificate import Certificate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.imaging.render import View
-from glid_nb.session import Document
+from glid_nb.session import Document, NamedPose
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.edit_state import EditedPose, EditError
+from glid_nb.session.edit_state import EditError
 from glid_nb.session.editor_model import Application, EditorModel, find_document
 from glid_nb.session.tracing import TracingProblem
 from glid_nb.solvers import Method, Pose
@@ -192,7 +192,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     @property
     def certificate(self) -> Certificate:
         """The proof of `map`."""
-        return self.deformation.certificate_of(self.map)
+        return self.deformation.certificate
 
     @property
     def pose(self) -> Pose:
@@ -200,7 +200,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         return self.deformation.state.pose
 
     @property
-    def poses(self) -> tuple[EditedPose, ...]:
+    def poses(self) -> tuple[NamedPose, ...]:
         """All poses."""
         return self.deformation.state.poses
 

@@ -143,8 +143,7 @@ def _contents(
             height, width = image.shape[:2]
             return [cage_svg(map_, (width, height), source=True, pose=state.pose).encode()]
         case ".html":
-            certificate = model.deformation.certificate_of(map_)
-            return [page_html(image, map_, certificate, path.stem).encode()]
+            return [page_html(image, map_, model.deformation.certificate, path.stem).encode()]
         case _:
             return [python_code(document, files_of(path)[1].name).encode(), png(image)]
 

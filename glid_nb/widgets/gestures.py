@@ -85,7 +85,7 @@ class PinGestures(Gestures):
         pose = self.deformation.pose
         if not len(pose):
             return None
-        for places in (pose.targets, self.deformation.shown(pose.handles)):
+        for places in (pose.targets, self.deformation.moment.shown(pose.handles)):
             gap = np.linalg.norm(places - point, axis=1)
             nearest = int(np.argmin(gap))
             if gap[nearest] <= reach:

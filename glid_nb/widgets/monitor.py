@@ -15,8 +15,8 @@ from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.figures.style import FAINT, GREY
 from glid_nb.geometry.panels import Panels
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.live_solver import Frame
-from glid_nb.session.moment import Moment
+from glid_nb.session.document import certificate_of
+from glid_nb.session.edit_state import Frame, Moment
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.closing import ClosingWidget
@@ -120,7 +120,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
 
     def _status(self, moment: Moment) -> StatusLine:
         """The model's status; during a solve with the number of frames per second."""
-        status = describe(moment, self.deformation.certificate_of)
+        status = describe(moment)
         while self._frames and self._frames[0] < time.monotonic() - _RATE_WINDOW:
             self._frames.popleft()
         rate = len(self._frames)
@@ -146,7 +146,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         elif moment.busy and frame and frame.panels is not None and len(frame.sigma2_lower):
             proof, map_ = _live_certificate(frame, frame.panels), None
         else:
-            proof, map_ = self.deformation.certificate_of(moment.map), moment.map
+            proof, map_ = certificate_of(moment.map), moment.map
         picture = self._plots.draw(history, proof, map_, starts, moment.busy)
         with self.image.hold_sync():  # format and value in one message
             self.image.format, self.image.value = "png", picture

@@ -81,7 +81,7 @@ class CageTracer(Pad):
         super().__init__(height=height, **kwargs)
         self._push()
         self.serve(self.tracing_model, self)
-        self._endings = (self.tracing_model.on_change(self._push),)
+        self._endings = (self.on_change(self._push),)
 
     @property
     def image(self) -> NDArray[np.uint8] | None:
@@ -96,7 +96,7 @@ class CageTracer(Pad):
     @property
     def tracing(self) -> Tracing | None:
         """The automatic part of the tracing; None when it fails."""
-        return self.tracing_model.tracing
+        return self.tracing_model.outcome.tracing
 
     @property
     def cage(self) -> Cage | None:
@@ -110,7 +110,7 @@ class CageTracer(Pad):
 
     def on_change(self, callback: Callable[[], None]) -> Callable[[], None]:
         """Call ``callback`` after every change, by hand or by code; the result ends that."""
-        return self.tracing_model.on_change(callback)
+        return self.tracing_model.observe(lambda _: callback())
 
     def handle(self, events: Sequence[Event]) -> str | None:
         """Act on pointers and keys."""

@@ -26,7 +26,7 @@ def described(gestures: TraceGestures) -> dict[str, Any]:
     model = gestures.model
     frame, outcome = model.frame, model.outcome
     tracing = outcome.tracing
-    scribbles = model.scribbles
+    scribbles = model.state.scribbles
     return {
         "size": None if frame is None else [frame.width, frame.height],
         "loops": [_rounded(loop) for loop in model.loops],

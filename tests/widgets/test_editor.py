@@ -19,13 +19,11 @@ import pytest
 from PIL import Image
 
 import glid_nb as glid
-from glid_nb.certificate import certify
 from glid_nb.figures.style import distortion_colors
 from glid_nb.session.autosave import flush
 from glid_nb.session.document import DocumentError
 from glid_nb.session.document_file import load_document
-from glid_nb.session.edit_state import EditError, EditState
-from glid_nb.session.moment import Moment
+from glid_nb.session.edit_state import EditError, EditState, Moment
 from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
 from glid_nb.widgets.exporting import ExportError
 from glid_nb.widgets.file_panel import OpenPanel
@@ -106,7 +104,7 @@ def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
 
     # Tracing anew is a step that undo takes back.
     editor.trace(drop_holes=[[100.0, 50.0]])
-    assert editor.deformation.domain.n_holes == 0
+    assert editor.deformation.state.domain.n_holes == 0
     assert editor.solve(TIMEOUT)
     editor.deformation.undo()
     assert np.array_equal(editor.map.phi, phi)
@@ -221,11 +219,11 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     assert len(stage.materials) == 4  # hidden
     model.drop_hole(0)
     assert model.solve(TIMEOUT)
-    assert canvas.pane.scene.domain is model.domain
+    assert canvas.pane.scene.domain is model.state.domain
     canvas.show_source = False
     assert canvas.source is None
     canvas.close()
-    assert not model.alive
+    assert not model._worker.alive
 
 
 _FIRST_CANVAS = """
@@ -374,11 +372,11 @@ def test_the_panel_and_the_model_show_each_other() -> None:
         poses.save.click()
         assert poses.list.options == (("Pose 1", 0), ("Pose 2", 1))
         poses.name.value = "second"
-        assert model.poses[1].name == "second"
+        assert model.state.poses[1].name == "second"
         poses.list.index = 0
         assert model.state.active == 0
         poses.delete.click()
-        assert [pose.name for pose in model.poses] == ["second"]
+        assert [pose.name for pose in model.state.poses] == ["second"]
         poses.name.value = "x" * 300
         assert "200 characters" in poses.refusal.value
         assert poses.name.value == "second"
@@ -460,9 +458,7 @@ def test_frames_are_counted_in_words() -> None:
         return observers.clear
 
     working = Moment(EditState.initial(domain("ell")), None, busy=True, paused=False)
-    model: Any = SimpleNamespace(
-        observe=observe, moment=working, begun=False, certificate_of=certify
-    )
+    model: Any = SimpleNamespace(observe=observe, moment=working, begun=False)
     monitor = SolverMonitor(model, plots=False)
     assert monitor.text == "Preparing the solver…"
     observers[0]("frame")
@@ -554,7 +550,7 @@ def test_lost_handles_are_told(editor: Editor) -> None:
     editor.deformation.paused = True
     editor.add_handle((-7.5, 1.5))
     editor.tabs.selected_index = 0
-    tracing, exterior = editor.model.tracing, editor.deformation.domain.cage.exterior
+    tracing, exterior = editor.model.tracing, editor.deformation.state.domain.cage.exterior
     corner = int(np.argmin(np.hypot(*(exterior - [-8, 2]).T)))
     assert tracing.frame is not None
     tracing.move_vertex(0, corner, tracing.frame.to_pixel([-6.5, 0.5]))
@@ -568,7 +564,7 @@ def test_what_becomes_of_the_tracing_is_told(editor: Editor) -> None:
     tracing, frame = editor.model.tracing, editor.model.tracing.frame
     assert frame is not None
     editor.tabs.selected_index = 0
-    corner = int(np.argmin(np.hypot(*(editor.deformation.domain.cage.exterior - [-8, 2]).T)))
+    corner = int(np.argmin(np.hypot(*(editor.deformation.state.domain.cage.exterior - [-8, 2]).T)))
     tracing.move_vertex(0, corner, frame.to_pixel([20, -1]))
     editor.tabs.selected_index = 1
     assert editor.canvas is not None

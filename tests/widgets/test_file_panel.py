@@ -169,7 +169,9 @@ def test_opening_asks_before_it_discards(panel: FilePanel, tmp_path: Path) -> No
     panel.model.save(panel.path.value)
     assert "Opened" in click(panel, panel.open_button)
     panel.model.deformation.paused = True
-    panel.model.deformation.add_handle(panel.model.deformation.domain.cage.exterior.mean(axis=0))
+    panel.model.deformation.add_handle(
+        panel.model.deformation.state.domain.cage.exterior.mean(axis=0)
+    )
     count = len(panel.model.deformation.pose)
     assert "in no file yet" in click(panel, panel.open_button)
     assert panel.open_button.description == "Discard?"
