@@ -311,8 +311,7 @@ class CertificatePlot(Plot):
         self._least.set_data([ends[least].mean()], [bound[least]])
         seen = levels
         if map is not None:
-            along = (panels.end - panels.start)[:, None] * _SAMPLES[:, None]
-            points = (panels.start[:, None] + along).reshape(-1, 2)
+            points = panels.start[:, None] + (panels.end - panels.start)[:, None] * _SAMPLES
             seen = np.asarray(map.sigma2(points)).reshape(len(bound), -1)
             places = ends[:, :1] + length[:, None] * _SAMPLES
             self._truth.set_data(_with_gaps(places, first), _with_gaps(seen, first))

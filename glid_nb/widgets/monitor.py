@@ -155,11 +155,8 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
 
 def _live_certificate(frame: Frame, panels: Panels) -> Certificate:
     """What the solver has proved of a frame, for the plots."""
-    unknown = np.full(len(panels), np.nan)
-    start, end = (np.stack([np.real(z), np.imag(z)], axis=1) for z in (panels.start, panels.end))
-    proof = PanelCertificate(
-        start, end, panels.loop, panels.depth, frame.sigma2_lower, unknown, unknown
-    )
+    bounds = dict.fromkeys(("sigma1_upper", "k_upper"), np.full(len(panels), np.nan))
+    proof = PanelCertificate(**vars(panels), sigma2_lower=frame.sigma2_lower, **bounds)
     least = float(frame.sigma2_lower.min())
     return Certificate(
         True, least, np.nan, np.nan, (), proof, "hermite", "Certified step by step by the solver."

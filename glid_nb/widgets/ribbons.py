@@ -9,11 +9,9 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.geometry import Domain
 from glid_nb.geometry._loops import subdivided
 from glid_nb.geometry.panels import Panels
-from glid_nb.harmonic import as_complex
 
 Array = NDArray[Any]
 
@@ -65,11 +63,10 @@ def offset_ribbon(domain: Domain) -> Ribbon:
     return _loops_ribbon([p[:, 0] + 1j * p[:, 1] for p in loops], domain.cage.longer_side)
 
 
-def panel_ribbon(panels: Panels | PanelCertificate) -> Ribbon:
+def panel_ribbon(panels: Panels) -> Ribbon:
     """The boundary's panels, each with `PANEL_VERTICES`."""
-    start, end = as_complex(panels.start), as_complex(panels.end)
     t = np.linspace(0.0, 1.0, _PANEL_PIECES + 1)
-    points = start[:, None] + (end - start)[:, None] * t
+    points = panels.start[:, None] + (panels.end - panels.start)[:, None] * t
     return ribbon(points[:, :-1].ravel(), points[:, 1:].ravel())
 
 

@@ -11,7 +11,6 @@ import numpy as np
 import pythreejs as three
 from numpy.typing import NDArray
 
-from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.figures.style import BLUE, GREY
 from glid_nb.geometry import MeshMap, Triangulation, triangulate, uniform_panels
@@ -81,7 +80,7 @@ class Drawing:
     """Whether the range of the overlay's colour map is kept, only widened, or fitted."""
     cage: bool = False
     offset_cage: bool = False
-    panels: tuple[Panels | PanelCertificate, Array] | None = None
+    panels: tuple[Panels, Array] | None = None
     """The boundary's panels and the certified sigma_2 on each, where they are drawn."""
 
 
