@@ -90,8 +90,8 @@ def rendering(
     if view not in get_args(View):
         raise RenderError(f"unknown view {view!r}; choose one of {', '.join(get_args(View))}")
     texture = Texture.from_image(image)
-    source = PixelFrame(texture.width, texture.height)
-    width, height = (texture.width, texture.height) if size is None else size
+    source = PixelFrame(*texture.size)
+    width, height = texture.size if size is None else size
     if min(width, height) < 1:
         raise RenderError(f"size is {width} x {height} pixels; both sides must be at least 1")
     if width * height >= _MOST_PIXELS:
@@ -130,6 +130,6 @@ def _check_fits(frame: PixelFrame, map: HarmonicMap) -> None:
 
 def draw_mesh(texture: Texture, mesh: DeformedMesh, frame: PixelFrame) -> NDArray[np.uint8]:
     """The RGBA pixels of a deformed mesh whose cage was traced from the texture."""
-    places = PixelFrame(texture.width, texture.height).to_pixel(mesh.vertices)
+    places = PixelFrame(*texture.size).to_pixel(mesh.vertices)
     positions, size = frame.to_pixel(mesh.images), (frame.width, frame.height)
     return render_mesh(texture, places, positions, mesh.triangles, size, mesh.heights)
