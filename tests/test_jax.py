@@ -15,6 +15,7 @@ def run_python(source: str) -> list[str]:
     return done.stdout.splitlines()
 
 
+@pytest.mark.slow
 def test_an_editor_is_made_without_jax_and_computes_with_it() -> None:
     source = """
 import sys, glid_nb

@@ -30,6 +30,7 @@ def run_python(source: str) -> list[str]:
     return done.stdout.split("\n")[:-1]
 
 
+@pytest.mark.slow
 def test_a_float32_program_beside_the_package_is_unchanged() -> None:
     """In one process, in the main thread and in others, before, during and after the work."""
     lines = run_python("""

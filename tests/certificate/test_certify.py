@@ -48,6 +48,7 @@ def check_sound(c: Certificate, truth: Measured) -> None:
     assert c.certified == c.reason.startswith("Proved locally injective")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @given(name=st.sampled_from(CERTIFIED), size=sizes, seed=st.integers(0, 10**6))
 @settings(max_examples=20)
@@ -290,6 +291,7 @@ def test_bad_arguments_are_refused(arguments: dict[str, Any], message: str) -> N
         certify(HarmonicMap.identity(domain("ell")), **arguments)
 
 
+@pytest.mark.slow
 def test_a_collapsed_map_is_not_certified() -> None:
     """A constant, a projection to a line, and a mirror image."""
     d = domain("ring")

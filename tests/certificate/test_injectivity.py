@@ -207,6 +207,7 @@ def _bent_bar(turns: tuple[float, ...], shear: complex, similarity: complex) -> 
     return _holomorphic(BAR, bend, shear * similarity)
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(
     st.tuples(st.floats(-4.5, 4.5), st.floats(-2, 2), st.floats(-2, 2)),

@@ -32,6 +32,7 @@ def frames(data: bytes) -> tuple[Image.Image, list[np.ndarray]]:
     return read, [np.asarray(f.convert("RGB")).astype(int) for f in ImageSequence.Iterator(read)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("format", "name"), [("gif", "GIF"), ("apng", "PNG")])
 def test_every_map_is_a_frame(format: Any, name: str) -> None:
     maps, poses = drag()

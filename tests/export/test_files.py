@@ -32,6 +32,7 @@ def test_the_map_of_these_tests_is_one() -> None:
 
 
 class TestPicture:
+    @pytest.mark.slow
     @pytest.mark.parametrize("size", [None, (64, 40), (500, 500)])
     @pytest.mark.parametrize("view", ["source", "fit"])
     def test_the_file_holds_the_rendering(self, size: tuple[int, int] | None, view: str) -> None:

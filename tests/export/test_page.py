@@ -8,6 +8,7 @@ import re
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from glid_nb.certificate import certify
 from glid_nb.export import page_html
@@ -45,6 +46,7 @@ def test_a_title_cannot_break_out() -> None:
     assert page.count('"deformed"') == 1
 
 
+@pytest.mark.slow
 def test_bounds_are_stated_only_if_they_are_proved() -> None:
     assert "Proved not to fold" in page_html(picture(), bent(), certify(bent()))
     assert "Proved" not in page_html(picture(), bent())

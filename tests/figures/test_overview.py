@@ -108,6 +108,7 @@ def pixel_at(figure: Figure, index: int, point: NDArray[np.float64]) -> NDArray[
     return picture[len(picture) - 1 - int(y), int(x)]
 
 
+@pytest.mark.slow
 def test_the_figure_is_private_and_leaves_matplotlib_alone(image: NDArray[np.uint8], result: Any):
     before, open_before = dict(mpl.rcParams), plt.get_fignums()
     figure = overview(image, result)
@@ -164,6 +165,7 @@ def test_targets_are_cyan_and_joined_to_handles_that_miss_them(
     np.testing.assert_allclose(segments, [[bent(pose.handles[2:])[0], pose.targets[2]]])
 
 
+@pytest.mark.slow
 def test_distortion_is_pale_where_there_is_none(image: NDArray[np.uint8], result: Any):
     still = HarmonicMap.identity(result.map.domain)
     calm: Any = SimpleNamespace(**(vars(result) | {"map": still, "certificate": certify(still)}))

@@ -182,6 +182,7 @@ def test_a_broken_package_names_the_extra_and_the_cause(
         assert isinstance(caught.value.__cause__, ImportError)
 
 
+@pytest.mark.slow
 def test_an_energy_may_be_a_name() -> None:
     shape, pose = problem("ell")
     by_name = run_method("newton", shape, pose, "arap", max_iterations=1)

@@ -95,6 +95,7 @@ def test_another_picture_is_another_session(model: EditorModel, tmp_path: Path) 
     assert (tmp_path / "a-2.glid").read_bytes() == b"somebody's"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kept", [True, False], ids=["with a file", "without"])
 def test_undo_brings_a_picture_back_with_its_poses(tmp_path: Path, kept: bool) -> None:
     path = tmp_path / "a.glid" if kept else None

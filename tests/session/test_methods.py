@@ -188,6 +188,7 @@ def test_too_few_handles_are_said_in_words(ring: Deformation) -> None:
     assert not ring.moment.solved
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", METHODS)
 def test_without_handles_nothing_breaks(name: str) -> None:
     if importlib.util.find_spec(METHODS[name].package or "numpy") is None:

@@ -32,6 +32,7 @@ def first() -> Result:
     return solve(domain("ell"), bent(0.12), None, OPTIONS, result)
 
 
+@pytest.mark.slow
 def test_moved_targets_compile_nothing(first: Result) -> None:
     assert compiled_by(lambda: solve(domain("ell"), bent(0.2), None, OPTIONS)) == 0
     assert compiled_by(lambda: solve(domain("ell"), bent(0.14), None, OPTIONS, first)) == 0

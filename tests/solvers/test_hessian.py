@@ -305,6 +305,7 @@ def automatic(kind: str) -> Any:
     return jax.jit(lambda *args: derivative(energy_of)(jnp.zeros(t.shape[1]), *args))
 
 
+@pytest.mark.slow
 def test_a_large_basis_is_assembled_in_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
     matrices = discretise(domain("ring")).matrices
     y = np.random.default_rng(5).normal(size=2 * len(matrices.nodes))
@@ -323,6 +324,7 @@ def test_a_large_basis_is_assembled_in_pieces(monkeypatch: pytest.MonkeyPatch) -
 CUSTOM = CustomEnergy(lambda x, y: (x - 1) ** 2 - 3 * y + x * y**2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("energy", [ENERGIES[0], CUSTOM], ids=lambda e: e.name)
 def test_gradient_and_hessian_are_those_of_the_discretised_energy(energy: Energy) -> None:
     d, _, rows, dense, y = discretised()

@@ -34,6 +34,7 @@ def padded_expansion(name: str, conformal: bool) -> np.ndarray:
     return padded
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("conformal", [False, True])
 def test_restriction_and_expansion_are_those_of_the_dense_matrix(

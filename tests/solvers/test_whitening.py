@@ -124,6 +124,7 @@ def test_only_the_translation_moves_the_anchor(name: str, sampling: str) -> None
     assert np.abs(values[:, 1:]).max() <= 1.1 * disc.panels.length.sum()
 
 
+@pytest.mark.slow
 def test_a_fine_cage_keeps_the_hessian_definite_in_single_precision(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -68,6 +68,7 @@ def test_the_colour_bar_goes_where_it_hides_least() -> None:
     assert emptiest_corner(twice, *size) == "top left"
 
 
+@pytest.mark.slow
 def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
     assert editor.document.cage.n_holes == 1
     left, right = editor.add_handle((-7, 0)), editor.add_handle((7, 0))
@@ -255,6 +256,7 @@ editor.close()
 """
 
 
+@pytest.mark.slow
 def test_the_first_canvas_waits_for_no_more_than_it_needs(tmp_path: Path) -> None:
     environment = {**os.environ, "GLID_NB_CACHE": str(tmp_path)}
     done = subprocess.run(
@@ -313,6 +315,7 @@ def test_a_closed_editor_makes_nothing_more() -> None:
         _ = editor.solver_panel
 
 
+@pytest.mark.slow
 def test_a_frame_that_comes_late_finds_the_canvas_closed() -> None:
     from ipywidgets.widgets import widget
 
@@ -468,6 +471,7 @@ def test_frames_are_counted_in_words() -> None:
     monitor.close()
 
 
+@pytest.mark.slow
 def test_a_comparison_is_drawn_in_place_of_the_map(editor: Editor) -> None:
     canvas = editor.canvas
     assert canvas is not None

@@ -229,6 +229,7 @@ def test_it_says_where_changes_are_saved_by_themselves(model: EditorModel, tmp_p
     assert "Saved" in click(panel, panel.save_button)  # its own file
 
 
+@pytest.mark.slow
 def test_the_copied_lines_run(panel: FilePanel, sent: list[Any]) -> None:
     panel.path.value = "bent.glid"
     sent.clear()
