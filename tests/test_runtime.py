@@ -147,6 +147,7 @@ assert threads() == {2}, threads()
 """
 
 
+@pytest.mark.slow
 def test_blas_is_limited_and_set_back(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
     run_python(
@@ -165,6 +166,7 @@ assert threads() == {2}
     )
 
 
+@pytest.mark.slow
 def test_the_last_of_several_threads_sets_blas_back(monkeypatch: pytest.MonkeyPatch) -> None:
     """As when an editor's solver thread and a cell's solve overlap, and both threads live on."""
     monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
@@ -242,6 +244,7 @@ print(clock.programs > 0 and clock.seconds > 0)
     }
 
 
+@pytest.mark.slow
 def test_a_users_own_compilation_cache_stays(tmp_path: Path) -> None:
     lines = run_python(f"""
 import jax

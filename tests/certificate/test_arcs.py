@@ -87,6 +87,7 @@ def test_rounding_stays_within_its_bound() -> None:
     assert jets.f_error.max() < 1e-7
 
 
+@pytest.mark.slow
 def test_jets_are_those_of_the_map() -> None:
     map = _random_map(2, 0.1)
     panels, jets = _jets(map)

@@ -64,6 +64,7 @@ def test_certificates_are_true(kind: Any, name: str, size: float, seed: int) -> 
         assert "not locally injective" in c.reason
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @given(name=st.sampled_from(CERTIFIED), size=sizes, seed=st.integers(0, 10**6))
 @settings(max_examples=10)
@@ -86,6 +87,7 @@ def test_every_panel_is_true(kind: Any, name: str, size: float, seed: int) -> No
     assert c.k_upper == panels.k_upper.max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", CERTIFIED)
 @pytest.mark.parametrize("tightness", [0.02, 0.002])
@@ -152,6 +154,7 @@ def annulus_check() -> DenseCheck:
     return dense_check("annulus", 10_000)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_knot_is_certified(kind: Any) -> None:
     """Figure 3: f_z turns once around on the exterior loop and back on the interior one."""

@@ -134,6 +134,7 @@ def test_solve_takes_its_options(run, problem: Path, tmp_path: Path) -> None:
     assert summary["files"] == {"report.json": str(report_path)}
 
 
+@pytest.mark.slow
 def test_conformal_maps_have_no_dilatation(run, problem: Path, tmp_path: Path) -> None:
     out = tmp_path / "map.json"
     assert run("solve", problem, "--out", out, "--conformal").code == 0
@@ -157,6 +158,7 @@ def solved(run, problem: Path, tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_render_warps_the_picture(run, picture: Path, solved: Path, tmp_path: Path) -> None:
     out = tmp_path / "warped.png"
     assert run("render", picture, solved, "--out", out).code == 0

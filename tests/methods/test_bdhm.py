@@ -41,6 +41,7 @@ def measured(map: HarmonicMap) -> Measured:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("bounds", [LOOSE, TIGHT], ids=["loose", "tight"])
 @pytest.mark.parametrize("name", ["ell", "ring", "bent"])
 def test_the_bounds_hold_densely_and_are_certified(

@@ -131,6 +131,7 @@ def test_a_start_from_another_domain_is_refused(name: str) -> None:
         run_method(name, shape, pose, start=HarmonicMap.identity(domain("ring")))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["newton", "lbfgs"])
 def test_a_start_that_folds_is_refused(name: str) -> None:
     shape, pose = problem("ell")

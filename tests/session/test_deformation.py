@@ -41,6 +41,7 @@ def test_a_drag_is_solved_to_its_end(ring: Deformation) -> None:
     assert "Converged" in ring.status.text
 
 
+@pytest.mark.slow
 def test_the_solver_can_be_told_when_to_begin() -> None:
     with Deformation(domain("ring"), begin=False) as deformation:
         assert not deformation._worker.alive

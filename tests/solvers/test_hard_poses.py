@@ -123,6 +123,7 @@ def test_restarts_keep_the_best_attempt() -> None:
     check_certified(several)
 
 
+@pytest.mark.slow
 def test_the_paper_settings_never_return_an_uncertified_map() -> None:
     handles = np.array(INSIDE["ring"])
     pose = Pose(handles, handles[[1, 0, 3, 2]])

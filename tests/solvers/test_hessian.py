@@ -147,6 +147,7 @@ def compiled_differentials() -> Any:
     return jax.jit(lambda energy, x, y: energy.differentials(x, y))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("energy", ENERGIES, ids=IDS)
 @given(drawn=states)
 @settings(max_examples=25)
@@ -166,6 +167,7 @@ def test_the_projection_is_that_of_the_eigenvalues(
     check_projection(Differentials(*map(np.asarray, d)), fz, fzb_conj)
 
 
+@pytest.mark.slow
 @given(
     drawn=states,
     scalars=st.lists(
@@ -393,6 +395,7 @@ def test_the_hessian_is_integrated_in_the_middle_of_panels_and_of_pairs() -> Non
     assert (nodes >= size).any()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "energy", [e for e in ENERGIES if e.indefinite_across_f_only], ids=lambda e: e.name
 )

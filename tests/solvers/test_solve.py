@@ -280,6 +280,7 @@ def test_exact_hessian_halts_where_it_is_indefinite() -> None:
     check_certified(result)
 
 
+@pytest.mark.slow
 def test_nothing_compiles_again_inside_a_bucket() -> None:
     """Targets, handles up to the bucket, parameters of energies and weights are only data."""
     shape = domain("ell")

@@ -389,6 +389,7 @@ def _widgets() -> set[str]:
     return set(ipywidgets.Widget.get_manager_state(drop_defaults=True)["state"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "kind", "message"),
     [
@@ -415,6 +416,7 @@ def test_wrong_arguments_are_refused_and_leave_nothing(
     assert _widgets() == before
 
 
+@pytest.mark.slow
 def test_a_canvas_that_cannot_be_made_is_dropped_quietly(monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object, **__: object) -> None:
         raise MemoryError
@@ -434,6 +436,7 @@ def test_a_timeout_that_is_no_number_is_refused(editor: Editor, timeout: Any) ->
         editor.solve(timeout)
 
 
+@pytest.mark.slow
 def test_the_monitor_draws_plots_and_words() -> None:
     from glid_nb.session.deformation import Deformation
 
@@ -530,6 +533,7 @@ def test_a_cell_with_picture_and_file_can_run_again(tmp_path: Path) -> None:
         editor.close()
 
 
+@pytest.mark.slow
 def test_a_file_of_another_editor_is_left_and_told(tmp_path: Path) -> None:
     path = tmp_path / "bar.glid"
     first, second = (Editor(bar(), path=path, n_vertices=300) for _ in range(2))
@@ -550,6 +554,7 @@ def test_a_file_of_another_editor_is_left_and_told(tmp_path: Path) -> None:
         assert load_document(tmp_path / name).poses[0].pose.handles.tolist() == [[x, 0]]
 
 
+@pytest.mark.slow
 def test_lost_handles_are_told(editor: Editor) -> None:
     editor.deformation.paused = True
     editor.add_handle((-7.5, 1.5))
@@ -564,6 +569,7 @@ def test_lost_handles_are_told(editor: Editor) -> None:
     assert len(editor.pose) == 0
 
 
+@pytest.mark.slow
 def test_what_becomes_of_the_tracing_is_told(editor: Editor) -> None:
     tracing, frame = editor.model.tracing, editor.model.tracing.frame
     assert frame is not None
