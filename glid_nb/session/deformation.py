@@ -81,18 +81,8 @@ class Deformation(Observed):
         *,
         begin: bool = True,
     ) -> None:
-        self._start(History(EditState.initial(domain, pose, energy, options)), begin)
-
-    @classmethod
-    def from_history(cls, history: History[EditState], *, begin: bool = True) -> Deformation:
-        """A deformation at a state, with its undo history."""
-        new = cls.__new__(cls)
-        new._start(history.ended(), begin)
-        return new
-
-    def _start(self, history: History[EditState], begin: bool) -> None:
         super().__init__()
-        self.history = history
+        self.history = History(EditState.initial(domain, pose, energy, options))
         """The undo history."""
         self.selection: tuple[int, ...] = ()
         """Indices of the selected handles."""
@@ -103,12 +93,19 @@ class Deformation(Observed):
         self._chain = 0
         self._frame: Frame | None = None
         self._error: Exception | None = None
-        self._finder = PointFinder(history.present.domain)
+        self._finder = PointFinder(domain)
         solver = LiveSolver(self._accept, self._fail)
         self._worker = LatestWins(solver.solve, self, "live solver")
         self._closed = False
         if begin:
             self.begin()
+
+    @classmethod
+    def from_history(cls, history: History[EditState]) -> Deformation:
+        """A deformation at a state, with its undo history; the solver waits for :meth:`begin`."""
+        new = cls(history.present.domain, begin=False)
+        new.history = history.ended()
+        return new
 
     # State
 
@@ -214,8 +211,8 @@ class Deformation(Observed):
                 return
             if past and domain.cage.equals(past[-1].domain.cage) and not self.dragged:
                 self.undo()
-                return
-            self.apply(actions.set_domain, domain)
+            else:
+                self.apply(actions.set_domain, domain)
 
     def apply(
         self,
@@ -281,10 +278,8 @@ class Deformation(Observed):
             if not self.dragged:
                 return
             self.dragged = ()
-            origin = self.history.origin
-            if origin is not None and np.array_equal(
-                origin.present.pose.targets, self.pose.targets
-            ):
+            origin, targets = self.history.origin, self.pose.targets
+            if origin is not None and np.array_equal(origin.present.pose.targets, targets):
                 self.history = origin.refined(self.state)  # the drag came back to its start
             self.history = self.history.ended()
             self._tell("state")
@@ -328,10 +323,7 @@ class Deformation(Observed):
     # Solving
 
     def begin(self) -> None:
-        """Start the solver, which compiles before the first drag; nothing if it was started before.
-
-        Returns at once.
-        """
+        """Start the solver, which compiles before the first drag, if it was not; returns at once."""
         with self.locked():
             if not self.begun:
                 self._submit()
@@ -341,11 +333,6 @@ class Deformation(Observed):
         """Wait until the present pose is solved; whether it is within ``timeout`` seconds.
 
         An interrupt stops the solve and keeps the map that it has reached.
-
-        Raises
-        ------
-        EditError
-            When this is closed.
         """
         check_type("timeout", timeout, Real | None, "give seconds, or None to wait to the end")
         with self.locked():
@@ -418,8 +405,7 @@ class Deformation(Observed):
     def _submit(self, single: bool = False) -> None:
         self.begun = True
         if single or not self.moment.solved:
-            task = Task(self.state.current, self._chain, single)
-            self._worker.submit(task, at_once=single)
+            self._worker.submit(Task(self.state.current, self._chain, single), at_once=single)
         else:
             self._worker.cancel()
 
@@ -430,8 +416,7 @@ class Deformation(Observed):
             if frame.mesh is None:
                 current = self.state.current
                 latest = frame.task.pose.asks_the_same(current)
-                solved = frame.solution if latest else None
-                new = replace(current, map=frame.map, solution=solved)
+                new = replace(current, map=frame.map, solution=frame.solution if latest else None)
                 self.history = self.history.refined(self.state.with_current(new))
             self._frame, self._error = frame, None
             self._tell("frame", "status")
@@ -446,9 +431,6 @@ class Deformation(Observed):
 
 def _still_there(chosen: Iterable[int], old: Pose, new: Pose) -> tuple[int, ...]:
     """Indices in the new pose of those of the chosen handles that it has."""
-    kept = []
-    for i in chosen:
-        if i < len(old):
-            found = np.flatnonzero((new.handles == old.handles[i]).all(axis=1))
-            kept.extend(int(j) for j in found[:1])
-    return tuple(kept)
+    places = {tuple(handle): j for j, handle in enumerate(new.handles.tolist())}
+    before = [tuple(old.handles[i].tolist()) for i in chosen if i < len(old)]
+    return tuple(places[handle] for handle in before if handle in places)

@@ -204,7 +204,7 @@ class EditorModel(Observed):
             done = Application()
             if session is not None:
                 self._shelf.append(replace(session, path=self.autosave_path))
-                by_redo = self.tracing.redo_reaches(session.image)
+                by_redo = any(state.image is session.image for state in self.tracing.history.future)
                 done = Application(0, True, self.autosave_path, by_redo)
             self._change_picture(domain)
             return done
@@ -308,7 +308,7 @@ class EditorModel(Observed):
         self._shelf.remove(session)
         if session.path is not None:
             self._save_to(session.path)
-        deformation = Deformation.from_history(session.deformation.history, begin=False)
+        deformation = Deformation.from_history(session.deformation.history)
         self._replace(deformation)
         if session.domain is not domain:
             _apply(deformation, domain)
@@ -330,7 +330,7 @@ class EditorModel(Observed):
         domain, poses = document.domain, tuple(pose.changed() for pose in document.poses)
         state = EditState(domain, poses, document.active) if poses else EditState.initial(domain)
         self._shelf.clear()
-        self._replace(Deformation.from_history(History(state), begin=False))
+        self._replace(Deformation.from_history(History(state)))
 
     def _replace(self, deformation: Deformation) -> None:
         old, self._session = self._session, self._session_of(deformation)

@@ -11,6 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import number_pairs
 from glid_nb.geometry import Cage, Domain, GeometryError
 from glid_nb.imaging import (
     Hole,
@@ -109,33 +110,32 @@ class TracingModel(Observed):
     def __init__(
         self, image: ImageSource | None = None, options: TraceOptions | None = None
     ) -> None:
-        self._begin(_state(None if image is None else _pixels(image), options or TraceOptions()))
+        super().__init__()
+        pixels = None if image is None else _pixels(image)
+        self.history = History(_state(pixels, options or TraceOptions()))
+        """The undo history."""
+        self._tracer: Tracer | None = None
+        self._outcome_of = functools.lru_cache(_KEPT_OUTCOMES)(weakly(self._evaluate))
 
     @classmethod
     def from_document(cls, document: Document) -> TracingModel:
         """A model with the document's picture, options, scribbles and cage."""
-        model = cls.__new__(cls)
+        model = cls()
         state = _state(document.image, document.trace_options, document.scribbles)
-        edited = replace(state, loops=document.cage.loops, fallback=document.domain)
-        model._begin(edited)
+        state = replace(state, loops=document.cage.loops, fallback=document.domain)
+        model.history = History(state)
         # A cage that tracing gives again was not edited by hand.
         tracing = model.outcome.tracing
         if tracing is not None and tracing.cage.equals(document.cage):
-            model._history = History(replace(edited, loops=None))
+            model.history = History(replace(state, loops=None))
         return model
-
-    def _begin(self, state: TracingState) -> None:
-        super().__init__()
-        self._history = History(state)
-        self._tracer: Tracer | None = None
-        self._outcome_of = functools.lru_cache(_KEPT_OUTCOMES)(weakly(self._evaluate))
 
     # State
 
     @property
     def state(self) -> TracingState:
         """The user's present choices."""
-        return self._history.present
+        return self.history.present
 
     @property
     def image(self) -> NDArray[np.uint8] | None:
@@ -196,22 +196,18 @@ class TracingModel(Observed):
     @property
     def has_discarded_edits(self) -> bool:
         """Whether the last step, such as another option, discarded edits by hand."""
-        before = self._history.past[-1] if self._history.past else self.state
+        before = self.history.past[-1] if self.history.past else self.state
         return before.loops is not None and not self.edited and before.image is self.image
 
     @property
     def can_undo(self) -> bool:
         """Whether there is something to undo."""
-        return bool(self._history.past)
+        return bool(self.history.past)
 
     @property
     def can_redo(self) -> bool:
         """Whether there is something to redo."""
-        return bool(self._history.future)
-
-    def redo_reaches(self, image: NDArray[np.uint8] | None) -> bool:
-        """Whether redo can bring back this picture, the same array."""
-        return any(state.image is image for state in self._history.future)
+        return bool(self.history.future)
 
     # Actions
 
@@ -271,12 +267,8 @@ class TracingModel(Observed):
                 raise TraceError(f"there is no brush {brush!r}; use foreground or background")
             if isinstance(strokes[brush], np.ndarray):
                 raise TraceError(f"the {brush} was given as a mask, which cannot be painted over")
-            try:
-                scribbles = Scribbles(**{**strokes, brush: (*strokes[brush], stroke)})
-            except TraceError:
-                raise
-            except (TypeError, ValueError) as error:
-                raise TraceError(f"a stroke must be a list of pixels (x, y): {error}") from error
+            line = number_pairs(stroke, "a stroke must be a list of pixels (x, y)", TraceError)
+            scribbles = Scribbles(**{**strokes, brush: (*strokes[brush], line)})
             options = replace(self.options, method="scribbles", scribbles=scribbles)
             self._step(replace(self.state, options=options, scribbles=scribbles, loops=None))
 
@@ -310,9 +302,8 @@ class TracingModel(Observed):
 
     def move_vertex(self, loop: int, index: int, to: Point, gesture: Any = None) -> None:
         """Move a vertex of a loop that is shown."""
-        self._edit(
-            lambda loops: loop_edits.move_vertex(loops, loop, index, self._world(to)), gesture
-        )
+        place = self._world(to)
+        self._edit(lambda loops: loop_edits.move_vertex(loops, loop, index, place), gesture)
 
     def insert_vertex(self, at: Point) -> tuple[int, int]:
         """Add a vertex on the edge nearest to a point; returns its (loop, index)."""
@@ -350,30 +341,30 @@ class TracingModel(Observed):
         """Restore an earlier state, with its fallback, as a new step."""
         with self.locked():
             if state is not self.state:
-                self._go_to(self._history.step(state))
+                self._go_to(self.history.step(state))
 
     def undo(self) -> bool:
         """Go back one step; whether there was one."""
         with self.locked():
-            return self._go_to(self._history.undone())
+            return self._go_to(self.history.undone())
 
     def redo(self) -> bool:
         """Go forward one step again; whether there was one."""
         with self.locked():
-            return self._go_to(self._history.redone())
+            return self._go_to(self.history.redone())
 
     def cancel(self, gesture: Any) -> bool:
         """Go back to before a gesture, without redo; whether it was the last thing done."""
         with self.locked():
-            under_way = gesture is not None and self._history.gesture == gesture
-            return under_way and self._go_to(self._history.cancelled())
+            under_way = gesture is not None and self.history.gesture == gesture
+            return under_way and self._go_to(self.history.cancelled())
 
     # Internals
 
     def _step(self, state: TracingState, gesture: Any = None) -> None:
         """Make ``state`` the present one, with its fallback."""
         with self.locked():
-            before, history = self.state, self._history
+            before, history = self.state, self.history
             if gesture is not None and gesture == history.gesture:
                 fallback = before.fallback  # valid cages within a gesture do not count
             else:
@@ -382,9 +373,9 @@ class TracingModel(Observed):
 
     def _go_to(self, history: History[TracingState]) -> bool:
         """Make a history the present one; whether that is a change."""
-        if history is self._history:
+        if history is self.history:
             return False
-        self._history = history
+        self.history = history
         self._tell("state")
         return True
 
@@ -439,9 +430,8 @@ class TracingModel(Observed):
 
     def _check_inside(self, point: Point) -> None:
         """Raise unless the point lies in the picture."""
-        frame = self._frame_of_picture()
         x, y = loop_edits.checked_point(point)
-        frame.index_at((float(x), float(y)))
+        self._frame_of_picture().index_at((float(x), float(y)))
 
     def _frame_of_picture(self) -> PixelFrame:
         if (frame := self.frame) is None:

@@ -46,9 +46,12 @@ class LatestWins(Generic[T]):
         self._changed = threading.Condition()
         # The pending task, and whether it is done although the worker is paused.
         self._pending: tuple[T, bool] | None = None
-        self._busy = self._cancelled = self._paused = self._hurried = self._closed = False
+        self._busy = self._cancelled = self._paused = self._hurried = False
+        self.closed = False
+        """Whether this was closed."""
+        self.thread: threading.Thread | None = None
+        """The thread; None before the first task."""
         self._ended = -float("inf")
-        self._thread: threading.Thread | None = None
         # This also ends the thread at the end of the process, before the interpreter shuts down.
         self._finalizer = weakref.finalize(owner, self._close)
 
@@ -58,12 +61,12 @@ class LatestWins(Generic[T]):
         A closed worker ignores it.
         """
         with self._changed:
-            if self._closed:
+            if self.closed:
                 return
             self._pending = (task, at_once)
-            if self._thread is None:
-                self._thread = threading.Thread(target=self._run, name=self._name, daemon=True)
-                self._thread.start()
+            if self.thread is None:
+                self.thread = threading.Thread(target=self._run, name=self._name, daemon=True)
+                self.thread.start()
             self._changed.notify_all()
 
     def cancel(self) -> None:
@@ -76,7 +79,7 @@ class LatestWins(Generic[T]):
         """Wait until there is nothing to do; whether that is within ``timeout`` seconds."""
         with self._changed:
             return self._changed.wait_for(
-                lambda: self._closed or not (self._busy or self._due()), timeout
+                lambda: self.closed or not (self._busy or self._due()), timeout
             )
 
     def hurry(self, timeout: float | None = None) -> bool:
@@ -98,7 +101,7 @@ class LatestWins(Generic[T]):
     @property
     def cancelled(self) -> bool:
         """Whether the running task was cancelled, or this is closed."""
-        return self._closed or self._cancelled
+        return self.closed or self._cancelled
 
     @property
     def overtaken(self) -> bool:
@@ -117,30 +120,15 @@ class LatestWins(Generic[T]):
             self._paused = value
             self._changed.notify_all()
 
-    @property
-    def thread(self) -> threading.Thread | None:
-        """The thread; None before the first task."""
-        return self._thread
-
-    @property
-    def alive(self) -> bool:
-        """Whether the thread runs."""
-        return self._thread is not None and self._thread.is_alive()
-
-    @property
-    def closed(self) -> bool:
-        """Whether this was closed."""
-        return self._closed
-
     def close(self) -> None:
         """End the thread and wait for that; later tasks are ignored."""
         self._finalizer()
 
     def _close(self) -> None:
         with self._changed:
-            self._closed = True
+            self.closed = True
             self._changed.notify_all()
-            thread = self._thread
+            thread = self.thread
         if thread is not None and thread is not threading.current_thread():
             thread.join()
 
@@ -151,12 +139,12 @@ class LatestWins(Generic[T]):
         """Wait for the next task; None once this is closed."""
         with self._changed:
             while True:
-                self._changed.wait_for(lambda: self._closed or self._due())
+                self._changed.wait_for(lambda: self.closed or self._due())
                 rest = self._ended + self._interval - time.monotonic()
-                self._changed.wait_for(lambda: self._closed or self._hurried, max(rest, 0.0))
-                if self._closed and not (self._finish and self._pending):
+                self._changed.wait_for(lambda: self.closed or self._hurried, max(rest, 0.0))
+                if self.closed and not (self._finish and self._pending):
                     return None
-                if self._pending is not None and (self._closed or self._due()):
+                if self._pending is not None and (self.closed or self._due()):
                     (task, _), self._pending = self._pending, None
                     self._busy = True
                     return (task,)
