@@ -22,7 +22,7 @@ from glid_nb.session.edit_state import EditError, EditState, Frame, Moment, Task
 from glid_nb.session.history import History
 from glid_nb.session.live_solver import LiveSolver
 from glid_nb.session.observed import Observed
-from glid_nb.session.point_finder import PointFinder
+from glid_nb.session.point_finder import find_source
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins
 from glid_nb.solvers import Options, Pose
@@ -93,7 +93,6 @@ class Deformation(Observed):
         self._chain = 0
         self._frame: Frame | None = None
         self._error: Exception | None = None
-        self._finder = PointFinder(domain)
         solver = LiveSolver(self._accept, self._fail)
         self._worker = LatestWins(solver.solve, self, "live solver")
         self._closed = False
@@ -165,7 +164,7 @@ class Deformation(Observed):
 
     def find(self, point: ArrayLike) -> Array | None:
         """The point of the undeformed shape that is drawn at ``point``; None outside the shape."""
-        return self._finder.find(self.moment.shown, point)
+        return find_source(self.moment.shown, point)
 
     # Actions
 
@@ -323,7 +322,7 @@ class Deformation(Observed):
     # Solving
 
     def begin(self) -> None:
-        """Start the solver, which compiles before the first drag, if it was not; returns at once."""
+        """Start the solver, which compiles before the first drag, unless it was; do not wait."""
         with self.locked():
             if not self.begun:
                 self._submit()
@@ -392,8 +391,6 @@ class Deformation(Observed):
         old, new = self.state, history.present
         self.history, self._error = history, None
         self._chain += 1
-        if new.domain is not self._finder.domain:
-            self._finder = PointFinder(new.domain)
         if (frame := self._frame) is not None:
             same_method = frame.task.pose.method is new.current.method
             if frame.map is not new.map or (frame.mesh is not None and not same_method):
