@@ -11,18 +11,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from glid_nb import methods
+from glid_nb import _json, methods
 from glid_nb._errors import InputFileError, about
-from glid_nb._json import (
-    anything,
-    check_fields,
-    check_list,
-    check_loops,
-    check_object,
-    check_points,
-    check_text,
-    parse_json,
-)
 from glid_nb.energies import CustomEnergy, Energy, energy_by_name
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
@@ -30,13 +20,7 @@ from glid_nb.harmonic.map import complex_from_pairs, complex_to_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE
 from glid_nb.session.archive import image_png, light_png, read_archive, read_png, write_archive
-from glid_nb.session.document import (
-    Document,
-    DocumentError,
-    NamedPose,
-    certificate_of,
-    check_count,
-)
+from glid_nb.session.document import Document, DocumentError, NamedPose, certificate_of, check_count
 from glid_nb.solvers import Method, Newton, Options, Pose
 
 T = TypeVar("T")
@@ -54,14 +38,14 @@ _MOST_BYTES = {
     **dict.fromkeys(_MASKS.values(), MAX_SIDE**2),
 }
 _KEYS = {
-    **dict.fromkeys(("format", "version", "image_size_px", "domain", "active"), anything),
-    "trace_options": check_object,
-    "poses": check_list,
+    **dict.fromkeys(("format", "version", "image_size_px", "domain", "active"), _json.anything),
+    "trace_options": _json.check_object,
+    "poses": _json.check_list,
 }
 _POSE_KEYS = {
-    **dict.fromkeys(("name", "energy", "options", "phi", "psi"), anything),
-    "handles": check_points,
-    "targets": check_points,
+    **dict.fromkeys(("name", "energy", "options", "phi", "psi"), _json.anything),
+    "handles": _json.check_points,
+    "targets": _json.check_points,
 }
 _DOMAIN_KEYS = ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "notes")
 _MOST_ITERATIONS = 200  # was written where max_iterations is None, the method's own limit
@@ -114,9 +98,9 @@ def load_document(path: str | Path) -> Document:
         for name in (_JSON, _IMAGE):
             if name not in members:
                 raise DocumentError(f"{name} is missing; this is no glid_nb document")
-        data = parse_json(members[_JSON], _JSON, "JSON", nan=False)
-        since_2 = {"method": anything} if _checked_version(data) > 1 else {}
-        check_fields(data, _JSON, _KEYS, {"scribbles": check_object})
+        data = _json.parse_json(members[_JSON], _JSON, "JSON", nan=False)
+        since_2 = {"method": _json.anything} if _checked_version(data) > 1 else {}
+        _json.check_fields(data, _JSON, _KEYS, {"scribbles": _json.check_object})
         size = _checked_size(data["image_size_px"])
         image = np.asarray(read_png(members[_IMAGE], size, "RGBA", _IMAGE), dtype=np.uint8)
         scribbles = _scribbles_from_members(data.get("scribbles"), members, size)
@@ -131,7 +115,7 @@ def load_document(path: str | Path) -> Document:
 
 
 def _checked_version(data: Any) -> int:
-    check_object(data, _JSON)
+    _json.check_object(data, _JSON)
     if data.get("format") != FORMAT:
         raise DocumentError(f'{_JSON}: the key "format" is not "{FORMAT}"')
     version = data.get("version")
@@ -176,7 +160,7 @@ def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
 
 def _pose_from_dict(where: str, data: Any, domain: Domain, keys: Mapping[str, Any]) -> NamedPose:
     with about(where, DocumentError):
-        check_fields(data, where, keys)
+        _json.check_fields(data, where, keys)
     with about(f"{where} ({data['name']!r:.60})", DocumentError):
         phi, psi = (complex_from_pairs(data[key], key) for key in ("phi", "psi"))
         pose = NamedPose(
@@ -199,7 +183,7 @@ def _check_certified(map: HarmonicMap) -> None:
 
 def _energy_from_dict(data: Any) -> Energy:
     with about("energy"):
-        check_fields(data, "energy", {"name": check_text}, {"s": anything})
+        _json.check_fields(data, "energy", {"name": _json.check_text}, {"s": _json.anything})
         return energy_by_name(data["name"], data.get("s"))
 
 
@@ -212,13 +196,14 @@ def _options_from_dict(data: Any) -> Options:
 
 def _method_from_dict(data: Any) -> Method:
     with about("method"):
-        check_fields(data, "method", {"name": check_text, "settings": check_object})
+        keys = {"name": _json.check_text, "settings": _json.check_object}
+        _json.check_fields(data, "method", keys)
         return methods.by_name(data["name"], **data["settings"])
 
 
 def _domain_from_dict(data: Any) -> Domain:
     with about("domain"):
-        check_fields(data, "domain", dict.fromkeys(_DOMAIN_KEYS, anything))
+        _json.check_fields(data, "domain", dict.fromkeys(_DOMAIN_KEYS, _json.anything))
         domain = Domain.from_dict(data)
     if domain.to_dict() != data:
         # The maps' coefficients follow the order of the loops' vertices.
@@ -246,7 +231,7 @@ def _trace_options_from_dict(data: Any, scribbles: Scribbles | None) -> TraceOpt
 def _from_fields(kind: type[T], data: Any, name: str) -> T:
     """A dataclass by its fields; those that are missing keep their defaults."""
     fields = [field.name for field in dataclasses.fields(kind)]  # type: ignore[arg-type]
-    check_fields(data, name, {}, dict.fromkeys(fields, anything))
+    _json.check_fields(data, name, {}, dict.fromkeys(fields, _json.anything))
     with about(name):
         return kind(**data)
 
@@ -273,12 +258,12 @@ def _scribbles_from_members(
 ) -> Scribbles | None:
     if data is None:
         return None
-    check_fields(data, "scribbles", dict.fromkeys(_MASKS, anything))
+    _json.check_fields(data, "scribbles", dict.fromkeys(_MASKS, _json.anything))
     values: dict[str, Any] = {}
     for key, member in _MASKS.items():
         values[key] = data[key]
         if data[key] != _MASK:
-            check_loops(data[key], f"scribbles.{key}", each="stroke")
+            _json.check_loops(data[key], f"scribbles.{key}", each="stroke")
         elif member in members:
             values[key] = read_png(members[member], size, "1", member)
         else:

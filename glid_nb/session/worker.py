@@ -18,19 +18,10 @@ class LatestWins(Generic[T]):
     The thread starts with the first task, and ends when this is closed, when its owner is gone, or
     with the process. Exceptions go to :func:`threading.excepthook`; the thread goes on.
 
-    Parameters
-    ----------
-    work : callable
-        Called with a task and this worker; a long task ends early when ``overtaken`` or
-        ``cancelled`` say so. It must not keep the owner alive: see :func:`weakly`.
-    owner : object
-        The object that the thread works for.
-    name : str
-        The name of the thread.
-    interval : float
-        Least number of seconds from the end of a task to the beginning of the next.
-    finish : bool
-        Whether closing does the pending task first, rather than dropping it.
+    ``work`` is called with a task and this worker; a long task ends early when ``overtaken`` or
+    ``cancelled`` say so. It must not keep the ``owner``, for whom it works, alive: see
+    :func:`weakly`. From the end of a task to the beginning of the next ``interval`` seconds pass.
+    Closing drops the pending task, or does it first with ``finish``.
     """
 
     def __init__(
