@@ -21,19 +21,14 @@ _INJECTIVE = {
 }
 
 
-def check_file(path: Path) -> None:
-    """Raise an OSError if no file can be made at ``path``."""
+def check_file(path: Path, suffix: str = "") -> None:
+    """Raise an OSError if no file can be made at ``path``, an InputFileError for another suffix."""
+    if suffix and path.suffix.lower() != suffix:
+        raise InputFileError(f"{path}: only {suffix} is written; name a file that ends in {suffix}")
     if path.is_dir():
         raise IsADirectoryError(21, "is a folder; name a file", str(path))
     if not path.parent.is_dir():
         raise FileNotFoundError(2, "there is no such folder to write to", str(path.parent))
-
-
-def check_png(path: Path) -> None:
-    """:func:`check_file`, and an InputFileError unless the name ends in .png."""
-    if path.suffix.lower() != ".png":
-        raise InputFileError(f"{path}: pictures are written as PNG; name a file that ends in .png")
-    check_file(path)
 
 
 def check_folder(path: Path) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import glid_nb
 from glid_nb._errors import about
-from glid_nb.cli.output import check_png, write_all
+from glid_nb.cli.output import check_file, write_all
 from glid_nb.cli.progress import step
 
 MAX_SIDE = 20_000
@@ -29,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(chosen: argparse.Namespace) -> None:
-    check_png(chosen.out)
+    check_file(chosen.out, ".png")
     glid_nb.enable_compilation_cache()
     harmonic_map = glid_nb.HarmonicMap.load(chosen.map)
     image = glid_nb.read_image(chosen.image)

@@ -27,7 +27,6 @@ T = TypeVar("T")
 
 FORMAT = "glid_nb-document"
 FORMAT_VERSION = 2
-_READABLE = (1, 2)
 
 _JSON, _IMAGE = "document.json", "image.png"
 _MASKS = {key: f"scribbles-{key}.png" for key in ("foreground", "background")}
@@ -59,12 +58,8 @@ def save_document(document: Document, path: str | Path) -> None:
     ``document.json`` holds everything but pixels, which are in ``image.png``; scribbled masks are
     in ``scribbles-*.png``. Numbers are written so that they read back bit for bit.
 
-    Raises
-    ------
-    DocumentError
-        When a map is not certified, or an energy is a Python function; nothing is written.
-    OSError
-        When the file cannot be written; what was there before stays.
+    A DocumentError if a map is not certified, or an energy is a Python function. When the file is
+    not written, what was there before stays.
     """
     scribbles, masks = _scribbles_to_members(document.scribbles)
     height, width = document.image.shape[:2]
@@ -86,12 +81,7 @@ def save_document(document: Document, path: str | Path) -> None:
 def load_document(path: str | Path) -> Document:
     """Read a document that :func:`save_document` wrote; every map in it is certified anew.
 
-    Raises
-    ------
-    DocumentError
-        When the file is no valid document; the message names the file and the culprit.
-    OSError
-        When it cannot be read.
+    A DocumentError names the file and the culprit if it is no valid document.
     """
     with about(path, DocumentError):
         members = read_archive(Path(path), _MOST_BYTES)
@@ -119,11 +109,10 @@ def _checked_version(data: Any) -> int:
     if data.get("format") != FORMAT:
         raise DocumentError(f'{_JSON}: the key "format" is not "{FORMAT}"')
     version = data.get("version")
-    if version not in _READABLE or isinstance(version, bool | float):
+    if version not in (1, 2) or isinstance(version, bool | float):
         raise DocumentError(
-            f"version {version!r:.20} of the format is not supported, only "
-            f"{' and '.join(map(str, _READABLE))}; a newer glid_nb may have written it: update "
-            "this one"
+            f"version {version!r:.20} of the format is not supported, only 1 and 2; a newer "
+            "glid_nb may have written it: update this one"
         )
     return version
 
@@ -241,16 +230,11 @@ def _scribbles_to_members(
 ) -> tuple[dict[str, Any] | None, dict[str, bytes]]:
     if scribbles is None:
         return None, {}
-    data: dict[str, Any] = {}
-    members: dict[str, bytes] = {}
-    for key, member in _MASKS.items():
-        value = getattr(scribbles, key)
-        if isinstance(value, np.ndarray):
-            data[key] = _MASK
-            members[member] = light_png(value)
-        else:
-            data[key] = [stroke.tolist() for stroke in value]
-    return data, members
+    values = {key: getattr(scribbles, key) for key in _MASKS}
+    masks = {key: value for key, value in values.items() if isinstance(value, np.ndarray)}
+    strokes = {k: [s.tolist() for s in v] for k, v in values.items() if k not in masks}
+    members = {_MASKS[key]: light_png(mask) for key, mask in masks.items()}
+    return {**strokes, **dict.fromkeys(masks, _MASK)}, members
 
 
 def _scribbles_from_members(

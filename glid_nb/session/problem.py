@@ -74,12 +74,7 @@ class Problem:
     def load(cls, path: str | Path) -> Problem:
         """Read a problem from a JSON file.
 
-        Raises
-        ------
-        InputFileError
-            When the file does not hold a valid problem; the message names the file and the culprit.
-        OSError
-            When it cannot be read.
+        An InputFileError names the file and the culprit if it does not hold a valid problem.
         """
         with about(path):
             return cls.from_dict(_json.read_object(path))
@@ -88,12 +83,7 @@ class Problem:
 def load_pose(path: str | Path) -> Pose:
     """Read ``handles`` and ``targets`` from a JSON file; other keys are ignored.
 
-    Raises
-    ------
-    InputFileError
-        When the file does not hold a valid pose; the message names the file and the culprit.
-    OSError
-        When it cannot be read.
+    An InputFileError names the file and the culprit if it does not hold a valid pose.
     """
     with about(path):
         data = _json.read_object(path)

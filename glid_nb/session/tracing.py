@@ -11,21 +11,11 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import number_pairs
+from glid_nb._arguments import number_pairs, read_only
 from glid_nb.geometry import Cage, Domain, GeometryError
-from glid_nb.imaging import (
-    Hole,
-    PixelFrame,
-    Scribbles,
-    TraceError,
-    TraceOptions,
-    Tracer,
-    Tracing,
-    as_rgba8,
-    read_image,
-)
+from glid_nb.imaging import Hole, PixelFrame, Scribbles, TraceError, TraceOptions, Tracer, Tracing
 from glid_nb.imaging.options import Point
-from glid_nb.imaging.read import ImageSource
+from glid_nb.imaging.read import ImageSource, as_rgba8, read_image
 from glid_nb.imaging.trace import with_changes
 from glid_nb.session import loop_edits
 from glid_nb.session.document import Document
@@ -212,22 +202,13 @@ class TracingModel(Observed):
     # Actions
 
     def open(self, image: ImageSource) -> None:
-        """Open another picture, with the default options.
-
-        Raises
-        ------
-        TraceError
-            It cannot be read; nothing changes.
-        """
+        """Open another picture, with the default options; no change if it cannot be read."""
         self._step(TracingState(image=_pixels(image)))
 
     def set_options(self, gesture: Any = None, **changes: Any) -> None:
         """Trace with other options, fields of `TraceOptions`; discards edits by hand.
 
-        Raises
-        ------
-        TraceError
-            An unknown field, or a value out of its range; nothing changes.
+        A TraceError, and no change, for an unknown field or a value out of its range.
         """
         with self.locked():
             before = self.state
@@ -253,13 +234,7 @@ class TracingModel(Observed):
         self.set_options(component=0, component_at=point)
 
     def paint(self, brush: Brush, stroke: ArrayLike) -> None:
-        """Add a stroke on the shape or on the background, (k, 2) pixels, and trace by scribbles.
-
-        Raises
-        ------
-        TraceError
-            The stroke is not a list of finite points; nothing changes.
-        """
+        """Add a stroke on the shape or on the background, (k, 2) pixels, and trace by scribbles."""
         with self.locked():
             old = self.state.scribbles or _NO_SCRIBBLES
             strokes = {"foreground": old.foreground, "background": old.background}
@@ -285,10 +260,10 @@ class TracingModel(Observed):
     def toggle_hole(self, number: int) -> None:
         """Drop a hole, or keep it if it was dropped; other loops keep their edits."""
         with self.locked():
-            state, frame = self.state, self.frame
-            if frame is None or not 0 <= number < len(self.holes):
-                raise TraceError(f"there is no hole {number}; there are {len(self.holes)}")
-            hole = self.holes[number]
+            state, holes = self.state, self.holes
+            if not 0 <= number < len(holes):
+                raise TraceError(f"there is no hole {number}; there are {len(holes)}")
+            hole = holes[number]
             region = shapely.Polygon(hole.loop)
             keep, drop = (
                 [p for p in points if not shapely.contains_xy(region, *p)]
@@ -297,13 +272,16 @@ class TracingModel(Observed):
             (drop if hole.kept else keep).append(hole.pixel)
             new = replace(state, options=replace(state.options, keep_holes=keep, drop_holes=drop))
             if state.loops is not None:
-                new = replace(new, loops=self._loops_with(new, hole))
+                new = replace(new, loops=self._loops_with(new, state.loops, hole))
             self._step(new)
 
     def move_vertex(self, loop: int, index: int, to: Point, gesture: Any = None) -> None:
         """Move a vertex of a loop that is shown."""
-        place = self._world(to)
-        self._edit(lambda loops: loop_edits.move_vertex(loops, loop, index, place), gesture)
+
+        def moved(loops: Loops) -> Loops:
+            return loop_edits.move_vertex(loops, loop, index, self._world(to))
+
+        self._edit(moved, gesture)
 
     def insert_vertex(self, at: Point) -> tuple[int, int]:
         """Add a vertex on the edge nearest to a point; returns its (loop, index)."""
@@ -318,10 +296,7 @@ class TracingModel(Observed):
     def delete_vertices(self, vertices: Iterable[tuple[int, int]]) -> None:
         """Delete vertices (loop, index); holes with fewer than three left are removed.
 
-        Raises
-        ------
-        GeometryError
-            The exterior would have fewer than three left; nothing changes.
+        A GeometryError, and no change, if the exterior would have fewer than three left.
         """
         chosen = list(vertices)
         if chosen:
@@ -411,12 +386,9 @@ class TracingModel(Observed):
             domain = state.fallback
         return TracingOutcome(tracing, loops, domain, tuple(problems))
 
-    def _loops_with(self, state: TracingState, hole: Hole) -> Loops:
+    def _loops_with(self, state: TracingState, loops: Loops, hole: Hole) -> Loops:
         """The edited loops without a hole that is dropped, or with one that is kept again."""
-        frame, loops = self.frame, state.loops
-        assert frame is not None
-        assert loops is not None
-        inside = frame.to_world(hole.pixel)
+        inside = self._world(hole.pixel)
         if hole.kept:
             index = loop_edits.around(loops, inside)
             return loops if index is None else (*loops[:index], *loops[index + 1 :])
@@ -458,7 +430,4 @@ def _problem(error: TraceError | GeometryError, frame: PixelFrame) -> TracingPro
 
 def _pixels(image: ImageSource) -> NDArray[np.uint8]:
     pixels = as_rgba8(read_image(image))
-    if pixels.flags.writeable:
-        pixels = pixels.copy()  # an array of the caller's
-        pixels.setflags(write=False)
-    return pixels
+    return read_only(pixels.copy()) if pixels.flags.writeable else pixels  # not the caller's array
