@@ -19,9 +19,8 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.session import actions
 from glid_nb.session.document import certificate_of
 from glid_nb.session.edit_state import EditError, EditState, Frame, Moment, Task
-from glid_nb.session.history import History
 from glid_nb.session.live_solver import LiveSolver
-from glid_nb.session.observed import Observed
+from glid_nb.session.model import History, Observed
 from glid_nb.session.point_finder import find_source
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins

@@ -13,7 +13,7 @@ import numpy as np
 
 from glid_nb import _json, methods
 from glid_nb._errors import InputFileError, about
-from glid_nb.energies import CustomEnergy, Energy, energy_by_name
+from glid_nb.energies import CustomEnergy, energy_by_name
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.map import complex_from_pairs, complex_to_pairs
@@ -21,7 +21,7 @@ from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE
 from glid_nb.session.archive import image_png, light_png, read_archive, read_png, write_archive
 from glid_nb.session.document import Document, DocumentError, NamedPose, certificate_of, check_count
-from glid_nb.solvers import Method, Newton, Options, Pose
+from glid_nb.solvers import Newton, Options, Pose
 
 T = TypeVar("T")
 
@@ -152,15 +152,20 @@ def _pose_from_dict(where: str, data: Any, domain: Domain, keys: Mapping[str, An
         _json.check_fields(data, where, keys)
     with about(f"{where} ({data['name']!r:.60})", DocumentError):
         phi, psi = (complex_from_pairs(data[key], key) for key in ("phi", "psi"))
-        pose = NamedPose(
-            data["name"],
-            Pose.from_dict(data),
-            _energy_from_dict(data["energy"]),
-            _options_from_dict(data["options"]),
-            HarmonicMap(domain, phi, psi),
-            _method_from_dict(data["method"]) if "method" in keys else Newton(),
-        )
-        _check_certified(pose.map)
+        energy, named = data["energy"], {"name": _json.check_text}
+        with about("energy"):
+            _json.check_fields(energy, "energy", named, {"s": _json.anything})
+            energy = energy_by_name(energy["name"], energy.get("s"))
+        method = data.get("method", {"name": Newton.name, "settings": {}})
+        with about("method"):
+            _json.check_fields(method, "method", {**named, "settings": _json.check_object})
+            method = methods.by_name(method["name"], **method["settings"])
+        options = _from_fields(Options, data["options"], "options")
+        if options.max_iterations == _MOST_ITERATIONS:
+            options = dataclasses.replace(options, max_iterations=None)
+        map = HarmonicMap(domain, phi, psi)
+        pose = NamedPose(data["name"], Pose.from_dict(data), energy, options, map, method)
+        _check_certified(map)
     return pose
 
 
@@ -168,26 +173,6 @@ def _check_certified(map: HarmonicMap) -> None:
     certificate = certificate_of(map)
     if not certificate.certified:
         raise DocumentError(f"its map is not certified. {certificate.reason}")
-
-
-def _energy_from_dict(data: Any) -> Energy:
-    with about("energy"):
-        _json.check_fields(data, "energy", {"name": _json.check_text}, {"s": _json.anything})
-        return energy_by_name(data["name"], data.get("s"))
-
-
-def _options_from_dict(data: Any) -> Options:
-    options = _from_fields(Options, data, "options")
-    if options.max_iterations == _MOST_ITERATIONS:
-        return dataclasses.replace(options, max_iterations=None)
-    return options
-
-
-def _method_from_dict(data: Any) -> Method:
-    with about("method"):
-        keys = {"name": _json.check_text, "settings": _json.check_object}
-        _json.check_fields(data, "method", keys)
-        return methods.by_name(data["name"], **data["settings"])
 
 
 def _domain_from_dict(data: Any) -> Domain:

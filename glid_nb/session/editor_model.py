@@ -19,8 +19,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, DocumentError
 from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.edit_state import EditError, EditState
-from glid_nb.session.history import History
-from glid_nb.session.observed import Observed
+from glid_nb.session.model import History, Observed
 from glid_nb.session.tracing import TracingModel, TracingState
 
 Array = NDArray[np.uint8]

@@ -19,9 +19,8 @@ from glid_nb.imaging.read import ImageSource, as_rgba8, read_image
 from glid_nb.imaging.trace import with_changes
 from glid_nb.session import loop_edits
 from glid_nb.session.document import Document
-from glid_nb.session.history import History
 from glid_nb.session.loop_edits import Loops
-from glid_nb.session.observed import Observed
+from glid_nb.session.model import History, Observed
 from glid_nb.session.worker import weakly
 
 Brush = Literal["foreground", "background"]
@@ -422,10 +421,10 @@ def _state(
 
 def _problem(error: TraceError | GeometryError, frame: PixelFrame) -> TracingProblem:
     point = error.point if isinstance(error, GeometryError) else None
-    if point is None:
-        return TracingProblem(str(error), error.plain)
-    x, y = frame.to_pixel(point)
-    return TracingProblem(str(error), error.plain, (float(x), float(y)))
+    if point is not None:
+        x, y = frame.to_pixel(point)
+        point = (float(x), float(y))
+    return TracingProblem(str(error), error.plain, point)
 
 
 def _pixels(image: ImageSource) -> NDArray[np.uint8]:
