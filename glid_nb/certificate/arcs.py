@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._jax import jit, jnp
-from glid_nb._runtime import COMPILER_OPTIONS, in_chunks
+from glid_nb._runtime import COMPILER_OPTIONS
 from glid_nb.certificate import rounding
 from glid_nb.certificate.panels import modulus
 from glid_nb.certificate.paper import derivative_bound_weights
-from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
+from glid_nb.harmonic import HarmonicMap, cauchy, run_on
 from glid_nb.harmonic.cauchy import Singularities
 
 Array = NDArray[Any]
@@ -108,17 +108,9 @@ class Arcs(NamedTuple):
         return self.sagitta + self.error
 
 
-class JetEvaluator:
-    """Evaluates one map's :class:`Jets`, in chunks of one size."""
-
-    def __init__(self, map: HarmonicMap) -> None:
-        basis = basis_of(map.domain)
-        self._coefficients = np.stack([basis.pad(map.phi), basis.pad(map.psi)])
-        self._singularities = basis.singularities
-
-    def __call__(self, start: Array, end: Array) -> Jets:
-        """Jets at the (p,) complex points ``start``, with ``third`` for the panels to ``end``."""
-        return in_chunks(_kernel, _CHUNK, (start, end), self._coefficients, self._singularities)
+def jets_of(map: HarmonicMap, start: Array, end: Array) -> Jets:
+    """Jets at the (p,) complex points ``start``, with ``third`` for the panels to ``end``."""
+    return run_on(map, _kernel, _CHUNK, start, end)
 
 
 @functools.partial(jit, compiler_options=COMPILER_OPTIONS)

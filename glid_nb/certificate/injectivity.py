@@ -18,6 +18,7 @@ split until that decides.
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -26,44 +27,38 @@ import shapely
 from numpy.typing import NDArray
 
 from glid_nb._runtime import double_precision
-from glid_nb.certificate.arcs import Arcs, JetEvaluator
+from glid_nb.certificate.arcs import Arcs, jets_of
 from glid_nb.certificate.certify import Certificate, certify
-from glid_nb.certificate.crossing import proved_crossing
-from glid_nb.certificate.panels import after_split
+from glid_nb.certificate.panels import split
 from glid_nb.geometry import Panels, as_points, graded_panels, place
-from glid_nb.geometry.panels import segment_distance
+from glid_nb.geometry.panels import cross, point_distance, segment_distance, segments_cross
 from glid_nb.harmonic import HarmonicMap
 
 Array = NDArray[Any]
-Verdict = Literal["yes", "no", "undecided"]
 
 _MAX_ROUNDS = 40
+# A crossing is looked for in so many pairs of panels,
+_PLACES = 32
+_NEWTON_STEPS = 8
+# and proved on windows of these half-lengths, relative to the shorter arc.
+_WINDOWS = 4.0 ** -np.arange(4)
 
 
 @dataclass(frozen=True, eq=False)
 class GlobalInjectivity:
-    """The outcome of :func:`global_injectivity`.
+    """The outcome of :func:`global_injectivity`."""
 
-    Attributes
-    ----------
-    verdict : "yes", "no" or "undecided"
-        Whether the map is injective on the closed domain; "yes" and "no" are proved.
-    reason : str
-        One sentence: what is proved, or why nothing is.
-    n_panels : int
-        Number of pieces of the boundary at the end; 0 when the map is not certified.
-    crossing : (2,) array or None
-        With "no", a point at which the image of the boundary crosses itself.
-    parameters : (2, 2) array or None
-        With "no", the two boundary points, one per row, that are mapped to ``crossing``. That two
-        such points exist is proved; these are their rounded coordinates.
-    """
-
-    verdict: Verdict
+    verdict: Literal["yes", "no", "undecided"]
+    """Whether the map is injective on the closed domain; "yes" and "no" are proved."""
     reason: str
+    """One sentence: what is proved, or why nothing is."""
     n_panels: int
+    """Number of pieces of the boundary at the end; 0 when the map is not certified."""
     crossing: Array | None = None
+    """With "no", a (2,) point at which the image of the boundary crosses itself."""
     parameters: Array | None = None
+    """With "no", the two boundary points, one per row, that are mapped to ``crossing``. That two
+    such points exist is proved; these are their rounded coordinates."""
 
 
 @double_precision
@@ -72,14 +67,9 @@ def global_injectivity(
 ) -> GlobalInjectivity:
     """Decide whether a locally injective map is injective on the whole closed domain.
 
-    Parameters
-    ----------
-    map : HarmonicMap
-    certificate : Certificate, optional
-        Of ``map``; by default it is computed. For an uncertified map the verdict is "undecided".
-    max_panels : int
-        Give up beyond this many pieces of the boundary. That happens where images touch without
-        crossing, or are closer than rounding.
+    For an uncertified map the verdict is "undecided"; its certificate is computed unless it is
+    given. It is also undecided where more than ``max_panels`` pieces of the boundary were needed:
+    where images touch without crossing, or are closer than rounding.
 
     Examples
     --------
@@ -94,7 +84,7 @@ def global_injectivity(
     if not certificate.certified:
         reason = f"Undecided, because local injectivity is not certified: {certificate.reason}"
         return GlobalInjectivity("undecided", reason, 0)
-    evaluate = JetEvaluator(map)
+    evaluate = functools.partial(jets_of, map)
     panels = graded_panels(map.domain)
     jets = evaluate(panels.start, panels.end)
     for _ in range(_MAX_ROUNDS):
@@ -109,7 +99,7 @@ def global_injectivity(
                 "boundary meet only where neighbours join."
             )
             return GlobalInjectivity("yes", reason, len(panels))
-        double_point = proved_crossing(map.domain, panels, arcs, pairs, evaluate)
+        double_point = _proved_crossing(map, panels, arcs, pairs)
         if double_point is not None:
             return _overlapping(*double_point, len(panels))
         # Split the larger arc of a pair, or both if they are about equal.
@@ -121,9 +111,7 @@ def global_injectivity(
         wanted = unresolved & (sagitta > arcs.error) & panels.divisible
         if not wanted.any() or len(panels) + wanted.sum() > max_panels:
             break
-        parent, panels = panels.parents(wanted), panels.split(wanted)
-        new = wanted[parent]
-        jets = after_split(jets, parent, new, evaluate(panels.start[new], panels.end[new]))
+        panels, jets = split(panels, jets, wanted, evaluate)
     return _undecided(panels, pairs, unresolved)
 
 
@@ -164,6 +152,86 @@ def _corner_simple(arcs: Arcs, following: Array) -> Array:
     back_clear = sine * np.abs(p) - arcs.tangent_error > arcs.bend * arcs.length / 2
     ahead_clear = sine * np.abs(q) - ahead.tangent_error > ahead.bend * ahead.length / 2
     return back_clear & ahead_clear
+
+
+def _proved_crossing(
+    map: HarmonicMap, panels: Panels, arcs: Arcs, pairs: Array
+) -> tuple[complex, Array] | None:
+    """A double point of the image of the boundary, and the two boundary points mapped to it.
+
+    Newton's method finds candidates, starting from pairs of panels whose chords cross. A candidate
+    is proved on windows around it on the two edges, which may extend over several panels.
+    """
+    first, second = pairs
+    crossing = segments_cross(
+        arcs.start[first], arcs.end[first], arcs.start[second], arcs.end[second]
+    )
+    pairs = pairs[:, crossing]
+    if not pairs.size:
+        return None
+    # The flatter the arcs, the more likely they cross where their chords do.
+    bulge = arcs.sagitta / np.abs(arcs.end - arcs.start)
+    pairs = pairs[:, np.argsort(bulge[pairs].max(axis=0))[:_PLACES]]
+
+    edges = Panels.along(map.domain.cage.loops_complex)
+    edge = np.cumsum(np.isin(panels.start, edges.start))[pairs] - 1
+    origin, length = edges.start[edge], edges.length[edge]
+    direction = (edges.end[edge] - origin) / length
+    position = np.abs(panels.middle[pairs] - origin)
+    for _ in range(_NEWTON_STEPS):
+        image, tangent = _image(map, origin + position * direction, direction)
+        determinant = cross(tangent[0], tangent[1])
+        determinant = np.where(determinant == 0, np.inf, determinant)
+        step = cross(tangent[::-1], image[0] - image[1]) / determinant
+        position = np.clip(position + step, 0, length)
+    image, tangent = _image(map, origin + position * direction, direction)
+
+    size = (np.abs(tangent) * panels.length[pairs]).min(axis=0)
+    half = (size / np.abs(tangent))[..., None] * _WINDOWS
+    low = np.maximum(position[..., None] - half, 0)
+    high = np.minimum(position[..., None] + half, length[..., None])
+    apart = (edge[0] != edge[1])[:, None] | (high[0] < low[1]) | (high[1] < low[0])
+    windows = _arcs(map, low, high, origin[..., None], direction[..., None])
+    proved = (apart & _certainly_cross(windows)).any(axis=1)
+    # The proof may succeed on a wide window before Newton's method has settled.
+    proved &= np.abs(image[0] - image[1]) <= 1e-9 * size + windows.error.max(axis=(0, 2))
+    if not proved.any():
+        return None
+    best = int(np.argmax(proved))
+    return complex(image[:, best].mean()), (origin + position * direction)[:, best]
+
+
+def _image(map: HarmonicMap, z: Array, direction: Array) -> tuple[Array, Array]:
+    jets = jets_of(map, z.ravel(), z.ravel())
+    return jets.f.reshape(z.shape), jets.first(direction.ravel()).reshape(z.shape)
+
+
+def _arcs(map: HarmonicMap, low: Array, high: Array, origin: Array, direction: Array) -> Arcs:
+    """Images of the pieces of edges from ``low`` to ``high``, in the shape of ``low``."""
+    start, end = (origin + position * direction for position in (low, high))
+    count = start.size
+    jets = jets_of(map, np.append(start, end), np.append(end, end))
+    arcs = Arcs.between(
+        start.ravel(), end.ravel(), jets.at(slice(count)), jets.at(slice(count, None))
+    )
+    return Arcs(*(values.reshape(low.shape) for values in arcs))
+
+
+def _certainly_cross(pair: Arcs) -> Array:
+    """Whether the two arcs of each pair are proved to meet in the interior of both.
+
+    On the unit square let ``F(s, t)`` be the difference of the points of the arcs at relative
+    parameters ``s`` and ``t``, and ``L(s, t)`` the same for the chords. ``L`` is affine and has
+    one simple zero if the chords cross. If ``|F - L| < |L|`` on the square's boundary, ``F`` has
+    the same degree there, 1 or -1, and so a zero. On an edge of the square one of the points is an
+    end of an arc, where arc and chord agree, so ``|F - L|`` is at most the sagitta of the other.
+    """
+    a, b = pair.at(0), pair.at(1)
+    clear = segments_cross(a.start, a.end, b.start, b.end)
+    for arc, other in ((a, b), (b, a)):
+        for end in (arc.start, arc.end):
+            clear = clear & (point_distance(end, other.start, other.end) > arc.error + other.radius)
+    return clear
 
 
 def _overlapping(image: complex, points: Array, n_panels: int) -> GlobalInjectivity:

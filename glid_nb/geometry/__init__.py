@@ -14,7 +14,5 @@ from glid_nb.geometry.offset import Offset as Offset
 from glid_nb.geometry.offset import hole_points as hole_points
 from glid_nb.geometry.offset import offset_cage as offset_cage
 from glid_nb.geometry.panels import Panels as Panels
-from glid_nb.geometry.panels import edge_panels as edge_panels
 from glid_nb.geometry.panels import graded_panels as graded_panels
-from glid_nb.geometry.panels import panels_along as panels_along
 from glid_nb.geometry.panels import uniform_panels as uniform_panels

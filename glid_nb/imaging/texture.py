@@ -45,19 +45,10 @@ class Texture:
     levels: NDArray[np.int32] = field(repr=False)
 
     @classmethod
-    def from_image(cls, image: ArrayLike) -> Texture:
-        """Prepare a picture.
-
-        Parameters
-        ----------
-        image : (h, w, c) or (h, w) array
-            Grey, RGB or RGBA with straight (not premultiplied) alpha, as `as_rgba` takes it.
-
-        Raises
-        ------
-        TraceError
-            The image is not a picture; the message says why.
-        """
+    def from_image(cls, image: ArrayLike | Texture) -> Texture:
+        """Prepare a picture, as `as_rgba` takes it; a texture stays as it is."""
+        if isinstance(image, Texture):
+            return image
         pixels = as_rgba(image)
         height, width = pixels.shape[:2]
         sizes = [(width, height)]
@@ -76,11 +67,6 @@ class Texture:
         levels = np.column_stack([[0, *ends[:-1]], sizes]).astype(np.int32)
         levels.flags.writeable = False
         return cls(width, height, jax.device_put(texels), levels)
-
-    def level(self, index: int) -> NDArray[np.uint16]:
-        """Level ``index`` of the pyramid, (h, w, 4), premultiplied."""
-        first, width, height = self.levels[index]
-        return np.asarray(self.texels)[first : first + width * height].reshape(height, width, 4)
 
 
 def _bucket(n: int, least: int) -> int:
@@ -240,27 +226,24 @@ def _colours(
 
 def _bicubic(texels: jax.Array, level: jax.Array, s: jax.Array, t: jax.Array) -> jax.Array:
     """(c, 4) Catmull-Rom interpolation at (s, t), in texels from the first texel's centre."""
-    first, width, height = level[:, 0], level[:, 1], level[:, 2]
-    left, top = jnp.floor(s), jnp.floor(t)
-    across, down = _catmull_rom(s - left), _catmull_rom(t - top)
-    left, top = left.astype(jnp.int32), top.astype(jnp.int32)
-    total = jnp.zeros((s.shape[0], 4), jnp.float32)
-    for j, weight in enumerate(down):
-        start = first + jnp.clip(top + (j - 1), 0, height - 1) * width
-        line = jnp.zeros_like(total)
-        for i, share in enumerate(across):
-            texel = texels[start + jnp.clip(left + (i - 1), 0, width - 1)]
-            line = line + share[:, None] * texel.astype(jnp.float32)
-        total = total + weight[:, None] * line
-    return total
+    first, width, height = level[:, :1], level[:, 1:2], level[:, 2:]
+    column, across = _neighbours(s[:, None], width)
+    row, down = _neighbours(t[:, None], height)
+    index = (first + row * width)[:, :, None] + column[:, None, :]
+    weight = down[:, :, None] * across[:, None, :]
+    return jnp.sum(weight[..., None] * texels[index].astype(jnp.float32), axis=(1, 2))
 
 
-def _catmull_rom(t: jax.Array) -> tuple[jax.Array, jax.Array, jax.Array, jax.Array]:
-    """Weights of the four texels around a point at the fraction ``t`` between the middle two."""
+def _neighbours(t: jax.Array, n: jax.Array) -> tuple[jax.Array, jax.Array]:
+    """The four of n texels around places t (c, 1), and their weights."""
+    middle = jnp.floor(t)
+    index = middle.astype(jnp.int32) + jnp.arange(-1, 3, dtype=jnp.int32)[None]
+    t = t - middle
     t2, t3 = t * t, t * t * t
-    return (
+    weights = (
         -0.5 * t3 + t2 - 0.5 * t,
         1.5 * t3 - 2.5 * t2 + 1.0,
         -1.5 * t3 + 2.0 * t2 + 0.5 * t,
         0.5 * t3 - 0.5 * t2,
     )
+    return jnp.clip(index, 0, n - 1), jnp.concatenate(weights, axis=1)

@@ -14,9 +14,9 @@ import numpy as np
 from glid_nb import _json, methods
 from glid_nb._errors import InputFileError, about
 from glid_nb.energies import CustomEnergy, energy_by_name
-from glid_nb.geometry import Domain
+from glid_nb.geometry import Domain, as_points
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.harmonic.map import complex_from_pairs, complex_to_pairs
+from glid_nb.harmonic.map import complex_from_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE
 from glid_nb.session.archive import image_png, light_png, read_archive, read_png, write_archive
@@ -142,8 +142,8 @@ def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
         "energy": {"name": energy.name, **{k: getattr(energy, k) for k in energy.parameters()}},
         "options": dataclasses.asdict(pose.options),
         "method": {"name": pose.method.name, "settings": pose.method.settings},
-        "phi": complex_to_pairs(pose.map.phi),
-        "psi": complex_to_pairs(pose.map.psi),
+        "phi": as_points(pose.map.phi).tolist(),
+        "psi": as_points(pose.map.psi).tolist(),
     }
 
 

@@ -37,7 +37,6 @@ from glid_nb.solvers.newton import (
     descend,
     ridge_of,
     settings_of,
-    variant_of,
 )
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose, PoseError
@@ -201,7 +200,7 @@ def _call(
         ridge=ridge_of(inputs.pose),
         reuse=False,
     )
-    program, clock = _program(devices, variant_of(options)), compilation_clock()
+    program, clock = _program(devices), compilation_clock()
     began, compiling = time.perf_counter(), clock.seconds
     targets = [pose.descent.problem.constraints.targets for pose in filled]
     coefficients = [pose.descent.coefficients for pose in filled]
@@ -230,7 +229,7 @@ def dealt(count: int, devices: int, per_device: int) -> Array:
 
 
 @functools.cache
-def _program(devices: tuple[Any, ...], variant: step.Variant) -> Any:
+def _program(devices: tuple[Any, ...]) -> Any:
     """The compiled program for poses on these devices; each device loops on its own."""
     mesh = jax.sharding.Mesh(np.array(devices), ("poses",))
     # A CPU gains nothing from lockstep, in which every pose takes every branch; and the thread pool
@@ -247,7 +246,6 @@ def _program(devices: tuple[Any, ...], variant: step.Variant) -> Any:
                 y,
                 jnp.zeros((len(problem.unknowns.free),) * 2),
                 settings._replace(iterations=limit),
-                variant=variant,
             )
             # A factor serves one pose at one time; it need not come back.
             return state._replace(factor=jnp.zeros(()))

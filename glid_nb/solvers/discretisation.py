@@ -139,9 +139,8 @@ class Discretisation:
         if not self.can_refine:
             raise ValueError("the uniform sampling of the paper is fixed; it cannot be refined")
         chosen = chosen & self.panels.divisible
-        panels, old = self.panels.split(chosen), _rows_of(self.matrices, len(self.panels))
-        count = np.where(chosen, 2, 1)
-        parent = np.repeat(np.arange(len(self.panels)), count)
+        panels, parent = self.panels.split(chosen)
+        old = _rows_of(self.matrices, len(self.panels))
         children = np.flatnonzero(chosen[parent])
         second = children[1::2]
 
@@ -319,10 +318,14 @@ def _panel_arrays(panels: Panels, rows: _Rows, p: int) -> dict[str, Any]:
 
 
 def bucket(count: int) -> int:
-    """The padded size for ``count`` items: multiples of 32, from 512 on 16 sizes an octave."""
+    """The padded size for ``count`` items.
+
+    At least 128, up to 256 multiples of 64, then of 32, from 512 on 16 sizes an octave: compiling
+    another program takes longer than hundreds of iterations of a small problem.
+    """
     wanted = count + count // 64
-    step = max(32, 1 << (wanted.bit_length() - 5))
-    return -(-wanted // step) * step
+    step = 64 if wanted <= 256 else max(32, 1 << (wanted.bit_length() - 5))
+    return max(-(-wanted // step) * step, 128)
 
 
 def padded(array: np.ndarray, size: int, fill: float | None = None) -> np.ndarray:

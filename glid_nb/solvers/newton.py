@@ -134,7 +134,6 @@ class NewtonDescent(Descent):
                 ridge=self.ridge,
                 reuse=self.reuse,
             ),
-            variant=variant_of(options),
         )
         int(state.outcome)  # waits for the device
         seconds = time.perf_counter() - began - (clock.seconds - compiling)
@@ -289,13 +288,9 @@ def settings_of(
         ridge=np.asarray(ridge),
         reuse=np.asarray(reuse),
         corrections=np.asarray(options.corrections),
+        projects_first=np.asarray(options.hessian == "projected"),
+        attempts=np.asarray(2 if options.hessian == "adaptive" else 1),
     )
-
-
-def variant_of(options: Options) -> step.Variant:
-    """The program that these options need; its capacity a power of two, so that there are few."""
-    capacity = 1 << (options.iterations_per_call - 1).bit_length()
-    return step.Variant(options.hessian, capacity)
 
 
 def _entries(

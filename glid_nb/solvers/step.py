@@ -17,7 +17,7 @@ from glid_nb.solvers.hessian import (
     local_hessian,
     positive_part,
 )
-from glid_nb.solvers.options import HessianKind
+from glid_nb.solvers.options import MOST_PER_CALL
 from glid_nb.solvers.outcome import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.problem import Positional, Problem
 from glid_nb.solvers.unknowns import expand, restrict_gradient, restrict_hessian
@@ -39,14 +39,6 @@ them; below this one nobody sees a distortion.
 """
 
 
-class Variant(NamedTuple):
-    """What a program is compiled for, besides the sizes of its arrays."""
-
-    hessian: HessianKind
-    capacity: int
-    """Room in the history, at least the iterations of a call."""
-
-
 class Settings(NamedTuple):
     """Numbers that may change without compiling again."""
 
@@ -60,6 +52,10 @@ class Settings(NamedTuple):
     """Whether the first iteration takes the factor that it is given instead of a new one."""
     corrections: Int[AnyArray, ""]
     """Most corrections of one iteration."""
+    projects_first: Bool[AnyArray, ""]
+    """Whether to project the Hessian before its first factorisation."""
+    attempts: Int[AnyArray, ""]
+    """Factorisations of one iteration; the second is of the projected Hessian."""
 
 
 class Record(NamedTuple):
@@ -98,7 +94,6 @@ class _Call(NamedTuple):
 
     problem: Problem
     settings: Settings
-    variant: Variant
     positional: Positional
     p2p_hessian: Float[Array, "4u 4u"]
     """Of the positional energy, in whitened coordinates."""
@@ -109,15 +104,13 @@ def iterations(
     coefficients: Float[Array, " 4c"],
     factor: Float[Array, "4u 4u"],
     settings: Settings,
-    *,
-    variant: Variant,
 ) -> State:
-    """Up to ``settings.iterations`` (at most the capacity) Newton iterations, to be compiled."""
+    """Up to ``settings.iterations`` (at most `MOST_PER_CALL`) Newton iterations, to be compiled."""
     positional = Positional.of(problem.constraints)
     rows = whitening.pulled_back(positional.matrix, problem.matrices.whitening)
     p2p_hessian = rows.T @ (positional.weights[:, None] * rows)
     p2p_hessian = restrict_hessian(p2p_hessian, problem.unknowns)
-    call = _Call(problem, settings, variant, positional, p2p_hessian)
+    call = _Call(problem, settings, positional, p2p_hessian)
 
     def goes_on(state: State) -> Bool[Array, ""]:
         return (state.outcome == RUNNING) & (state.iteration < settings.iterations)
@@ -134,8 +127,8 @@ def iterations(
 def _start(call: _Call, coefficients: Float[Array, " 4c"], factor: Float[Array, "4u 4u"]) -> State:
     """Before the first iteration."""
     point = evaluation.evaluated(call.problem, call.positional, coefficients)
-    real, capacity = call.problem.matrices.real, call.variant.capacity
-    blank = jnp.full(capacity, jnp.nan)
+    real = call.problem.matrices.real
+    blank = jnp.full(MOST_PER_CALL, jnp.nan)
     return State(
         point=point,
         start_iso=point.energy_iso,
@@ -149,8 +142,8 @@ def _start(call: _Call, coefficients: Float[Array, " 4c"], factor: Float[Array, 
             step=blank,
             decrement=blank,
             sigma2_lower=blank,
-            hessian_modified=jnp.zeros(capacity, bool),
-            corrections=jnp.zeros(capacity, int),
+            hessian_modified=jnp.zeros(MOST_PER_CALL, bool),
+            corrections=jnp.zeros(MOST_PER_CALL, int),
         ),
         refused=jnp.zeros_like(real),
         sigma2_lower=jnp.full(real.shape, jnp.nan),
@@ -215,7 +208,7 @@ def _factorised(call: _Call, state: State) -> tuple[Float[Array, "4u 4u"], Bool[
     The factor that the call was given, where its first iteration is to take that. A loop, for its
     turns write into the same memory.
     """
-    problem, settings, kind = call.problem, call.settings, call.variant.hessian
+    problem, settings = call.problem, call.settings
     matrices, energy = problem.matrices, problem.energy
     wanted = jnp.logical_not(settings.reuse) | (state.iteration > 0)
     nodes = state.point.samples.nodes[:, matrices.hessian_index]
@@ -239,8 +232,7 @@ def _factorised(call: _Call, state: State) -> tuple[Float[Array, "4u 4u"], Bool[
         block = assemble_across_f(matrices.whitened, weights, f, across)
         return h.at[: block.shape[0], : block.shape[0]].add(block)
 
-    first = projected if kind == "projected" else local
-    most = 2 if kind == "adaptive" else 1
+    first = _where(settings.projects_first, projected, local)
 
     def attempt(carry: tuple) -> tuple:
         _, h, count = carry
@@ -250,12 +242,12 @@ def _factorised(call: _Call, state: State) -> tuple[Float[Array, "4u 4u"], Bool[
 
     def goes_on(carry: tuple) -> Bool[Array, ""]:
         factor, _, count = carry
-        again = (count < most) & ~jnp.isfinite(factor[-1, -1])
+        again = (count < settings.attempts) & ~jnp.isfinite(factor[-1, -1])
         return wanted & ((count == 0) | again)
 
     blank = jnp.zeros(state.factor.shape, dtype)
     factor, _, count = lax.while_loop(goes_on, attempt, (state.factor, blank, jnp.array(0)))
-    return factor, wanted & ((count == 2) | (kind == "projected"))
+    return factor, wanted & ((count == 2) | settings.projects_first)
 
 
 def _newton_line(call: _Call, point: Point, factor: Float[Array, "4u 4u"]) -> Line:
@@ -356,7 +348,6 @@ def _where(condition: Bool[Array, ""], one: Any, other: Any) -> Any:
 
 run = jit(
     iterations,
-    static_argnames=("variant",),
     donate_argnames=("factor",),
     compiler_options=COMPILER_OPTIONS,
 )

@@ -7,32 +7,27 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import ipywidgets
-import numpy as np
 import traitlets
-from numpy.typing import NDArray
 
 from glid_nb._arguments import check_count
-from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.geometry import Domain
-from glid_nb.geometry.panels import Panels
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import certificate_of
-from glid_nb.session.edit_state import Frame, Moment
-from glid_nb.widgets.arguments import LEAST_CANVAS, check_keywords, check_vertices
+from glid_nb.session.edit_state import Moment
+from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.gestures import Event, PinGestures
 from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import OVERLAYS
 from glid_nb.widgets.pane import Pane
 from glid_nb.widgets.scene import Drawing, Range
 
-Array = NDArray[Any]
-
 _PANELS_INTERVAL = 0.2  # least seconds between two updates of panels and ranges
 _SOURCE_SHARE = 0.4  # of the width
+_LEAST_SIZE = 100  # CSS pixels
 
 
-class DeformCanvas(ipywidgets.HBox):
+class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     """A picture that follows its handles.
 
     A click on the shape adds a handle, a drag moves its target (cyan); the handle (black) follows
@@ -80,8 +75,6 @@ class DeformCanvas(ipywidgets.HBox):
     show_source = traitlets.Bool(False)
     """Whether the undeformed shape with the handles is drawn beside the result."""
 
-    _complete = False  # ipywidgets also closes a widget whose constructor raised
-
     def __init__(
         self,
         image: ImageSource,
@@ -93,28 +86,22 @@ class DeformCanvas(ipywidgets.HBox):
         evaluated_in: EvaluatedIn | None = None,
         **kwargs: Any,
     ) -> None:
-        check_keywords(type(self), kwargs)
-        size = (
-            check_count("width", width, LEAST_CANVAS, "pixels"),
-            check_count("height", height, LEAST_CANVAS, "pixels"),
-        )
+        size = check_size(width, height, _LEAST_SIZE)
         self._n_vertices = check_vertices(n_vertices)
         self.image = read_image(image)
         """The picture, (h, w, 4) uint8."""
-        self._owns_model = isinstance(deformation, Domain)
-        self.deformation = (
-            Deformation(deformation) if isinstance(deformation, Domain) else deformation
-        )
+        owned = isinstance(deformation, Domain)
+        self.deformation = model = Deformation(deformation) if owned else deformation
         """The model that this is a view of."""
         self._evaluated_in: EvaluatedIn | None = evaluated_in
         self.pane = self._pane(size, interactive=True)
         self.source: Pane | None = None
-        self.gestures = PinGestures(self.deformation, self.fit)
+        self.gestures = PinGestures(model, self.fit)
         self._closed = False  # a frame may arrive while the canvas closes
         self._when_drawn: list[Callable[[], None]] = []
         self._panels_at = self._range_at = 0.0
-        # The drawn panels, after what they were taken from.
-        self._panels: tuple[PanelCertificate | Frame, tuple[Panels, Array]] | None = None
+        # The drawn panels and their bounds, after the domain if a solve goes on.
+        self._panels: tuple[Any, ...] = (None, None, None)
         super().__init__([self.pane], **kwargs)
         # A box that may scroll would shrink to nothing inside another.
         self.layout.overflow, self.layout.flex = "visible", "0 0 auto"
@@ -123,14 +110,14 @@ class DeformCanvas(ipywidgets.HBox):
         self.pane.stage.observe(self._resize, ["height"])
         # Frames come from the solver's thread, events from the page's; both hold the model's lock.
         # While the solver works, its next frame acknowledges events, so it sets the pace.
-        model = self.deformation
         with model.locked():
             self.pane.stage.serve(model, self, busy=lambda: model.busy)
-            self._stop = model.observe(self._on_model)
+            stop = model.observe(self._on_model)
             self._draw(model.moment)
-            if len(model.pose):
+            if len(model.state.pose):
                 self.fit()
-            self._complete = True
+            model_too = (model.close,) if owned else ()
+            self._endings = (stop, self._close_panes, *model_too, self.layout.close)
             self._show_source()
             self._draw(model.moment, place_legend=True)
         self.pane.stage.observe(self._on_drawn, ["drawn"])
@@ -140,26 +127,19 @@ class DeformCanvas(ipywidgets.HBox):
 
     def fit(self) -> None:
         """Make the whole shape and all targets visible."""
-        self.pane.fit(self.deformation.moment.shown, self.deformation.pose.targets)
+        moment = self.deformation.moment
+        self.pane.fit(moment.shown, moment.state.pose.targets)
 
     def when_drawn(self, callback: Callable[[], None]) -> None:
         """Call ``callback`` once, when the page has drawn the canvas."""
         self._when_drawn.append(callback)
 
-    def close(self) -> None:
-        """Remove the canvas, free its renderers, and close the model if the canvas made it."""
-        if not self._complete:
-            return
-        self._stop()
+    def _close_panes(self) -> None:
         with self.deformation.locked():
             self._closed = True
             for pane in (self.pane, self.source):
                 if pane is not None:
                     pane.close()
-        if self._owns_model:
-            self.deformation.close()
-        self.layout.close()
-        super().close()
 
     def _pane(self, size: tuple[int, int], interactive: bool) -> Pane:
         state = self.deformation.state
@@ -201,27 +181,22 @@ class DeformCanvas(ipywidgets.HBox):
 
     def _draw(self, moment: Moment, *, place_legend: bool = False) -> None:
         state, pose = moment.state, moment.state.pose
-        images = moment.shown(pose.handles) if len(pose) else pose.handles
-        cage, offset_cage = self.show_cage, self.show_offset_cage
+        cages = {"cage": self.show_cage, "offset_cage": self.show_offset_cage}
         drawing = Drawing(
             moment.map,
             moment.comparison,
             pose.targets,
-            images,
+            moment.shown(pose.handles) if len(pose) else (),
             moment.selection,
             self.overlay,
             state.current.energy,
             self._color_range(moment),
-            cage,
-            offset_cage,
-            self._panels_of(moment) if self.show_panels else None,
+            panels=self._panels_of(moment) if self.show_panels else None,
+            **cages,
         )
         self.pane.show(drawing)
         if self.source is not None:
-            at_rest = Drawing(
-                state.identity, images=pose.handles, cage=cage, offset_cage=offset_cage
-            )
-            self.source.show(at_rest)
+            self.source.show(Drawing(state.identity, images=pose.handles, **cages))
         if place_legend and not moment.dragged:  # where it would jump
             self.pane.place_legend()
 
@@ -233,23 +208,20 @@ class DeformCanvas(ipywidgets.HBox):
         self._range_at = now
         return "widen" if (moment.dragged if moment.solved else moving) else "fit"
 
-    def _panels_of(self, moment: Moment) -> tuple[Panels, Array]:
+    def _panels_of(self, moment: Moment) -> tuple[Any, ...]:
         """The boundary's panels; while the solver works at most `_PANELS_INTERVAL` old."""
-        frame, now = moment.frame, time.monotonic()
+        frame, now, domain = moment.frame, time.monotonic(), moment.state.domain
         if frame is None or frame.panels is None or not len(frame.sigma2_lower):
             proof = certificate_of(moment.map).panels
-            if self._panels is None or self._panels[0] is not proof:
-                self._panels = (proof, (_as_panels(proof), proof.sigma2_lower))
+            self._panels = (None, proof, proof.sigma2_lower)
         elif (
-            self._panels is None
-            or not isinstance(before := self._panels[0], Frame)
-            or before.map.domain is not frame.map.domain
+            self._panels[0] is not domain
             or frame.solution is not None
             or now - self._panels_at > _PANELS_INTERVAL
         ):
             self._panels_at = now
-            self._panels = (frame, (frame.panels, frame.sigma2_lower))
-        return self._panels[1]
+            self._panels = (domain, frame.panels, frame.sigma2_lower)
+        return self._panels[1:]
 
     # From the page
 
@@ -289,6 +261,20 @@ class DeformCanvas(ipywidgets.HBox):
             self.fit()
 
 
-def _as_panels(proof: PanelCertificate) -> Panels:
-    start, end = (points @ np.array([1, 1j]) for points in (proof.start, proof.end))
-    return Panels(start, end, proof.loop, proof.depth, np.empty(0, dtype=int))
+def check_size(width: Any, height: Any, least: int) -> tuple[int, int]:
+    """Width and height of a canvas in CSS pixels.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As `check_count`.
+    """
+    return (
+        check_count("width", width, least, "pixels"),
+        check_count("height", height, least, "pixels"),
+    )
+
+
+def check_vertices(n_vertices: Any) -> int | None:
+    """The number of vertices of a canvas's mesh, or None; raises as `check_size`."""
+    return None if n_vertices is None else check_count("n_vertices", n_vertices, 3, "vertices")

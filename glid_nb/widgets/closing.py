@@ -1,15 +1,45 @@
-"""Closing widgets: with all that they hold, and when the cell that made them runs again."""
+"""The base of our widgets, and closing them: with all they hold, and when their cell runs again."""
 
 from __future__ import annotations
 
+import inspect
 import sys
 import weakref
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import ipywidgets
 
+from glid_nb._arguments import check_keywords
+
 _made: dict[str, tuple[str, list[weakref.ref[Any]]]] = {}  # by cell: its last run, what that made
+
+
+class ClosingWidget(ipywidgets.Widget):
+    """Refuses keywords that neither it nor ipywidgets has, and ends what it began when it closes.
+
+    The first of a widget's bases.
+    """
+
+    # What closing ends; nothing in a widget whose constructor raised, which ipywidgets also closes.
+    _endings: tuple[Callable[[], Any], ...] = ()
+
+    def __new__(cls, *args: Any, **kwargs: Any) -> Any:
+        """Check the keywords, before anything is made."""
+        own = [name for name in inspect.signature(cls.__init__).parameters if name != "self"]
+        traits = [name for name in cls.class_trait_names() if not name.startswith("_")]
+        check_keywords(cls.__name__, kwargs, [*own, *traits])
+        return super().__new__(cls, *args, **kwargs)
+
+    def close(self) -> None:
+        """Remove this from the page, end its threads and free its renderers.
+
+        A model that it was given lives on.
+        """
+        endings, self._endings = self._endings, ()
+        for end in endings:
+            end()
+        super().close()
 
 
 def close_with_parts(*widgets: ipywidgets.Widget) -> None:

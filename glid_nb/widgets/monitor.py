@@ -12,14 +12,14 @@ import numpy as np
 
 from glid_nb.certificate import Certificate
 from glid_nb.certificate.certify import PanelCertificate
+from glid_nb.figures.style import FAINT, GREY
 from glid_nb.geometry.panels import Panels
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import certificate_of
 from glid_nb.session.edit_state import Frame, Moment
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins, weakly
-from glid_nb.widgets.arguments import check_keywords
-from glid_nb.widgets.plots_frame import placeholder
+from glid_nb.widgets.closing import ClosingWidget
 
 if TYPE_CHECKING:
     from glid_nb.widgets.live_plots import LivePlots
@@ -35,9 +35,14 @@ _TONES = {
     "error": "#d55e00",
 }
 _RATE_WINDOW = 1.0  # seconds over which frames are counted
+# The placeholder's axes: name, left, top, width and height in percent.
+_AXES = (
+    *(("energy", 10, 9, 39, 42), ("steps", 59, 9, 39, 25), ("time per iteration", 59, 39, 39, 12)),
+    ("certificate", 10, 65, 88, 26),
+)
 
 
-class SolverMonitor(ipywidgets.VBox):
+class SolverMonitor(ClosingWidget, ipywidgets.VBox):
     """A status line, and plots of the energy, the iterations and the certificate.
 
     Parameters
@@ -50,8 +55,6 @@ class SolverMonitor(ipywidgets.VBox):
         Whether there are plots.
     """
 
-    _complete = False  # ipywidgets also closes a widget whose constructor raised
-
     def __init__(
         self,
         deformation: Deformation,
@@ -60,13 +63,12 @@ class SolverMonitor(ipywidgets.VBox):
         plots: bool = True,
         **kwargs: Any,
     ) -> None:
-        check_keywords(type(self), kwargs)
         self.deformation = deformation
         """The model that this is a view of."""
         self.line = ipywidgets.HTML()
         """The status line."""
         self.image = ipywidgets.Image(
-            value=placeholder(width, height), format="svg+xml", width=width, height=height
+            value=_placeholder(width, height), format="svg+xml", width=width, height=height
         )
         """The plots; empty axes until the solver has begun."""
         self._size = (width, height)
@@ -81,28 +83,18 @@ class SolverMonitor(ipywidgets.VBox):
         self.add_class("glid-monitor")
         self.image.add_class("glid-plots")
         self.image.layout.width, self.image.layout.height = f"{width}px", f"{height}px"
-        self._stop = deformation.observe(self._on_model)
-        self._complete = True
+        self._endings = (deformation.observe(self._on_model), self._worker.close)
         self._worker.submit(None)
 
     @property
     def text(self) -> str:
         """The status line as plain text."""
-        moment = self.deformation.moment
-        return self._words(moment, self._status(moment))
+        return self._status(self.deformation.moment).text
 
     def refresh(self, timeout: float | None = None) -> bool:
         """Draw what has changed; whether that was done within ``timeout`` seconds."""
         self._worker.submit(None)
         return self._worker.wait(timeout)
-
-    def close(self) -> None:
-        """Stop watching; the model lives on."""
-        if not self._complete:
-            return
-        self._stop()
-        self._worker.close()
-        super().close()
 
     def _on_model(self, what: str) -> None:
         if what == "frame":
@@ -117,7 +109,7 @@ class SolverMonitor(ipywidgets.VBox):
             f'<div style="display:flex;align-items:center;gap:8px;line-height:1.4">'
             f'<span style="flex:none;width:10px;height:10px;border-radius:5px;'
             f'background:{_TONES[status.level]}"></span>'
-            f"<span>{html.escape(self._words(moment, status))}</span></div>"
+            f"<span>{html.escape(status.text)}</span></div>"
         )
         # The solver comes to rest after its last frame was announced.
         if moment.busy:
@@ -126,20 +118,16 @@ class SolverMonitor(ipywidgets.VBox):
         if self._with_plots and self.deformation.begun:
             self._draw(moment)
 
-    def _words(self, moment: Moment, status: StatusLine) -> str:
-        solution = moment.solution
-        solved = solution is not None and solution.ended
-        rate = self._rate() if moment.busy and not solved else 0
-        return status.text + (f" · {rate} {'frame' if rate == 1 else 'frames'}/s" if rate else "")
-
     def _status(self, moment: Moment) -> StatusLine:
-        return describe(moment)
-
-    def _rate(self) -> int:
-        now = time.monotonic()
-        while self._frames and self._frames[0] < now - _RATE_WINDOW:
+        """The model's status; during a solve with the number of frames per second."""
+        status = describe(moment)
+        while self._frames and self._frames[0] < time.monotonic() - _RATE_WINDOW:
             self._frames.popleft()
-        return len(self._frames)
+        rate = len(self._frames)
+        if not rate or not moment.busy or moment.solved:
+            return status
+        rated = f"{status.text} · {rate} {'frame' if rate == 1 else 'frames'}/s"
+        return StatusLine(status.level, rated)
 
     def _draw(self, moment: Moment) -> None:
         frame, solution = moment.frame, moment.solution
@@ -167,12 +155,24 @@ class SolverMonitor(ipywidgets.VBox):
 
 def _live_certificate(frame: Frame, panels: Panels) -> Certificate:
     """What the solver has proved of a frame, for the plots."""
-    unknown = np.full(len(panels), np.nan)
-    start, end = (np.stack([np.real(z), np.imag(z)], axis=1) for z in (panels.start, panels.end))
-    proof = PanelCertificate(
-        start, end, panels.loop, panels.depth, frame.sigma2_lower, unknown, unknown
-    )
+    bounds = dict.fromkeys(("sigma1_upper", "k_upper"), np.full(len(panels), np.nan))
+    proof = PanelCertificate(**vars(panels), sigma2_lower=frame.sigma2_lower, **bounds)
     least = float(frame.sigma2_lower.min())
     return Certificate(
         True, least, np.nan, np.nan, (), proof, "hermite", "Certified step by step by the solver."
     )
+
+
+def _placeholder(width: int, height: int) -> bytes:
+    """Empty axes with their names, as an SVG of this size in CSS pixels."""
+    axes = "".join(
+        f'<svg x="{left}%" y="{top}%" width="{wide}%" height="{high}%" stroke="{FAINT}">'
+        '<line y2="100%"/><line y1="100%" x2="100%" y2="100%"/>'
+        f'<text x="50%" y="50%" dy="4" fill="{GREY}" stroke="none">{name}</text></svg>'
+        for name, left, top, wide, high in _AXES
+    )
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
+        'font-family="sans-serif" font-size="11" text-anchor="middle">'
+        f'<rect width="100%" height="100%" fill="#fff"/>{axes}</svg>'
+    ).encode()

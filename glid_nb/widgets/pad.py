@@ -9,6 +9,7 @@ import anywidget
 import ipywidgets
 
 from glid_nb.session.model import Observed
+from glid_nb.widgets.closing import ClosingWidget
 
 Event = dict[str, Any]
 
@@ -20,7 +21,7 @@ class Hand(Protocol):
         """Act on events in order; returns why something was refused, or None."""
 
 
-class Pad(anywidget.AnyWidget):
+class Pad(ClosingWidget, anywidget.AnyWidget):
     """A picture on the page that takes pointers and keys: the base of the two canvases.
 
     The page (``js/pad``) sends ``{"view": v, "events": [...]}``, one batch at a time, and waits for

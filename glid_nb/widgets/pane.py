@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from typing import Any
 
 import ipywidgets
@@ -10,9 +11,9 @@ from numpy.typing import NDArray
 
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import DeformationMap
-from glid_nb.widgets.closing import close_with_parts
+from glid_nb.widgets.closing import ClosingWidget, close_with_parts
 from glid_nb.widgets.layers import EvaluatedIn
-from glid_nb.widgets.overlays import legend, panel_legend
+from glid_nb.widgets.overlays import PANEL_LEGEND, legend
 from glid_nb.widgets.scene import N_VERTICES, Drawing, Scene, renderer
 from glid_nb.widgets.shader import UNIFORM_VECTORS
 from glid_nb.widgets.stage import Stage, emptiest_corner, marks_of
@@ -26,14 +27,12 @@ _ROOM = 1.12  # what is fitted leaves a border
 _DRAWING_TIME, _FEWEST_VERTICES = 40.0, 1500  # ms, vertices
 
 
-class Pane(ipywidgets.GridBox):
+class Pane(ClosingWidget, ipywidgets.GridBox):
     """A picture (h, w, 4) under a map, with marks over it; renderer and pad share one grid cell.
 
     ``size`` is in CSS pixels; ``n_vertices`` of the mesh are by default as many as the page draws
     quickly, ``evaluated_in`` is as in `DeformCanvas`.
     """
-
-    _complete = False  # ipywidgets also closes a widget whose constructor raised
 
     def __init__(
         self,
@@ -71,7 +70,9 @@ class Pane(ipywidgets.GridBox):
         self._resize()
         self.stage.observe(self._resize, ["width", "height"])
         self.fit(map, ())
-        self._complete = True
+        # A page has only eight renderers.
+        others = functools.partial(close_with_parts, self.stage, self._renderer, self.layout)
+        self._endings = (lambda: self.scene.close(), others)
 
     def show(self, drawing: Drawing) -> None:
         """Draw this, in one message if only the map and the marks have changed."""
@@ -110,7 +111,7 @@ class Pane(ipywidgets.GridBox):
             stage.coefficients = self._wire()
             stage.marks = marks_of(drawing.targets, drawing.images, drawing.selected)
             stage.legend = legend(drawing.overlay, drawing.energy, scene.color_range)
-            stage.panel_legend = panel_legend() if panels else {}
+            stage.panel_legend = PANEL_LEGEND if panels else {}
         scene.close_replaced()
         if old is not scene:
             old.close()
@@ -123,10 +124,10 @@ class Pane(ipywidgets.GridBox):
         loops = self.scene.domain.cage.loops
         # Edges may be longer than the bar.
         between = [loop + t * (np.roll(loop, -1, axis=0) - loop) for loop in loops for t in _SHARES]
-        outline = self._drawing.shown(np.concatenate(between))
+        outline = (self._drawing.comparison or self._drawing.map)(np.concatenate(between))
         x, y, unit = self.stage.view
         width, height = self.stage.width, self.stage.height
-        seen = np.concatenate([outline, self._drawing.targets])
+        seen = np.concatenate([outline, np.reshape(self._drawing.targets, (-1, 2))])
         pixels = (seen - [x, y]) / unit + [width / 2, height / 2]
         self.stage.legend_corner = emptiest_corner(pixels, width, height, n_bars)
 
@@ -139,14 +140,6 @@ class Pane(ipywidgets.GridBox):
         width, height = self.stage.width, self.stage.height
         unit = _ROOM * max((high[0] - low[0]) / width, (high[1] - low[1]) / height, 1e-6)
         self.stage.view = [float(x), float(y), float(unit)]
-
-    def close(self) -> None:
-        """Free the renderer: a page has only eight."""
-        if not self._complete:
-            return
-        self.scene.close()
-        close_with_parts(self.stage, self._renderer, self.layout)
-        super().close()
 
     def _new_scene(self, uniform_vectors: int) -> Scene:
         vectors = uniform_vectors or UNIFORM_VECTORS  # 0 while no page has said

@@ -17,6 +17,7 @@ Array = NDArray[Any]
 
 _PIECES_PER_SIDE = 80
 _PANEL_PIECES = 2
+PANEL_VERTICES = 4 * _PANEL_PIECES
 _INSIDE = 0.15  # of its distance to the cage, by which the offset cage is drawn inside the domain
 
 
@@ -54,25 +55,19 @@ def cage_ribbon(domain: Domain) -> Ribbon:
 
 def offset_ribbon(domain: Domain) -> Ribbon:
     """The offset cage's loops, moved slightly towards the cage."""
-    rings = [shapely.LinearRing(loop) for loop in domain.offset_cage.loops]
-    outline = shapely.MultiLineString([np.vstack([p, p[:1]]) for p in domain.cage.loops])
-    gap = min(float(shapely.distance(ring, outline)) for ring in rings)
-    polygon = shapely.Polygon(domain.offset_cage.exterior, domain.offset_cage.holes)
-    inner = shapely.buffer(polygon, -_INSIDE * gap, join_style="mitre")
+    cages = domain.offset_cage, domain.cage
+    offset, shape = (shapely.Polygon(cage.exterior, cage.holes) for cage in cages)
+    gap = float(shapely.distance(offset.boundary, shape.boundary))
+    inner = shapely.buffer(offset, -_INSIDE * gap, join_style="mitre")
     loops = [shapely.get_coordinates(ring)[:-1] for ring in shapely.get_rings(inner)]
     return _loops_ribbon([p[:, 0] + 1j * p[:, 1] for p in loops], domain.cage.longer_side)
 
 
 def panel_ribbon(panels: Panels) -> Ribbon:
-    """The boundary's panels."""
+    """The boundary's panels, each with `PANEL_VERTICES`."""
     t = np.linspace(0.0, 1.0, _PANEL_PIECES + 1)
     points = panels.start[:, None] + (panels.end - panels.start)[:, None] * t
     return ribbon(points[:, :-1].ravel(), points[:, 1:].ravel())
-
-
-def panel_values(values: Array) -> Array:
-    """A value per panel, repeated for every vertex of `panel_ribbon`."""
-    return np.repeat(values, 4 * _PANEL_PIECES)
 
 
 def _loops_ribbon(loops: Sequence[Array], side: float) -> Ribbon:

@@ -100,12 +100,5 @@ def emptiest_corner(points: Any, width: int, height: int, bars: int = 1) -> str:
 
 def marks_of(targets: Any, images: Any, selected: Any) -> dict[str, Any]:
     """The trait ``marks``: points rounded to what a screen can show."""
-
-    def rounded(points: Any) -> list[list[float]]:
-        return [[round(float(x), 5), round(float(y), 5)] for x, y in points]
-
-    return {
-        "targets": rounded(targets),
-        "images": rounded(images),
-        "selected": [int(i) for i in selected],
-    }
+    rounded = {"targets": np.round(targets, 5), "images": np.round(images, 5)}
+    return {**{k: points.tolist() for k, points in rounded.items()}, "selected": list(selected)}

@@ -6,8 +6,9 @@ from typing import Any
 
 import ipywidgets
 
-from glid_nb.widgets.asking_button import button
 from glid_nb.widgets.canvas import DeformCanvas
+from glid_nb.widgets.closing import ClosingWidget
+from glid_nb.widgets.controls import button
 from glid_nb.widgets.overlays import OVERLAYS
 
 _TOGGLES = (
@@ -18,7 +19,7 @@ _TOGGLES = (
 )
 
 
-class Toolbar(ipywidgets.HBox):
+class Toolbar(ClosingWidget, ipywidgets.HBox):
     """Undo, redo, reset, fit, and what the canvas shows."""
 
     def __init__(self, canvas: DeformCanvas, **kwargs: Any) -> None:
@@ -32,34 +33,22 @@ class Toolbar(ipywidgets.HBox):
         self.overlay = ipywidgets.Dropdown(
             options=[(overlay.label, name) for name, overlay in OVERLAYS.items()],
             tooltip="What the shape shows",
-            layout=ipywidgets.Layout(width="136px"),
+            layout={"width": "136px"},
         )
-        self.toggles = {
-            name: ipywidgets.ToggleButton(
-                description=label, tooltip=tooltip, layout=ipywidgets.Layout(width="auto")
-            )
-            for name, label, tooltip in _TOGGLES
-        }
+        self.toggles: dict[str, ipywidgets.ToggleButton] = {}
         ipywidgets.link((canvas, "overlay"), (self.overlay, "value"))
-        for name, toggle in self.toggles.items():
+        for name, label, tooltip in _TOGGLES:
+            self.toggles[name] = toggle = ipywidgets.ToggleButton(
+                description=label, tooltip=tooltip, layout={"width": "auto"}
+            )
             ipywidgets.link((canvas, name), (toggle, "value"))
-        super().__init__(
-            [self.undo, self.redo, self.reset, self.fit, self.overlay, *self.toggles.values()],
-            **kwargs,
-        )
+        buttons = self.undo, self.redo, self.reset, self.fit
+        super().__init__([*buttons, self.overlay, *self.toggles.values()], **kwargs)
         self.add_class("glid-tools")
-        self._show()
-        self._stop = model.observe(self._on_model)
+        self._show("state")
+        self._endings = (model.observe(self._show),)
 
-    def close(self) -> None:
-        """Stop watching."""
-        self._stop()
-        super().close()
-
-    def _on_model(self, what: str) -> None:
+    def _show(self, what: str) -> None:
         if what == "state":
-            self._show()
-
-    def _show(self) -> None:
-        model = self.canvas.deformation
-        self.undo.disabled, self.redo.disabled = not model.can_undo, not model.can_redo
+            model = self.canvas.deformation
+            self.undo.disabled, self.redo.disabled = not model.can_undo, not model.can_redo

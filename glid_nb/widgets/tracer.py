@@ -13,7 +13,6 @@ from glid_nb.geometry import Cage, Domain
 from glid_nb.imaging import TraceOptions, Tracing
 from glid_nb.imaging.read import ImageSource
 from glid_nb.session import TracingModel
-from glid_nb.widgets.arguments import check_keywords
 from glid_nb.widgets.bundle import bundle, stylesheet
 from glid_nb.widgets.gestures import Event
 from glid_nb.widgets.pad import Pad
@@ -63,9 +62,6 @@ class CageTracer(Pad):
     height = traitlets.Int(460, min=240).tag(sync=True)
     """Height of the picture's area in CSS pixels, at least 240."""
 
-    # ipywidgets also closes a widget whose constructor raised.
-    _stop: Callable[[], None] | None = None
-
     def __init__(
         self,
         image: ImageSource | None = None,
@@ -75,7 +71,6 @@ class CageTracer(Pad):
         height: int = 460,
         **kwargs: Any,
     ) -> None:
-        check_keywords(type(self), kwargs)
         if model is not None and (image is not None or options is not None):
             raise ValueError("give a model, or a picture and options, not both")
         self.tracing_model = model if model is not None else TracingModel(image, options)
@@ -86,7 +81,7 @@ class CageTracer(Pad):
         super().__init__(height=height, **kwargs)
         self._push()
         self.serve(self.tracing_model, self)
-        self._stop = self.on_change(self._push)
+        self._endings = (self.on_change(self._push),)
 
     @property
     def image(self) -> NDArray[np.uint8] | None:
@@ -116,12 +111,6 @@ class CageTracer(Pad):
     def on_change(self, callback: Callable[[], None]) -> Callable[[], None]:
         """Call ``callback`` after every change, by hand or by code; the result ends that."""
         return self.tracing_model.observe(lambda _: callback())
-
-    def close(self) -> None:
-        """Remove the widget from the page; the model lives on."""
-        if self._stop is not None:
-            self._stop()
-        super().close()
 
     def handle(self, events: Sequence[Event]) -> str | None:
         """Act on pointers and keys."""

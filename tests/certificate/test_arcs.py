@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from glid_nb._runtime import double_precision
-from glid_nb.certificate.arcs import Arcs, JetEvaluator, Jets
+from glid_nb.certificate.arcs import Arcs, Jets, jets_of
 from glid_nb.geometry import Cage, Domain, Panels, graded_panels
 from glid_nb.harmonic import HarmonicMap
 
@@ -30,7 +30,7 @@ def _random_map(seed: int, roughness: float) -> HarmonicMap:
 @double_precision
 def _jets(map: HarmonicMap) -> tuple[Panels, Jets]:
     panels = graded_panels(DOMAIN, RATIO)
-    return panels, JetEvaluator(map)(panels.start, panels.end)
+    return panels, jets_of(map, panels.start, panels.end)
 
 
 def _arcs(map: HarmonicMap) -> Arcs:

@@ -235,7 +235,7 @@ def test_ctrl_c_keeps_the_last_certified_map(
     run, problem: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The first one only asks: what was reached so far is written, and the exit code tells."""
-    solve = glid_nb.solve
+    solve, before = glid_nb.solve, signal.getsignal(signal.SIGINT)
 
     def interrupted(*args, callback, **keywords):
         def press(state: glid_nb.Progress) -> bool | None:
@@ -251,7 +251,7 @@ def test_ctrl_c_keeps_the_last_certified_map(
     assert "interrupted" in outcome.err
     assert read(report)["status"] == "stopped"
     assert glid_nb.certify(glid_nb.HarmonicMap.load(out)).certified
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    assert signal.getsignal(signal.SIGINT) is before
 
 
 def test_flags_of_the_start(run, problem: Path, tmp_path: Path) -> None:

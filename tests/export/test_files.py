@@ -16,10 +16,10 @@ from trimesh.visual import TextureVisuals
 
 from glid_nb.certificate import certify
 from glid_nb.export import cage_svg, mesh_glb, mesh_obj, picture_png, textured_mesh
-from glid_nb.export.cage_svg import deformed_loops
 from glid_nb.geometry import GeometryError
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
+from glid_nb.imaging.mesh import deformed_loops
 from glid_nb.imaging.render import render
 
 from .shapes import SIZE, bent, domain, picture, pose

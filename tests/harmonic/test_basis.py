@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from glid_nb.geometry import Cage, Domain
-from glid_nb.harmonic import basis_of, build_basis, cauchy
+from glid_nb.harmonic import basis_of, cauchy
 
 from ..domains import NAMES, circle, domain
 
@@ -51,7 +51,7 @@ def test_which_coefficients_are_fixed(name: str) -> None:
 )
 def test_sizes_fall_into_buckets(n_exterior: int, n_holes: int) -> None:
     d = many_holes(n_exterior, n_holes)
-    basis = build_basis(d)
+    basis = basis_of(d)
     m = sum(len(loop) for loop in d.offset_cage.loops_complex)
     vertices, following, preceding, rho = basis.singularities
     assert basis.n_columns % 8 == 0
@@ -76,7 +76,7 @@ def test_sizes_fall_into_buckets(n_exterior: int, n_holes: int) -> None:
 @settings(max_examples=10)
 def test_pad_puts_every_coefficient_in_its_column(n_exterior: int, n_holes: int) -> None:
     d = many_holes(n_exterior, n_holes)
-    basis = build_basis(d)
+    basis = basis_of(d)
     coefficients = 1 + np.arange(d.n_coefficients) * (1 + 2j)
     padded = basis.pad(coefficients)
     assert padded.shape == (basis.n_columns,)

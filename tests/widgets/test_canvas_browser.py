@@ -117,9 +117,7 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     assert max(abs(a - b) for a, b in zip(colored, plain, strict=True)) > 20
     for label in ("Cage", "Offset", "Certificate"):
         page.locator(".glid-tools button", has_text=label).click()
-    book.wait_for(
-        "canvas.show_panels and canvas.show_cage and canvas.pane.scene.panels is not None"
-    )
+    book.wait_for("canvas.show_panels and canvas.show_cage and 'panels' in canvas.pane.scene.lines")
     page.wait_for_timeout(500)
     book.screenshot("editor-overlays")
     overlay.select_option(label="Picture")

@@ -13,7 +13,7 @@ from PIL import Image
 import glid_nb as glid
 from glid_nb.imaging import PixelFrame
 from glid_nb.session.editor_model import EditorModel
-from glid_nb.widgets.asking_button import AskingButton
+from glid_nb.widgets.controls import AskingButton
 from glid_nb.widgets.exporting import FORMATS, ExportError, OccupiedError, export, files_of
 from glid_nb.widgets.file_panel import FilePanel
 
@@ -37,7 +37,7 @@ def model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[EditorMod
 
 @pytest.fixture
 def panel(model: EditorModel, monkeypatch: pytest.MonkeyPatch) -> FilePanel:
-    monkeypatch.setattr("glid_nb.widgets.asking_button._DOUBLE_CLICK", 0.0)
+    monkeypatch.setattr("glid_nb.widgets.controls._DOUBLE_CLICK", 0.0)
     return FilePanel(model)
 
 

@@ -136,7 +136,7 @@ def test_the_history_stays_while_the_next_targets_are_not_solved(
     model.drag(0, to=(3.5, 1.0))
     assert monitor.refresh(TIMEOUT)
     assert monitor._plots is not None
-    assert len(monitor._plots._energy._total.get_xdata())
+    assert len(monitor._plots._energy._lines[-1].get_xdata())
 
 
 def _legend_texts(axes: Any) -> list[Any]:

@@ -1,0 +1,113 @@
+"""Buttons, messages, and the base of boxes of controls over a deformation."""
+
+from __future__ import annotations
+
+import html
+import threading
+import time
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import ipywidgets
+
+from glid_nb._errors import InputError
+from glid_nb.session.deformation import Deformation
+from glid_nb.widgets.closing import ClosingWidget
+
+REFUSED = "color:#d55e00"
+"""The style of why something was refused."""
+
+_DOUBLE_CLICK = 0.5  # seconds
+
+
+def paragraph(text: str, style: str = "") -> str:
+    """Text as HTML."""
+    return f"<div style='line-height:1.4;overflow-wrap:anywhere;{style}'>{html.escape(text)}</div>"
+
+
+def button(
+    label: str, icon: str, tooltip: str, act: Callable[[], None], width: str = "auto"
+) -> ipywidgets.Button:
+    """A button whose click calls ``act``."""
+    look: dict[str, Any] = {"icon": icon, "tooltip": tooltip, "layout": {"width": width}}
+    made = ipywidgets.Button(description=label, **look)
+    made.on_click(lambda _: act())
+    return made
+
+
+class AskingButton(ipywidgets.Button):
+    """A button that can ask a question, which a second click answers with yes.
+
+    ``action`` gets whether the answer was yes, and returns what was done.
+    """
+
+    def __init__(
+        self,
+        label: str,
+        icon: str,
+        tooltip: str,
+        action: Callable[[bool], str],
+        question: str = "Replace?",
+    ) -> None:
+        self.action = action
+        self._texts = label, question
+        self._asked: float | None = None
+        layout = {"width": "auto", "flex": "0 0 auto"}
+        super().__init__(description=label, icon=icon, tooltip=tooltip, layout=layout)
+
+    @property
+    def answered(self) -> bool:
+        """Whether a click now answers yes; the second half of a double click does not."""
+        return self._asked is not None and time.monotonic() - self._asked >= _DOUBLE_CLICK
+
+    def ask(self, asking: bool = True) -> None:
+        """Show the question, or the label again."""
+        self._asked = time.monotonic() if asking else None
+        self.description = self._texts[asking]
+        self.button_style = "warning" if asking else ""
+
+
+class EditControls(ClosingWidget, ipywidgets.VBox):
+    """Controls that show a deformation, change it, and say why a change was refused.
+
+    A subclass makes its controls, then calls this constructor.
+    """
+
+    def __init__(
+        self, deformation: Deformation, children: Sequence[ipywidgets.Widget], **kwargs: Any
+    ) -> None:
+        self.deformation = deformation
+        """The model that this is a view of."""
+        self.refusal = ipywidgets.HTML()
+        """Why the last change was refused."""
+        # Whether controls follow the model; per thread, as they may be used in another meanwhile.
+        self._following = threading.local()
+        super().__init__([*children, self.refusal], **kwargs)
+        self._follow()
+        self._endings = (deformation.observe(self._on_model),)
+
+    def _show(self) -> None:
+        """Update the controls."""
+        raise NotImplementedError
+
+    def _on_model(self, what: str) -> None:
+        if what == "state" and not self.deformation.dragged:
+            self._follow()
+
+    def _follow(self) -> None:
+        self._following.now = True
+        try:
+            self._show()
+        finally:
+            self._following.now = False
+
+    def _act(self, act: Callable[[], None]) -> None:
+        """Change the model, unless the control follows it."""
+        if getattr(self._following, "now", False):
+            return
+        try:
+            act()
+            self.refusal.value = ""
+        except InputError as error:
+            self.refusal.value = paragraph(str(error), REFUSED)
+            self._follow()
