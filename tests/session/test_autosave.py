@@ -136,7 +136,7 @@ def test_a_change_that_was_accepted_is_written_over(tmp_path: Path, accept: bool
     autosave = Autosave(path, interval=0)
     save_document(replace(base, active=1), path)
     if accept:
-        autosave.file.take_over()
+        autosave.file.own.note([path], path)
     else:
         autosave.write(replace(base, active=1))
     autosave.submit(replace(base, active=0))

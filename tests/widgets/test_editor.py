@@ -224,7 +224,7 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     canvas.show_source = False
     assert canvas.source is None
     canvas.close()
-    assert not model._worker.alive
+    assert not model._worker.thread.is_alive()
 
 
 _FIRST_CANVAS = """
