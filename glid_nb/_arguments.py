@@ -33,15 +33,7 @@ def check_type(
 
 
 def check_count(name: str, value: Any, least: int, unit: str) -> int:
-    """``value`` as an int.
-
-    Raises
-    ------
-    TypeError
-        It is not a whole number.
-    ValueError
-        It is less than ``least``.
-    """
+    """``value`` as an int; a TypeError unless it is whole, a ValueError if it is too small."""
     if isinstance(value, bool) or not isinstance(value, Integral):
         raise TypeError(f"{name} must be a whole number of {unit}, not {value!r:.60}")
     if value < least:

@@ -47,31 +47,22 @@ class PanelCertificate(Panels):
 class Certificate:
     """The outcome of :func:`certify` for a whole domain (Theorem 4.2).
 
-    Attributes
-    ----------
-    certified : bool
-        Whether the map is proved locally injective on the closed domain.
-    sigma2_lower, sigma1_upper, k_upper : float
-        Bounds on the singular values and the little dilatation: on the whole domain when
-        ``certified``, otherwise on the boundary only.
-    windings : tuple of int
-        Turns of ``f_z`` along each loop of the cage, exterior first.
-    panels : PanelCertificate
-        The same bounds per panel.
-    kind : str
-        The kind of proof.
-    reason : str
-        One sentence: what is proved, or where and why the proof failed.
+    The bounds on the singular values and the little dilatation hold on the whole domain when
+    ``certified``, otherwise on the boundary only.
     """
 
     certified: bool
+    """Whether the map is proved locally injective on the closed domain."""
     sigma2_lower: float
     sigma1_upper: float
     k_upper: float
     windings: tuple[int, ...]
+    """Turns of ``f_z`` along each loop of the cage, exterior first."""
     panels: PanelCertificate
+    """The same bounds per panel."""
     kind: CertificateKind
     reason: str
+    """One sentence: what is proved, or where and why the proof failed."""
 
     @property
     def winding(self) -> int:
@@ -118,17 +109,14 @@ def certify(
 
     Parameters
     ----------
-    map : HarmonicMap
     kind : "hermite", "lipschitz" or "bdhm"
         Cubic interpolants with Bernstein coefficients, the paper's Lipschitz constants (26)-(27),
         or the larger ones of bounded distortion harmonic mappings (Figure 7).
     panels : Panels, optional
         Pieces of the boundary to start from; by default graded ones.
     refine : bool
-        Split panels on which the proof fails or whose bounds are loose; the paper does not.
-    tightness : float
-        With ``refine``, panels are split until the bounds are within this relative distance of
-        values that the map attains.
+        Split panels on which the proof fails, as the paper does not, or whose bounds are further
+        than the relative ``tightness`` from values that the map attains.
     """
     if kind not in PROOFS:
         raise ValueError(f"unknown kind of certificate {kind!r}; choose one of {', '.join(PROOFS)}")

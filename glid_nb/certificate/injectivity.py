@@ -35,7 +35,6 @@ from glid_nb.geometry.panels import cross, point_distance, segment_distance, seg
 from glid_nb.harmonic import HarmonicMap
 
 Array = NDArray[Any]
-Verdict = Literal["yes", "no", "undecided"]
 
 _MAX_ROUNDS = 40
 # A crossing is looked for in so many pairs of panels,
@@ -47,28 +46,19 @@ _WINDOWS = 4.0 ** -np.arange(4)
 
 @dataclass(frozen=True, eq=False)
 class GlobalInjectivity:
-    """The outcome of :func:`global_injectivity`.
+    """The outcome of :func:`global_injectivity`."""
 
-    Attributes
-    ----------
-    verdict : "yes", "no" or "undecided"
-        Whether the map is injective on the closed domain; "yes" and "no" are proved.
-    reason : str
-        One sentence: what is proved, or why nothing is.
-    n_panels : int
-        Number of pieces of the boundary at the end; 0 when the map is not certified.
-    crossing : (2,) array or None
-        With "no", a point at which the image of the boundary crosses itself.
-    parameters : (2, 2) array or None
-        With "no", the two boundary points, one per row, that are mapped to ``crossing``. That two
-        such points exist is proved; these are their rounded coordinates.
-    """
-
-    verdict: Verdict
+    verdict: Literal["yes", "no", "undecided"]
+    """Whether the map is injective on the closed domain; "yes" and "no" are proved."""
     reason: str
+    """One sentence: what is proved, or why nothing is."""
     n_panels: int
+    """Number of pieces of the boundary at the end; 0 when the map is not certified."""
     crossing: Array | None = None
+    """With "no", a (2,) point at which the image of the boundary crosses itself."""
     parameters: Array | None = None
+    """With "no", the two boundary points, one per row, that are mapped to ``crossing``. That two
+    such points exist is proved; these are their rounded coordinates."""
 
 
 @double_precision
@@ -77,14 +67,9 @@ def global_injectivity(
 ) -> GlobalInjectivity:
     """Decide whether a locally injective map is injective on the whole closed domain.
 
-    Parameters
-    ----------
-    map : HarmonicMap
-    certificate : Certificate, optional
-        Of ``map``; by default it is computed. For an uncertified map the verdict is "undecided".
-    max_panels : int
-        Give up beyond this many pieces of the boundary. That happens where images touch without
-        crossing, or are closer than rounding.
+    For an uncertified map the verdict is "undecided"; its certificate is computed unless it is
+    given. It is also undecided where more than ``max_panels`` pieces of the boundary were needed:
+    where images touch without crossing, or are closer than rounding.
 
     Examples
     --------

@@ -8,9 +8,9 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from glid_nb._bounds import rounded_down, rounded_up
 from glid_nb._errors import InputFileError
 from glid_nb._files import write_bytes_atomically, write_text_atomically
+from glid_nb.certificate.rounding import rounded_down, rounded_up
 
 _LONG = ("history", "options", "versions", "machine")
 _INJECTIVE = {

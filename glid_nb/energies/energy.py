@@ -38,7 +38,8 @@ class Energy(ABC):
     other samples.
 
     Subclasses are frozen dataclasses decorated with :func:`register_energy`. Their fields are the
-    parameters: positive numbers with a default. All values of a parameter share a compiled program.
+    parameters: positive finite numbers with a default; anything else raises EnergyError. All values
+    of a parameter share a compiled program.
     """
 
     name: ClassVar[str]
@@ -105,12 +106,8 @@ def register_energy(cls: type[E]) -> type[E]:
 def energy_by_name(name: str, s: float | None = None) -> Energy:
     """The energy called ``name``, such as "iso", "exp", "amips", "mips" or "arap".
 
-    ``s`` is the parameter of ``exp`` and ``amips`` (default 1); the others ignore it.
-
-    Raises
-    ------
-    EnergyError
-        The name is unknown, or ``s`` is not positive.
+    ``s``, a positive number, is the parameter of ``exp`` and ``amips`` (default 1); the others
+    ignore it. EnergyError lists the names if there is no such energy.
     """
     if not isinstance(name, str) or name not in ENERGIES:
         raise EnergyError(f"unknown energy {name!r}; choose one of {', '.join(ENERGIES)}")
@@ -121,13 +118,7 @@ def energy_by_name(name: str, s: float | None = None) -> Energy:
 
 
 def as_energy(energy: Energy | str | None) -> Energy:
-    """The energy given as such or by name; the symmetric Dirichlet energy for None.
-
-    Raises
-    ------
-    EnergyError
-        The name is unknown, or ``energy`` is not an energy.
-    """
+    """The energy given as such or by name; the symmetric Dirichlet energy for None."""
     if isinstance(energy, str | None):
         return energy_by_name(energy or "iso")
     if not isinstance(energy, Energy):

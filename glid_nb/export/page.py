@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._bounds import rounded_down, rounded_up
 from glid_nb.certificate import Certificate, global_injectivity
+from glid_nb.certificate.rounding import rounded_down, rounded_up
 from glid_nb.export.picture import png
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8

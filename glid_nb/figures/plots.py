@@ -18,8 +18,8 @@ from matplotlib.text import Text
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
-from glid_nb._bounds import rounded_down
 from glid_nb.certificate import Certificate
+from glid_nb.certificate.rounding import rounded_down
 from glid_nb.figures import style
 from glid_nb.figures.style import BLUE, FAINT, GREEN, INK, SKY, SMALL, VERMILION
 from glid_nb.geometry import Cage, loop_name

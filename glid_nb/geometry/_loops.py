@@ -15,12 +15,8 @@ from glid_nb._errors import InputError
 class GeometryError(InputError):
     """A polygon, offset or domain that cannot be used; the message says where and what to do.
 
-    Attributes
-    ----------
-    point
-        The place of the problem, to mark in a picture; None if there is none.
-    plain
-        The message without coordinates and vertex numbers, for use beside such a picture.
+    ``point`` is the place of the problem, to mark in a picture, or None. ``plain`` is the message
+    without coordinates and vertex numbers, for use beside such a picture.
     """
 
     def __init__(
@@ -32,12 +28,12 @@ class GeometryError(InputError):
 
 
 def loop_name(index: int) -> str:
-    """The name of loop `index` of a cage in messages: "exterior loop", "hole 1", ..."""
+    """The name of a cage's loop in messages: "exterior loop", "hole 1", ..."""
     return "exterior loop" if index == 0 else f"hole {index}"
 
 
 def plain_name(index: int) -> str:
-    """The name of loop `index` in plain words: "the outline", "hole 1", "hole 2", ..."""
+    """Its name in plain words: "the outline", "hole 1", ..."""
     return "the outline" if index == 0 else f"hole {index}"
 
 

@@ -28,16 +28,10 @@ class Cage:
     Parameters
     ----------
     exterior
-        (n, 2) vertices in order, either orientation; the first is not repeated at the end.
+        (n, 2) vertices in order, either orientation; the first is not repeated at the end. Kept as
+        a read-only float64 array, counter-clockwise.
     holes
-        Hole loops, each (k, 2), either orientation.
-
-    Attributes
-    ----------
-    exterior
-        (n, 2) read-only float64 array, counter-clockwise.
-    holes
-        Tuple of (k, 2) read-only float64 arrays, clockwise.
+        Hole loops, each (k, 2), either orientation; kept clockwise.
 
     Raises
     ------
@@ -124,19 +118,10 @@ class Cage:
         return polygon
 
     def contains(self, points: ArrayLike, tolerance: float = 0.0) -> NDArray[np.bool_]:
-        """Which points lie in the closed domain.
+        """Which of the (..., 2) points lie in the closed domain; not those with NaN.
 
-        Parameters
-        ----------
-        points
-            (..., 2) array of positions.
-        tolerance
-            Points outside by at most this distance count as inside; it is at least 1e-12 of the
-            cage's size, so that rounded boundary points count too.
-
-        Returns
-        -------
-        (...) boolean array; False where a coordinate is NaN.
+        Points outside by at most the tolerance count as inside; it is at least 1e-12 of the cage's
+        size, so that rounded boundary points count too.
         """
         xy = np.asarray(points, dtype=np.float64)
         if xy.shape[-1:] != (2,):

@@ -35,20 +35,12 @@ _ROW = np.sqrt(3.0) / 2.0  # height of a lattice row, in spacings
 
 @dataclass(frozen=True, eq=False)
 class Triangulation:
-    """A triangle mesh of a cage.
-
-    Attributes
-    ----------
-    vertices
-        (v, 2) positions; the first `n_boundary` lie on the cage, loop after loop in order.
-    triangles
-        (t, 3) int32 vertex indices, counter-clockwise.
-    n_boundary
-        Number of vertices on the boundary.
-    """
+    """A triangle mesh of a cage."""
 
     vertices: NDArray[np.float64]
+    """(v, 2) positions; the first `n_boundary` lie on the cage, loop after loop in order."""
     triangles: NDArray[np.int32]
+    """(t, 3) int32 vertex indices, counter-clockwise."""
     n_boundary: int
 
     def __post_init__(self) -> None:
@@ -67,12 +59,7 @@ class Triangulation:
 class MeshMap:
     """A triangle mesh and the images of its vertices.
 
-    Parameters
-    ----------
-    triangulation : Triangulation
-        The mesh of the domain.
-    images : (v, 2) array
-        Images of its vertices, world coordinates.
+    The (v, 2) images are in world coordinates.
     """
 
     triangulation: Triangulation
@@ -141,14 +128,7 @@ def triangulate(
     the same spacing, chosen to give about `n_vertices` vertices. All vertices of the cage are
     vertices of the mesh, so there are more where the cage has more.
 
-    Parameters
-    ----------
-    cage
-        The polygon to fill; holes stay empty.
-    n_vertices
-        Wanted number of vertices, at least 3.
-    points
-        (k, 2) points inside the cage that become vertices, such as handles.
+    The (k, 2) points, such as handles, become vertices too.
 
     Raises
     ------

@@ -26,25 +26,17 @@ _EVEN = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Panels:
-    """Consecutive pieces of the cage's edges, loop by loop.
-
-    Attributes
-    ----------
-    start, end : (p,) complex array
-        End points; ``end[i] == start[next[i]]``.
-    loop : (p,) int array
-        The loop of the cage: 0 exterior, then the holes.
-    depth : (p,) int array
-        How often the panel was split since the first grading.
-    next : (p,) int array
-        The panel that follows on the same closed loop.
-    """
+    """Consecutive pieces of the cage's edges, loop by loop; every field is a (p,) array."""
 
     start: Array
     end: Array
+    """Complex end points; ``end[i] == start[next[i]]``."""
     loop: Array
+    """The loop of the cage: 0 exterior, then the holes."""
     depth: Array
+    """How often the panel was split since the first grading."""
     next: Array
+    """The panel that follows on the same closed loop."""
 
     def __post_init__(self) -> None:
         for array in vars(self).values():
@@ -95,12 +87,6 @@ def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
 
     The singularities are the offset cage's vertices and the hole points. Each edge of the cage is
     bisected until this holds, so panels are short only where the map may vary fast.
-
-    Parameters
-    ----------
-    domain : Domain
-    ratio : float
-        Positive; smaller means more panels.
     """
     if not ratio > 0:
         raise ValueError(f"ratio is {ratio}; it must be positive")
@@ -138,11 +124,6 @@ def uniform_panels(cage: Cage, n: int = 10_000) -> Panels:
     A loop of length P_l gets n_l = ceil(P_l / P * n) samples, P the whole perimeter; an edge of it
     gets c = ceil(length / P_l * n_l), at a + (b - a) k / c for k = 0, ..., c - 1. Rounding up makes
     the total slightly larger than `n`.
-
-    Raises
-    ------
-    GeometryError
-        `n` is less than 1.
     """
     if n < 1:
         raise GeometryError(f"the number of boundary samples must be at least 1, not {n}")

@@ -95,16 +95,9 @@ class HarmonicMap:
         return cls(domain, phi, np.zeros_like(phi))
 
     def __call__(self, points: ArrayLike) -> Array:
-        """Images of points.
+        """(k, 2) images of (k, 2) points, world coordinates.
 
-        Parameters
-        ----------
-        points : (k, 2) array_like
-            World coordinates. Certificates hold only for points that ``domain.cage.contains``.
-
-        Returns
-        -------
-        (k, 2) array
+        Certificates hold only for points that ``domain.cage.contains``.
         """
         (f,) = self._evaluate(_values, points)
         return as_points(f)
@@ -168,9 +161,9 @@ class HarmonicMap:
         version = data.get("version")
         if version != FORMAT_VERSION:
             raise MapError(f"map version {version!r} is not supported; expected {FORMAT_VERSION}")
-        # A domain without one of these would choose it, and so have another basis.
         for key in ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "phi", "psi"):
-            if data.get(key) is None:
+            # A domain without one of its parts would choose it, and so have another basis.
+            if key not in data or (data[key] is None and key not in ("phi", "psi")):
                 raise MapError(f'the map lacks the key "{key}"')
         with about("the map's domain is not valid", MapError):
             domain = Domain.from_dict(data)
@@ -189,15 +182,7 @@ class HarmonicMap:
 
     @classmethod
     def load(cls, path: str | Path) -> HarmonicMap:
-        """Read a map written by :meth:`save`.
-
-        Raises
-        ------
-        MapError
-            The file is not a valid map; the message names it and what is wrong.
-        OSError
-            It cannot be read.
-        """
+        """Read a map written by :meth:`save`; MapError names the file and what is wrong there."""
         with about(path, MapError):
             return cls.from_dict(parse_json(Path(path).read_bytes(), str(path)))
 
