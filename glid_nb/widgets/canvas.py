@@ -242,8 +242,7 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
     """Undo, redo, reset, fit, and what the canvas shows."""
 
     def __init__(self, canvas: DeformCanvas, **kwargs: Any) -> None:
-        model = canvas.deformation
-        self.canvas = canvas
+        self.deformation = model = canvas.deformation
         self.undo = button("", "undo", "Undo (Ctrl+Z)", model.undo, "38px")
         self.redo = button("", "repeat", "Redo (Ctrl+Shift+Z)", model.redo, "38px")
         self.reset = button("", "home", "The undeformed shape (0)", model.reset, "38px")
@@ -268,7 +267,7 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
 
     def _show(self, what: str) -> None:
         if what == "state":
-            model = self.canvas.deformation
+            model = self.deformation
             self.undo.disabled, self.redo.disabled = not model.can_undo, not model.can_redo
 
 

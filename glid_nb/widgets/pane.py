@@ -154,14 +154,13 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         scene.show(drawing)
         if self._renderer.scene.children != (meshes := scene.meshes):
             self._renderer.scene.children = meshes
+        panels = drawing.panels is not None and drawing.comparison is None
         with stage.hold_sync():
             stage.materials = scene.materials
             stage.coefficients = self._wire()
             stage.marks = marks_of(drawing.targets, drawing.images, drawing.selected)
             stage.legend = legend(drawing.overlay, drawing.energy, scene.color_range)
-            stage.panel_legend = (
-                PANEL_LEGEND if drawing.panels and drawing.comparison is None else {}
-            )
+            stage.panel_legend = PANEL_LEGEND if panels else {}
         if old is not scene:
             old.close()
 
