@@ -34,23 +34,7 @@ def picture_png(
     size: tuple[int, int] | None = None,
     view: View = "source",
 ) -> bytes:
-    """Warp a picture through a map; the result is a PNG file with an alpha channel.
-
-    Parameters
-    ----------
-    image : (h, w, 4), (h, w, 3) or (h, w) array
-        The picture that the map's cage was traced from.
-    map : HarmonicMap
-    size : (w, h), optional
-        Pixels of the result; by default the image's own.
-    view : "source" or "fit"
-        Show what the picture showed, or all of the deformed shape; see `glid_nb.render`.
-
-    Raises
-    ------
-    ValueError
-        When an argument is out of range; the message names it.
-    """
+    """Warp a picture through a map, as `glid_nb.render` does; a PNG file with an alpha channel."""
     return png(render(image, map, size, view=view))
 
 

@@ -75,27 +75,20 @@ def build_report(result: Result) -> dict[str, Any]:
         "solve_time": result.solve_time,
         "certify_time": certify_time,
         "options": dataclasses.asdict(options),
-        "history": [
-            {**dataclasses.asdict(entry), "energy": entry.energy} for entry in result.history
-        ],
-        "versions": _versions(),
-        "machine": _machine(),
+        "history": [{**dataclasses.asdict(one), "energy": one.energy} for one in result.history],
+        "versions": {
+            "glid_nb": version("glid-nb"),
+            "python": platform.python_version(),
+            **{name: version(name) for name in _LIBRARIES},
+        },
+        "machine": {
+            "system": platform.platform(),
+            "architecture": platform.machine(),
+            "cpus": os.cpu_count(),
+            "devices": [f"{one.platform}: {one.device_kind}" for one in jax.local_devices()],
+        },
     }
     return _plain(report)
-
-
-def _versions() -> dict[str, str]:
-    libraries = {name: version(name) for name in _LIBRARIES}
-    return {"glid_nb": version("glid-nb"), "python": platform.python_version(), **libraries}
-
-
-def _machine() -> dict[str, Any]:
-    return {
-        "system": platform.platform(),
-        "architecture": platform.machine(),
-        "cpus": os.cpu_count(),
-        "devices": [f"{device.platform}: {device.device_kind}" for device in jax.local_devices()],
-    }
 
 
 def _plain(value: Any) -> Any:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from glid_nb._errors import InputError
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
-from glid_nb.session.observed import Observed
+from glid_nb.session.model import Observed
 
 Array = NDArray[Any]
 Event = Mapping[str, Any]

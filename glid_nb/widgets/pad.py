@@ -8,7 +8,7 @@ from typing import Any
 import anywidget
 import ipywidgets
 
-from glid_nb.session.observed import Observed
+from glid_nb.session.model import Observed
 from glid_nb.widgets.closing import ClosingWidget
 
 
