@@ -52,7 +52,8 @@ class Triangulation:
         """A function of x and y: the triangle of each point, -1 for none."""
         from matplotlib.tri import Triangulation as Planar  # noqa: PLC0415 - slow to import
 
-        return Planar(*self.vertices.T, self.triangles).get_trifinder()
+        x, y = self.vertices.T
+        return Planar(x, y, self.triangles).get_trifinder()
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,18 +174,14 @@ def _with_points(
     loop: NDArray[np.complex128], points: NDArray[np.float64], tolerance: float
 ) -> NDArray[np.complex128]:
     """The loop with the points that lie on it inserted in order."""
-    z = np.asarray(points @ np.array([1, 1j]), dtype=np.complex128)
-    along = np.roll(loop, -1) - loop
-    position = np.real((z[:, None] - loop) * along.conj()) / np.abs(along) ** 2
-    position = np.clip(position, 0, 1)
-    gap = np.abs(z[:, None] - loop - position * along)
-    edge = gap.argmin(axis=1)
-    which = np.arange(len(z))
-    on = gap[which, edge] <= tolerance
-    ends = np.stack([loop[edge], np.roll(loop, -1)[edge]])
-    on &= (np.abs(z - ends) > tolerance).all(axis=0)
-    order = np.concatenate([np.arange(len(loop)), (edge + position[which, edge])[on]])
-    return np.concatenate([loop, z[on]])[np.argsort(order, kind="stable")]
+    z, places = points @ np.array([1, 1j]), np.asarray(shapely.points(points))
+    ring = shapely.LinearRing(as_points(loop))
+    on = shapely.distance(ring, places) <= tolerance
+    on &= (np.abs(z[:, None] - loop) > tolerance).all(axis=1)
+    lengths = np.abs(np.roll(loop, -1) - loop)
+    starts, between = np.cumsum(lengths) - lengths, shapely.line_locate_point(ring, places[on])
+    order = np.argsort(np.concatenate([starts, between]), kind="stable")
+    return np.concatenate([loop, z[on]], dtype=np.complex128)[order]
 
 
 def _parts(lengths: NDArray[np.float64], spacing: float) -> NDArray[np.int64]:

@@ -103,12 +103,7 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
 def hole_points(cage: Cage) -> NDArray[np.float64]:
     """(N, 2) points, one strictly inside each hole of an offset cage.
 
-    Each is the centre of the largest inscribed circle.
-
-    Raises
-    ------
-    GeometryError
-        A hole is too narrow.
+    Each is the centre of the largest inscribed circle; a GeometryError for too narrow a hole.
     """
     points = np.empty((cage.n_holes, 2))
     for i, hole in enumerate(cage.holes):

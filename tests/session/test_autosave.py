@@ -93,6 +93,7 @@ def test_a_failure_is_reported_and_the_next_save_tries_again(tmp_path: Path) -> 
     autosave.close()
 
 
+@pytest.mark.slow
 def test_the_end_of_the_process_saves_too(tmp_path: Path) -> None:
     path = tmp_path / "a.glid"
     source = f"""

@@ -31,6 +31,7 @@ def ring() -> Iterator[Deformation]:
         yield deformation
 
 
+@pytest.mark.slow
 def test_a_drag_is_solved_to_its_end(ring: Deformation) -> None:
     ring.drag(0, to=(3, 0.5))
     assert ring.solve(TIMEOUT)
@@ -40,6 +41,7 @@ def test_a_drag_is_solved_to_its_end(ring: Deformation) -> None:
     assert "Converged" in ring.status.text
 
 
+@pytest.mark.slow
 def test_the_solver_can_be_told_when_to_begin() -> None:
     with Deformation(domain("ring"), begin=False) as deformation:
         assert deformation._worker.thread is None
@@ -120,6 +122,7 @@ def test_another_action_splits_a_drag(ring: Deformation) -> None:
     np.testing.assert_allclose(ring.pose.targets[0], [-2.4, 0])
 
 
+@pytest.mark.slow
 def test_every_frame_is_certified(ring: Deformation) -> None:
     maps = []
     ring.observe(lambda name: maps.append(ring.map) if name == "frame" else None)

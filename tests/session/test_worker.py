@@ -102,6 +102,7 @@ def test_closing_finishes_or_forgets(finish: bool, done: list[int]) -> None:
     assert not slow.worker.thread.is_alive()
 
 
+@pytest.mark.slow
 def test_work_is_rare_but_always_done() -> None:
     class Counter:
         def __init__(self) -> None:
