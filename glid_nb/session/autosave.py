@@ -96,16 +96,9 @@ class Autosave:
     pending is written when the process ends or this object is dropped. A file that another program
     has changed is not touched again: later saves go to a new file beside it (`free_sibling`).
 
-    Parameters
-    ----------
-    path : path
-    interval : float
-        Least number of seconds between two saves; the first is made at once.
-    on_done : callable, optional
-        Called, in the thread, after each save: with the exception if it failed, else with None. The
-        next submission tries again.
-    own : OwnFiles, optional
-        The files that may be replaced; ``path``, as it is now, becomes one of them.
+    Between two saves pass at least ``interval`` seconds; the first is made at once. After each
+    ``on_done`` is called, in the thread, with the exception if it failed, else with None; the next
+    submission tries again. The file as it is now becomes one of the ``own`` files.
     """
 
     def __init__(

@@ -24,21 +24,13 @@ _LIBRARIES = ("jax", "jaxlib", "numpy", "scipy")
 def build_report(result: Result) -> dict[str, Any]:
     """The report of a solve, with its certificate and global injectivity, both timed.
 
-    Parameters
-    ----------
-    result : Result
-
-    Returns
-    -------
-    dict
-        ``status`` and ``message``; ``certified`` and the ``proof`` in words; the energies ``E``,
-        ``E_iso`` and ``E_p2p``, and ``E_start`` before the first iteration; the certified bounds
-        ``sigma2_lower``, ``sigma1_upper`` and ``k_upper``; ``windings`` of f_z per loop (exterior
-        first) and their sum ``winding``; ``globally_injective`` ("yes", "no" or "undecided") and
-        a ``crossing`` if not; counts (``panels`` and ``panels_split`` are the solver's,
-        ``proof_panels`` those on which the final proof ended);
-        times in seconds; and the ``history``, one object per iteration. Numbers that are not
-        finite are null.
+    ``status`` and ``message``; ``certified`` and the ``proof`` in words; the energies ``E``,
+    ``E_iso`` and ``E_p2p``, and ``E_start`` before the first iteration; the certified bounds
+    ``sigma2_lower``, ``sigma1_upper`` and ``k_upper``; ``windings`` of f_z per loop (exterior
+    first) and their sum ``winding``; ``globally_injective`` ("yes", "no" or "undecided") and a
+    ``crossing`` if not; counts (``panels`` and ``panels_split`` are the solver's, ``proof_panels``
+    those on which the final proof ended); times in seconds; and the ``history``, one object per
+    iteration. Numbers that are not finite are null.
     """
     began = time.perf_counter()
     map_, certificate = result.map, result.certificate

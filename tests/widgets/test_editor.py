@@ -28,7 +28,7 @@ from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
 from glid_nb.widgets.exporting import ExportError
 from glid_nb.widgets.file_panel import OpenPanel
 from glid_nb.widgets.overlays import COLORS, N_COLORS, OVERLAYS, color_range, rgb
-from glid_nb.widgets.stage import emptiest_corner
+from glid_nb.widgets.pane import emptiest_corner
 
 from ..domains import domain
 
