@@ -33,10 +33,7 @@ class Cage:
     holes
         Hole loops, each (k, 2), either orientation; kept clockwise.
 
-    Raises
-    ------
-    GeometryError
-        The loops do not bound a domain; the message names the loop, the vertex and its coordinates.
+    If the loops do not bound a domain, a GeometryError names the loop, the vertex and its place.
     """
 
     exterior: NDArray[np.float64]

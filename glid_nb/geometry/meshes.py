@@ -129,12 +129,7 @@ def triangulate(
     the same spacing, chosen to give about `n_vertices` vertices. All vertices of the cage are
     vertices of the mesh, so there are more where the cage has more.
 
-    The (k, 2) points, such as handles, become vertices too.
-
-    Raises
-    ------
-    GeometryError
-        `n_vertices` is less than 3, or a point does not lie inside the cage.
+    The (k, 2) points, such as handles, become vertices too; a GeometryError names one outside.
     """
     if n_vertices < 3:
         raise GeometryError(f"a triangulation needs at least 3 vertices, not {n_vertices}")
@@ -143,7 +138,14 @@ def triangulate(
         subdivided(loop, _parts(edge_lengths(corners), spacing))
         for loop, corners in zip(cage.loops_complex, cage.loops, strict=True)
     ]
-    wanted = _checked_points(cage, points)
+    wanted = np.asarray([] if points is None else points, dtype=float).reshape(-1, 2)
+    outside = np.flatnonzero(~cage.contains(wanted))
+    if outside.size:
+        raise GeometryError(
+            f"point {outside[0]} at {place(wanted[outside[0]])} is to be a vertex of the "
+            "triangulation but does not lie inside the cage; move it inside or leave it out"
+        )
+    wanted = np.unique(wanted, axis=0)
     loops = [_with_points(loop, wanted, _SAME * cage.longer_side) for loop in loops]
     boundary = np.concatenate(loops)
     inside = _lattice(cage, spacing)
@@ -156,18 +158,6 @@ def triangulate(
         inside = np.delete(inside, sorted({i for found in near for i in found}), axis=0)
     vertices = np.concatenate([border, wanted, inside])
     return Triangulation(vertices, _constrained_delaunay(vertices, loops), len(boundary))
-
-
-def _checked_points(cage: Cage, points: ArrayLike | None) -> NDArray[np.float64]:
-    wanted = np.asarray([] if points is None else points, dtype=float).reshape(-1, 2)
-    outside = np.flatnonzero(~cage.contains(wanted))
-    if outside.size:
-        i = int(outside[0])
-        raise GeometryError(
-            f"point {i} at {place(wanted[i])} is to be a vertex of the triangulation but does not "
-            "lie inside the cage; move it inside or leave it out"
-        )
-    return np.unique(wanted, axis=0)
 
 
 def _with_points(
