@@ -99,11 +99,8 @@ def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str
 def real_array(value: Any) -> NDArray[np.float64]:
     """``value`` as a new float64 array; a missing number (None) becomes NaN.
 
-    Raises
-    ------
-    TypeError, ValueError
-        For ragged nesting and for anything but real numbers in floating-point range, such as
-        text, truth values and complex numbers.
+    A TypeError or ValueError for ragged nesting and for anything but real numbers in floating-point
+    range, such as text, truth values and complex numbers.
     """
     if _holds_truth_value(value):
         raise TypeError("true and false are not numbers")

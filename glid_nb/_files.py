@@ -11,10 +11,7 @@ from typing import Literal
 def write_bytes_atomically(path: Path, data: bytes) -> None:
     """Write ``data`` to a temporary file beside ``path``, then rename it over ``path``.
 
-    Raises
-    ------
-    OSError
-        It cannot be written; the message names ``path`` or its folder.
+    The message of an OSError names ``path`` or its folder.
     """
     path = Path(path)
     if path.is_dir():

@@ -53,10 +53,9 @@ def single_blas_thread() -> Iterator[None]:
     finally:
         with _lock:
             _depth -= 1
-            if _depth == 0 and _limiter is not None:
+            if _depth == 0:
                 _limiter.restore_original_limits()
                 OpenBLASController.clear_controlling_thread(force=True)
-                _limiter = None
 
 
 @functools.cache
@@ -82,20 +81,17 @@ def in_chunks(program: Callable[..., R], size: int, rows: Sequence[NDArray[Any]]
 
     ``program(*chunk, *fixed)`` returns a pytree of arrays with one row per row of the chunk; the
     result is the pytree for all rows, which may be none, of NumPy arrays. The last chunk is filled
-    up with copies of its first row.
+    up with copies of the last row.
     """
+    count = len(rows[0])
+    rows = rows if count else [np.zeros((1, *a.shape[1:]), a.dtype) for a in rows]
     parts = []
-    for first in range(0, max(len(rows[0]), 1), size):
-        chunk = [a[first : first + size] for a in rows]
-        own = slice(len(chunk[0]))
-        outputs = program(*(_filled(a, size) for a in chunk), *fixed)
+    for first in range(0, max(count, 1), size):
+        index = np.minimum(np.arange(first, first + size), len(rows[0]) - 1)
+        own = slice(min(size, count - first))
+        outputs = program(*(a[index] for a in rows), *fixed)
         parts.append(jax.tree.map(lambda a, own=own: np.asarray(a)[own], outputs))
     return jax.tree.map(lambda *column: np.concatenate(column), *parts)
-
-
-def _filled(chunk: NDArray[Any], size: int) -> NDArray[Any]:
-    filling = chunk[:1] if len(chunk) else np.zeros((1, *chunk.shape[1:]), chunk.dtype)
-    return np.concatenate([chunk, np.repeat(filling, size - len(chunk), axis=0)])
 
 
 def cache_directory() -> Path:

@@ -91,10 +91,6 @@ class _Known(NamedTuple):
         """(p,) bool: the map is proved to fold at the panel's start."""
         return self.sigma2_seen <= -2 * self.slack
 
-    @property
-    def injective(self) -> Array:
-        return np.asarray(self.bounds.injective)
-
 
 @double_precision
 def certify(
@@ -135,7 +131,7 @@ def certify(
 
 def _to_split(known: _Known, tightness: float) -> Array:
     """(p,) bool: the proof fails, or the panel keeps the overall bounds from being tight."""
-    bounds, injective = known.bounds, known.injective
+    bounds, injective = known.bounds, np.asarray(known.bounds.injective)
     worst = known.k_seen.max()
     k_slack = tightness * max(worst, 1e-3)
     # Splitting does not reduce the allowance for rounding, so smaller gains are not worth it.
@@ -157,43 +153,30 @@ def _to_split(known: _Known, tightness: float) -> Array:
 def _conclude(
     map: HarmonicMap, panels: Panels, known: _Known, kind: CertificateKind
 ) -> Certificate:
-    bounds = known.bounds
+    bounds, unproved = known.bounds, ~np.asarray(known.bounds.injective)
     turns = windings(np.asarray(bounds.turning), panels.loop, 1 + map.domain.n_holes)
-    reason = _failure(panels, known, sum(turns))
-    proved = (bounds.sigma2_lower, bounds.sigma1_upper, bounds.k_upper)
-    return Certificate(
-        not reason,
-        float(bounds.sigma2_lower.min()),
-        float(bounds.sigma1_upper.max()),
-        float(bounds.k_upper.max()),
-        turns,
-        PanelCertificate(
-            *(panels.start, panels.end, panels.loop, panels.depth, panels.next),
-            *(np.asarray(bound) for bound in proved),
-        ),
-        kind,
-        reason or f"Proved locally injective on {len(panels)} panels.",
-    )
-
-
-def _failure(panels: Panels, known: _Known, zeros: int) -> str:
-    """Why the map is not certified; empty if it is."""
-    unproved = ~known.injective
+    certified = False
     if known.folded.any():
         i = int(np.argmin(known.sigma2_seen))
-        return (
+        reason = (
             f"The map is not locally injective: sigma_2 = {known.sigma2_seen[i]:.3g} "
             f"near {place(panels.start[i])}."
         )
-    if unproved.any():
-        i = int(np.argmin(known.bounds.sigma2_lower))
-        return (
+    elif unproved.any():
+        i = int(np.argmin(bounds.sigma2_lower))
+        reason = (
             f"Undecided: {int(unproved.sum())} of {len(panels)} panels could not be proved "
             f"injective, the worst near {place(panels.middle[i])}."
         )
-    if zeros != 0:
-        return f"The map is not locally injective: f_z has {zeros} zeros in the domain."
-    return ""
+    elif sum(turns) != 0:
+        reason = f"The map is not locally injective: f_z has {sum(turns)} zeros in the domain."
+    else:
+        certified, reason = True, f"Proved locally injective on {len(panels)} panels."
+    sigma2, sigma1, k = (np.asarray(values) for values in bounds[:3])
+    along = (panels.start, panels.end, panels.loop, panels.depth, panels.next)
+    per_panel = PanelCertificate(*along, sigma2, sigma1, k)
+    extremes = (float(sigma2.min()), float(sigma1.max()), float(k.max()))
+    return Certificate(certified, *extremes, turns, per_panel, kind, reason)
 
 
 @functools.partial(jit, static_argnames="kind", compiler_options=COMPILER_OPTIONS)

@@ -101,7 +101,12 @@ def global_injectivity(
             return GlobalInjectivity("yes", reason, len(panels))
         double_point = _proved_crossing(map, panels, arcs, pairs)
         if double_point is not None:
-            return _overlapping(*double_point, len(panels))
+            image, points = double_point
+            reason = (
+                f"The map overlaps itself: the boundary points {place(points[0])} and "
+                f"{place(points[1])} are both mapped to {place(image)}."
+            )
+            return GlobalInjectivity("no", reason, len(panels), as_points(image), as_points(points))
         # Split the larger arc of a pair, or both if they are about equal.
         first, second = pairs
         sagitta = arcs.sagitta
@@ -124,9 +129,8 @@ def _pairs_not_apart(arcs: Arcs, panels: Panels) -> Array:
     first, second = shapely.STRtree(boxes).query(boxes)
     wanted = (first < second) & (panels.next[first] != second) & (panels.next[second] != first)
     first, second = first[wanted], second[wanted]
-    distance = segment_distance(
-        arcs.start[first], arcs.end[first], arcs.start[second], arcs.end[second]
-    )
+    a, b = arcs.at(first), arcs.at(second)
+    distance = segment_distance(a.start, a.end, b.start, b.end)
     return np.stack([first, second])[:, ~(distance > r[first] + r[second])]
 
 
@@ -162,11 +166,8 @@ def _proved_crossing(
     Newton's method finds candidates, starting from pairs of panels whose chords cross. A candidate
     is proved on windows around it on the two edges, which may extend over several panels.
     """
-    first, second = pairs
-    crossing = segments_cross(
-        arcs.start[first], arcs.end[first], arcs.start[second], arcs.end[second]
-    )
-    pairs = pairs[:, crossing]
+    a, b = (arcs.at(index) for index in pairs)
+    pairs = pairs[:, segments_cross(a.start, a.end, b.start, b.end)]
     if not pairs.size:
         return None
     # The flatter the arcs, the more likely they cross where their chords do.
@@ -178,20 +179,27 @@ def _proved_crossing(
     origin, length = edges.start[edge], edges.length[edge]
     direction = (edges.end[edge] - origin) / length
     position = np.abs(panels.middle[pairs] - origin)
+
+    def along(position: Array) -> tuple[Array, Array]:
+        z = origin + position * direction
+        jets = jets_of(map, z, z)
+        return jets.f, jets.first(direction)
+
     for _ in range(_NEWTON_STEPS):
-        image, tangent = _image(map, origin + position * direction, direction)
+        image, tangent = along(position)
         determinant = cross(tangent[0], tangent[1])
         determinant = np.where(determinant == 0, np.inf, determinant)
         step = cross(tangent[::-1], image[0] - image[1]) / determinant
         position = np.clip(position + step, 0, length)
-    image, tangent = _image(map, origin + position * direction, direction)
+    image, tangent = along(position)
 
     size = (np.abs(tangent) * panels.length[pairs]).min(axis=0)
     half = (size / np.abs(tangent))[..., None] * _WINDOWS
     low = np.maximum(position[..., None] - half, 0)
     high = np.minimum(position[..., None] + half, length[..., None])
     apart = (edge[0] != edge[1])[:, None] | (high[0] < low[1]) | (high[1] < low[0])
-    windows = _arcs(map, low, high, origin[..., None], direction[..., None])
+    start, end = (origin[..., None] + p * direction[..., None] for p in (low, high))
+    windows = Arcs.between(start, end, jets_of(map, start, end), jets_of(map, end, end))
     proved = (apart & _certainly_cross(windows)).any(axis=1)
     # The proof may succeed on a wide window before Newton's method has settled.
     proved &= np.abs(image[0] - image[1]) <= 1e-9 * size + windows.error.max(axis=(0, 2))
@@ -199,22 +207,6 @@ def _proved_crossing(
         return None
     best = int(np.argmax(proved))
     return complex(image[:, best].mean()), (origin + position * direction)[:, best]
-
-
-def _image(map: HarmonicMap, z: Array, direction: Array) -> tuple[Array, Array]:
-    jets = jets_of(map, z.ravel(), z.ravel())
-    return jets.f.reshape(z.shape), jets.first(direction.ravel()).reshape(z.shape)
-
-
-def _arcs(map: HarmonicMap, low: Array, high: Array, origin: Array, direction: Array) -> Arcs:
-    """Images of the pieces of edges from ``low`` to ``high``, in the shape of ``low``."""
-    start, end = (origin + position * direction for position in (low, high))
-    count = start.size
-    jets = jets_of(map, np.append(start, end), np.append(end, end))
-    arcs = Arcs.between(
-        start.ravel(), end.ravel(), jets.at(slice(count)), jets.at(slice(count, None))
-    )
-    return Arcs(*(values.reshape(low.shape) for values in arcs))
 
 
 def _certainly_cross(pair: Arcs) -> Array:
@@ -232,14 +224,6 @@ def _certainly_cross(pair: Arcs) -> Array:
         for end in (arc.start, arc.end):
             clear = clear & (point_distance(end, other.start, other.end) > arc.error + other.radius)
     return clear
-
-
-def _overlapping(image: complex, points: Array, n_panels: int) -> GlobalInjectivity:
-    reason = (
-        f"The map overlaps itself: the boundary points {place(points[0])} and "
-        f"{place(points[1])} are both mapped to {place(image)}."
-    )
-    return GlobalInjectivity("no", reason, n_panels, as_points(image), as_points(points))
 
 
 def _undecided(panels: Panels, pairs: Array, unresolved: Array) -> GlobalInjectivity:

@@ -31,26 +31,14 @@ _CROPPED = 1e-3
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "image",
-        nargs="?",
-        default=DEFAULT_SAMPLE,
-        metavar="IMAGE",
-        help=f"a picture's file, or the name of a sample (default: {DEFAULT_SAMPLE})",
-    )
-    parser.add_argument(
-        "--pose",
-        metavar="FILE.json",
-        help="handles and targets, world coordinates; for a sample also gentle or extreme",
-    )
-    parser.add_argument(
-        "--out",
-        type=Path,
-        default=Path("glid-nb-demo"),
-        metavar="DIR",
-        help="folder of the results (default: %(default)s)",
-    )
-    parser.add_argument("--json", action="store_true", help="print the summary as JSON")
+    add = parser.add_argument
+    image = f"a picture's file, or the name of a sample (default: {DEFAULT_SAMPLE})"
+    add("image", nargs="?", default=DEFAULT_SAMPLE, metavar="IMAGE", help=image)
+    pose = "handles and targets, world coordinates; for a sample also gentle or extreme"
+    add("--pose", metavar="FILE.json", help=pose)
+    out = "folder of the results (default: %(default)s)"
+    add("--out", type=Path, default=Path("glid-nb-demo"), metavar="DIR", help=out)
+    add("--json", action="store_true", help="print the summary as JSON")
     flags.add_solver_flags(parser)
     flags.add_trace_flags(parser)
 

@@ -27,13 +27,7 @@ def step(
     On a terminal one line is updated and finally erased; elsewhere a line is written when a step
     turns out to be long, every 15 seconds, and at its end.
 
-    Parameters
-    ----------
-    doing : str
-    stream : text stream, optional
-        Where to write; stderr by default.
-    patience : float, optional
-        Seconds before the step is announced; :data:`PATIENCE` by default.
+    By default it writes to stderr, and after :data:`PATIENCE` seconds.
     """
     out = sys.stderr if stream is None else stream
     details: list[str] = []

@@ -19,17 +19,13 @@ from glid_nb.cli.solving import finish, run_solver
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("problem", type=Path, metavar="PROBLEM.json", help="what is solved")
-    parser.add_argument("--out", type=Path, metavar="map.json", help="where the map goes")
-    parser.add_argument("--report", type=Path, metavar="report.json", help="where the report goes")
-    parser.add_argument(
-        "--start",
-        type=Path,
-        metavar="map.json",
-        help="a certified map of the same domain to start from (default: the identity, moved "
-        "rigidly towards the targets)",
-    )
-    parser.add_argument("--json", action="store_true", help="print the summary as JSON")
+    add = parser.add_argument
+    add("problem", type=Path, metavar="PROBLEM.json", help="what is solved")
+    add("--out", type=Path, metavar="map.json", help="where the map goes")
+    add("--report", type=Path, metavar="report.json", help="where the report goes")
+    start = "a certified map of the same domain to start from (default: see --align)"
+    add("--start", type=Path, metavar="map.json", help=start)
+    add("--json", action="store_true", help="print the summary as JSON")
     add_solver_flags(parser)
 
 

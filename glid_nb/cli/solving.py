@@ -32,7 +32,11 @@ def run_solver(
     ):
 
         def show(state: glid_nb.Progress) -> bool:
-            detail(_in_words(state))
+            if state.history:
+                last = state.history[-1]
+                detail(f"iteration {last.iteration}, energy {last.energy:.6g}")
+            else:  # the first step was refused, so panels are split first
+                detail("before the first iteration, splitting panels")
             return interrupted()
 
         result = glid_nb.solve(domain, pose, energy, options, start=start, callback=show)
@@ -57,13 +61,6 @@ def finish(
     print(text)
     if result.status is glid_nb.Status.STOPPED:
         raise KeyboardInterrupt
-
-
-def _in_words(state: glid_nb.Progress) -> str:
-    if not state.history:  # the first step was refused, so panels are split first
-        return "before the first iteration, splitting panels"
-    last = state.history[-1]
-    return f"iteration {last.iteration}, energy {last.energy:.6g}"
 
 
 @contextmanager

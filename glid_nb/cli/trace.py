@@ -21,9 +21,8 @@ from glid_nb.cli.progress import step
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("image", type=Path, metavar="IMAGE", help="the picture's file")
-    parser.add_argument(
-        "--out", type=Path, metavar="cage.json", required=True, help="where the cage goes"
-    )
+    out = "where the cage goes"
+    parser.add_argument("--out", type=Path, metavar="cage.json", required=True, help=out)
     add_trace_flags(parser)
 
 

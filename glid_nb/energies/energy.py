@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-import numbers
 from abc import ABC, abstractmethod
 from dataclasses import fields
+from numbers import Real
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self, TypeVar
 
 from glid_nb._errors import InputError
@@ -90,15 +90,13 @@ def register_energy(cls: type[E]) -> type[E]:
     the same fields for equal and sometimes runs one energy with the program compiled for another.
     Here the class is part of the tree's structure.
     """
-    names = cls.parameters()
-
-    def flatten(energy: E) -> tuple[tuple[Any, ...], type[E]]:
-        return tuple(getattr(energy, name) for name in names), cls
-
-    def unflatten(known: type[E], leaves: Any) -> E:
-        return known(*leaves)
-
-    once_loaded(lambda: jax.tree_util.register_pytree_node(cls, flatten, unflatten))
+    once_loaded(
+        lambda: jax.tree_util.register_pytree_node(
+            cls,
+            lambda energy: (tuple(vars(energy).values()), cls),
+            lambda known, parameters: known(*parameters),
+        )
+    )
     ENERGIES[cls.name] = cls
     return cls
 
@@ -135,13 +133,11 @@ def _checked_parameter(energy: str, name: str, value: Any) -> Any:
     JAX tracers, whose range was checked outside the traced program, and the plain objects with
     which JAX rebuilds pytrees are returned unchanged.
     """
-    if isinstance(value, numbers.Real) and not isinstance(value, bool):
-        number = float(value)
-        if math.isfinite(number) and number > 0:
-            return number
-        raise EnergyError(
-            f"{name} of the energy {energy!r} must be positive and finite, got {number}"
-        )
+    number = float(value) if isinstance(value, Real) and not isinstance(value, bool) else math.nan
+    if 0 < number < math.inf:
+        return number
     if type(value) is object or isinstance(value, jax.Array | jax.ShapeDtypeStruct):
         return value
-    raise EnergyError(f"{name} of the energy {energy!r} must be a positive number, got {value!r}")
+    raise EnergyError(
+        f"{name} of the energy {energy!r} must be a positive finite number, got {value!r:.60}"
+    )

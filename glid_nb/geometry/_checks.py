@@ -6,6 +6,8 @@ and coordinates follow in parentheses.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
@@ -54,7 +56,7 @@ def check_loops(loops: list[NDArray[np.float64]]) -> None:
 
 def _check_distinct(loop: NDArray[np.float64], number: int, resolution: float) -> None:
     name, plain = loop_name(number), plain_name(number)
-    points = shapely.points(loop)
+    points: Any = shapely.points(loop)
     pairs = shapely.STRtree(points).query(points, predicate="dwithin", distance=resolution).T
     pairs = sorted((i, j) for i, j in pairs.tolist() if i < j)
     if not pairs:
@@ -142,7 +144,7 @@ def _check_crossings(loops: list[NDArray[np.float64]], resolution: float) -> Non
 
 def _check_nesting(loops: list[NDArray[np.float64]]) -> None:
     # The loops are known not to meet, so one vertex of each decides for the whole loop.
-    starts = shapely.points(np.array([loop[0] for loop in loops]))
+    starts: Any = shapely.points(np.array([loop[0] for loop in loops]))
     regions = [shapely.Polygon(loop) for loop in loops]
     outer, inner = shapely.STRtree(starts).query(regions, predicate="contains")
     around = sorted(zip(outer.tolist(), inner.tolist(), strict=True))

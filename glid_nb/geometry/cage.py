@@ -33,10 +33,7 @@ class Cage:
     holes
         Hole loops, each (k, 2), either orientation; kept clockwise.
 
-    Raises
-    ------
-    GeometryError
-        The loops do not bound a domain; the message names the loop, the vertex and its coordinates.
+    If the loops do not bound a domain, a GeometryError names the loop, the vertex and its place.
     """
 
     exterior: NDArray[np.float64]
@@ -130,11 +127,15 @@ class Cage:
             raise GeometryError(f"tolerance must be at least 0, not {tolerance}")
         flat = xy.reshape(-1, 2)
         rounding = RESOLUTION * max(self.longer_side, float(np.abs(self.bounds).max()))
+        reach = max(tolerance, rounding)
         inside = shapely.intersects_xy(self.polygon, flat[:, 0], flat[:, 1])
-        # Distances are slow, and NaN has none.
-        rest = ~inside & np.isfinite(flat).all(axis=1)
-        near = shapely.points(flat[rest])
-        inside[rest] = shapely.dwithin(self.polygon, near, max(tolerance, rounding))
+        rest = np.flatnonzero(~inside)
+        if rest.size:
+            # Distances are slow; a wider polygon rules out most points.
+            wider = shapely.buffer(self.polygon, 2 * max(reach, 1e-4 * self.longer_side))
+            shapely.prepare(wider)
+            rest = rest[shapely.intersects_xy(wider, flat[rest, 0], flat[rest, 1])]
+            inside[rest] = shapely.dwithin(self.polygon, shapely.points(flat[rest]), reach)
         return inside.reshape(xy.shape[:-1])
 
 

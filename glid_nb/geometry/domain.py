@@ -43,10 +43,7 @@ class Domain:
     notes
         Sentences about choices made, such as a reduced offset.
 
-    Raises
-    ------
-    GeometryError
-        The parts do not fit; the message names the loop and the place.
+    Where the parts do not fit a GeometryError names the loop and the place.
     """
 
     cage: Cage

@@ -52,7 +52,8 @@ class Triangulation:
         """A function of x and y: the triangle of each point, -1 for none."""
         from matplotlib.tri import Triangulation as Planar  # noqa: PLC0415 - slow to import
 
-        return Planar(*self.vertices.T, self.triangles).get_trifinder()
+        x, y = self.vertices.T
+        return Planar(x, y, self.triangles).get_trifinder()
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,12 +129,7 @@ def triangulate(
     the same spacing, chosen to give about `n_vertices` vertices. All vertices of the cage are
     vertices of the mesh, so there are more where the cage has more.
 
-    The (k, 2) points, such as handles, become vertices too.
-
-    Raises
-    ------
-    GeometryError
-        `n_vertices` is less than 3, or a point does not lie inside the cage.
+    The (k, 2) points, such as handles, become vertices too; a GeometryError names one outside.
     """
     if n_vertices < 3:
         raise GeometryError(f"a triangulation needs at least 3 vertices, not {n_vertices}")
@@ -142,7 +138,14 @@ def triangulate(
         subdivided(loop, _parts(edge_lengths(corners), spacing))
         for loop, corners in zip(cage.loops_complex, cage.loops, strict=True)
     ]
-    wanted = _checked_points(cage, points)
+    wanted = np.asarray([] if points is None else points, dtype=float).reshape(-1, 2)
+    outside = np.flatnonzero(~cage.contains(wanted))
+    if outside.size:
+        raise GeometryError(
+            f"point {outside[0]} at {place(wanted[outside[0]])} is to be a vertex of the "
+            "triangulation but does not lie inside the cage; move it inside or leave it out"
+        )
+    wanted = np.unique(wanted, axis=0)
     loops = [_with_points(loop, wanted, _SAME * cage.longer_side) for loop in loops]
     boundary = np.concatenate(loops)
     inside = _lattice(cage, spacing)
@@ -157,34 +160,18 @@ def triangulate(
     return Triangulation(vertices, _constrained_delaunay(vertices, loops), len(boundary))
 
 
-def _checked_points(cage: Cage, points: ArrayLike | None) -> NDArray[np.float64]:
-    wanted = np.asarray([] if points is None else points, dtype=float).reshape(-1, 2)
-    outside = np.flatnonzero(~cage.contains(wanted))
-    if outside.size:
-        i = int(outside[0])
-        raise GeometryError(
-            f"point {i} at {place(wanted[i])} is to be a vertex of the triangulation but does not "
-            "lie inside the cage; move it inside or leave it out"
-        )
-    return np.unique(wanted, axis=0)
-
-
 def _with_points(
     loop: NDArray[np.complex128], points: NDArray[np.float64], tolerance: float
 ) -> NDArray[np.complex128]:
     """The loop with the points that lie on it inserted in order."""
-    z = np.asarray(points @ np.array([1, 1j]), dtype=np.complex128)
-    along = np.roll(loop, -1) - loop
-    position = np.real((z[:, None] - loop) * along.conj()) / np.abs(along) ** 2
-    position = np.clip(position, 0, 1)
-    gap = np.abs(z[:, None] - loop - position * along)
-    edge = gap.argmin(axis=1)
-    which = np.arange(len(z))
-    on = gap[which, edge] <= tolerance
-    ends = np.stack([loop[edge], np.roll(loop, -1)[edge]])
-    on &= (np.abs(z - ends) > tolerance).all(axis=0)
-    order = np.concatenate([np.arange(len(loop)), (edge + position[which, edge])[on]])
-    return np.concatenate([loop, z[on]])[np.argsort(order, kind="stable")]
+    z, places = points @ np.array([1, 1j]), np.asarray(shapely.points(points))
+    ring = shapely.LinearRing(as_points(loop))
+    on = shapely.distance(ring, places) <= tolerance
+    on &= (np.abs(z[:, None] - loop) > tolerance).all(axis=1)
+    lengths = np.abs(np.roll(loop, -1) - loop)
+    starts, between = np.cumsum(lengths) - lengths, shapely.line_locate_point(ring, places[on])
+    order = np.argsort(np.concatenate([starts, between]), kind="stable")
+    return np.concatenate([loop, z[on]], dtype=np.complex128)[order]
 
 
 def _parts(lengths: NDArray[np.float64], spacing: float) -> NDArray[np.int64]:

@@ -62,10 +62,7 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
     P^ encloses the cage strictly: the distance of each of its edges from the cage is at least 0.3
     of the smaller of the distances at its ends.
 
-    Raises
-    ------
-    GeometryError
-        The distance is not a positive number, or the cage has a passage too narrow for float64.
+    A GeometryError for a distance that is not positive, and for a passage too narrow for float64.
     """
     if not (isinstance(distance, Real) and 0 < distance < np.inf):
         raise GeometryError(f"the offset must be a positive number, not {distance!r:.60}")
@@ -103,12 +100,7 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
 def hole_points(cage: Cage) -> NDArray[np.float64]:
     """(N, 2) points, one strictly inside each hole of an offset cage.
 
-    Each is the centre of the largest inscribed circle.
-
-    Raises
-    ------
-    GeometryError
-        A hole is too narrow.
+    Each is the centre of the largest inscribed circle; a GeometryError for too narrow a hole.
     """
     points = np.empty((cage.n_holes, 2))
     for i, hole in enumerate(cage.holes):

@@ -127,13 +127,10 @@ def uniform_panels(cage: Cage, n: int = 10_000) -> Panels:
     """
     if n < 1:
         raise GeometryError(f"the number of boundary samples must be at least 1, not {n}")
-    lengths = [edge_lengths(loop) for loop in cage.loops]
-    per_loop = [float(edges.sum()) for edges in lengths]
-    perimeter = sum(per_loop)
     points = []
-    for loop, edges, length in zip(cage.loops_complex, lengths, per_loop, strict=True):
-        n_loop = np.ceil(length / perimeter * n)
-        points.append(subdivided(loop, np.ceil(edges / length * n_loop).astype(int)))
+    for loop, edges in zip(cage.loops_complex, map(edge_lengths, cage.loops), strict=True):
+        n_loop = np.ceil(edges.sum() / cage.perimeter * n)
+        points.append(subdivided(loop, np.ceil(edges / edges.sum() * n_loop).astype(int)))
     return Panels.along(points)
 
 

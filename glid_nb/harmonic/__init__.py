@@ -1,6 +1,5 @@
 """Harmonic maps on multiply-connected domains (paper Sections 4 and 5)."""
 
-from glid_nb.harmonic.basis import Basis as Basis
 from glid_nb.harmonic.basis import basis_of as basis_of
 from glid_nb.harmonic.fixed_points import FixedPoints as FixedPoints
 from glid_nb.harmonic.map import HarmonicMap as HarmonicMap

@@ -48,14 +48,8 @@ class HarmonicMap:
     domain : Domain
         Where the map lives.
     phi, psi : (n,) complex array_like
-        Coefficients, ``n`` = offset-cage vertices + holes, including those fixed to zero. For the
-        holes ``phi_j = conj(psi_j)`` must hold (Section 5).
-
-    Raises
-    ------
-    MapError
-        When the counts do not match the domain, a coefficient is not finite, or a hole's two
-        coefficients are not conjugate.
+        Finite coefficients, ``n`` = offset-cage vertices + holes, including those fixed to zero.
+        For the holes ``phi_j = conj(psi_j)`` must hold (Section 5); else a MapError says which.
     """
 
     domain: Domain

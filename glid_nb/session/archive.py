@@ -44,13 +44,7 @@ def read_archive(path: Path, most_bytes: Mapping[str, int]) -> dict[str, bytes]:
     """The members of a zip file, each no larger than allowed. Nothing is extracted to disk.
 
     ``most_bytes`` has the names that members may have, and the largest size of each when unpacked.
-
-    Raises
-    ------
-    InputFileError
-        When it is damaged, or has a member that is unknown, repeated, encrypted or too large.
-    OSError
-        When it cannot be read.
+    InputFileError when it is damaged, or has a member that is unknown, repeated or encrypted.
     """
     most = sum(most_bytes.values()) + _DIRECTORY_BYTES
     try:
@@ -107,13 +101,7 @@ def light_png(pixels: NDArray[Any]) -> bytes:
 def read_png(
     data: bytes, size: tuple[int, int], mode: str, name: str
 ) -> NDArray[np.uint8] | NDArray[np.bool_]:
-    """The pixels of a PNG that must have the given (width, height) and mode; read-only.
-
-    Raises
-    ------
-    InputFileError
-        When it is damaged; before decoding, when size or mode differ.
-    """
+    """The pixels of a PNG; InputFileError, before decoding, for another (width, height) or mode."""
     if not data.startswith(b"\x89PNG\r\n\x1a\n"):
         raise InputFileError(f"{name} is no PNG picture")
     try:

@@ -19,10 +19,9 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.session import actions
 from glid_nb.session.document import certificate_of
 from glid_nb.session.edit_state import EditError, EditState, Frame, Moment, Task
-from glid_nb.session.history import History
 from glid_nb.session.live_solver import LiveSolver
-from glid_nb.session.observed import Observed
-from glid_nb.session.point_finder import PointFinder
+from glid_nb.session.model import History, Observed
+from glid_nb.session.point_finder import find_source
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins
 from glid_nb.solvers import Options, Pose
@@ -81,18 +80,8 @@ class Deformation(Observed):
         *,
         begin: bool = True,
     ) -> None:
-        self._start(History(EditState.initial(domain, pose, energy, options)), begin)
-
-    @classmethod
-    def from_history(cls, history: History[EditState], *, begin: bool = True) -> Deformation:
-        """A deformation at a state, with its undo history."""
-        new = cls.__new__(cls)
-        new._start(history.ended(), begin)
-        return new
-
-    def _start(self, history: History[EditState], begin: bool) -> None:
         super().__init__()
-        self.history = history
+        self.history = History(EditState.initial(domain, pose, energy, options))
         """The undo history."""
         self.selection: tuple[int, ...] = ()
         """Indices of the selected handles."""
@@ -103,12 +92,18 @@ class Deformation(Observed):
         self._chain = 0
         self._frame: Frame | None = None
         self._error: Exception | None = None
-        self._finder = PointFinder(history.present.domain)
         solver = LiveSolver(self._accept, self._fail)
         self._worker = LatestWins(solver.solve, self, "live solver")
         self._closed = False
         if begin:
             self.begin()
+
+    @classmethod
+    def from_history(cls, history: History[EditState]) -> Deformation:
+        """A deformation at a state, with its undo history; the solver waits for :meth:`begin`."""
+        new = cls(history.present.domain, begin=False)
+        new.history = history.ended()
+        return new
 
     # State
 
@@ -168,7 +163,7 @@ class Deformation(Observed):
 
     def find(self, point: ArrayLike) -> Array | None:
         """The point of the undeformed shape that is drawn at ``point``; None outside the shape."""
-        return self._finder.find(self.moment.shown, point)
+        return find_source(self.moment.shown, point)
 
     # Actions
 
@@ -214,8 +209,8 @@ class Deformation(Observed):
                 return
             if past and domain.cage.equals(past[-1].domain.cage) and not self.dragged:
                 self.undo()
-                return
-            self.apply(actions.set_domain, domain)
+            else:
+                self.apply(actions.set_domain, domain)
 
     def apply(
         self,
@@ -281,10 +276,8 @@ class Deformation(Observed):
             if not self.dragged:
                 return
             self.dragged = ()
-            origin = self.history.origin
-            if origin is not None and np.array_equal(
-                origin.present.pose.targets, self.pose.targets
-            ):
+            origin, targets = self.history.origin, self.pose.targets
+            if origin is not None and np.array_equal(origin.present.pose.targets, targets):
                 self.history = origin.refined(self.state)  # the drag came back to its start
             self.history = self.history.ended()
             self._tell("state")
@@ -328,10 +321,7 @@ class Deformation(Observed):
     # Solving
 
     def begin(self) -> None:
-        """Start the solver, which compiles before the first drag; nothing if it was started before.
-
-        Returns at once.
-        """
+        """Start the solver, which compiles before the first drag, unless it was; do not wait."""
         with self.locked():
             if not self.begun:
                 self._submit()
@@ -341,11 +331,6 @@ class Deformation(Observed):
         """Wait until the present pose is solved; whether it is within ``timeout`` seconds.
 
         An interrupt stops the solve and keeps the map that it has reached.
-
-        Raises
-        ------
-        EditError
-            When this is closed.
         """
         check_type("timeout", timeout, Real | None, "give seconds, or None to wait to the end")
         with self.locked():
@@ -405,8 +390,6 @@ class Deformation(Observed):
         old, new = self.state, history.present
         self.history, self._error = history, None
         self._chain += 1
-        if new.domain is not self._finder.domain:
-            self._finder = PointFinder(new.domain)
         if (frame := self._frame) is not None:
             same_method = frame.task.pose.method is new.current.method
             if frame.map is not new.map or (frame.mesh is not None and not same_method):
@@ -418,8 +401,7 @@ class Deformation(Observed):
     def _submit(self, single: bool = False) -> None:
         self.begun = True
         if single or not self.moment.solved:
-            task = Task(self.state.current, self._chain, single)
-            self._worker.submit(task, at_once=single)
+            self._worker.submit(Task(self.state.current, self._chain, single), at_once=single)
         else:
             self._worker.cancel()
 
@@ -430,8 +412,7 @@ class Deformation(Observed):
             if frame.mesh is None:
                 current = self.state.current
                 latest = frame.task.pose.asks_the_same(current)
-                solved = frame.solution if latest else None
-                new = replace(current, map=frame.map, solution=solved)
+                new = replace(current, map=frame.map, solution=frame.solution if latest else None)
                 self.history = self.history.refined(self.state.with_current(new))
             self._frame, self._error = frame, None
             self._tell("frame", "status")
@@ -446,9 +427,6 @@ class Deformation(Observed):
 
 def _still_there(chosen: Iterable[int], old: Pose, new: Pose) -> tuple[int, ...]:
     """Indices in the new pose of those of the chosen handles that it has."""
-    kept = []
-    for i in chosen:
-        if i < len(old):
-            found = np.flatnonzero((new.handles == old.handles[i]).all(axis=1))
-            kept.extend(int(j) for j in found[:1])
-    return tuple(kept)
+    places = {tuple(handle): j for j, handle in enumerate(new.handles.tolist())}
+    before = [tuple(old.handles[i].tolist()) for i in chosen if i < len(old)]
+    return tuple(places[handle] for handle in before if handle in places)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._arguments import read_only
 from glid_nb._errors import InputFileError, about
 from glid_nb.certificate import Certificate, certify
 from glid_nb.energies import Energy
@@ -157,9 +158,7 @@ class Document:
         if not self.cage.equals(self.domain.cage):
             raise DocumentError("cage: it is not the cage of the domain")
         if self.trace_options.scribbles not in (None, self.scribbles):
-            raise DocumentError(
-                "trace_options: its scribbles are not those of the document; pass the same object"
-            )
+            raise DocumentError("trace_options: its scribbles are not those of the document")
         check_count(self.poses)
         for i, pose in enumerate(self.poses):
             _check_kind(f"poses[{i}]", pose, NamedPose)
@@ -168,10 +167,8 @@ class Document:
                     f"poses[{i}] ({pose.name!r}): its map lives on another domain than the document"
                 )
         last = max(len(self.poses) - 1, 0)
-        if isinstance(self.active, bool) or not isinstance(self.active, int):
-            raise DocumentError(f"active must be a whole number, not {self.active!r}")
-        if not 0 <= self.active <= last:
-            raise DocumentError(f"active must be 0 to {last}, not {self.active}")
+        if type(self.active) is not int or not 0 <= self.active <= last:
+            raise DocumentError(f"active must be 0 to {last}, not {self.active!r}")
 
     @property
     def active_pose(self) -> NamedPose | None:
@@ -204,7 +201,4 @@ def _checked_image(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
         raise DocumentError(
             f"image must be a uint8 array of the shape (h, w, 4), not {array.dtype} {array.shape}"
         )
-    if array.flags.writeable:
-        array = array.copy()
-        array.setflags(write=False)
-    return array
+    return read_only(array.copy()) if array.flags.writeable else array

@@ -73,6 +73,10 @@ class EditState:
         """The map that moves nothing."""
         return HarmonicMap.identity(self.domain)
 
+    def changed(self, **changes: Any) -> EditState:
+        """A copy with another pose, energy, options, map or method of the pose that is edited."""
+        return self.with_current(self.current.changed(**changes))
+
     def with_current(self, current: NamedPose) -> EditState:
         """A copy with another value of the pose that is edited."""
         before, after = self.poses[: self.active], self.poses[self.active + 1 :]

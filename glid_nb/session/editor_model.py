@@ -19,8 +19,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, DocumentError
 from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.edit_state import EditError, EditState
-from glid_nb.session.history import History
-from glid_nb.session.observed import Observed
+from glid_nb.session.model import History, Observed
 from glid_nb.session.tracing import TracingModel, TracingState
 
 Array = NDArray[np.uint8]
@@ -64,15 +63,7 @@ def open_document(path: str | Path) -> Document:
 
 
 def find_document(path: str | Path) -> Document | None:
-    """`open_document`, or None if there is no file.
-
-    Raises
-    ------
-    DocumentError
-        The file is no valid document, or the path cannot be that of a file.
-    OSError
-        It cannot be read.
-    """
+    """`open_document`, or None if there is no file; DocumentError where there cannot be one."""
     _check_place(Path(path))
     flush(path)
     return load_document(path) if Path(path).exists() else None
@@ -84,22 +75,9 @@ class EditorModel(Observed):
     ``observe`` reports ``"replaced"`` when ``deformation`` or ``tracing`` is another object, and
     ``"saved"`` after each save in the background; ``save_error`` says whether that failed.
 
-    Parameters
-    ----------
-    image
-        A picture, as in `glid_nb.read_image`; None to begin without one.
-    document : Document, optional
-        Begin with it instead.
-    path : path, optional
-        A file that is saved to every few seconds while something changes. If another program
-        changes it, a new file beside it is used from then on.
-
-    Raises
-    ------
-    TraceError
-        The picture cannot be read.
-    DocumentError
-        ``path`` cannot be that of a file.
+    It begins with a picture, as in `glid_nb.read_image`, with a document, or without either. The
+    file ``path`` is saved to every few seconds while something changes; if another program changes
+    it, a new file beside it is used from then on.
     """
 
     def __init__(
@@ -147,21 +125,15 @@ class EditorModel(Observed):
 
     def take_over_file(self) -> None:
         """Go on saving to the session file although another editor, now closed, wrote it last."""
-        if self._autosave is not None:
-            self._autosave.file.take_over()
-            self._note_autosave()
+        if self.autosave_path is not None:
+            self.own_files.note_session(self.autosave_path)
 
     @property
     def deformation(self) -> Deformation:
-        """The shape being deformed.
+        """The shape being deformed; EditError while nothing has been traced.
 
         Its solver begins with the first change, or when a view calls `Deformation.begin` after its
         first drawing, which compiling would delay.
-
-        Raises
-        ------
-        EditError
-            Nothing has been traced yet.
         """
         if self._session is None:
             raise EditError("there is no cage yet; open a picture and trace a shape first")
@@ -204,7 +176,7 @@ class EditorModel(Observed):
             done = Application()
             if session is not None:
                 self._shelf.append(replace(session, path=self.autosave_path))
-                by_redo = self.tracing.redo_reaches(session.image)
+                by_redo = any(state.image is session.image for state in self.tracing.history.future)
                 done = Application(0, True, self.autosave_path, by_redo)
             self._change_picture(domain)
             return done
@@ -229,13 +201,7 @@ class EditorModel(Observed):
         )
 
     def save(self, path: str | Path) -> None:
-        """Write the document to a file, atomically.
-
-        Raises
-        ------
-        DocumentError, OSError
-            It cannot be written; what was there before stays.
-        """
+        """Write the document to a file; if that fails, what was there before stays."""
         autosave, path = self._autosave, Path(path)
         if autosave is not None and autosave.file.path.resolve() == path.resolve():
             autosave.write(self.document)
@@ -248,10 +214,7 @@ class EditorModel(Observed):
     def load(self, path: str | Path) -> None:
         """Go on with the document in a file, which an autosave, if there is one, then saves to.
 
-        Raises
-        ------
-        DocumentError, OSError
-            It cannot be read; nothing has changed then.
+        Nothing has changed if it cannot be read.
         """
         document = open_document(path)
         with self.locked():
@@ -269,22 +232,14 @@ class EditorModel(Observed):
                 self._autosave.submit(self.document)
 
     def close(self) -> None:
-        """Save what is pending and end all threads.
-
-        Warns
-        -----
-        RuntimeWarning
-            The last state could not be saved.
-        """
+        """Save what is pending, with a warning if that fails, and end all threads."""
         with self.locked():
             self._observers.clear()
             autosave, self._autosave = self._autosave, None
         if autosave is not None:
             autosave.close()
-            file = autosave.file
-            self.own_files.note([file.path], file.path)
-            if file.error is not None:
-                text = f"the session was not saved: {file.error}"
+            if autosave.file.error is not None:
+                text = f"the session was not saved: {autosave.file.error}"
                 warnings.warn(text, RuntimeWarning, stacklevel=2)
         if self._session is not None:
             self._session.deformation.close()
@@ -308,7 +263,7 @@ class EditorModel(Observed):
         self._shelf.remove(session)
         if session.path is not None:
             self._save_to(session.path)
-        deformation = Deformation.from_history(session.deformation.history, begin=False)
+        deformation = Deformation.from_history(session.deformation.history)
         self._replace(deformation)
         if session.domain is not domain:
             _apply(deformation, domain)
@@ -318,19 +273,18 @@ class EditorModel(Observed):
         old = self._autosave
         if old is not None:
             if old.file.path.resolve() == path.resolve():
-                old.file.take_over()
+                self.own_files.note_session(path)
                 return
             old.close()
         self._named_path = self._named_path or path
-        self._autosave = Autosave(path, on_done=self._saved)
-        self.own_files.note_session(path)
+        self._autosave = Autosave(path, on_done=self._saved, own=self.own_files)
 
     def _take(self, document: Document) -> None:
         self.tracing = TracingModel.from_document(document)
         domain, poses = document.domain, tuple(pose.changed() for pose in document.poses)
         state = EditState(domain, poses, document.active) if poses else EditState.initial(domain)
         self._shelf.clear()
-        self._replace(Deformation.from_history(History(state), begin=False))
+        self._replace(Deformation.from_history(History(state)))
 
     def _replace(self, deformation: Deformation) -> None:
         old, self._session = self._session, self._session_of(deformation)
@@ -365,16 +319,7 @@ class EditorModel(Observed):
 
     def _saved(self, error: Exception | None) -> None:
         self.save_error = error
-        if error is None:
-            self._note_autosave()
         self._announce("saved")  # not by _tell: a thread that waits for the save may hold the lock
-
-    def _note_autosave(self) -> None:
-        if (path := self.autosave_path) is None:
-            return
-        self.own_files.note([path], path)
-        if self.own_files.session == self.left_path:
-            self.own_files.session = path
 
 
 def _apply(deformation: Deformation, domain: Domain) -> int:

@@ -31,12 +31,8 @@ _MOST_REFINED = 3.0
 class LiveSolver:
     """Solves one task after the other, each from the map that the one before has reached.
 
-    Parameters
-    ----------
-    publish : bound method
-        Called with every :class:`Frame`; its object is not kept alive.
-    failed : bound method
-        Called with the exception that a solve raised; likewise.
+    ``publish`` is called with every :class:`Frame`, ``failed`` with the exception that a solve
+    raised; both are bound methods whose objects are not kept alive.
     """
 
     def __init__(

@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import read_only
+from glid_nb._arguments import number_pairs, read_only
 from glid_nb.geometry import GeometryError, loop_name
 
 Loop: TypeAlias = NDArray[np.float64]
@@ -81,12 +81,10 @@ def contains(loop: Loop, point: ArrayLike) -> bool:
 
 def checked_point(point: ArrayLike) -> Loop:
     """The point as a (2,) array; GeometryError unless it is a pair of finite numbers."""
-    try:
-        p = np.asarray(point, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise GeometryError(f"a point must be a pair of numbers, not {point!r:.60}") from error
-    if p.shape != (2,) or not np.isfinite(p).all():
-        raise GeometryError(f"a point must be a pair of finite numbers, not {point!r:.60}")
+    wanted = f"a point must be a pair of finite numbers, not {point!r:.60}"
+    p = number_pairs([point], wanted, GeometryError)[0]
+    if not np.isfinite(p).all():
+        raise GeometryError(wanted)
     return p
 
 

@@ -11,26 +11,16 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import number_pairs, read_only
 from glid_nb.geometry import Cage, Domain, GeometryError
-from glid_nb.imaging import (
-    Hole,
-    PixelFrame,
-    Scribbles,
-    TraceError,
-    TraceOptions,
-    Tracer,
-    Tracing,
-    as_rgba8,
-    read_image,
-)
+from glid_nb.imaging import Hole, PixelFrame, Scribbles, TraceError, TraceOptions, Tracer, Tracing
 from glid_nb.imaging.options import Point
-from glid_nb.imaging.read import ImageSource
+from glid_nb.imaging.read import ImageSource, as_rgba8, read_image
 from glid_nb.imaging.trace import with_changes
 from glid_nb.session import loop_edits
 from glid_nb.session.document import Document
-from glid_nb.session.history import History
 from glid_nb.session.loop_edits import Loops
-from glid_nb.session.observed import Observed
+from glid_nb.session.model import History, Observed
 from glid_nb.session.worker import weakly
 
 Brush = Literal["foreground", "background"]
@@ -109,33 +99,32 @@ class TracingModel(Observed):
     def __init__(
         self, image: ImageSource | None = None, options: TraceOptions | None = None
     ) -> None:
-        self._begin(_state(None if image is None else _pixels(image), options or TraceOptions()))
+        super().__init__()
+        pixels = None if image is None else _pixels(image)
+        self.history = History(_state(pixels, options or TraceOptions()))
+        """The undo history."""
+        self._tracer: Tracer | None = None
+        self._outcome_of = functools.lru_cache(_KEPT_OUTCOMES)(weakly(self._evaluate))
 
     @classmethod
     def from_document(cls, document: Document) -> TracingModel:
         """A model with the document's picture, options, scribbles and cage."""
-        model = cls.__new__(cls)
+        model = cls()
         state = _state(document.image, document.trace_options, document.scribbles)
-        edited = replace(state, loops=document.cage.loops, fallback=document.domain)
-        model._begin(edited)
+        state = replace(state, loops=document.cage.loops, fallback=document.domain)
+        model.history = History(state)
         # A cage that tracing gives again was not edited by hand.
         tracing = model.outcome.tracing
         if tracing is not None and tracing.cage.equals(document.cage):
-            model._history = History(replace(edited, loops=None))
+            model.history = History(replace(state, loops=None))
         return model
-
-    def _begin(self, state: TracingState) -> None:
-        super().__init__()
-        self._history = History(state)
-        self._tracer: Tracer | None = None
-        self._outcome_of = functools.lru_cache(_KEPT_OUTCOMES)(weakly(self._evaluate))
 
     # State
 
     @property
     def state(self) -> TracingState:
         """The user's present choices."""
-        return self._history.present
+        return self.history.present
 
     @property
     def image(self) -> NDArray[np.uint8] | None:
@@ -196,42 +185,29 @@ class TracingModel(Observed):
     @property
     def has_discarded_edits(self) -> bool:
         """Whether the last step, such as another option, discarded edits by hand."""
-        before = self._history.past[-1] if self._history.past else self.state
+        before = self.history.past[-1] if self.history.past else self.state
         return before.loops is not None and not self.edited and before.image is self.image
 
     @property
     def can_undo(self) -> bool:
         """Whether there is something to undo."""
-        return bool(self._history.past)
+        return bool(self.history.past)
 
     @property
     def can_redo(self) -> bool:
         """Whether there is something to redo."""
-        return bool(self._history.future)
-
-    def redo_reaches(self, image: NDArray[np.uint8] | None) -> bool:
-        """Whether redo can bring back this picture, the same array."""
-        return any(state.image is image for state in self._history.future)
+        return bool(self.history.future)
 
     # Actions
 
     def open(self, image: ImageSource) -> None:
-        """Open another picture, with the default options.
-
-        Raises
-        ------
-        TraceError
-            It cannot be read; nothing changes.
-        """
+        """Open another picture, with the default options; no change if it cannot be read."""
         self._step(TracingState(image=_pixels(image)))
 
     def set_options(self, gesture: Any = None, **changes: Any) -> None:
         """Trace with other options, fields of `TraceOptions`; discards edits by hand.
 
-        Raises
-        ------
-        TraceError
-            An unknown field, or a value out of its range; nothing changes.
+        A TraceError, and no change, for an unknown field or a value out of its range.
         """
         with self.locked():
             before = self.state
@@ -257,13 +233,7 @@ class TracingModel(Observed):
         self.set_options(component=0, component_at=point)
 
     def paint(self, brush: Brush, stroke: ArrayLike) -> None:
-        """Add a stroke on the shape or on the background, (k, 2) pixels, and trace by scribbles.
-
-        Raises
-        ------
-        TraceError
-            The stroke is not a list of finite points; nothing changes.
-        """
+        """Add a stroke on the shape or on the background, (k, 2) pixels, and trace by scribbles."""
         with self.locked():
             old = self.state.scribbles or _NO_SCRIBBLES
             strokes = {"foreground": old.foreground, "background": old.background}
@@ -271,12 +241,8 @@ class TracingModel(Observed):
                 raise TraceError(f"there is no brush {brush!r}; use foreground or background")
             if isinstance(strokes[brush], np.ndarray):
                 raise TraceError(f"the {brush} was given as a mask, which cannot be painted over")
-            try:
-                scribbles = Scribbles(**{**strokes, brush: (*strokes[brush], stroke)})
-            except TraceError:
-                raise
-            except (TypeError, ValueError) as error:
-                raise TraceError(f"a stroke must be a list of pixels (x, y): {error}") from error
+            line = number_pairs(stroke, "a stroke must be a list of pixels (x, y)", TraceError)
+            scribbles = Scribbles(**{**strokes, brush: (*strokes[brush], line)})
             options = replace(self.options, method="scribbles", scribbles=scribbles)
             self._step(replace(self.state, options=options, scribbles=scribbles, loops=None))
 
@@ -293,10 +259,10 @@ class TracingModel(Observed):
     def toggle_hole(self, number: int) -> None:
         """Drop a hole, or keep it if it was dropped; other loops keep their edits."""
         with self.locked():
-            state, frame = self.state, self.frame
-            if frame is None or not 0 <= number < len(self.holes):
-                raise TraceError(f"there is no hole {number}; there are {len(self.holes)}")
-            hole = self.holes[number]
+            state, holes = self.state, self.holes
+            if not 0 <= number < len(holes):
+                raise TraceError(f"there is no hole {number}; there are {len(holes)}")
+            hole = holes[number]
             region = shapely.Polygon(hole.loop)
             keep, drop = (
                 [p for p in points if not shapely.contains_xy(region, *p)]
@@ -305,14 +271,16 @@ class TracingModel(Observed):
             (drop if hole.kept else keep).append(hole.pixel)
             new = replace(state, options=replace(state.options, keep_holes=keep, drop_holes=drop))
             if state.loops is not None:
-                new = replace(new, loops=self._loops_with(new, hole))
+                new = replace(new, loops=self._loops_with(new, state.loops, hole))
             self._step(new)
 
     def move_vertex(self, loop: int, index: int, to: Point, gesture: Any = None) -> None:
         """Move a vertex of a loop that is shown."""
-        self._edit(
-            lambda loops: loop_edits.move_vertex(loops, loop, index, self._world(to)), gesture
-        )
+
+        def moved(loops: Loops) -> Loops:
+            return loop_edits.move_vertex(loops, loop, index, self._world(to))
+
+        self._edit(moved, gesture)
 
     def insert_vertex(self, at: Point) -> tuple[int, int]:
         """Add a vertex on the edge nearest to a point; returns its (loop, index)."""
@@ -327,10 +295,7 @@ class TracingModel(Observed):
     def delete_vertices(self, vertices: Iterable[tuple[int, int]]) -> None:
         """Delete vertices (loop, index); holes with fewer than three left are removed.
 
-        Raises
-        ------
-        GeometryError
-            The exterior would have fewer than three left; nothing changes.
+        A GeometryError, and no change, if the exterior would have fewer than three left.
         """
         chosen = list(vertices)
         if chosen:
@@ -350,30 +315,30 @@ class TracingModel(Observed):
         """Restore an earlier state, with its fallback, as a new step."""
         with self.locked():
             if state is not self.state:
-                self._go_to(self._history.step(state))
+                self._go_to(self.history.step(state))
 
     def undo(self) -> bool:
         """Go back one step; whether there was one."""
         with self.locked():
-            return self._go_to(self._history.undone())
+            return self._go_to(self.history.undone())
 
     def redo(self) -> bool:
         """Go forward one step again; whether there was one."""
         with self.locked():
-            return self._go_to(self._history.redone())
+            return self._go_to(self.history.redone())
 
     def cancel(self, gesture: Any) -> bool:
         """Go back to before a gesture, without redo; whether it was the last thing done."""
         with self.locked():
-            under_way = gesture is not None and self._history.gesture == gesture
-            return under_way and self._go_to(self._history.cancelled())
+            under_way = gesture is not None and self.history.gesture == gesture
+            return under_way and self._go_to(self.history.cancelled())
 
     # Internals
 
     def _step(self, state: TracingState, gesture: Any = None) -> None:
         """Make ``state`` the present one, with its fallback."""
         with self.locked():
-            before, history = self.state, self._history
+            before, history = self.state, self.history
             if gesture is not None and gesture == history.gesture:
                 fallback = before.fallback  # valid cages within a gesture do not count
             else:
@@ -382,9 +347,9 @@ class TracingModel(Observed):
 
     def _go_to(self, history: History[TracingState]) -> bool:
         """Make a history the present one; whether that is a change."""
-        if history is self._history:
+        if history is self.history:
             return False
-        self._history = history
+        self.history = history
         self._tell("state")
         return True
 
@@ -420,12 +385,9 @@ class TracingModel(Observed):
             domain = state.fallback
         return TracingOutcome(tracing, loops, domain, tuple(problems))
 
-    def _loops_with(self, state: TracingState, hole: Hole) -> Loops:
+    def _loops_with(self, state: TracingState, loops: Loops, hole: Hole) -> Loops:
         """The edited loops without a hole that is dropped, or with one that is kept again."""
-        frame, loops = self.frame, state.loops
-        assert frame is not None
-        assert loops is not None
-        inside = frame.to_world(hole.pixel)
+        inside = self._world(hole.pixel)
         if hole.kept:
             index = loop_edits.around(loops, inside)
             return loops if index is None else (*loops[:index], *loops[index + 1 :])
@@ -439,9 +401,8 @@ class TracingModel(Observed):
 
     def _check_inside(self, point: Point) -> None:
         """Raise unless the point lies in the picture."""
-        frame = self._frame_of_picture()
         x, y = loop_edits.checked_point(point)
-        frame.index_at((float(x), float(y)))
+        self._frame_of_picture().index_at((float(x), float(y)))
 
     def _frame_of_picture(self) -> PixelFrame:
         if (frame := self.frame) is None:
@@ -460,15 +421,12 @@ def _state(
 
 def _problem(error: TraceError | GeometryError, frame: PixelFrame) -> TracingProblem:
     point = error.point if isinstance(error, GeometryError) else None
-    if point is None:
-        return TracingProblem(str(error), error.plain)
-    x, y = frame.to_pixel(point)
-    return TracingProblem(str(error), error.plain, (float(x), float(y)))
+    if point is not None:
+        x, y = frame.to_pixel(point)
+        point = (float(x), float(y))
+    return TracingProblem(str(error), error.plain, point)
 
 
 def _pixels(image: ImageSource) -> NDArray[np.uint8]:
     pixels = as_rgba8(read_image(image))
-    if pixels.flags.writeable:
-        pixels = pixels.copy()  # an array of the caller's
-        pixels.setflags(write=False)
-    return pixels
+    return read_only(pixels.copy()) if pixels.flags.writeable else pixels  # not the caller's array

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import html
 import threading
-import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -16,8 +15,6 @@ from glid_nb.widgets.closing import ClosingWidget
 
 REFUSED = "color:#d55e00"
 """The style of why something was refused."""
-
-_DOUBLE_CLICK = 0.5  # seconds
 
 
 def paragraph(text: str, style: str = "") -> str:
@@ -33,38 +30,6 @@ def button(
     made = ipywidgets.Button(description=label, **look)
     made.on_click(lambda _: act())
     return made
-
-
-class AskingButton(ipywidgets.Button):
-    """A button that can ask a question, which a second click answers with yes.
-
-    ``action`` gets whether the answer was yes, and returns what was done.
-    """
-
-    def __init__(
-        self,
-        label: str,
-        icon: str,
-        tooltip: str,
-        action: Callable[[bool], str],
-        question: str = "Replace?",
-    ) -> None:
-        self.action = action
-        self._texts = label, question
-        self._asked: float | None = None
-        layout = {"width": "auto", "flex": "0 0 auto"}
-        super().__init__(description=label, icon=icon, tooltip=tooltip, layout=layout)
-
-    @property
-    def answered(self) -> bool:
-        """Whether a click now answers yes; the second half of a double click does not."""
-        return self._asked is not None and time.monotonic() - self._asked >= _DOUBLE_CLICK
-
-    def ask(self, asking: bool = True) -> None:
-        """Show the question, or the label again."""
-        self._asked = time.monotonic() if asking else None
-        self.description = self._texts[asking]
-        self.button_style = "warning" if asking else ""
 
 
 class EditControls(ClosingWidget, ipywidgets.VBox):
@@ -111,3 +76,58 @@ class EditControls(ClosingWidget, ipywidgets.VBox):
         except InputError as error:
             self.refusal.value = paragraph(str(error), REFUSED)
             self._follow()
+
+
+class PoseList(EditControls):
+    """The poses of a deformation: jump to one, name it, keep, copy and delete.
+
+    Edits belong to the pose that is selected; "Keep pose" keeps it and goes on with a copy.
+
+    Parameters
+    ----------
+    deformation : Deformation
+        The model that the list shows and changes.
+    """
+
+    def __init__(self, deformation: Deformation, rows: int = 3, **kwargs: Any) -> None:
+        model = deformation
+
+        def acting(label: str, icon: str, tooltip: str, act: Callable[[], None]) -> Any:
+            width = "auto" if label else "36px"
+            return button(label, icon, tooltip, lambda: self._act(act), width)
+
+        self.list = ipywidgets.Select(rows=rows, layout={"width": "auto", "flex": "1"})
+        self.name = ipywidgets.Text(
+            placeholder="Name of the pose",
+            continuous_update=False,
+            layout={"width": "auto", "flex": "1 1 90px"},
+        )
+        kept = "Keep this pose, go on with a copy"
+        self.save = acting("Keep pose", "bookmark", kept, model.save_pose)
+        self.duplicate = acting(
+            "", "copy", "Duplicate", lambda: model.duplicate_pose(model.state.active)
+        )
+        self.delete = acting("", "trash", "Delete", lambda: model.delete_pose(model.state.active))
+        self.list.observe(self._go, ["index"])
+        self.name.observe(self._rename, ["value"])
+        bar = ipywidgets.HBox([self.name, self.save, self.duplicate, self.delete])
+        super().__init__(deformation, [self.list, bar], **kwargs)
+        self.add_class("glid-pose-list")
+
+    def _show(self) -> None:
+        state = self.deformation.state
+        names = tuple((pose.name, i) for i, pose in enumerate(state.poses))
+        if self.list.options != names:
+            self.list.options = names
+        self.list.index = state.active
+        self.name.value = state.current.name
+        self.delete.disabled = len(names) == 1
+
+    def _go(self, change: Any) -> None:
+        if change["new"] is not None:
+            self._act(lambda: self.deformation.go_to_pose(change["new"]))
+
+    def _rename(self, change: Any) -> None:
+        model = self.deformation
+        if change["new"] != model.state.current.name:
+            self._act(lambda: model.rename_pose(model.state.active, change["new"]))

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import functools
 import html
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import ipywidgets
 import numpy as np
@@ -23,16 +23,14 @@ from glid_nb.session.edit_state import EditError
 from glid_nb.session.editor_model import Application, EditorModel, find_document
 from glid_nb.session.tracing import TracingProblem
 from glid_nb.solvers import Method, Pose
-from glid_nb.widgets.canvas import DeformCanvas, check_size, check_vertices
+from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
 from glid_nb.widgets.closing import ClosingWidget, close_on_rerun, close_with_parts
+from glid_nb.widgets.controls import PoseList
+from glid_nb.widgets.exporting import export
+from glid_nb.widgets.file_panel import FilePanel, OpenPanel
 from glid_nb.widgets.monitor import SolverMonitor
-from glid_nb.widgets.pose_list import PoseList
 from glid_nb.widgets.solver_panel import SolverPanel
-from glid_nb.widgets.toolbar import Toolbar
 from glid_nb.widgets.tracer import CageTracer
-
-if TYPE_CHECKING:
-    from glid_nb.widgets.file_panel import FilePanel
 
 _TRACE, _DEFORM = 0, 1
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
@@ -112,8 +110,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         n_vertices: int | None = None,
         **kwargs: Any,
     ) -> None:
-        self._size = check_size(width, height, _LEAST_SIZE)
-        self._n_vertices = check_vertices(n_vertices)
+        self._size = check_size(_LEAST_SIZE, n_vertices, width=width, height=height)
+        self._n_vertices = n_vertices
         once_loaded(enable_compilation_cache)
         document = None if path is None else find_document(path)
         if (
@@ -146,8 +144,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self._build()
         self.model.observe(self._on_model)
         self.tabs.observe(self._on_tab, ["selected_index"])
-        frame = functools.partial(close_with_parts, self.unsaved, self.tabs, self.layout)
-        self._endings = (self._end, self.model.close, frame)
+        self._endings = (self._end, self.model.close)
         if close_on_rerun(self):
             self.model.take_over_file()
 
@@ -259,8 +256,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         ExportError
             For another suffix, or if a file that comes with ``path`` would replace another.
         """
-        from glid_nb.widgets.exporting import export  # noqa: PLC0415 - not for the first canvas
-
         return export(self.model, path, size, view)
 
     def save(self, path: str | Path) -> None:
@@ -285,14 +280,12 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             if self.model.has_shape:
                 self._deform_box.children = [self._deform_tab()]
             else:
-                from glid_nb.widgets.file_panel import OpenPanel  # noqa: PLC0415 - as above
-
                 self._deform_box.children = [ipywidgets.HTML(_EMPTY), OpenPanel(self.model)]
             self.tabs.selected_index = _DEFORM if self.model.has_shape else _TRACE
             if self.canvas is None:
                 self._fill()
             else:
-                self.canvas.when_drawn(self._fill)
+                self.canvas.pane.stage.observe(self._fill, ["drawn"])
 
     def _fill(self, _: Any = None) -> None:
         """Make the parts behind other tabs that are still missing."""
@@ -303,22 +296,18 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
     def _part(self, name: str) -> Any:
         """One of these parts, in its box."""
+        makers: dict[str, Callable[[], ipywidgets.Widget]] = {
+            "tracer": lambda: CageTracer(model=self.model.tracing, height=self._size[1]),
+            "solver": lambda: SolverPanel(self.deformation),
+            "files": lambda: FilePanel(self.model),
+        }
         with self.model.locked():
             if name not in self._parts:
                 if self._closed:
                     raise RuntimeError("the editor is closed; this part of it was never made")
-                self._parts[name] = self._made(name)
-                self._boxes[name].children = [self._parts[name]]
+                self._parts[name] = part = makers[name]()
+                self._boxes[name].children = [part]
             return self._parts[name]
-
-    def _made(self, name: str) -> ipywidgets.Widget:
-        if name == "tracer":
-            return CageTracer(model=self.model.tracing, height=self._size[1])
-        if name == "solver":
-            return SolverPanel(self.deformation)
-        from glid_nb.widgets.file_panel import FilePanel  # noqa: PLC0415 - as above
-
-        return FilePanel(self.model)
 
     def _deform_tab(self) -> ipywidgets.Widget:
         model, image = self.model.deformation, self.model.image

@@ -7,15 +7,6 @@ from pathlib import Path
 
 from glid_nb._errors import InputError
 from glid_nb._files import write_bytes_atomically
-from glid_nb.export import (
-    cage_svg,
-    mesh_glb,
-    mesh_obj,
-    page_html,
-    picture_png,
-    textured_mesh,
-)
-from glid_nb.export.picture import png
 from glid_nb.imaging.render import View
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
@@ -58,13 +49,7 @@ def names_of(paths: Sequence[Path]) -> str:
 
 
 def files_of(path: Path) -> tuple[Path, ...]:
-    """The files that `export` writes for this name: itself, then those that come with it.
-
-    Raises
-    ------
-    ExportError
-        For a suffix that is none of `FORMATS`.
-    """
+    """The files that `export` writes for this name: itself, then those that come with it."""
     suffix = path.suffix.lower()
     if suffix not in FORMATS:
         raise ExportError(
@@ -113,13 +98,10 @@ def export(
 def export_source(model: EditorModel, script: Path, *, replace: bool = False) -> None:
     """Write the picture that a script of this name reads, where it is not there yet.
 
-    Raises
-    ------
-    OccupiedError
-        Another file is there, and ``replace`` is false.
-    OSError
-        When it cannot be written.
+    Raises as `export` when another file is there.
     """
+    from glid_nb.export.picture import png  # noqa: PLC0415 - the first canvas does not need it
+
     picture, path = png(model.document.image), files_of(script)[1]
     if not _holds(path, picture):
         _write(model, script, {path: picture}, replace)
@@ -129,21 +111,24 @@ def _contents(
     model: EditorModel, path: Path, size: tuple[int, int] | None, view: View
 ) -> list[bytes]:
     """The contents of `files_of` the path, in that order."""
+    from glid_nb import export as to  # noqa: PLC0415 - the first canvas does not need it
+    from glid_nb.export.picture import png  # noqa: PLC0415
+
     document, state = model.document, model.deformation.state
     image, map_ = document.image, state.map
     match path.suffix.lower():
         case ".png":
-            return [picture_png(image, map_, size, view)]
+            return [to.picture_png(image, map_, size, view)]
         case ".obj":
-            files = mesh_obj(textured_mesh(image, map_), path.stem)
+            files = to.mesh_obj(to.textured_mesh(image, map_), path.stem)
             return [files[path.stem + rest] for rest in (".obj", *_BESIDE[".obj"])]
         case ".glb":
-            return [mesh_glb(textured_mesh(image, map_))]
+            return [to.mesh_glb(to.textured_mesh(image, map_))]
         case ".svg":
             height, width = image.shape[:2]
-            return [cage_svg(map_, (width, height), source=True, pose=state.pose).encode()]
+            return [to.cage_svg(map_, (width, height), source=True, pose=state.pose).encode()]
         case ".html":
-            return [page_html(image, map_, model.deformation.certificate, path.stem).encode()]
+            return [to.page_html(image, map_, model.deformation.certificate, path.stem).encode()]
         case _:
             return [python_code(document, files_of(path)[1].name).encode(), png(image)]
 

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import anywidget
 import ipywidgets
 
 from glid_nb._errors import InputError
 from glid_nb.imaging.read import MAX_SIDE
-from glid_nb.imaging.render import View
+from glid_nb.session.document import DocumentError
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
 from glid_nb.widgets.bundle import bundle
-from glid_nb.widgets.controls import REFUSED, AskingButton, button, paragraph
+from glid_nb.widgets.controls import REFUSED, button, paragraph
 from glid_nb.widgets.exporting import (
     FORMATS,
     OccupiedError,
@@ -27,6 +28,7 @@ from glid_nb.widgets.exporting import (
 )
 
 _SUFFIX = ".glid"
+_DOUBLE_CLICK = 0.5  # seconds
 _LABEL = {"width": "58px", "flex": "0 0 auto"}
 _WIDE = {"width": "auto", "min_width": "0", "flex": "1 1 auto"}
 _VIEWS = (("Whole shape", "fit"), ("Original frame", "source"))
@@ -37,10 +39,6 @@ _UNSAVED = (
 )
 
 
-class FileNameError(InputError):
-    """A session file cannot have that name; the message says which it can have."""
-
-
 class _UnsavedError(InputError):
     """Opening a session would discard what is in no file."""
 
@@ -48,21 +46,15 @@ class _UnsavedError(InputError):
 
 
 def session_path(text: str) -> Path:
-    """The session file that somebody named, with its suffix.
-
-    Raises
-    ------
-    FileNameError
-        For no name, or one with another suffix.
-    """
+    """The session file that somebody named, with its suffix; DocumentError for no such name."""
     name = text.strip()
     path = Path(name).expanduser()
     if not path.name or name.endswith(("/", "\\")):
-        raise FileNameError("Give the session file a name, such as session.glid")
+        raise DocumentError("Give the session file a name, such as session.glid")
     if not path.suffix:
         return path.with_suffix(_SUFFIX)
     if path.suffix.lower() != _SUFFIX:
-        raise FileNameError(
+        raise DocumentError(
             f"{path.name} cannot be a session file: its name must end in {_SUFFIX}, as in "
             f"{path.stem}{_SUFFIX}"
         )
@@ -80,13 +72,11 @@ class OpenPanel(ipywidgets.VBox):
 
     def __init__(self, model: EditorModel) -> None:
         self.model = model
-        """The model that takes what is opened."""
         self.path = ipywidgets.Text(placeholder="session.glid", layout={"width": "280px"})
         """The file, relative to the notebook."""
         tooltip = "Go on with a session file"
         self.button = button("Open session", "folder-open", tooltip, self._open)
         self.message = ipywidgets.HTML()
-        """Why it cannot be opened."""
         row = ipywidgets.HBox([self.path, self.button])
         super().__init__([row, self.message], layout={"padding": "0 0 2em 2em"})
 
@@ -122,11 +112,9 @@ class Clipboard(anywidget.AnyWidget):
         self.send({"number": self._number, "text": text})
 
     def _receive(self, _: Any, message: dict[str, Any], _buffers: Any) -> None:
-        done = self._done
-        if done is None or message.get("number") != self._number:
+        if (done := self._done) is None or message.get("number") != self._number:
             return
-        copied = bool(message.get("copied"))
-        if copied:
+        if copied := bool(message.get("copied")):
             self._done = None  # other pages that show this may have refused
         done(copied)
 
@@ -140,7 +128,6 @@ class FilePanel(ipywidgets.VBox):
 
     def __init__(self, model: EditorModel) -> None:
         self.model = model
-        """The model that is saved and replaced."""
         session = model.own_files.session or Path("session.glid")
         self.path = ipywidgets.Text(str(session), placeholder="Name.glid", layout=_WIDE)
         """Where to save, and what to open; relative to the notebook."""
@@ -148,7 +135,6 @@ class FilePanel(ipywidgets.VBox):
         """Where changes are saved automatically."""
         formats = [(label, suffix) for suffix, label in FORMATS.items()]
         self.format = ipywidgets.Dropdown(options=formats, tooltip="What to export", layout=_WIDE)
-        """What to export, by suffix."""
         height, width = model.document.image.shape[:2]
         self._aspect = height / width
         self.width = ipywidgets.BoundedIntText(
@@ -167,18 +153,20 @@ class FilePanel(ipywidgets.VBox):
         self.code = ipywidgets.Textarea(rows=9, layout={"width": "auto", "display": "none"})
         """The lines of "Copy as Python"."""
         self.clipboard = Clipboard()
-        """Where they are copied to."""
         self.message = ipywidgets.HTML()
         """What was done, or why it was not."""
-        self._buttons = [
-            AskingButton("Save", "save", "Write the session file", self._save),
-            AskingButton(
-                "Open", "folder-open", "Go on with the session file", self._open, "Discard?"
-            ),
-            AskingButton("Export", "download", "Write it beside the session file", self._export),
-            AskingButton("Copy as Python", "code", "Copy the lines that make this map", self._copy),
-        ]
-        self.save_button, self.open_button, self.export_button, self.code_button = self._buttons
+        self._asked: tuple[ipywidgets.Button | None, float] = (None, 0.0)
+        self._labels: dict[ipywidgets.Button, str] = {}
+        self.save_button = self._button("Save", "save", "Write the session file", self._save)
+        self.open_button = self._button(
+            "Open", "folder-open", "Go on with the session file", self._open, "Discard?"
+        )
+        self.export_button = self._button(
+            "Export", "download", "Write it beside the session file", self._export
+        )
+        self.code_button = self._button(
+            "Copy as Python", "code", "Copy the lines that make this map", self._copy
+        )
         super().__init__(
             [
                 _row("Session", self.path, self.save_button, self.open_button),
@@ -191,11 +179,41 @@ class FilePanel(ipywidgets.VBox):
             ]
         )
         self.add_class("glid-files")
-        for asking in self._buttons:
-            asking.on_click(self._on_click)
         for control in (self.path, self.format, self.width):
             control.observe(self._show, ["value"])
         self._show()
+
+    def _button(
+        self,
+        label: str,
+        icon: str,
+        tooltip: str,
+        action: Callable[[bool], str],
+        question: str = "Replace?",
+    ) -> ipywidgets.Button:
+        """A button that may ask a question, which a second click answers with yes.
+
+        ``action`` gets whether the answer was yes, and returns what was done.
+        """
+
+        def click() -> None:
+            asked, at = self._asked
+            # The second half of a double click is no answer.
+            sure = asked is made and time.monotonic() - at >= _DOUBLE_CLICK
+            self._show()
+            try:
+                self._say(action(sure))
+            except (OccupiedError, _UnsavedError) as error:
+                self._asked = made, time.monotonic()
+                made.description, made.button_style = question, "warning"
+                self._say(error.plain, REFUSED)
+            except (OSError, ValueError) as error:  # refusals for the user; others are bugs
+                self._say(str(error), REFUSED)
+
+        made = button(label, icon, tooltip, click)
+        made.layout.flex = "0 0 auto"
+        self._labels[made] = label
+        return made
 
     @property
     def size(self) -> tuple[int, int]:
@@ -226,7 +244,7 @@ class FilePanel(ipywidgets.VBox):
         path = session_path(self.path.value).with_suffix(str(self.format.value))
         if not sure:
             check_free(self.model, files_of(path), path)
-        view = cast(View, self.view.value)
+        view: Any = self.view.value
         files = export(self.model, path, self.size, view, replace=True)
         return f"Wrote {names_of(files)} to {path.absolute().parent}"
 
@@ -250,24 +268,14 @@ class FilePanel(ipywidgets.VBox):
         self.clipboard.copy(lines, done)
         return "These lines make the map." + needed
 
-    def _on_click(self, clicked: AskingButton) -> None:
-        sure = clicked.answered
-        self._show()
-        try:
-            self._say(clicked.action(sure))
-        except (OccupiedError, _UnsavedError) as question:
-            clicked.ask()
-            self._say(question.plain, REFUSED)
-        except (OSError, ValueError) as error:  # refusals for the user; anything else is a bug
-            self._say(str(error), REFUSED)
-
     def _say(self, text: str, style: str = "") -> None:
         self.message.value = paragraph(text, style)
 
     def _show(self, _: Any = None) -> None:
         """Update what depends on the model and on other controls, and ask nothing any more."""
-        for asking in self._buttons:
-            asking.ask(False)
+        self._asked = (None, 0.0)
+        for asking, label in self._labels.items():
+            asking.description, asking.button_style = label, ""
         self._picture.layout.display = "flex" if self.format.value == ".png" else "none"
         self._height.value = f"× {self.size[1]} px"
         path = self.model.autosave_path

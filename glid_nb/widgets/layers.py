@@ -31,48 +31,41 @@ Evaluation = Callable[[Any], tuple[Array, Array]]
 _LARGEST_SIDE = 2048  # pixels of a texture, which every graphics card can hold
 
 
-def attribute(values: Array, *, normalized: bool = False) -> Any:
-    """An array per vertex as a shader takes it; ``normalized`` makes bytes numbers up to 1."""
-    return three.BufferAttribute(values, normalized=normalized)
-
-
 class Layer:
     """A mesh of (v, 2) points in the undeformed shape and (t, 3) triangles, moved by a map.
 
     Maps, at first ``map``, are evaluated by the shader if ``mover`` is a `ShaderMap`, else by it.
-    ``attributes`` are further ones per vertex, made by `attribute`; ``shader`` names the files.
-    ``uniforms`` have at most one texture, as the last item: pythreejs binds every texture to the
-    last name.
+    ``shader`` names the files; ``attributes`` are further arrays per vertex, bytes as numbers up
+    to 1. ``uniforms`` have at most one texture, as the last item: pythreejs binds every texture to
+    the last name.
     """
 
     def __init__(
         self,
-        points: Array,
-        triangles: Array,
-        attributes: dict[str, Any],
         shader: str,
         uniforms: Uniforms,
         mover: ShaderMap | Evaluation,
         map: Any,
+        points: Array,
+        triangles: Array,
+        **attributes: Array,
     ) -> None:
-        flat = np.concatenate([points, np.zeros((len(points), 1))], axis=1)
-        self.attributes = {
-            "position": attribute(flat.astype(np.float32)),
-            "index": attribute(triangles.astype(np.uint32).ravel()),
-            **attributes,
-        }
-        """What there is per vertex, by name, and the triangles."""
-        self.n_vertices = len(points)
-        self._evaluate: Evaluation | None = None
-        self._map = map
+        flat = np.concatenate([points, np.zeros((len(points), 1))], axis=1).astype(np.float32)
+        arrays = {"position": flat, "index": triangles.astype(np.uint32).ravel(), **attributes}
+        self._evaluate = None if isinstance(mover, ShaderMap) else mover
         if isinstance(mover, ShaderMap):
             uniforms = {**mover.uniforms(map), **uniforms}
             head = mover.defines() + glsl("harmonic.glsl")
         else:
-            self._evaluate = mover
-            for name, values in zip(("image", "derivatives"), mover(map), strict=True):
-                self.attributes[name] = attribute(values)
+            arrays["image"], arrays["derivatives"] = mover(map)
             head = glsl("image_buffer.glsl")
+        self.attributes = {
+            name: three.BufferAttribute(values, normalized=values.dtype == np.uint8)
+            for name, values in arrays.items()
+        }
+        """What there is per vertex, by name, and the triangles."""
+        self.n_vertices = len(points)
+        self._map = map
         self._vertex = head + glsl(f"{shader}.vert")
         energies = energy_defines() + glsl("energy.glsl") if shader == "picture" else ""
         self._uniforms = uniforms
@@ -100,6 +93,11 @@ class Layer:
         # Culling would hide a mesh that leaves its first bounding sphere.
         self.meshes.append(three.Mesh(self._geometry, material, frustumCulled=False))
 
+    def set_attribute(self, name: str, values: Array) -> None:
+        """Give the vertices other values."""
+        if not np.array_equal(self.attributes[name].array, values):
+            self.attributes[name].array = values
+
     def set_uniforms(self, changes: Uniforms) -> None:
         """Give some uniforms other values."""
         self._uniforms = self.material.uniforms = {**self._uniforms, **changes}
@@ -108,9 +106,8 @@ class Layer:
         """Bring the vertex buffers up to date, where the kernel computes them."""
         if self._evaluate is not None and self.mesh.visible and map is not self._map:
             self._map = map
-            image, derivatives = self._evaluate(map)
-            self.attributes["image"].array = image
-            self.attributes["derivatives"].array = derivatives
+            for name, values in zip(("image", "derivatives"), self._evaluate(map), strict=True):
+                self.set_attribute(name, values)
 
     def close(self) -> None:
         """Free what the page holds of this layer."""
@@ -124,7 +121,7 @@ def comparison_layer(map: MeshMap, uniforms: Uniforms) -> Layer:
     All maps are of one triangulation; ``uniforms`` are those of ``picture.frag``.
     """
     mesh = map.triangulation
-    layer = Layer(mesh.vertices, map.layered, {}, "picture", uniforms, _evaluation_on(mesh), map)
+    layer = Layer("picture", uniforms, _evaluation_on(mesh), map, mesh.vertices, map.layered)
     # Turned-over triangles show their back, and this material draws only backs.
     mark = {"mark": {"value": [*rgb([VERMILION])[0], 0.9]}, "frame": uniforms["frame"]}
     layer.draw(glsl("turned_over.frag"), mark, "BackSide")
@@ -153,9 +150,7 @@ def picture_texture(image: NDArray[np.uint8]) -> Any:
     Its sides are the nearest powers of two, which three.js needs for mipmaps.
     """
     height, width = (min(1 << round(math.log2(n)), _LARGEST_SIDE) for n in image.shape[:2])
-    picture = (
-        Image.fromarray(image).convert("RGBa").resize((width, height), Image.Resampling.BICUBIC)
-    )
+    picture = Image.fromarray(image).convert("RGBa").resize((width, height))  # bicubic
     # A DataTexture begins at the bottom.
     pixels = np.frombuffer(picture.tobytes(), dtype=np.uint8).reshape(height, width, 4)
     return three.DataTexture(

@@ -16,7 +16,7 @@ from glid_nb.geometry import Cage
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Iteration
 
-_DPI = 100
+_DPI, _SCALE = 100, 1.5  # pixels of the picture for each of CSS
 # CSS pixels. A plot's legend is above it; ticks and the axis's name are below.
 _LEFT, _RIGHT, _ABOVE, _BELOW = 44, 8, 31, 32
 _BETWEEN_COLUMNS, _BETWEEN_ROWS, _ABOVE_TIMES = 46, 52, 17
@@ -28,12 +28,12 @@ class LivePlots:
 
     Artists are drawn onto a stored background, which is redrawn only when an axis changes: a few
     milliseconds instead of a hundred. Not for several threads at once. The picture has ``width``
-    times ``height`` CSS pixels, with ``scale`` pixels for each.
+    times ``height`` CSS pixels.
     """
 
-    def __init__(self, cage: Cage, width: int, height: int, scale: float = 1.5) -> None:
+    def __init__(self, cage: Cage, width: int, height: int) -> None:
         self.cage = cage
-        figure = Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI * scale)
+        figure = Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI * _SCALE)
         self._canvas = FigureCanvasAgg(figure)
         room = height - _ABOVE - _BELOW - _BETWEEN_ROWS
         rows = figure.add_gridspec(2, 1, height_ratios=_ROWS, hspace=2 * _BETWEEN_ROWS / room)

@@ -12,7 +12,7 @@ import numpy as np
 
 from glid_nb.certificate import Certificate
 from glid_nb.certificate.certify import PanelCertificate
-from glid_nb.figures.style import FAINT, GREY
+from glid_nb.figures.style import BLUE, FAINT, GREEN, GREY, ORANGE, VERMILION
 from glid_nb.geometry.panels import Panels
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import certificate_of
@@ -24,16 +24,9 @@ from glid_nb.widgets.closing import ClosingWidget
 if TYPE_CHECKING:
     from glid_nb.widgets.live_plots import LivePlots
 
-INTERVAL = 0.1
-"""Least number of seconds between two drawings of the plots."""
-
-_TONES = {
-    "idle": "#7f7f7f",
-    "working": "#0072b2",
-    "good": "#009e73",
-    "blocked": "#e69f00",
-    "error": "#d55e00",
-}
+_INTERVAL = 0.1  # least number of seconds between two drawings of the plots
+_COLORS = (GREY, BLUE, GREEN, ORANGE, VERMILION)
+_TONES = dict(zip(("idle", "working", "good", "blocked", "error"), _COLORS, strict=True))
 _RATE_WINDOW = 1.0  # seconds over which frames are counted
 # The placeholder's axes: name, left, top, width and height in percent.
 _AXES = (
@@ -75,10 +68,9 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         self._plots: LivePlots | None = None
         self._frames: deque[float] = deque()
         self._worker: LatestWins[None] = LatestWins(
-            weakly(self._update), self, "monitor", interval=INTERVAL
+            weakly(self._update), self, "monitor", interval=_INTERVAL
         )
         self._drawn: Any = None
-        self._with_plots = plots
         super().__init__([self.line, self.image] if plots else [self.line], **kwargs)
         self.add_class("glid-monitor")
         self.image.add_class("glid-plots")
@@ -115,7 +107,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         if moment.busy:
             self._worker.submit(None)
         # The first canvas does not wait for matplotlib.
-        if self._with_plots and self.deformation.begun:
+        if self.image in self.children and self.deformation.begun:
             self._draw(moment)
 
     def _status(self, moment: Moment) -> StatusLine:

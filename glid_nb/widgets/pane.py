@@ -2,29 +2,80 @@
 
 from __future__ import annotations
 
-import functools
 from typing import Any
 
 import ipywidgets
 import numpy as np
+import traitlets
 from numpy.typing import NDArray
 
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import DeformationMap
-from glid_nb.widgets.closing import ClosingWidget, close_with_parts
+from glid_nb.widgets.bundle import bundle, stylesheet
+from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import PANEL_LEGEND, legend
+from glid_nb.widgets.pad import Pad
 from glid_nb.widgets.scene import N_VERTICES, Drawing, Scene, renderer
 from glid_nb.widgets.shader import UNIFORM_VECTORS
-from glid_nb.widgets.stage import Stage, emptiest_corner, marks_of
 
 Array = NDArray[Any]
 
+CORNERS = ("bottom right", "bottom left", "top right", "top left")  # the usual place first
+
+_LEGEND_SIZE = (222, 75)  # CSS pixels, with its distance to the border
+_REFERENCE: dict[str, Any] = ipywidgets.widget_serialization
 _SHARES = (0.0, 0.25, 0.5, 0.75)  # of an edge
 _ROOM = 1.12  # what is fitted leaves a border
 # Without a graphics processor a vertex costs tens of microseconds, so the mesh gets coarser; with
 # fewer vertices than these its edges would be visible.
 _DRAWING_TIME, _FEWEST_VERTICES = 40.0, 1500  # ms, vertices
+
+
+class Stage(Pad):
+    """Lies over a pythreejs renderer.
+
+    It draws handles and targets, sends pointers and keys to the kernel in world coordinates, pans
+    and zooms without the kernel, and puts a map's coefficients into the renderer's materials.
+    """
+
+    _esm = bundle("canvas/main.js")
+    _css = stylesheet("canvas/canvas.css")
+
+    width = traitlets.Int(600).tag(sync=True)
+    """Width in CSS pixels; the page changes it when the corner is dragged."""
+    height = traitlets.Int(500).tag(sync=True)
+    """Height in CSS pixels."""
+    view = traitlets.List(traitlets.Float(), [0.0, 0.0, 0.04]).tag(sync=True)
+    """Centre (x, y) in world units, and the world units of one CSS pixel."""
+    coefficients = traitlets.Bytes(b"").tag(sync=True)
+    """The map, as ``ShaderMap.wire`` writes it; empty where the kernel evaluates."""
+    marks = traitlets.Dict({"targets": [], "images": [], "selected": []}).tag(sync=True)
+    """Targets and images of the handles, lists of [x, y], and indices of those selected."""
+    cursor = traitlets.List(default_value=None, allow_none=True).tag(sync=True)
+    """Where the keyboard's cursor is, [x, y]; None while it is not used."""
+    legend = traitlets.Dict({}).tag(sync=True)
+    """The overlay's colour bar: ``title``, ``colors`` and ``ticks``; empty for none."""
+    panel_legend = traitlets.Dict({}).tag(sync=True)
+    """The certificate's colour bar, below the overlay's."""
+    legend_corner = traitlets.Enum(CORNERS, CORNERS[0]).tag(sync=True)
+    """Where the colour bars are."""
+    notice = traitlets.Unicode("").tag(sync=True)
+    """Why the last action was refused; empty for nothing."""
+    interactive = traitlets.Bool(True).tag(sync=True)
+    """Whether the pad takes pointers and keys."""
+    uniform_vectors = traitlets.Int(0).tag(sync=True)
+    """How many vectors of uniforms the page's shaders hold; 0 while unknown."""
+    drawing_time = traitlets.Float(0.0).tag(sync=True)
+    """Milliseconds that the page needs to draw the renderer once; 0 while unknown."""
+    drawn = traitlets.Bool(False).tag(sync=True)
+    """Whether a page has drawn it."""
+    renderer = traitlets.Instance(ipywidgets.Widget).tag(sync=True, **_REFERENCE)
+    """The pythreejs renderer below."""
+    camera = traitlets.Instance(ipywidgets.Widget).tag(sync=True, **_REFERENCE)
+    """Its camera."""
+    materials = traitlets.List([]).tag(sync=True, **_REFERENCE)
+    """The materials that take the coefficients."""
 
 
 class Pane(ClosingWidget, ipywidgets.GridBox):
@@ -70,9 +121,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self._resize()
         self.stage.observe(self._resize, ["width", "height"])
         self.fit(map, ())
-        # A page has only eight renderers.
-        others = functools.partial(close_with_parts, self.stage, self._renderer, self.layout)
-        self._endings = (lambda: self.scene.close(), others)
+        self._endings = (lambda: self.scene.close(),)
 
     def show(self, drawing: Drawing) -> None:
         """Draw this, in one message if only the map and the marks have changed."""
@@ -112,7 +161,6 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
             stage.marks = marks_of(drawing.targets, drawing.images, drawing.selected)
             stage.legend = legend(drawing.overlay, drawing.energy, scene.color_range)
             stage.panel_legend = PANEL_LEGEND if panels else {}
-        scene.close_replaced()
         if old is not scene:
             old.close()
 
@@ -166,3 +214,24 @@ def _images(map: DeformationMap, points: Array) -> Array:
         if np.array_equal(map.phi, identity.phi) and np.array_equal(map.psi, identity.psi):
             return points
     return map(points)
+
+
+def emptiest_corner(points: Any, width: int, height: int, bars: int = 1) -> str:
+    """The corner of :data:`CORNERS` where colour bars hide the fewest points.
+
+    ``points`` are (k, 2), in CSS pixels from the lower left of a pad of this size.
+    """
+    x, y = np.asarray(points, dtype=float).T
+
+    def hidden(corner: str) -> int:
+        across = x if "left" in corner else width - x
+        up = y if "bottom" in corner else height - y
+        return int(((across < _LEGEND_SIZE[0]) & (up < bars * _LEGEND_SIZE[1])).sum())
+
+    return min(CORNERS, key=hidden)  # the first of equals
+
+
+def marks_of(targets: Any, images: Any, selected: Any) -> dict[str, Any]:
+    """The trait ``marks``: points rounded to what a screen can show."""
+    rounded = {"targets": np.round(targets, 5), "images": np.round(images, 5)}
+    return {**{k: points.tolist() for k, points in rounded.items()}, "selected": list(selected)}

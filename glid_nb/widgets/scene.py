@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -17,29 +15,9 @@ from glid_nb.geometry import MeshMap, Triangulation, triangulate, uniform_panels
 from glid_nb.geometry.panels import Panels
 from glid_nb.harmonic import FixedPoints, HarmonicMap
 from glid_nb.imaging import PixelFrame
-from glid_nb.widgets.layers import (
-    EvaluatedIn,
-    Layer,
-    Uniforms,
-    attribute,
-    comparison_layer,
-    picture_texture,
-)
-from glid_nb.widgets.overlays import (
-    COLORS,
-    FULL_MARGIN,
-    MARGIN_COLORS,
-    OVERLAYS,
-    color_range,
-    rgb,
-)
-from glid_nb.widgets.ribbons import (
-    PANEL_VERTICES,
-    Ribbon,
-    cage_ribbon,
-    offset_ribbon,
-    panel_ribbon,
-)
+from glid_nb.widgets.layers import EvaluatedIn, Layer, Uniforms, comparison_layer, picture_texture
+from glid_nb.widgets.overlays import COLORS, FULL_MARGIN, MARGIN_COLORS, OVERLAYS, color_range, rgb
+from glid_nb.widgets.ribbons import PANEL_VERTICES, cage_ribbon, offset_ribbon, panel_ribbon
 from glid_nb.widgets.shader import UNIFORM_VECTORS, ShaderMap, energy_uniform
 
 Array = NDArray[Any]
@@ -51,11 +29,11 @@ N_VERTICES = 10_000
 _RANGE_SAMPLES = 256  # of the boundary, where distortion is largest
 _GRID_LINES = 40  # along the longer side
 _COLUMN = 8.0  # width of a column of triangles in drawing order, in heights of a row
-# Lines along the boundary, the lowest first: colour, opacity, half the width in pixels.
+# Lines along the boundary, the lowest first: shape, colour, opacity, half the width in pixels.
 _LINES = {
-    "cage": (BLUE, 0.9, 0.9),
-    "offset_cage": (GREY, 0.9, 0.6),
-    "panels": (GREY, 1.0, 2.8),
+    "cage": (cage_ribbon, BLUE, 0.9, 0.9),
+    "offset_cage": (offset_ribbon, GREY, 0.9, 0.6),
+    "panels": (panel_ribbon, GREY, 1.0, 2.8),
 }
 
 
@@ -112,7 +90,7 @@ class Scene:
         self._texture = picture_texture(image)
         mesh = triangulate(self.domain.cage, n_vertices)
         textured = self._textured_uniforms()
-        self.picture = self._layer(mesh.vertices, drawing_order(mesh), {}, "picture", textured)
+        self.picture = self._layer("picture", textured, mesh.vertices, drawing_order(mesh))
         self.lines: dict[str, Layer] = {}
         """Those that have been shown, of "cage", "offset_cage" and "panels"."""
         self.comparison: Layer | None = None
@@ -140,30 +118,26 @@ class Scene:
         return [material for layer in self.drawn for material in layer.materials]
 
     def show(self, drawing: Drawing) -> None:
-        """Draw this; the map must be of the scene's domain. See also :meth:`close_replaced`."""
+        """Draw this; the map must be of the scene's domain."""
+        while self._replaced:  # by the drawing before: the page draws others by now
+            self._replaced.pop().close()
         self.map = drawing.map
         self._show_comparison(drawing.comparison)
         self._show_overlay(drawing)
-        self._show_line("cage", self.domain if drawing.cage else None, cage_ribbon)
-        self._show_line("offset_cage", self.domain if drawing.offset_cage else None, offset_ribbon)
+        self._show_line("cage", self.domain if drawing.cage else None)
+        self._show_line("offset_cage", self.domain if drawing.offset_cage else None)
         panels = margins = None
         if drawing.panels is not None:
             panels, sigma2_lower = drawing.panels
             margin = np.clip(np.nan_to_num(sigma2_lower) / FULL_MARGIN, 0.0, 1.0)
             margins = np.repeat(np.rint(255 * (1 - margin)).astype(np.uint8), PANEL_VERTICES)
-        self._show_line("panels", panels, panel_ribbon, margins)
+        self._show_line("panels", panels, margins)
         for layer in self.layers:
             layer.show(drawing.map)
 
-    def close_replaced(self) -> None:
-        """Free layers that are no longer drawn, once the page has the new ones."""
-        while self._replaced:
-            self._replaced.pop().close()
-
     def close(self) -> None:
         """Free what the page holds."""
-        self.close_replaced()
-        for layer in {*self.layers, *self.drawn}:
+        for layer in {*self.layers, *self.drawn, *self._replaced}:
             layer.close()
         self._texture.close()
 
@@ -185,23 +159,14 @@ class Scene:
         if same and (drawing.color_range == "keep" or not measured):
             return
         least = before if same and drawing.color_range == "widen" else None
-        derivatives = self.map.wirtinger(self._range_points) if measured else (None, None)
+        boundary = uniform_panels(self.domain.cage, _RANGE_SAMPLES).start
+        derivatives = self.map.wirtinger(boundary) if measured else (None, None)
         self.color_range = color_range(name, energy, *derivatives, least)
         if not same or before != self.color_range:
             for layer in {self.picture, self.drawn[0]}:
                 layer.set_uniforms(self._picture_uniforms())
 
-    @functools.cached_property
-    def _range_points(self) -> NDArray[Any]:
-        return uniform_panels(self.domain.cage, _RANGE_SAMPLES).start
-
-    def _show_line(
-        self,
-        name: str,
-        source: Any,
-        ribbon_of: Callable[[Any], Ribbon],
-        margins: Array | None = None,
-    ) -> None:
+    def _show_line(self, name: str, source: Any, margins: Array | None = None) -> None:
         """Show the line of this name, made of ``source``; hide it for None.
 
         With margins, a byte per vertex, it is coloured by them between borders of its own colour.
@@ -210,45 +175,34 @@ class Scene:
         if source is not None and source is not self._sources.get(name):
             if line is not None:
                 self._replaced.append(line)
-            line = self.lines[name] = self._line(ribbon_of(source), *_LINES[name], margins)
+            line = self.lines[name] = self._line(name, source, margins)
             self._sources[name] = source
         elif line is not None and margins is not None:
-            shown = line.attributes["margin"]
-            shown.array = shown.array if np.array_equal(shown.array, margins) else margins
+            line.set_attribute("margin", margins)
         if line is not None and line.mesh.visible != (source is not None):
             line.mesh.visible = source is not None
 
-    def _line(
-        self, line: Ribbon, color: str, opacity: float, half_width: float, margins: Array | None
-    ) -> Layer:
-        by_margin = 0.0 if margins is None else 1.0
-        if margins is None:
-            margins = np.zeros(len(line.points), dtype=np.uint8)
-        attributes = {
-            "ribbon": attribute(line.ribbon),
-            "margin": attribute(margins, normalized=True),
-        }
-        uniforms = {
-            "pixel": {"value": 0.02},
-            "half_width": {"value": half_width},
-            "line_color": {"value": [*rgb([color])[0], opacity]},
-            "by_margin": {"value": by_margin},
-            "colors": {"value": rgb(MARGIN_COLORS).ravel().tolist()},
-        }
-        return self._layer(line.points, line.triangles, attributes, "ribbon", uniforms)
+    def _line(self, name: str, source: Any, margins: Array | None) -> Layer:
+        ribbon_of, color, opacity, half_width = _LINES[name]
+        points, triangles, ribbon = ribbon_of(source)
+        plain = np.zeros(len(points), dtype=np.uint8)
+        uniforms = _uniforms(
+            pixel=0.02,
+            half_width=half_width,
+            line_color=[*rgb([color])[0], opacity],
+            by_margin=0.0 if margins is None else 1.0,
+            colors=rgb(MARGIN_COLORS).ravel().tolist(),
+        )
+        margin = plain if margins is None else margins
+        return self._layer("ribbon", uniforms, points, triangles, ribbon=ribbon, margin=margin)
 
     def _layer(
-        self,
-        points: Array,
-        triangles: Array,
-        attributes: dict[str, Any],
-        shader: str,
-        uniforms: Uniforms,
+        self, shader: str, uniforms: Uniforms, points: Array, triangles: Array, **more: Array
     ) -> Layer:
         mover = self.shader_map
         if self.evaluated_in == "kernel":
             mover = FixedPoints(self.domain, points)
-        return Layer(points, triangles, attributes, shader, uniforms, mover, self.map)
+        return Layer(shader, uniforms, mover, self.map, points, triangles, **more)
 
     def _textured_uniforms(self) -> Uniforms:
         return {**self._picture_uniforms(), "map": {"value": self._texture}}
@@ -258,16 +212,19 @@ class Scene:
         overlay, energy = self._shown.overlay, self._shown.energy
         # A user's own energy has no shader expression; the picture is shown instead.
         unknown = overlay == "energy" and energy.shader is None
-        values = {
-            "frame": [xmin, ymin, xmax - xmin, ymax - ymin],
-            "overlay": 0.0 if unknown else float(OVERLAYS[overlay].number),
-            "energy": energy_uniform(energy),
-            "color_range": list(self.color_range),
-            "colors": rgb(COLORS).ravel().tolist(),
-            "pixel": 0.02,
-            "grid_spacing": self.domain.cage.longer_side / _GRID_LINES,
-        }
-        return {name: {"value": value} for name, value in values.items()}
+        return _uniforms(
+            frame=[xmin, ymin, xmax - xmin, ymax - ymin],
+            overlay=0.0 if unknown else float(OVERLAYS[overlay].number),
+            energy=energy_uniform(energy),
+            color_range=list(self.color_range),
+            colors=rgb(COLORS).ravel().tolist(),
+            pixel=0.02,
+            grid_spacing=self.domain.cage.longer_side / _GRID_LINES,
+        )
+
+
+def _uniforms(**values: Any) -> Uniforms:
+    return {name: {"value": value} for name, value in values.items()}
 
 
 def drawing_order(mesh: Triangulation) -> Array:

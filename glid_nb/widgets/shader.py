@@ -17,9 +17,7 @@ Array = NDArray[Any]
 UNIFORM_VECTORS = 1024
 """Vectors of uniforms that a vertex shader is assumed to hold until the page says otherwise."""
 
-# Matrices, ranges, colours and the like, beside the arrays counted below.
-_OTHER_VECTORS = 48
-
+_OTHER_VECTORS = 48  # matrices, ranges, colours and the like, beside the arrays counted below
 _GLSL = Path(__file__).parent / "glsl"
 
 

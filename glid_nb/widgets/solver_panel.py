@@ -8,6 +8,7 @@ from typing import Any, Literal, get_args, get_origin
 
 import ipywidgets
 
+from glid_nb._arguments import field_kinds
 from glid_nb.energies import ENERGIES, CustomEnergy, Energy, energy_by_name
 from glid_nb.methods import METHODS
 from glid_nb.session.deformation import Deformation
@@ -24,12 +25,16 @@ _OPTIONS = (
     *("p2p_weight", "sampling", "certificate", "hessian"),
     *("iterations_per_call", "conformal"),
 )
+_LATE = {"continuous_update": False}
+_CONTROLS: dict[type, tuple[Any, dict[str, Any]]] = {
+    bool: (ipywidgets.Checkbox, {"indent": False}),
+    int: (ipywidgets.IntText, _LATE),
+    float: (ipywidgets.FloatText, _LATE),
+}
+_WEIGHTS = {"min": 0, "max": 8, "step": 0.25, "readout_format": ".0e"}
 _SLIDERS: dict[str, tuple[Any, dict[str, Any]]] = {
-    "p2p_weight": (
-        ipywidgets.FloatLogSlider,
-        {"min": 0, "max": 8, "step": 0.25, "readout_format": ".0e"},
-    ),
-    "iterations_per_call": (ipywidgets.IntSlider, {"min": 1, "max": 7}),
+    "p2p_weight": (ipywidgets.FloatLogSlider, {**_WEIGHTS, **_LATE}),
+    "iterations_per_call": (ipywidgets.IntSlider, {"min": 1, "max": 7, **_LATE}),
 }
 
 
@@ -74,12 +79,18 @@ class SolverPanel(EditControls):
     """
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
-        method = FieldRows(self._set_method)
+        act, model = self._act, deformation
+
+        def set_setting(name: str, value: Any) -> None:
+            method = model.state.current.method
+            act(lambda: model.set_method(method.name, **{**method.settings, name: value}))
+
+        method = FieldRows(lambda _, name: act(lambda: model.set_method(name)))
         self.method = _menu(_methods(), "What solves: ours, or another to compare with")
         method.build({"name": ("Method", self.method)})
         self.about = ipywidgets.HTML()
         """What the method does."""
-        self.settings = FieldRows(self._set_setting)
+        self.settings = FieldRows(set_setting)
         """The method's own settings."""
         self._shown: type[Method] | None = None
         energy = FieldRows(self._set_energy)
@@ -88,7 +99,9 @@ class SolverPanel(EditControls):
             1.0, min=1e-3, max=100.0, step=0.1, layout=_FULL, tooltip="The energy's parameter s"
         )
         energy.build({"name": ("Energy", self.energy), "s": ("s", self.s)})
-        self.options = FieldRows(self._set_option)
+        self.options = FieldRows(
+            lambda name, value: act(lambda: model.set_options(**{name: value}))
+        )
         """The options, by their names."""
         self.options.build(_option_controls(deformation.state.current.options))
         controls = self.options.controls.values()
@@ -97,7 +110,9 @@ class SolverPanel(EditControls):
         self.pause = ipywidgets.ToggleButton(
             description="Pause", icon="pause", tooltip="Let the solver wait", layout=_FULL
         )
-        self.pause.observe(self._set_paused, ["value"])
+        self.pause.observe(
+            lambda change: act(lambda: setattr(model, "paused", change["new"])), ["value"]
+        )
         self.step = button("Step", "step-forward", "One frame's iterations", deformation.step)
         self.reset = button("Reset", "refresh", "The undeformed shape (0)", deformation.reset)
         free = deformation.clear_handles
@@ -139,24 +154,10 @@ class SolverPanel(EditControls):
         if not self.s.disabled:
             self.s.value = float(getattr(energy, "s", 1.0))
 
-    def _set_method(self, _: str, name: str) -> None:
-        self._act(lambda: self.deformation.set_method(name))
-
-    def _set_setting(self, name: str, value: Any) -> None:
-        method = self.deformation.state.current.method
-        settings = {**method.settings, name: value}
-        self._act(lambda: self.deformation.set_method(method.name, **settings))
-
     def _set_energy(self, *_: Any) -> None:
         name, s = self.energy.value, self.s.value
         if name in ENERGIES:
             self._act(lambda: self.deformation.set_energy(energy_by_name(name, s)))
-
-    def _set_option(self, name: str, value: Any) -> None:
-        self._act(lambda: self.deformation.set_options(**{name: value}))
-
-    def _set_paused(self, change: Any) -> None:
-        self._act(lambda: setattr(self.deformation, "paused", change["new"]))
 
 
 def _methods() -> dict[str, str]:
@@ -169,34 +170,26 @@ def _methods() -> dict[str, str]:
 
 
 def _option_controls(options: Options) -> dict[str, tuple[str, Any]]:
-    fields = {field.name: field for field in dataclasses.fields(options)}
-    controls: dict[str, tuple[str, Any]] = {}
+    kinds, controls = field_kinds(Options), {}
+    about = {field.name: field.metadata for field in dataclasses.fields(options)}
     for name in _OPTIONS:
-        about, value = fields[name].metadata, getattr(options, name)
-        if name in _SLIDERS:
-            slider, range_ = _SLIDERS[name]
-            control = slider(value, continuous_update=False, layout=_FULL, **range_)
-        else:
-            control = _menu(about["choices"]) if about["choices"] else _control_of(bool, value)
-        control.tooltip = about["help"]
-        controls[name] = about["label"], control
+        control = _control_of(kinds[name], getattr(options, name), about[name]["choices"], name)
+        control.tooltip = about[name]["help"]
+        controls[name] = about[name]["label"], control
     return controls
 
 
-def _control_of(kind: Any, default: Any) -> Any:
+def _control_of(
+    kind: Any, value: Any, labels: Mapping[str, str] | None = None, name: str = ""
+) -> Any:
     """A control for values of an annotated kind, or None."""
     if get_origin(kind) is Literal:
-        return ipywidgets.Dropdown(options=get_args(kind), value=default, layout=_FULL)
-    if kind is bool:
-        return ipywidgets.Checkbox(default, indent=False, layout=_FULL)
-    if kind is int:
-        return ipywidgets.IntText(default, continuous_update=False, layout=_FULL)
-    if kind is float:
-        return ipywidgets.FloatText(default, continuous_update=False, layout=_FULL)
-    return None
+        return _menu(labels or {choice: choice for choice in get_args(kind)}, value=value)
+    control, look = _SLIDERS.get(name) or _CONTROLS.get(kind) or (None, {})
+    return None if control is None else control(value=value, layout=_FULL, **look)
 
 
-def _menu(labels: Mapping[str, str], tooltip: str = "") -> ipywidgets.Dropdown:
+def _menu(labels: Mapping[Any, str], tooltip: str = "", **value: Any) -> ipywidgets.Dropdown:
     """A menu of these values, shown by their labels."""
-    options = [(label, value) for value, label in labels.items()]
-    return ipywidgets.Dropdown(options=options, layout=_FULL, tooltip=tooltip)
+    options = [(str(label), value) for value, label in labels.items()]
+    return ipywidgets.Dropdown(options=options, layout=_FULL, tooltip=tooltip, **value)

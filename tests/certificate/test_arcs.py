@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -38,6 +39,7 @@ def _arcs(map: HarmonicMap) -> Arcs:
     return Arcs.between(panels.start, panels.end, jets, jets.at(panels.next))
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(st.integers(0, 2**32), st.sampled_from([0.0, 0.01, 0.3]))
 def test_an_arc_stays_close_to_its_chord_and_its_tangents(seed: int, roughness: float) -> None:
@@ -85,6 +87,7 @@ def test_rounding_stays_within_its_bound() -> None:
     assert jets.f_error.max() < 1e-7
 
 
+@pytest.mark.slow
 def test_jets_are_those_of_the_map() -> None:
     map = _random_map(2, 0.1)
     panels, jets = _jets(map)

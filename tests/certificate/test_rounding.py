@@ -46,6 +46,7 @@ def test_the_scale_bounds_the_sum_of_all_terms(name: str) -> None:
         assert (scale <= 100 * terms).all()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(
     np.finfo(np.longdouble).nmant <= 52, reason="extended precision is no wider than double here"
 )

@@ -80,6 +80,7 @@ def test_trace_takes_scribbles(run, picture: Path, tmp_path: Path) -> None:
     assert glid_nb.Cage.from_dict(read(out)).contains([[-5.0, 0.0]]).all()
 
 
+@pytest.mark.slow
 def test_solve_writes_a_map_and_a_report(run, problem: Path, tmp_path: Path) -> None:
     out, report_path = tmp_path / "map.json", tmp_path / "report.json"
     outcome = run("solve", problem, "--out", out, "--report", report_path)
@@ -115,6 +116,7 @@ def test_solve_writes_a_map_and_a_report(run, problem: Path, tmp_path: Path) -> 
     assert harmonic_map.k(points).max() <= report["k_upper"]
 
 
+@pytest.mark.slow
 def test_solve_takes_its_options(run, problem: Path, tmp_path: Path) -> None:
     report_path = tmp_path / "report.json"
     words = ("--energy", "amips", "--s", 0.5, "--p2p-weight", 10, "--max-iterations", 1)
@@ -132,6 +134,7 @@ def test_solve_takes_its_options(run, problem: Path, tmp_path: Path) -> None:
     assert summary["files"] == {"report.json": str(report_path)}
 
 
+@pytest.mark.slow
 def test_conformal_maps_have_no_dilatation(run, problem: Path, tmp_path: Path) -> None:
     out = tmp_path / "map.json"
     assert run("solve", problem, "--out", out, "--conformal").code == 0
@@ -155,6 +158,7 @@ def solved(run, problem: Path, tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_render_warps_the_picture(run, picture: Path, solved: Path, tmp_path: Path) -> None:
     out = tmp_path / "warped.png"
     assert run("render", picture, solved, "--out", out).code == 0

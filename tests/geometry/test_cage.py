@@ -51,6 +51,7 @@ def test_orientation_is_normalised_and_vertex_0_stays_first(
     np.testing.assert_array_equal(cage.holes[0], hole)
 
 
+@pytest.mark.slow
 @given(cages())
 @settings(max_examples=40)
 def test_any_cage_is_oriented_and_survives_json(cage: Cage) -> None:
@@ -243,6 +244,7 @@ def crossing_number(cage: Cage, points: np.ndarray) -> np.ndarray:
     return inside
 
 
+@pytest.mark.slow
 @given(cages())
 @settings(max_examples=15)
 def test_contains_agrees_with_the_crossing_number(cage: Cage) -> None:
@@ -256,6 +258,7 @@ def test_contains_agrees_with_the_crossing_number(cage: Cage) -> None:
     np.testing.assert_array_equal(few, expected[:500])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n", [7, 20_001])
 @given(cages())
 @settings(max_examples=10)
@@ -269,6 +272,7 @@ def test_the_boundary_counts_as_inside(n: int, cage: Cage) -> None:
         assert cage.contains(loop).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("copies", [1, 30_000])
 def test_tolerance_widens_the_domain_by_that_much(copies: int) -> None:
     cage = Cage(box(0, 0, 4), [box(1, 1, 2)])
@@ -290,6 +294,7 @@ def test_contains_keeps_the_shape_and_refuses_other_ones() -> None:
         cage.contains([0.5, 0.5], -1)
 
 
+@pytest.mark.slow
 def test_a_million_points_are_answered() -> None:
     cage = Cage(with_vertices_on_edges(comb(20, 0.3), 10), [regular(30, 0.4, (0.5, 3.0))])
     xmin, ymin, xmax, ymax = cage.bounds

@@ -67,6 +67,7 @@ def test_a_domain_cannot_be_changed_and_keys_a_cache() -> None:
     assert domain != Domain(CAGE, AROUND, POINTS)
 
 
+@pytest.mark.slow
 @given(cages())
 @settings(max_examples=30)
 def test_any_cage_makes_a_domain_that_survives_json(cage: Cage) -> None:

@@ -90,6 +90,7 @@ def test_a_comfortable_offset_is_an_exact_mitre_everywhere() -> None:
     assert offset.notes == ()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("share", [0.0005, 0.005, 0.1])
 @pytest.mark.parametrize("name", nasty_cages())
 def test_nasty_cages(name: str, share: float) -> None:
@@ -98,6 +99,7 @@ def test_nasty_cages(name: str, share: float) -> None:
     check_promises(cage, offset_cage(cage, distance), distance)
 
 
+@pytest.mark.slow
 @given(cages(), st.sampled_from([1e-4, 0.005, 0.05, 0.5, 3.0]))
 @settings(max_examples=80)
 def test_random_cages(cage: Cage, share: float) -> None:
@@ -197,6 +199,7 @@ def test_a_passage_below_rounding_is_refused_with_its_place() -> None:
         offset_cage(cage, 0.1)
 
 
+@pytest.mark.slow
 @given(cages())
 @settings(max_examples=30)
 def test_offset_cages_can_be_offset_again(cage: Cage) -> None:

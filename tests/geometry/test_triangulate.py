@@ -50,6 +50,7 @@ def check_boundary(cage: Cage, mesh: Triangulation) -> None:
         assert across[on].min() <= tolerance
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n", [3, 100, 5_000])
 @pytest.mark.parametrize("name", nasty_cages())
 def test_nasty_cages_are_filled(name: str, n: int) -> None:
@@ -57,6 +58,7 @@ def test_nasty_cages_are_filled(name: str, n: int) -> None:
     check_fills(cage, triangulate(cage, n))
 
 
+@pytest.mark.slow
 @given(cages(), st.sampled_from([50, 700, 3000]))
 @settings(max_examples=40)
 def test_random_cages_are_filled(cage: Cage, n: int) -> None:

@@ -46,6 +46,7 @@ def own_columns(kernel: Any, name: str, z: Array) -> Array:
         return np.asarray(jax.jit(kernel)(z, basis.singularities))[:, basis.columns]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ell", "triple"])
 def test_the_yardstick_is_cauchys_integral(name: str) -> None:
     """(D.1) against Gauss-Legendre quadrature of the hat functions over the polygon."""
@@ -108,6 +109,7 @@ def test_first_and_second_derivatives_are_those_of_the_paper(name: str) -> None:
     np.testing.assert_allclose(second, cauchy_second(z, loops, rho), rtol=1e-12, atol=1e-13)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ell", "twin"])
 def test_derivatives_are_those_of_the_coordinates(name: str) -> None:
     loops, rho, z = parts(name)

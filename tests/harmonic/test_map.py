@@ -19,6 +19,7 @@ from ..domains import NAMES, domain, random_map, real, reference
 from ..reference_map import points_inside
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [*NAMES, "annulus"])
 def test_the_identity_is_the_identity(name: str) -> None:
     d = domain(name)
@@ -91,6 +92,7 @@ def test_derivatives_of_the_wirtinger_derivatives() -> None:
         map.wirtinger_derivatives(z, 0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [0, 1, 2, 63, 64, 65, 100_000])
 def test_chunks_do_not_show(count: int) -> None:
     map = random_map("ring", 0.2, 7)
@@ -159,6 +161,7 @@ def test_a_map_is_immutable() -> None:
         map.phi = phi  # type: ignore[misc]
 
 
+@pytest.mark.slow
 def test_distance_is_the_largest_one_on_the_boundary() -> None:
     map = random_map("ring", 0.2, 8)
     moved = HarmonicMap(map.domain, map.phi.copy(), map.psi)

@@ -210,6 +210,7 @@ def bent_mesh(seed: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDAr
     return points, bent * 40 + 35, Delaunay(points).simplices.astype(np.int32)
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(seed=st.integers(0, 10_000))
 def test_a_deformed_mesh_has_no_seams_and_keeps_its_area(seed: int):

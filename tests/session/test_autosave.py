@@ -93,6 +93,7 @@ def test_a_failure_is_reported_and_the_next_save_tries_again(tmp_path: Path) -> 
     autosave.close()
 
 
+@pytest.mark.slow
 def test_the_end_of_the_process_saves_too(tmp_path: Path) -> None:
     path = tmp_path / "a.glid"
     source = f"""
@@ -135,7 +136,7 @@ def test_a_change_that_was_accepted_is_written_over(tmp_path: Path, accept: bool
     autosave = Autosave(path, interval=0)
     save_document(replace(base, active=1), path)
     if accept:
-        autosave.file.take_over()
+        autosave.file.own.note([path], path)
     else:
         autosave.write(replace(base, active=1))
     autosave.submit(replace(base, active=0))

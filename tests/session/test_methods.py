@@ -91,6 +91,7 @@ def test_a_method_on_a_mesh_stands_beside_the_certified_map(ring: Deformation, n
     np.testing.assert_allclose(ring.map([[2, 0]]), [[2.4, 0.3]], atol=1e-3)
 
 
+@pytest.mark.slow
 def test_turned_over_triangles_are_said_in_words(ring: Deformation) -> None:
     ring.set_method("mls")
     ring.drag(0, to=(-6, 0))
@@ -103,6 +104,7 @@ def test_turned_over_triangles_are_said_in_words(ring: Deformation) -> None:
     assert certify(ring.map).certified
 
 
+@pytest.mark.slow
 def test_undo_solves_a_mesh_again(ring: Deformation) -> None:
     ring.set_method("mls")
     assert ring.solve(TIMEOUT)
@@ -146,6 +148,7 @@ def test_a_step_is_one_iteration(ring: Deformation) -> None:
     assert len(solution.history) == 1
 
 
+@pytest.mark.slow
 def test_a_method_refuses_what_it_cannot_do(ring: Deformation) -> None:
     state = ring.state
     for refused in (
@@ -188,6 +191,7 @@ def test_too_few_handles_are_said_in_words(ring: Deformation) -> None:
     assert not ring.moment.solved
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", METHODS)
 def test_without_handles_nothing_breaks(name: str) -> None:
     if importlib.util.find_spec(METHODS[name].package or "numpy") is None:

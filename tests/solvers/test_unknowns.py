@@ -34,6 +34,7 @@ def padded_expansion(name: str, conformal: bool) -> np.ndarray:
     return padded
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("conformal", [False, True])
 def test_restriction_and_expansion_are_those_of_the_dense_matrix(
@@ -81,6 +82,7 @@ def test_the_reduced_unknowns_are_all_unknowns(name: str, conformal: bool) -> No
     np.testing.assert_array_equal(own, np.where(basis.phi_free[expected], expected, -1))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_the_unknowns_span_all_maps_once(name: str) -> None:
     """T has full rank as maps: no unknown is redundant, and none is missing."""

@@ -28,7 +28,7 @@ from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
 from glid_nb.widgets.exporting import ExportError
 from glid_nb.widgets.file_panel import OpenPanel
 from glid_nb.widgets.overlays import COLORS, N_COLORS, OVERLAYS, color_range, rgb
-from glid_nb.widgets.stage import emptiest_corner
+from glid_nb.widgets.pane import emptiest_corner
 
 from ..domains import domain
 
@@ -68,6 +68,7 @@ def test_the_colour_bar_goes_where_it_hides_least() -> None:
     assert emptiest_corner(twice, *size) == "top left"
 
 
+@pytest.mark.slow
 def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
     assert editor.document.cage.n_holes == 1
     left, right = editor.add_handle((-7, 0)), editor.add_handle((7, 0))
@@ -223,7 +224,7 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     canvas.show_source = False
     assert canvas.source is None
     canvas.close()
-    assert not model._worker.alive
+    assert not model._worker.thread.is_alive()
 
 
 _FIRST_CANVAS = """
@@ -255,6 +256,7 @@ editor.close()
 """
 
 
+@pytest.mark.slow
 def test_the_first_canvas_waits_for_no_more_than_it_needs(tmp_path: Path) -> None:
     environment = {**os.environ, "GLID_NB_CACHE": str(tmp_path)}
     done = subprocess.run(
@@ -313,6 +315,7 @@ def test_a_closed_editor_makes_nothing_more() -> None:
         _ = editor.solver_panel
 
 
+@pytest.mark.slow
 def test_a_frame_that_comes_late_finds_the_canvas_closed() -> None:
     from ipywidgets.widgets import widget
 
@@ -386,6 +389,7 @@ def _widgets() -> set[str]:
     return set(ipywidgets.Widget.get_manager_state(drop_defaults=True)["state"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "kind", "message"),
     [
@@ -412,6 +416,7 @@ def test_wrong_arguments_are_refused_and_leave_nothing(
     assert _widgets() == before
 
 
+@pytest.mark.slow
 def test_a_canvas_that_cannot_be_made_is_dropped_quietly(monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object, **__: object) -> None:
         raise MemoryError
@@ -431,6 +436,7 @@ def test_a_timeout_that_is_no_number_is_refused(editor: Editor, timeout: Any) ->
         editor.solve(timeout)
 
 
+@pytest.mark.slow
 def test_the_monitor_draws_plots_and_words() -> None:
     from glid_nb.session.deformation import Deformation
 
@@ -468,6 +474,7 @@ def test_frames_are_counted_in_words() -> None:
     monitor.close()
 
 
+@pytest.mark.slow
 def test_a_comparison_is_drawn_in_place_of_the_map(editor: Editor) -> None:
     canvas = editor.canvas
     assert canvas is not None
@@ -526,6 +533,7 @@ def test_a_cell_with_picture_and_file_can_run_again(tmp_path: Path) -> None:
         editor.close()
 
 
+@pytest.mark.slow
 def test_a_file_of_another_editor_is_left_and_told(tmp_path: Path) -> None:
     path = tmp_path / "bar.glid"
     first, second = (Editor(bar(), path=path, n_vertices=300) for _ in range(2))
@@ -546,6 +554,7 @@ def test_a_file_of_another_editor_is_left_and_told(tmp_path: Path) -> None:
         assert load_document(tmp_path / name).poses[0].pose.handles.tolist() == [[x, 0]]
 
 
+@pytest.mark.slow
 def test_lost_handles_are_told(editor: Editor) -> None:
     editor.deformation.paused = True
     editor.add_handle((-7.5, 1.5))
@@ -560,6 +569,7 @@ def test_lost_handles_are_told(editor: Editor) -> None:
     assert len(editor.pose) == 0
 
 
+@pytest.mark.slow
 def test_what_becomes_of_the_tracing_is_told(editor: Editor) -> None:
     tracing, frame = editor.model.tracing, editor.model.tracing.frame
     assert frame is not None

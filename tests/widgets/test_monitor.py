@@ -87,6 +87,7 @@ def test_what_is_drawn_belongs_together(
     assert not caught
 
 
+@pytest.mark.slow
 def test_at_rest_all_say_what_the_final_certificate_proves(
     model: Deformation, monitor: SolverMonitor
 ) -> None:
@@ -109,6 +110,7 @@ def test_at_rest_all_say_what_the_final_certificate_proves(
     assert shown_bound(monitor) == f"σ₂ ≥ {lower}"
 
 
+@pytest.mark.slow
 def test_the_last_drawing_is_that_at_rest(
     model: Deformation, monitor: SolverMonitor, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -128,6 +130,7 @@ def test_the_last_drawing_is_that_at_rest(
     assert shown_bound(monitor) == f"σ₂ ≥ {rounded_down(certificate_of(rest.map).sigma2_lower)}"
 
 
+@pytest.mark.slow
 def test_the_history_stays_while_the_next_targets_are_not_solved(
     model: Deformation, monitor: SolverMonitor
 ) -> None:

@@ -49,6 +49,7 @@ def test_a_mesh_that_was_asked_for_stays() -> None:
     canvas.close()
 
 
+@pytest.mark.slow
 def test_what_was_shown_is_shown_on_the_other_mesh() -> None:
     canvas = _canvas()
     canvas.overlay, canvas.show_cage, canvas.show_panels = "sigma1", True, True
