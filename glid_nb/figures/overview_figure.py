@@ -226,7 +226,7 @@ def _draw_distortion(axes: Axes, map: HarmonicMap, mesh: DeformedMesh) -> None:
         if tick <= highest * 1.001 and np.log(tick / ticks[-1]) > 0.1 * np.log(highest):
             ticks.append(tick)
     colors = axes.tripcolor(
-        Triangulation(*mesh.images.T, mesh.triangles),
+        Triangulation(*mesh.images.T, triangles=mesh.triangles),
         np.clip(distortion, 1.0, highest),
         shading="gouraud",
         norm=LogNorm(1.0, highest),
