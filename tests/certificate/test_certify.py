@@ -18,6 +18,8 @@ from glid_nb.harmonic import HarmonicMap
 from ..domains import dense_check, domain, random_map, reference
 from ..reference_map import DenseCheck, Measured, cauchy_first
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 KINDS = ("hermite", "lipschitz")
 CERTIFIED = ("ell", "ring", "twin")
 
@@ -48,7 +50,6 @@ def check_sound(c: Certificate, truth: Measured) -> None:
     assert c.certified == c.reason.startswith("Proved locally injective")
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @given(name=st.sampled_from(CERTIFIED), size=sizes, seed=st.integers(0, 10**6))
 @settings(max_examples=20)
@@ -64,7 +65,6 @@ def test_certificates_are_true(kind: Any, name: str, size: float, seed: int) -> 
         assert "not locally injective" in c.reason
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @given(name=st.sampled_from(CERTIFIED), size=sizes, seed=st.integers(0, 10**6))
 @settings(max_examples=10)
@@ -87,7 +87,6 @@ def test_every_panel_is_true(kind: Any, name: str, size: float, seed: int) -> No
     assert c.k_upper == panels.k_upper.max()
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", CERTIFIED)
 @pytest.mark.parametrize("tightness", [0.02, 0.002])
@@ -154,7 +153,6 @@ def annulus_check() -> DenseCheck:
     return dense_check("annulus", 10_000)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_knot_is_certified(kind: Any) -> None:
     """Figure 3: f_z turns once around on the exterior loop and back on the interior one."""
@@ -294,7 +292,6 @@ def test_bad_arguments_are_refused(arguments: dict[str, Any], message: str) -> N
         certify(HarmonicMap.identity(domain("ell")), **arguments)
 
 
-@pytest.mark.slow
 def test_a_collapsed_map_is_not_certified() -> None:
     """A constant, a projection to a line, and a mirror image."""
     d = domain("ring")

@@ -24,6 +24,8 @@ from glid_nb.imaging.render import render
 
 from .shapes import SIZE, bent, domain, picture, pose
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -32,7 +34,6 @@ def test_the_map_of_these_tests_is_one() -> None:
 
 
 class TestPicture:
-    @pytest.mark.slow
     @pytest.mark.parametrize("size", [None, (64, 40), (500, 500)])
     @pytest.mark.parametrize("view", ["source", "fit"])
     def test_the_file_holds_the_rendering(self, size: tuple[int, int] | None, view: str) -> None:
@@ -92,7 +93,6 @@ class TestMesh:
         assert (areas > 0).all()
         assert areas.sum() == pytest.approx(area, rel=0.01)
 
-    @pytest.mark.slow
     def test_obj(self, tmp_path: Path) -> None:
         files = mesh_obj(textured_mesh(picture(), bent(), 800), "frog")
         assert sorted(files) == ["frog-texture.png", "frog.mtl", "frog.obj"]
@@ -106,7 +106,6 @@ class TestMesh:
         texture = np.asarray(material_of(read).image.convert("RGBA"))
         np.testing.assert_array_equal(texture, picture())
 
-    @pytest.mark.slow
     def test_glb(self) -> None:
         data = mesh_glb(textured_mesh(picture(), bent(), 800))
         assert data[:4] == b"glTF"
@@ -155,7 +154,6 @@ class TestSvg:
         assert root.tag == f"{SVG}svg"
         return {e.attrib["id"]: e for e in root.iter() if "id" in e.attrib}
 
-    @pytest.mark.slow
     def test_the_curves_are_the_images_of_the_cage(self) -> None:
         parts = self.parse(cage_svg(bent(), SIZE))
         assert list(parts) == ["cage"]

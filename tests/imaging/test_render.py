@@ -12,6 +12,8 @@ from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.mesh import deformed_mesh, sheet_heights
 from glid_nb.imaging.render import render, rendering
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 
 def rectangle(width: float, height: float, parts: int = 1) -> NDArray[np.float64]:
     """Counter-clockwise loop around the origin, the long sides cut into ``parts``."""
@@ -63,7 +65,6 @@ def covered(domain: Domain, width: int, height: int, margin: float) -> NDArray[n
     return np.all([domain.cage.contains(world + shift) for shift in shifts], axis=0)
 
 
-@pytest.mark.slow
 def test_the_identity_reproduces_the_picture_inside_the_cage(domain: Domain):
     image = np.random.default_rng(0).integers(0, 256, (128, 160, 4), dtype=np.uint8)
     image[..., 3] |= 128
@@ -111,7 +112,6 @@ def test_the_size_is_free_and_other_proportions_are_letter_boxed(domain: Domain)
     np.testing.assert_allclose(doubled[128, 80, :2], [80 * 255 / 320, 128 * 255 / 256], atol=2)
 
 
-@pytest.mark.slow
 def test_fit_shows_all_of_a_shape_that_left_the_picture(domain: Domain):
     image = coordinates_as_colours(160, 128)
     away = affine(domain, 1.7, 15 + 9j)
@@ -128,7 +128,6 @@ def test_fit_shows_all_of_a_shape_that_left_the_picture(domain: Domain):
     assert columns[-1] - columns[0] + 1 >= 0.9 * 160
 
 
-@pytest.mark.slow
 def test_the_share_outside_is_an_area(domain: Domain):
     image = coordinates_as_colours(100, 100)
     # 12 x 8 with a hole of 3 x 3; the hole's and the shape's left parts are cut off at x = -10.
@@ -138,7 +137,6 @@ def test_the_share_outside_is_an_area(domain: Domain):
     assert rendering(image, HarmonicMap.identity(domain), n_vertices=300).outside == 0.0
 
 
-@pytest.mark.slow
 def test_straight_edges_follow_the_map_to_a_quarter_of_a_pixel(bar: Domain):
     image = coordinates_as_colours(400, 400)
     map = bent(bar, 0.3)
@@ -154,7 +152,6 @@ def test_straight_edges_follow_the_map_to_a_quarter_of_a_pixel(bar: Domain):
     assert np.quantile(error, 0.99) < 0.25
 
 
-@pytest.mark.slow
 def test_refinement_is_conforming_and_keeps_the_domain(bar: Domain):
     coarse = deformed_mesh(bent(bar, 0.3), 300)
     fine = deformed_mesh(bent(bar, 0.3), 300, tolerance=2e-3)

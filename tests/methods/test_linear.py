@@ -20,6 +20,8 @@ from glid_nb.solvers import Pose, Status
 from ..domains import real
 from .problems import problem, run_method
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 Array = NDArray[Any]
 
 LINEAR = [name for name, method in METHODS.items() if method.family == "linear"]

@@ -27,6 +27,8 @@ from glid_nb.solvers import MethodError, Pose, Result, Status
 from ..domains import domain
 from .problems import problem, run_method
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 Array = NDArray[Any]
 
 COARSE = 600
@@ -58,7 +60,6 @@ def independent_energy(map: MeshMap, energy: str) -> float:
     return float((area * density).sum() / area.sum())
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ell", "ring", "bent"])
 def test_stiff_soft_constraints_and_hard_ones_have_one_minimum(name: str) -> None:
     soft = run("slim", name, p2p_weight=1e9, tolerance=1e-10)
@@ -72,7 +73,6 @@ def test_stiff_soft_constraints_and_hard_ones_have_one_minimum(name: str) -> Non
     np.testing.assert_allclose(hard.map(hard.pose.handles), hard.pose.targets, atol=1e-9)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "energy"),
     [
@@ -140,7 +140,6 @@ def unbalance(result: Result, energy: Energy, weight: float) -> float:
     return float(np.abs(iso + pull).max() / np.abs(pull).max())
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("weight", [1.0, 100.0])
 @pytest.mark.parametrize("name", ["ell", "ring"])
 @pytest.mark.parametrize(
@@ -172,7 +171,6 @@ def test_arap_goes_down_with_hard_constraints() -> None:
         assert result.energy == pytest.approx(independent_energy(result.map, "arap"), rel=1e-9)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ell", "ring", "bent"])
 def test_arap_ends_where_a_general_optimiser_ends(name: str) -> None:
     """SciPy's L-BFGS-B from the same start, on the energy by singular values; "bent" folds."""

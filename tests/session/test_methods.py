@@ -20,6 +20,8 @@ from glid_nb.solvers import MethodError, Status
 
 from ..domains import domain
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 TIMEOUT = 120.0
 HARMONIC = [name for name, method in METHODS.items() if method.family == "harmonic"]
 ON_MESHES = [name for name, method in METHODS.items() if method.family != "harmonic"]
@@ -43,7 +45,6 @@ def choose(model: Deformation, name: str) -> None:
     model.set_method(name)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", HARMONIC)
 def test_a_method_in_the_subspace_moves_the_certified_map(ring: Deformation, name: str) -> None:
     frames: list[HarmonicMap] = []
@@ -66,7 +67,6 @@ def test_a_method_in_the_subspace_moves_the_certified_map(ring: Deformation, nam
         assert certify(map_).certified
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ON_MESHES)
 def test_a_method_on_a_mesh_stands_beside_the_certified_map(ring: Deformation, name: str) -> None:
     choose(ring, name)
@@ -91,7 +91,6 @@ def test_a_method_on_a_mesh_stands_beside_the_certified_map(ring: Deformation, n
     np.testing.assert_allclose(ring.map([[2, 0]]), [[2.4, 0.3]], atol=1e-3)
 
 
-@pytest.mark.slow
 def test_turned_over_triangles_are_said_in_words(ring: Deformation) -> None:
     ring.set_method("mls")
     ring.drag(0, to=(-6, 0))
@@ -104,7 +103,6 @@ def test_turned_over_triangles_are_said_in_words(ring: Deformation) -> None:
     assert certify(ring.map).certified
 
 
-@pytest.mark.slow
 def test_undo_solves_a_mesh_again(ring: Deformation) -> None:
     ring.set_method("mls")
     assert ring.solve(TIMEOUT)
@@ -123,7 +121,6 @@ def test_undo_solves_a_mesh_again(ring: Deformation) -> None:
     assert ring.state.current.method.name == "newton"
 
 
-@pytest.mark.slow
 def test_a_newer_target_interrupts_between_iterations(ring: Deformation) -> None:
     ring.set_method("gradient-descent")
     ring.begin_drag([0])
@@ -135,7 +132,6 @@ def test_a_newer_target_interrupts_between_iterations(ring: Deformation) -> None
     np.testing.assert_allclose(ring.map([[2, 0]]), [[3, 0.1]], atol=1e-3)
 
 
-@pytest.mark.slow
 def test_a_step_is_one_iteration(ring: Deformation) -> None:
     ring.paused = True
     ring.set_method("lbfgs")
@@ -148,7 +144,6 @@ def test_a_step_is_one_iteration(ring: Deformation) -> None:
     assert len(solution.history) == 1
 
 
-@pytest.mark.slow
 def test_a_method_refuses_what_it_cannot_do(ring: Deformation) -> None:
     state = ring.state
     for refused in (
@@ -191,7 +186,6 @@ def test_too_few_handles_are_said_in_words(ring: Deformation) -> None:
     assert not ring.moment.solved
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", METHODS)
 def test_without_handles_nothing_breaks(name: str) -> None:
     if importlib.util.find_spec(METHODS[name].package or "numpy") is None:

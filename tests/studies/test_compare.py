@@ -24,12 +24,13 @@ from studies.study import Plan
 from ..methods.problems import problem, run_method
 from ..reference_map import ReferenceMap
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 
 def small(name: str = "bent") -> Case:
     return Case(name, Problem(*problem(name)))
 
 
-@pytest.mark.slow
 def test_lipschitz_constants_bound_the_derivative() -> None:
     result = run_method("newton", *problem("ring"))
     map_ = result.map
@@ -49,7 +50,6 @@ def test_lipschitz_constants_bound_the_derivative() -> None:
         assert (quotient <= theirs * (1 + 1e-9)).all()
 
 
-@pytest.mark.slow
 def test_segments_that_are_too_long_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     map_ = run_method("newton", *problem("bent")).map
     assert isinstance(map_, HarmonicMap)
@@ -89,7 +89,6 @@ def test_a_minimum_is_borrowed_where_there_is_none_below() -> None:
         progress.minimum_below("slim", flat, None, pose)
 
 
-@pytest.mark.slow
 @pytest.mark.usefixtures("small_sizes")
 def test_progress_from_measurement_to_table(tmp_path: Path) -> None:
     data = {"name": "bent", **progress.measure(small(), Plan())}
@@ -128,7 +127,6 @@ def test_progress_from_measurement_to_table(tmp_path: Path) -> None:
     assert float(tables["distortion"][0][titles["newton"]]) == pytest.approx(ours, abs=6e-4)
 
 
-@pytest.mark.slow
 @pytest.mark.usefixtures("small_sizes")
 def test_parts_from_measurement_to_table() -> None:
     ring = small("ring")
@@ -150,7 +148,6 @@ def test_parts_from_measurement_to_table() -> None:
     assert [row["samples"] for row in rows] == ["400", "1,000"]
 
 
-@pytest.mark.slow
 def test_a_study_writes_its_table_and_figure(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

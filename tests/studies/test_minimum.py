@@ -16,6 +16,8 @@ from studies.compare.minimum import Constraints, NoMinimumError, mesh_minimum
 
 from ..methods.problems import problem, run_method
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 COARSE = 250
 _, POSE = problem("ell")
 
@@ -48,7 +50,6 @@ def total(map_: MeshMap, constraints: Constraints) -> float:
     return iso + (1e5 / 2 * float((miss**2).sum()) if constraints == "soft" else 0.0)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("method", "constraints"), [("slim", "soft"), ("aqp", "hard")])
 def test_a_method_that_goes_on_ends_at_the_minimum(method: str, constraints: Constraints) -> None:
     found = mesh_minimum(map_of(method, 3), POSE, SymmetricDirichlet(), constraints)

@@ -18,6 +18,8 @@ from studies.runs import VISIBLE, Watcher, outcome, reached, run, thumbnails
 
 from ..methods.problems import problem, run_method
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 MESH = triangulate(problem("ell")[0].cage, 20)
 
 
@@ -38,7 +40,6 @@ def progress(iteration: int, shift: float) -> Progress:
     )
 
 
-@pytest.mark.slow
 def test_iterates_are_thinned_and_the_method_stopped_in_time() -> None:
     watcher = Watcher(MESH.vertices, seconds=999.5)
     stopped = [watcher(progress(i, 0.5 * i)) for i in range(1_000)]
@@ -105,7 +106,6 @@ def test_flips_count_at_every_iteration() -> None:
     assert outcome(folded)["most_flips"] == 7
 
 
-@pytest.mark.slow
 def test_runs_are_from_the_identity() -> None:
     case = Case("bent", Problem(*problem("bent")))
     still = run("newton", case, max_iterations=0)

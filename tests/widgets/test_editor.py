@@ -32,6 +32,8 @@ from glid_nb.widgets.pane import emptiest_corner
 
 from ..domains import domain
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 TIMEOUT = 120.0
 
 
@@ -57,7 +59,6 @@ def editor() -> Iterator[Editor]:
     editor.close()
 
 
-@pytest.mark.slow
 def test_the_colour_bar_goes_where_it_hides_least() -> None:
     size = 600, 400
     corners = {"bottom right": (550, 20), "bottom left": (30, 30), "top right": (500, 390)}
@@ -68,7 +69,6 @@ def test_the_colour_bar_goes_where_it_hides_least() -> None:
     assert emptiest_corner(twice, *size) == "top left"
 
 
-@pytest.mark.slow
 def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
     assert editor.document.cage.n_holes == 1
     left, right = editor.add_handle((-7, 0)), editor.add_handle((7, 0))
@@ -111,7 +111,6 @@ def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
     assert np.array_equal(editor.map.phi, phi)
 
 
-@pytest.mark.slow
 def test_a_session_file_is_kept_up_to_date(tmp_path: Path) -> None:
     path = tmp_path / "session.glid"
     editor = Editor(bar(), path=path, n_vertices=300)
@@ -128,7 +127,6 @@ def test_a_session_file_is_kept_up_to_date(tmp_path: Path) -> None:
     again.close()
 
 
-@pytest.mark.slow
 def test_a_save_that_fails_is_shown(tmp_path: Path) -> None:
     folder = tmp_path / "away"
     folder.mkdir()
@@ -167,7 +165,6 @@ def test_without_a_picture_it_asks_for_one() -> None:
     editor.close()
 
 
-@pytest.mark.slow
 def test_the_canvas_shows_what_the_model_holds() -> None:
     image = np.full((60, 60, 4), 255, np.uint8)
     canvas = DeformCanvas(image, domain("ring"), n_vertices=200, show_source=True)
@@ -256,7 +253,6 @@ editor.close()
 """
 
 
-@pytest.mark.slow
 def test_the_first_canvas_waits_for_no_more_than_it_needs(tmp_path: Path) -> None:
     environment = {**os.environ, "GLID_NB_CACHE": str(tmp_path)}
     done = subprocess.run(
@@ -284,7 +280,6 @@ def test_the_colours_are_those_of_the_figures() -> None:
     np.testing.assert_allclose(rgb(COLORS), expected, atol=0.5 / 255 + 1e-9)
 
 
-@pytest.mark.slow
 def test_a_closed_editor_leaves_no_widget_behind(tmp_path: Path) -> None:
     from ipywidgets.widgets import widget
 
@@ -315,7 +310,6 @@ def test_a_closed_editor_makes_nothing_more() -> None:
         _ = editor.solver_panel
 
 
-@pytest.mark.slow
 def test_a_frame_that_comes_late_finds_the_canvas_closed() -> None:
     from ipywidgets.widgets import widget
 
@@ -389,7 +383,6 @@ def _widgets() -> set[str]:
     return set(ipywidgets.Widget.get_manager_state(drop_defaults=True)["state"])
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "kind", "message"),
     [
@@ -416,7 +409,6 @@ def test_wrong_arguments_are_refused_and_leave_nothing(
     assert _widgets() == before
 
 
-@pytest.mark.slow
 def test_a_canvas_that_cannot_be_made_is_dropped_quietly(monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object, **__: object) -> None:
         raise MemoryError
@@ -436,7 +428,6 @@ def test_a_timeout_that_is_no_number_is_refused(editor: Editor, timeout: Any) ->
         editor.solve(timeout)
 
 
-@pytest.mark.slow
 def test_the_monitor_draws_plots_and_words() -> None:
     from glid_nb.session.deformation import Deformation
 
@@ -474,7 +465,6 @@ def test_frames_are_counted_in_words() -> None:
     monitor.close()
 
 
-@pytest.mark.slow
 def test_a_comparison_is_drawn_in_place_of_the_map(editor: Editor) -> None:
     canvas = editor.canvas
     assert canvas is not None
@@ -520,7 +510,6 @@ def test_colour_ranges_fit_the_map_in_round_steps() -> None:
     assert end("sigma1", 1.2, least=(1.0, 2.0)) == 2  # it only widens
 
 
-@pytest.mark.slow
 def test_a_cell_with_picture_and_file_can_run_again(tmp_path: Path) -> None:
     path = tmp_path / "bar.glid"
     first = Editor(bar(), path=path, n_vertices=300)
@@ -533,7 +522,6 @@ def test_a_cell_with_picture_and_file_can_run_again(tmp_path: Path) -> None:
         editor.close()
 
 
-@pytest.mark.slow
 def test_a_file_of_another_editor_is_left_and_told(tmp_path: Path) -> None:
     path = tmp_path / "bar.glid"
     first, second = (Editor(bar(), path=path, n_vertices=300) for _ in range(2))
@@ -554,7 +542,6 @@ def test_a_file_of_another_editor_is_left_and_told(tmp_path: Path) -> None:
         assert load_document(tmp_path / name).poses[0].pose.handles.tolist() == [[x, 0]]
 
 
-@pytest.mark.slow
 def test_lost_handles_are_told(editor: Editor) -> None:
     editor.deformation.paused = True
     editor.add_handle((-7.5, 1.5))
@@ -569,7 +556,6 @@ def test_lost_handles_are_told(editor: Editor) -> None:
     assert len(editor.pose) == 0
 
 
-@pytest.mark.slow
 def test_what_becomes_of_the_tracing_is_told(editor: Editor) -> None:
     tracing, frame = editor.model.tracing, editor.model.tracing.frame
     assert frame is not None

@@ -9,6 +9,8 @@ from glid_nb.widgets import DeformCanvas
 from ..domains import domain
 from .test_shader import PICTURE
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 
 def _canvas(**settings: object) -> DeformCanvas:
     return DeformCanvas(PICTURE, domain("ell"), **settings)
@@ -49,7 +51,6 @@ def test_a_mesh_that_was_asked_for_stays() -> None:
     canvas.close()
 
 
-@pytest.mark.slow
 def test_what_was_shown_is_shown_on_the_other_mesh() -> None:
     canvas = _canvas()
     canvas.overlay, canvas.show_cage, canvas.show_panels = "sigma1", True, True
