@@ -68,6 +68,10 @@ class Method:
     linear method is one on a mesh that solves once."""
     max_iterations: ClassVar[int] = 200
     """Unless the options say otherwise."""
+    window: ClassVar[int | None] = None
+    """It has converged where so many iterations together change the energy by no more than
+    ``tolerance`` of it; None for a method that ends otherwise."""
+    tolerance: ClassVar[float] = 0.0
     energies: ClassVar[tuple[str, ...] | None] = None
     """Names of the energies that it can minimise; None for any."""
     package: ClassVar[str | None] = None

@@ -12,7 +12,7 @@ from glid_nb.solvers.discretisation import CertificateKind, Sampling
 
 MOST_CORRECTIONS = 3
 # The certificate's allowance for rounding covers so many steps of one compiled call.
-_MOST_PER_CALL = CARRIED_STEPS // (1 + MOST_CORRECTIONS)
+MOST_PER_CALL = CARRIED_STEPS // (1 + MOST_CORRECTIONS)
 
 HessianKind = Literal["adaptive", "projected", "exact"]
 
@@ -112,11 +112,11 @@ class Options:
         MOST_CORRECTIONS, "Corrections", "Most steps by an old Hessian", most=MOST_CORRECTIONS
     )
     iterations_per_call: int = _option(
-        _MOST_PER_CALL,
+        MOST_PER_CALL,
         "Iterations / frame",
         "Iterations between two frames",
         least=1,
-        most=_MOST_PER_CALL,
+        most=MOST_PER_CALL,
     )
 
     def __post_init__(self) -> None:

@@ -1,8 +1,11 @@
-"""How a solve can end."""
+"""How a solve, and one compiled call of it, can end."""
 
 from __future__ import annotations
 
 from enum import Enum
+
+# How a call can end, as integers that a device program can return.
+RUNNING, CONVERGED, NO_DECREASE, REFUSED, INDEFINITE, BLOCKED, PENDING = range(7)
 
 
 class Status(Enum):

@@ -9,7 +9,7 @@ without the margin, exceeds it, the sample's bound gives way to what the map has
 
 from __future__ import annotations
 
-import time
+import functools
 from dataclasses import dataclass
 from typing import Any
 
@@ -25,7 +25,7 @@ from glid_nb.methods.bdhm.problem import BoundedProblem
 from glid_nb.methods.bdhm.program import Step, solve_program
 from glid_nb.methods.bdhm.samples import MARGIN, ActiveSet
 from glid_nb.solvers import Iteration, Method, Pose, Result, Status
-from glid_nb.solvers.loop import Ending, GeneratedDescent, Snapshot, Steps, follow
+from glid_nb.solvers.loop import Ending, GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.method import Inputs
 
 Array = NDArray[Any]
@@ -87,7 +87,7 @@ class BDHM(Method):
 
     def run(self, inputs: Inputs) -> Result:
         """Alternate between frames and cone programs until none lowers the energy."""
-        return follow(lambda: GeneratedDescent(self, self._steps(inputs)), inputs)
+        return follow(lambda: GeneratedDescent(self, inputs, self._steps(inputs)))
 
     def _steps(self, inputs: Inputs) -> Steps:
         domain, options = inputs.domain, inputs.options
@@ -97,15 +97,13 @@ class BDHM(Method):
         now = descent.started(identity if start is None else start, options.align)
         if not self.bounds.hold(now.certificate):
             now = descent.started(identity, options.align)
-        seconds = 0.0
         while True:
-            yield descent.snapshot(now, seconds)
-            began = time.perf_counter()
+            yield functools.partial(descent.reached, now)
             with single_blas_thread():
                 outcome = descent.advance(now)
             if isinstance(outcome, Ending):
                 return outcome
-            now, seconds = outcome, time.perf_counter() - began
+            now = outcome
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,17 +208,17 @@ class _Descent:
     def _proved(self, v: Array) -> Certificate:
         return self.problem.certified(v, self.tightness)
 
-    def snapshot(self, now: Iterate, seconds: float) -> Snapshot:
+    def reached(self, now: Iterate) -> Reached:
         iso, p2p = self.problem.energies(now.v)
         entry = Iteration(
             iteration=0,
             energy_iso=iso,
             energy_p2p=p2p,
-            time=seconds,
+            time=0.0,
             step=now.step,
             sigma2_lower=now.certificate.sigma2_lower,
         )
-        return Snapshot(entry, lambda: self.problem.map_of(now.v), now.certificate)
+        return Reached(entry, lambda: self.problem.map_of(now.v), None, now.certificate)
 
 
 def _blocked(why: str) -> Ending:

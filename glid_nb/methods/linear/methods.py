@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -14,6 +13,7 @@ from glid_nb.methods.linear import weights
 from glid_nb.methods.linear.cauchy import cauchy_point_to_point
 from glid_nb.methods.linear.mean_value import handle_polygon, mean_value_coordinates
 from glid_nb.methods.linear.moving_least_squares import Kind, moving_least_squares
+from glid_nb.methods.mesh.operators import flips
 from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
 from glid_nb.solvers import MethodError, Status
 from glid_nb.solvers.loop import Ending, Steps
@@ -37,13 +37,11 @@ class LinearMethod(MeshMethod):
 
     def steps(self, problem: MeshProblem) -> Steps:
         """The one solve."""
-        yield problem.snapshot(problem.start, 0.0)
-        began = time.perf_counter()
+        yield problem.at(problem.start)
         w = self.images(problem)
-        state = problem.snapshot(w, time.perf_counter() - began)
-        yield state
-        flips = state.entry.flips
-        over = f"{flips} triangles are" if flips else "no triangle is"
+        yield problem.at(w)
+        count = flips(*problem.operators.wirtinger(w))
+        over = f"{count} triangles are" if count else "no triangle is"
         return Ending(Status.CONVERGED, f"A linear method, solved at once: {over} turned over.")
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,7 +18,6 @@ _SAFETY = 0.9
 _LEAST_STEP = 1e-14
 # A decrease promised by the proxy that rounding of the energy can hide.
 _ROUNDING = 1e-8
-_WINDOW = 10
 _SMOOTHING = 30
 
 
@@ -44,6 +42,7 @@ class AQP(MeshMethod):
     name = "aqp"
     label = "AQP"
     max_iterations = 1000
+    window = 10
     energies = ("iso", "exp", "amips", "mips", "custom")
     options = ("align", "max_iterations")
 
@@ -70,9 +69,8 @@ class AQP(MeshMethod):
         theta = (1 - np.sqrt(1 / self.kappa)) / (1 + np.sqrt(1 / self.kappa))
         pinned = Pinned(problem.operators, problem.handles)
         proxy = _Proxy(problem.operators, pinned, problem.energy, theta)
-        began = time.perf_counter()
         now = self._started(problem, proxy)
-        yield problem.snapshot(now.w, time.perf_counter() - began)
+        yield problem.at(now.w)
         if not np.isfinite(now.energy):
             left = flips(now.fz, now.fzb)
             return Ending(
@@ -81,23 +79,12 @@ class AQP(MeshMethod):
                 "flat, where the energy is not finite.",
             )
         before, step = now, 1.0
-        energies = [now.energy]
         while True:
-            began = time.perf_counter()
             found = proxy.iterated(now, before, step)
             if found is None:
                 return proxy.without_decrease(now)
             before, (now, step) = now, found
-            yield problem.snapshot(now.w, time.perf_counter() - began, step)
-            energies.append(now.energy)
-            recent = energies[-1 - _WINDOW :]
-            gain = recent[0] - recent[-1]
-            if len(recent) > _WINDOW and gain <= self.tolerance * abs(recent[-1]):
-                return Ending(
-                    Status.CONVERGED,
-                    f"The solver converged: {_WINDOW} iterations together lower the energy by less "
-                    f"than {self.tolerance:g} of it.",
-                )
+            yield problem.at(now.w, step)
 
     def _started(self, problem: MeshProblem, proxy: _Proxy) -> _State:
         """ARAP, projected, and smoothed for other energies than the symmetric Dirichlet energy."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,12 +11,10 @@ from numpy.typing import NDArray
 from glid_nb.energies import AMIPS, ARAP, Energy, ExponentialSymmetricDirichlet
 from glid_nb.methods.mesh.operators import flips
 from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
-from glid_nb.solvers import MethodError, Status
-from glid_nb.solvers.loop import Ending, Steps
+from glid_nb.solvers import MethodError
+from glid_nb.solvers.loop import Steps
 
 Array = NDArray[Any]
-
-_WINDOW = 5
 
 
 def slim_energy(energy: Energy) -> tuple[str, float]:
@@ -70,6 +66,7 @@ class SLIM(MeshMethod):
     max_iterations = 300
     energies = ("iso", "exp", "mips")
     package = "igl"
+    window = 5
 
     tolerance: float = 1e-9
 
@@ -97,7 +94,9 @@ class SLIM(MeshMethod):
             np.asfortranarray(_real(problem.targets)),
             problem.p2p_weight * problem.operators.area * factor,
         )
-        return _iterated(problem, _real(w), lambda _: igl.slim_solve(data, 1), self.tolerance)
+        while True:
+            yield problem.at(w)
+            w = igl.slim_solve(data, 1) @ np.array([1, 1j])
 
 
 @dataclass(frozen=True)
@@ -111,6 +110,7 @@ class ARAPLocalGlobal(MeshMethod):
     label = "ARAP, local/global"
     energies = ("arap",)
     package = "igl"
+    window = 5
     options = ("align", "max_iterations")
     needs_handles = True
 
@@ -126,43 +126,10 @@ class ARAPLocalGlobal(MeshMethod):
         vertices = np.ascontiguousarray(mesh.vertices)
         faces = np.ascontiguousarray(mesh.triangles, dtype=np.int64)
         igl.arap_precomputation(vertices, faces, 2, problem.handles.astype(np.int32), data)
-        targets = _real(problem.targets)
-
-        def step(images: Array) -> Any:
-            return igl.arap_solve(targets, data, np.ascontiguousarray(images))
-
-        return _iterated(problem, _real(problem.start), step, self.tolerance, hard=True)
-
-
-def _iterated(
-    problem: MeshProblem,
-    images: Array,
-    step: Callable[[Array], Any],
-    tolerance: float,
-    hard: bool = False,
-) -> Steps:
-    """Steps from images (v, 2) on until some of them together change next to nothing.
-
-    A start that misses ``hard`` constraints has no energy to compare with.
-    """
-    energies: list[float] = []
-    seconds = 0.0
-    while True:
-        state = problem.snapshot(images[:, 0] + 1j * images[:, 1], seconds)
-        yield state
-        entry = state.entry
-        misses = hard and not energies and entry.energy_p2p > 0
-        energies.append(np.inf if misses else entry.energy_iso if hard else entry.energy)
-        recent = energies[-1 - _WINDOW :]
-        if len(recent) > _WINDOW and abs(recent[0] - recent[-1]) <= tolerance * abs(recent[-1]):
-            return Ending(
-                Status.CONVERGED,
-                f"The solver converged: {_WINDOW} iterations together change the energy by less "
-                f"than {tolerance:g} of it.",
-            )
-        began = time.perf_counter()
-        images = step(images)
-        seconds = time.perf_counter() - began
+        targets, w = _real(problem.targets), problem.start
+        while True:
+            yield problem.at(w)
+            w = igl.arap_solve(targets, data, _real(w)) @ np.array([1, 1j])
 
 
 def _real(w: Any) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,7 +14,7 @@ from glid_nb.geometry import MeshMap, Triangulation, triangulate
 from glid_nb.harmonic import as_complex
 from glid_nb.methods.mesh.operators import MeshOperators, flips
 from glid_nb.solvers import DeformationMap, Iteration, Method, MethodError, Result
-from glid_nb.solvers.loop import GeneratedDescent, Snapshot, Steps, follow
+from glid_nb.solvers.loop import GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.start import RigidMotion
 
@@ -66,19 +67,23 @@ class MeshProblem:
         """The map with these images."""
         return MeshMap(self.operators.mesh, np.stack([np.real(w), np.imag(w)], axis=-1))
 
-    def snapshot(self, w: Array, seconds: float, step: float | None = None) -> Snapshot:
-        """The state for the record; none of this work is timed."""
-        fz, fzb = self.operators.wirtinger(w)
-        miss = w[self.handles] - self.targets
-        entry = Iteration(
-            iteration=0,
-            energy_iso=self.operators.energy(self.energy, fz, fzb),
-            energy_p2p=self.p2p_weight / 2 * float((np.abs(miss) ** 2).sum()),
-            time=seconds,
-            step=step,
-            flips=flips(fz, fzb),
-        )
-        return Snapshot(entry, lambda: self.map_of(w))
+    def at(self, w: Array, step: float | None = None) -> Callable[[], Reached]:
+        """What tells where a method is that has come to the images ``w``."""
+
+        def reached() -> Reached:
+            fz, fzb = self.operators.wirtinger(w)
+            miss = w[self.handles] - self.targets
+            entry = Iteration(
+                iteration=0,
+                energy_iso=self.operators.energy(self.energy, fz, fzb),
+                energy_p2p=self.p2p_weight / 2 * float((np.abs(miss) ** 2).sum()),
+                time=0.0,
+                step=step,
+                flips=flips(fz, fzb),
+            )
+            return Reached(entry, lambda: self.map_of(w))
+
+        return reached
 
 
 def _vertices_at(mesh: Triangulation, points: Array, tolerance: float) -> Array:
@@ -138,4 +143,4 @@ class MeshMethod(Method):
         """Its steps, recorded."""
         self.check_handles(inputs)
         problem = MeshProblem.of(inputs, self.n_vertices)
-        return follow(lambda: GeneratedDescent(self, self.steps(problem)), inputs)
+        return follow(lambda: GeneratedDescent(self, inputs, self.steps(problem)))

@@ -10,7 +10,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from glid_nb.methods.subspace.descent import Memory, SubspaceMethod, View
+from glid_nb.methods.subspace.descent import DirectedDescent, SubspaceMethod
 
 Array = NDArray[Any]
 
@@ -50,17 +50,23 @@ class LBFGS(SubspaceMethod):
     def remembered(self) -> Pairs:
         return Pairs(self.memory)
 
-    def direction(self, view: View) -> Array:
-        free, pairs = view.problem.free, view.memory
+    def forget(self, memory: Pairs) -> bool:
+        had = bool(memory.pairs)
+        memory.pairs.clear()
+        memory.last = None
+        return had
+
+    def direction(self, at: DirectedDescent) -> Array:
+        pairs: Pairs = at.memory
         if pairs.factor is None:
-            iso = np.diag(np.where(free > 0, 2 / _SAMPLES, 1.0))
+            iso = np.diag(np.where(at.free > 0, 2 / _SAMPLES, 1.0))
             if self.initial == "dirichlet":
                 # Handles in one place leave the Dirichlet Hessian singular.
-                iso = view.problem.hessian(view.point, "dirichlet") + 1e-9 * np.eye(len(iso))
-            pairs.factor = scipy.linalg.cho_factor(view.problem.p2p_hessian + iso, lower=True)
-        pairs.add(np.asarray(view.point.coefficients) * free, view.gradient)
+                iso = at.hessian("dirichlet") + 1e-9 * np.eye(len(iso))
+            pairs.factor = scipy.linalg.cho_factor(at.p2p_hessian + iso, lower=True)
+        pairs.add(np.asarray(at.point.coefficients) * at.free, at.gradient)
         return -two_loop(
-            view.gradient, list(pairs.pairs), lambda v: scipy.linalg.cho_solve(pairs.factor, v)
+            at.gradient, list(pairs.pairs), lambda v: scipy.linalg.cho_solve(pairs.factor, v)
         )
 
 
@@ -72,14 +78,14 @@ class GradientDescent(SubspaceMethod):
     label = "Gradient descent"
     max_iterations = 1000
 
-    def direction(self, view: View) -> Array:
+    def direction(self, at: DirectedDescent) -> Array:
         # Scaled to the size of the coefficients for the line search's sake.
-        slope = float(np.linalg.norm(view.gradient))
-        size = float(np.linalg.norm(view.point.coefficients))
-        return -(size / slope if slope > 0 else 1.0) * view.gradient
+        slope = float(np.linalg.norm(at.gradient))
+        size = float(np.linalg.norm(at.point.coefficients))
+        return -(size / slope if slope > 0 else 1.0) * at.gradient
 
 
-class Pairs(Memory):
+class Pairs:
     """The last pairs of steps and changes of the gradient, and the factor to start from."""
 
     def __init__(self, most: int) -> None:
@@ -95,12 +101,6 @@ class Pairs(Memory):
             if s @ y > 1e-12 * np.linalg.norm(s) * np.linalg.norm(y):
                 self.pairs.append((s, y))
         self.last = (x, gradient)
-
-    def forget(self) -> bool:
-        had = bool(self.pairs)
-        self.pairs.clear()
-        self.last = None
-        return had
 
 
 def two_loop(gradient: Array, pairs: list[tuple[Array, Array]], apply_initial: Any) -> Array:

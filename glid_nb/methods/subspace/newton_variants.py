@@ -9,9 +9,9 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from glid_nb.methods.subspace.descent import Memory, SecondOrderMethod, View
-from glid_nb.methods.subspace.problem import SubspaceProblem
-from glid_nb.solvers import Method, MethodError, Result, Status
+from glid_nb._jax import jnp
+from glid_nb.methods.subspace.descent import DirectedDescent, SecondOrderMethod
+from glid_nb.solvers import Method, MethodError, OptionError, Result, Status
 from glid_nb.solvers.loop import Ending
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import descend
@@ -76,14 +76,25 @@ class NewtonStaged(SecondOrderMethod):
 
     hessian_samples: int | None = None
 
-    def problem(self, inputs: Inputs) -> SubspaceProblem:
-        problem = super().problem(inputs)
-        problem.take_hessian_samples(self.hessian_samples)
-        return problem
+    def started(self, inputs: Inputs) -> DirectedDescent:
+        at, count = super().started(inputs), self.hessian_samples
+        if count is None:
+            return at
+        panels = len(at.discretisation.panels)
+        if inputs.options.sampling != "uniform":
+            raise OptionError("hessian_samples needs sampling='uniform'")
+        if not 1 <= count <= panels:
+            raise OptionError(f"hessian_samples must be from 1 to {panels}, got {count}")
+        matrices = at.problem.matrices._replace(
+            hessian_index=jnp.asarray(np.linspace(0, panels, count, endpoint=False).astype(int)),
+            hessian_weights=jnp.full(count, 1 / count),
+        )
+        at.problem = at.problem._replace(matrices=matrices)
+        return at
 
-    def direction(self, view: View) -> Array | Ending:
-        h = view.problem.hessian(view.point, "projected") + view.problem.p2p_hessian
-        return _solve_semidefinite(h, view.gradient)
+    def direction(self, at: DirectedDescent) -> Array | Ending:
+        h = at.hessian("projected") + at.p2p_hessian
+        return _solve_semidefinite(h, at.gradient)
 
 
 @dataclass(frozen=True)
@@ -101,11 +112,11 @@ class NewtonEigen(SecondOrderMethod):
 
     absolute: bool = False
 
-    def direction(self, view: View) -> Array:
-        h = view.problem.hessian(view.point, "exact") + view.problem.p2p_hessian
+    def direction(self, at: DirectedDescent) -> Array:
+        h = at.hessian("exact") + at.p2p_hessian
         values, vectors = scipy.linalg.eigh(h, check_finite=False)
         values = np.maximum(np.abs(values) if self.absolute else values, FLOOR)
-        return -vectors @ ((vectors.T @ view.gradient) / values)
+        return -vectors @ ((vectors.T @ at.gradient) / values)
 
 
 @dataclass(frozen=True)
@@ -128,15 +139,14 @@ class NewtonShift(SecondOrderMethod):
                 f"beta, the least multiple of the identity, must be positive; got {self.beta!r}"
             )
 
-    def direction(self, view: View) -> Array:
-        iso = view.problem.hessian(view.point, "exact")
-        h = iso + view.problem.p2p_hessian
-        free = view.problem.free > 0
-        beta = self.beta * float(np.abs(np.diag(iso)[free]).mean())
+    def direction(self, at: DirectedDescent) -> Array:
+        iso = at.hessian("exact")
+        h = iso + at.p2p_hessian
+        beta = self.beta * float(np.abs(np.diag(iso)[at.free > 0]).mean())
         least = float(np.diag(h).min())
         shift = 0.0 if least > 0 else beta - least
         while True:
-            direction = _solve(h + shift * np.eye(len(h)), view.gradient)
+            direction = _solve(h + shift * np.eye(len(h)), at.gradient)
             if direction is not None:
                 return direction
             shift = max(2 * shift, beta)
@@ -152,17 +162,16 @@ class GaussNewton(SecondOrderMethod):
 
     damping: float = 0.0
 
-    def remembered(self) -> Damping:
-        return Damping(self.damping)
+    def remembered(self) -> float:
+        return self.damping
 
-    def direction(self, view: View) -> Array | Ending:
-        iso, damping = view.problem.hessian(view.point, "gauss-newton"), view.memory
-        if view.step is not None:
-            damping.value *= 0.2 if view.step >= 1 else 2.0
-        free = view.problem.free
-        shift = damping.value * float(np.diag(iso)[free > 0].mean())
-        h = iso + view.problem.p2p_hessian + shift * np.diag(free)
-        return _solve_semidefinite(h, view.gradient)
+    def direction(self, at: DirectedDescent) -> Array | Ending:
+        iso = at.hessian("gauss-newton")
+        if at.step is not None:
+            at.memory *= 0.2 if at.step >= 1 else 2.0
+        shift = at.memory * float(np.diag(iso)[at.free > 0].mean())
+        h = iso + at.p2p_hessian + shift * np.diag(at.free)
+        return _solve_semidefinite(h, at.gradient)
 
 
 @dataclass(frozen=True)
@@ -177,13 +186,6 @@ class LevenbergMarquardt(GaussNewton):
     label = "Levenberg-Marquardt"
 
     damping: float = 1e-4
-
-
-@dataclass
-class Damping(Memory):
-    """The multiple of the identity that is added."""
-
-    value: float
 
 
 def _solve_semidefinite(h: Array, gradient: Array) -> Array | Ending:
