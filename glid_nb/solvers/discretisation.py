@@ -114,13 +114,9 @@ class Discretisation:
         that of the discrete energy. The uniform sampling keeps its own (33).
         """
         m = self.matrices
-        if self.sampling == "uniform":
-            return m._replace(whitened=whitened(m.nodes[:, m.hessian_index], m.whitening))
-        return m._replace(
-            hessian_index=jnp.arange(len(m.weights)),
-            hessian_weights=m.weights,
-            whitened=whitened(m.nodes, m.whitening),
-        )
+        if self.sampling == "graded":
+            m = m._replace(hessian_index=jnp.arange(len(m.weights)), hessian_weights=m.weights)
+        return m._replace(whitened=whitened(m.nodes[:, m.hessian_index], m.whitening))
 
     @property
     def can_refine(self) -> bool:

@@ -14,7 +14,7 @@ from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.harmonic.basis import Basis
 from glid_nb.harmonic.cauchy import Singularities
-from glid_nb.solvers.discretisation import Discretisation, Matrices, basis_rows
+from glid_nb.solvers.discretisation import Matrices, basis_rows
 from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.unknowns import Unknowns
 
@@ -90,8 +90,8 @@ def real_coefficients(basis: Basis, map: HarmonicMap) -> NDArray[Any]:
     return np.concatenate([np.real(phi), np.imag(phi), np.real(psi), np.imag(psi)])
 
 
-def map_from(discretisation: Discretisation, coefficients: Any) -> HarmonicMap:
+def map_from(domain: Domain, coefficients: Any) -> HarmonicMap:
     """The map of padded real coefficients ``[Re phi, Im phi, Re psi, Im psi]``."""
-    basis = discretisation.basis
-    re_phi, im_phi, re_psi, im_psi = np.asarray(coefficients).reshape(4, -1)[:, basis.columns]
-    return HarmonicMap(discretisation.domain, re_phi + 1j * im_phi, re_psi + 1j * im_psi)
+    columns = basis_of(domain).columns
+    re_phi, im_phi, re_psi, im_psi = np.asarray(coefficients).reshape(4, -1)[:, columns]
+    return HarmonicMap(domain, re_phi + 1j * im_phi, re_psi + 1j * im_psi)

@@ -73,10 +73,10 @@ class SubspaceDescent(Descent):
 
     def reached(self) -> Reached:
         """After the last advance."""
-        point, disc = self.point, self.discretisation
+        point, domain = self.point, self.inputs.domain
         iso, p2p = float(point.energy_iso), float(point.energy_p2p)
         entry = Iteration(iteration=0, energy_iso=iso, energy_p2p=p2p, time=0.0)
-        return Reached(entry, lambda: map_from(disc, point.coefficients), self.sigma2_lower)
+        return Reached(entry, lambda: map_from(domain, point.coefficients), self.sigma2_lower)
 
     def split(self, refused: Array) -> int:
         """Split the panels that refused a step; 0 when none can be."""

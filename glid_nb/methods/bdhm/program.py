@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.sparse
@@ -15,28 +14,15 @@ from glid_nb.methods.bdhm.samples import ActiveSet
 Array = NDArray[Any]
 
 
-@dataclass(frozen=True, eq=False)
-class Step:
-    """The solution of a program.
-
-    Attributes
-    ----------
-    change : array or None
-        What to add to the unknowns; None where the program was not solved.
-    decrease : float
-        No point that the program admits lowers its energy by more: by weak duality.
-    status : str
-        Clarabel's.
-    """
+class Step(NamedTuple):
+    """The solution of a program."""
 
     change: Array | None
+    """What to add to the unknowns; None where the program was not solved."""
     decrease: float
+    """No point that the program admits lowers its energy by more: by weak duality."""
     status: str
-
-    @property
-    def solved(self) -> bool:
-        """Whether to the accuracy that was asked for."""
-        return self.status == "Solved"
+    """Clarabel's; "Solved" to the accuracy that was asked for."""
 
 
 def solve_program(gradient: Array, active: ActiveSet, v: Array, gap: float) -> Step:

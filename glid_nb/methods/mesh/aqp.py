@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from glid_nb.energies import Energy, SymmetricDirichlet
-from glid_nb.methods.mesh.operators import MeshOperators, Pinned, flips, largest_step
-from glid_nb.methods.mesh.projection import Array, project
+from glid_nb.methods.mesh.operators import Array, MeshOperators, Pinned, flips, largest_step
 from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
 from glid_nb.solvers import MethodError, Status
 from glid_nb.solvers.loop import Ending, Steps
@@ -19,6 +18,9 @@ _LEAST_STEP = 1e-14
 # A decrease promised by the proxy that rounding of the energy can hide.
 _ROUNDING = 1e-8
 _SMOOTHING = 30
+BOUND, ENOUGH = 0.9, 0.95
+"""The little dilatation is projected onto the first bound until it is below the second, at which
+the singular values' ratio is 39."""
 
 
 @dataclass(frozen=True)
@@ -177,3 +179,40 @@ def _arap_step(operators: MeshOperators, pinned: Pinned, w: Array, targets: Arra
     modulus = np.abs(fz)
     rotation = np.where(modulus > 0, fz / np.where(modulus > 0, modulus, 1), 1)
     return pinned.solve(2 * operators.adjoint(rotation, 0 * rotation), targets)
+
+
+def project(
+    operators: MeshOperators, pinned: Pinned, w: Array, most_iterations: int = 500
+) -> tuple[Array, int]:
+    """A map close to ``w`` with the same held vertices, and how many iterations it took.
+
+    Projection onto maps of bounded distortion (Kovalsky et al. 2015): the differentials are
+    projected onto ``|f_zbar| <= k |f_z|`` triangle by triangle; the next map is the closest one on
+    the hyperplane that separates them, the constraints kept. That needs one solve with the
+    Laplacian's factor per iteration. Triangles may be left that are turned over.
+    """
+    for iteration in range(most_iterations):
+        fz, fzb = operators.wirtinger(w)
+        if (np.abs(fzb) < ENOUGH * np.abs(fz)).all():
+            return w, iteration
+        pz, pzb = closest(fz, fzb, BOUND)
+        nz, nzb = fz - pz, fzb - pzb
+        gap = float(operators.weights @ (np.abs(nz) ** 2 + np.abs(nzb) ** 2))
+        normal = operators.adjoint(nz, nzb)
+        direction = pinned.solve(normal)
+        slope = float(np.real(np.vdot(normal, direction)))
+        if not slope > 0:
+            return w, iteration
+        w = w - (gap / slope) * direction
+    return w, most_iterations
+
+
+def closest(fz: Array, fzb: Array, bound: float) -> tuple[Array, Array]:
+    """The closest differentials with ``|f_zbar| <= bound |f_z|``."""
+    a, b = np.abs(fz), np.abs(fzb)
+    t = (a + bound * b) / (1 + bound**2)
+    outside = b > bound * a
+    safe_a, safe_b = np.where(a > 0, a, 1), np.where(b > 0, b, 1)
+    pz = np.where(outside, t * np.where(a > 0, fz / safe_a, 1), fz)
+    pzb = np.where(outside, bound * t * fzb / safe_b, fzb)
+    return pz, pzb
