@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,20 +42,15 @@ def check_conformal(map: HarmonicMap) -> None:
         )
 
 
-class RigidMotion(NamedTuple):
-    """``z -> aim + turn (z - middle)``."""
+def rigid_motion(z: NDArray[Any], targets: NDArray[Any]) -> tuple[complex, complex, complex]:
+    """``z -> aim + turn (z - middle)`` that brings (h,) complex points closest to their targets.
 
-    turn: complex
-    middle: complex
-    aim: complex
-
-    @classmethod
-    def closest(cls, z: NDArray[Any], targets: NDArray[Any]) -> RigidMotion:
-        """The one that brings (h,) complex points, at least one, closest to their targets."""
-        middle, aim = z.mean(), targets.mean()
-        correlation = np.vdot(z - middle, targets - aim)
-        turn = correlation / abs(correlation) if abs(correlation) > 0 else 1.0
-        return cls(turn, middle, aim)
+    Returns turn, middle and aim.
+    """
+    middle, aim = z.mean(), targets.mean()
+    correlation = np.vdot(z - middle, targets - aim)
+    turn = correlation / abs(correlation) if abs(correlation) > 0 else 1.0
+    return turn, middle, aim
 
 
 def aligned(map: HarmonicMap, pose: Pose, images: NDArray[Any] | None = None) -> HarmonicMap:
@@ -67,7 +62,7 @@ def aligned(map: HarmonicMap, pose: Pose, images: NDArray[Any] | None = None) ->
     if not len(pose):
         return map
     known = map(pose.handles) if images is None else images
-    turn, middle, aim = RigidMotion.closest(as_complex(known), as_complex(pose.targets))
+    turn, middle, aim = rigid_motion(as_complex(known), as_complex(pose.targets))
     phi, psi = map.phi * turn, map.psi * np.conj(turn)
     phi[: len(map.domain.offset_loops_complex[0])] += aim - turn * middle
     return HarmonicMap(map.domain, phi, psi)

@@ -14,7 +14,7 @@ from glid_nb.energies import ARAP
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods.bdhm.problem import BoundedProblem
-from glid_nb.methods.bdhm.samples import MARGIN, DistortionBounds
+from glid_nb.methods.bdhm.program import MARGIN, DistortionBounds
 from glid_nb.solvers import MethodError, Pose, Progress, Result, Status
 
 from ..reference_map import DenseCheck, Measured

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.methods.mesh.operators import Array, MeshOperators, Pinned, flips, largest_step
 from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
-from glid_nb.solvers import MethodError, Status
+from glid_nb.solvers import Status
 from glid_nb.solvers.loop import Ending, Steps
 
 _ARMIJO = 1e-4
@@ -23,8 +24,7 @@ BOUND, ENOUGH = 0.9, 0.95
 the singular values' ratio is 39."""
 
 
-@dataclass(frozen=True)
-class _State:
+class _State(NamedTuple):
     w: Array
     fz: Array
     fzb: Array
@@ -48,20 +48,14 @@ class AQP(MeshMethod):
     energies = ("iso", "exp", "amips", "mips", "custom")
     options = ("align", "max_iterations")
 
-    kappa: float = 1000.0
+    kappa: float = field(
+        default=1000.0, metadata={"least": 1, "why": ", at which AQP does not extrapolate"}
+    )
     tolerance: float = 1e-9
-    arap_iterations: int = 5
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.kappa < 1:
-            raise MethodError(
-                f"kappa must be at least 1, at which AQP does not extrapolate; got {self.kappa!r}"
-            )
-        if self.arap_iterations < 1:
-            raise MethodError(
-                "arap_iterations must be at least 1: the first brings the handles to their targets"
-            )
+    arap_iterations: int = field(
+        default=5,
+        metadata={"least": 1, "why": ", for the first brings the handles to their targets"},
+    )
 
     def steps(self, problem: MeshProblem) -> Steps:
         """Extrapolated steps while they lower the energy."""

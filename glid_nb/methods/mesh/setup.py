@@ -16,11 +16,10 @@ from glid_nb.methods.mesh.operators import MeshOperators, flips
 from glid_nb.solvers import DeformationMap, Iteration, Method, MethodError, Result
 from glid_nb.solvers.loop import GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.method import Inputs
-from glid_nb.solvers.start import RigidMotion
+from glid_nb.solvers.start import rigid_motion
 
 Array = NDArray[Any]
 
-_TRIANGLE = 3
 _AT_VERTEX = 1e-9  # of the shape's longer side
 
 
@@ -58,7 +57,7 @@ class MeshProblem:
         targets = pose.targets @ np.array([1, 1j])
         images = _images(start, operators)
         if inputs.options.align and len(handles):
-            turn, middle, aim = RigidMotion.closest(images[handles], targets)
+            turn, middle, aim = rigid_motion(images[handles], targets)
             images = aim + turn * (images - middle)
         weight = inputs.options.p2p_weight
         return cls(inputs, operators, handles, targets, inputs.energy, weight, images)
@@ -123,12 +122,7 @@ class MeshMethod(Method):
     family = "mesh"
     needs_handles = False
 
-    n_vertices: int = field(default=10_000, kw_only=True)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.n_vertices < _TRIANGLE:
-            raise MethodError(f"n_vertices must be at least {_TRIANGLE}, got {self.n_vertices!r}")
+    n_vertices: int = field(default=10_000, kw_only=True, metadata={"least": 3})
 
     def check_handles(self, inputs: Inputs) -> None:
         """Raise :class:`MethodError` where these handles do not do."""
