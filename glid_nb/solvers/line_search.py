@@ -119,7 +119,7 @@ def backtrack(
     point: Point,
     line: Line,
     found: Search,
-    may_refine: Bool[AnyArray, ""],
+    may_refine: Bool[AnyArray, ""] | bool,
 ) -> Backtracking:
     """Go from the best candidate to shorter ones until one is certified, or ask for finer panels.
 

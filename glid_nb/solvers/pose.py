@@ -95,6 +95,17 @@ class Pose:
         return cls(data["handles"], data["targets"])
 
 
+def rigid_motion(z: NDArray[Any], targets: NDArray[Any]) -> tuple[complex, complex, complex]:
+    """``z -> aim + turn (z - middle)`` that brings (h,) complex points closest to their targets.
+
+    Returns turn, middle and aim.
+    """
+    middle, aim = z.mean(), targets.mean()
+    correlation = np.vdot(z - middle, targets - aim)
+    turn = correlation / abs(correlation) if abs(correlation) > 0 else 1.0
+    return turn, middle, aim
+
+
 @functools.lru_cache(maxsize=32)
 def _first_outside(domain: Domain, handles: bytes) -> int | None:
     """The first handle outside the domain; kept, for a drag asks again for the same handles."""

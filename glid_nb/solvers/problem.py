@@ -43,7 +43,7 @@ class Positional(NamedTuple):
     weights: Float[AnyArray, " 2h"]
     """``lambda`` for a handle, 0 for padding."""
 
-    def residual(self, y: Float[Array, " 4c"]) -> Float[Array, " 2h"]:
+    def residual(self, y: Float[Array, " 4c"]) -> Float[AnyArray, " 2h"]:
         """``A y - b``."""
         return self.matrix @ y - self.aims
 
@@ -51,7 +51,7 @@ class Positional(NamedTuple):
         """The energy at the coefficients ``y``."""
         return 0.5 * jnp.sum(self.weights * self.residual(y) ** 2)
 
-    def gradient(self, y: Float[Array, " 4c"]) -> Float[Array, " 4c"]:
+    def gradient(self, y: Float[Array, " 4c"]) -> Float[AnyArray, " 4c"]:
         """Its gradient."""
         return self.matrix.T @ (self.weights * self.residual(y))
 

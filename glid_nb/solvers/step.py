@@ -113,39 +113,27 @@ def iterations(
     def goes_on(state: State) -> Bool[Array, ""]:
         return (state.outcome == RUNNING) & (state.iteration < settings.iterations)
 
-    start = _start(call, coefficients, factor)
-    end = lax.while_loop(goes_on, functools.partial(_iteration, call), start)
-
-    def helped() -> Bool[Array, " p"]:
-        return end.refused & evaluation.tightened_by_splitting(problem, end.point)
-
-    return end._replace(refused=lax.cond(jnp.any(end.refused), helped, lambda: end.refused))
-
-
-def _start(call: _Call, coefficients: Float[Array, " 4c"], factor: Float[Array, "4u 4u"]) -> State:
-    """Before the first iteration."""
-    point = evaluation.evaluated(call.problem, coefficients)
-    real, blank = call.problem.matrices.real, jnp.full(MOST_PER_CALL, jnp.nan)
-    return State(
+    point = evaluation.evaluated(problem, coefficients)
+    real, blank = problem.matrices.real, jnp.full(MOST_PER_CALL, jnp.nan)
+    never, none = jnp.zeros(MOST_PER_CALL, bool), jnp.zeros(MOST_PER_CALL, int)
+    start = State(
         point=point,
         start_iso=point.energy_iso,
         start_p2p=point.energy_p2p,
         iteration=jnp.array(0),
         outcome=jnp.array(RUNNING),
         decrement=jnp.array(jnp.inf),
-        records=Record(
-            energy_iso=blank,
-            energy_p2p=blank,
-            step=blank,
-            decrement=blank,
-            sigma2_lower=blank,
-            hessian_modified=jnp.zeros(MOST_PER_CALL, bool),
-            corrections=jnp.zeros(MOST_PER_CALL, int),
-        ),
+        records=Record(blank, blank, blank, blank, blank, never, none),
         refused=jnp.zeros_like(real),
         sigma2_lower=jnp.full(real.shape, jnp.nan),
         factor=factor,
     )
+    end = lax.while_loop(goes_on, functools.partial(_iteration, call), start)
+
+    def helped() -> Bool[Array, " p"]:
+        return end.refused & evaluation.tightened_by_splitting(problem, end.point)
+
+    return end._replace(refused=lax.cond(jnp.any(end.refused), helped, lambda: end.refused))
 
 
 def _iteration(call: _Call, state: State) -> State:

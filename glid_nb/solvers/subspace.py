@@ -5,13 +5,18 @@ from __future__ import annotations
 import functools
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb.harmonic import HarmonicMap
+from glid_nb._errors import InputError
+from glid_nb.certificate import certify
+from glid_nb.geometry import Domain
+from glid_nb.harmonic import HarmonicMap, as_complex
 from glid_nb.solvers.discretisation import Discretisation, discretise
 from glid_nb.solvers.evaluation import Point
 from glid_nb.solvers.loop import Descent, Reached
 from glid_nb.solvers.method import Inputs, Method
+from glid_nb.solvers.pose import Pose, rigid_motion
 from glid_nb.solvers.problem import (
     Problem,
     handle_images,
@@ -20,10 +25,21 @@ from glid_nb.solvers.problem import (
     real_coefficients,
 )
 from glid_nb.solvers.result import Iteration, Result
-from glid_nb.solvers.start import aligned, check_conformal, check_proved
 from glid_nb.solvers.unknowns import canonical, unknowns_of
 
 Array = NDArray[Any]
+
+
+class StartError(InputError):
+    """The map to start from cannot be used."""
+
+
+def check_belongs(map: HarmonicMap, domain: Domain) -> None:
+    """Raise :class:`StartError` for a map of another domain; equal domains are the same."""
+    if map.domain is not domain and map.domain.to_dict() != domain.to_dict():
+        raise StartError(
+            "the map to start from belongs to another domain; start from a map of this one"
+        )
 
 
 class SubspaceDescent(Descent):
@@ -96,12 +112,32 @@ def _starting_point(method: Method, inputs: Inputs) -> tuple[HarmonicMap, Discre
     map_ = method.harmonic_start(inputs)
     if map_ is None:
         return HarmonicMap.identity(domain), fresh()
-    if options.conformal:
-        check_conformal(map_)
+    if options.conformal and np.abs(map_.psi - map_.psi[0]).max() > 0:
+        raise StartError(
+            "the map to start from is not conformal (psi is not constant); start from a conformal "
+            "map or turn the option conformal off"
+        )
     if isinstance(start, Result):
         disc, wanted = start.discretisation, (options.sampling, options.certificate)
         if disc is None or (disc.sampling, disc.certificate) != wanted:
             disc = fresh()
         return canonical(map_), disc
-    check_proved(map_)
+    certificate = certify(map_)
+    if not certificate.certified:
+        raise StartError(f"the map to start from is not certified: {certificate.reason}")
     return canonical(HarmonicMap(domain, map_.phi, map_.psi)), fresh()
+
+
+def aligned(map: HarmonicMap, pose: Pose, images: NDArray[Any] | None = None) -> HarmonicMap:
+    """The map followed by the rigid motion that brings its handles closest to their targets.
+
+    A rigid motion changes neither the isometric energy nor the certificate. ``images`` (h, 2) are
+    the handles' images under the map, when they are known.
+    """
+    if not len(pose):
+        return map
+    known = map(pose.handles) if images is None else images
+    turn, middle, aim = rigid_motion(as_complex(known), as_complex(pose.targets))
+    phi, psi = map.phi * turn, map.psi * np.conj(turn)
+    phi[: len(map.domain.offset_loops_complex[0])] += aim - turn * middle
+    return HarmonicMap(map.domain, phi, psi)

@@ -8,7 +8,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from glid_nb._jax import jax
+from glid_nb._jax import jax, jnp
 from glid_nb._runtime import double_precision
 from glid_nb.certificate import Certificate, certify
 from glid_nb.geometry import Domain, graded_panels
@@ -16,7 +16,7 @@ from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.solvers import Pose
 from glid_nb.solvers.discretisation import complex_basis
 from glid_nb.solvers.problem import map_from, real_coefficients
-from glid_nb.solvers.start import aligned
+from glid_nb.solvers.subspace import aligned
 from glid_nb.solvers.unknowns import canonical, expand, unknowns_of
 
 Array = NDArray[Any]
@@ -52,7 +52,7 @@ class BoundedProblem:
         # The holes' psi = conj(phi) are no unknowns of their own.
         unknowns = unknowns_of(self._basis, False)
         self._free = np.flatnonzero(unknowns.free)
-        changes = np.eye(len(unknowns.free))[self._free]
+        changes = jnp.asarray(np.eye(len(unknowns.free))[self._free])
         self._expansion = np.array(jax.vmap(expand, (0, None))(changes, unknowns)).T.copy()
         self._panels = graded_panels(domain, _RATIO)
         self._shares = self._panels.length / self._panels.length.sum()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
@@ -65,22 +67,18 @@ class AQP(MeshMethod):
         theta = (1 - np.sqrt(1 / self.kappa)) / (1 + np.sqrt(1 / self.kappa))
         pinned = Pinned(problem.operators, problem.handles)
         proxy = _Proxy(problem.operators, pinned, problem.energy, theta)
-        now = self._started(problem, proxy)
-        yield problem.at(now.w)
-        if not np.isfinite(now.energy):
-            left = flips(now.fz, now.fzb)
+        now = start = self._started(problem, proxy)
+        yield problem.at(start.w)
+        if not np.isfinite(start.energy):
+            left = flips(start.fz, start.fzb)
             return Ending(
                 Status.BLOCKED,
                 f"No start was found: the projection left {left} triangles turned over or nearly "
                 "flat, where the energy is not finite.",
             )
-        before, step = now, 1.0
-        while True:
-            found = proxy.iterated(now, before, step)
-            if found is None:
-                return proxy.without_decrease(now)
-            before, (now, step) = now, found
+        for now, step in proxy.path(start):
             yield problem.at(now.w, step)
+        return proxy.without_decrease(now)
 
     def _started(self, problem: MeshProblem, proxy: _Proxy) -> _State:
         """ARAP, projected, and smoothed for other energies than the symmetric Dirichlet energy."""
@@ -91,7 +89,9 @@ class AQP(MeshMethod):
             w, _ = project(operators, proxy.pinned, w)
         if problem.energy.name != "iso":
             # The projection leaves slender triangles, where an exponential energy overflows.
-            w = replace(proxy, energy=SymmetricDirichlet()).smoothed(w)
+            smoothing = replace(proxy, energy=SymmetricDirichlet())
+            for now, _ in itertools.islice(smoothing.path(smoothing.state(w)), _SMOOTHING):
+                w = now.w
         return proxy.state(w)
 
 
@@ -116,16 +116,12 @@ class _Proxy:
             found = self._descended(now, step)
         return None if found is None or found[0].energy >= now.energy else found
 
-    def smoothed(self, w: Array) -> Array:
-        """Where some iterations lead."""
-        now = before = self.state(w)
-        step = 1.0
-        for _ in range(_SMOOTHING):
-            found = self.iterated(now, before, step)
-            if found is None:
-                break
+    def path(self, now: _State) -> Iterator[tuple[_State, float]]:
+        """The states from one on and the steps to them, while steps lower the energy."""
+        before, step = now, 1.0
+        while (found := self.iterated(now, before, step)) is not None:
             before, (now, step) = now, found
-        return now.w
+            yield found
 
     def without_decrease(self, now: _State) -> Ending:
         """The end where no step lowers the energy."""

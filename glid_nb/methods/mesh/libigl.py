@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.energies import AMIPS, ARAP, Energy, ExponentialSymmetricDirichlet
+from glid_nb.geometry import as_points
+from glid_nb.harmonic import as_complex
 from glid_nb.methods.mesh.operators import flips
 from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
 from glid_nb.solvers import MethodError
@@ -88,15 +90,15 @@ class SLIM(MeshMethod):
         data = igl.slim_precompute(
             np.asfortranarray(flat),
             np.asfortranarray(mesh.triangles),
-            np.asfortranarray(_real(w)),
+            np.asfortranarray(as_points(w)),
             getattr(igl.MappingEnergyType, name),
             problem.handles.astype(np.int32),
-            np.asfortranarray(_real(problem.targets)),
+            np.asfortranarray(as_points(problem.targets)),
             problem.p2p_weight * problem.operators.area * factor,
         )
         while True:
             yield problem.at(w)
-            w = igl.slim_solve(data, 1) @ np.array([1, 1j])
+            w = as_complex(igl.slim_solve(data, 1))
 
 
 @dataclass(frozen=True)
@@ -126,11 +128,7 @@ class ARAPLocalGlobal(MeshMethod):
         vertices = np.ascontiguousarray(mesh.vertices)
         faces = np.ascontiguousarray(mesh.triangles, dtype=np.int64)
         igl.arap_precomputation(vertices, faces, 2, problem.handles.astype(np.int32), data)
-        targets, w = _real(problem.targets), problem.start
+        targets, w = as_points(problem.targets), problem.start
         while True:
             yield problem.at(w)
-            w = igl.arap_solve(targets, data, _real(w)) @ np.array([1, 1j])
-
-
-def _real(w: Any) -> Any:
-    return np.stack([np.real(w), np.imag(w)], axis=-1)
+            w = as_complex(igl.arap_solve(targets, data, as_points(w)))

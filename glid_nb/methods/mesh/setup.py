@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.energies import Energy
-from glid_nb.geometry import MeshMap, Triangulation, triangulate
+from glid_nb.geometry import MeshMap, Triangulation, as_points, triangulate
 from glid_nb.harmonic import as_complex
 from glid_nb.methods.mesh.operators import MeshOperators, flips
 from glid_nb.solvers import DeformationMap, Iteration, Method, MethodError, Result
 from glid_nb.solvers.loop import GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.method import Inputs
-from glid_nb.solvers.start import rigid_motion
+from glid_nb.solvers.pose import rigid_motion
 
 Array = NDArray[Any]
 
@@ -64,7 +64,7 @@ class MeshProblem:
 
     def map_of(self, w: Array) -> MeshMap:
         """The map with these images."""
-        return MeshMap(self.operators.mesh, np.stack([np.real(w), np.imag(w)], axis=-1))
+        return MeshMap(self.operators.mesh, as_points(w))
 
     def at(self, w: Array, step: float | None = None) -> Callable[[], Reached]:
         """What tells where a method is that has come to the images ``w``."""
