@@ -136,8 +136,6 @@ class Discretisation:
     @double_precision
     def refined(self, chosen: np.ndarray) -> Discretisation:
         """The discretisation with the panels of ``chosen`` (p,) bool cut in half."""
-        if not self.can_refine:
-            raise ValueError("the uniform sampling of the paper is fixed; it cannot be refined")
         chosen = chosen & self.panels.divisible
         panels, old, basis = self.panels.split(chosen), self._rows(), self.basis
         parent = np.repeat(np.arange(len(self.panels)), np.where(chosen, 2, 1))

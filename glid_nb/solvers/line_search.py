@@ -115,11 +115,7 @@ class Backtracking(NamedTuple):
 
 
 def backtrack(
-    problem: Problem,
-    point: Point,
-    line: Line,
-    found: Search,
-    may_refine: Bool[AnyArray, ""] | bool,
+    problem: Problem, point: Point, line: Line, found: Search, may_refine: Bool[AnyArray, ""] | bool
 ) -> Backtracking:
     """Go from the best candidate to shorter ones until one is certified, or ask for finer panels.
 

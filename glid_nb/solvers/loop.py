@@ -232,14 +232,7 @@ returns how the method ended."""
 
 
 class GeneratedDescent(Descent):
-    """A method that is written as a generator: one that is not asked for its next step has stopped.
-
-    Parameters
-    ----------
-    method : Method
-    inputs : Inputs
-    steps : generator
-    """
+    """A method written as a generator; one that is not asked for its next step has stopped."""
 
     def __init__(self, method: Method, inputs: Inputs, steps: Steps) -> None:
         super().__init__(method, inputs)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -196,9 +195,5 @@ def _has_stalled(history: Sequence[Iteration]) -> bool:
     return len(recent) > _STALLED and recent[0] - recent[-1] <= _STALL_GAIN * abs(recent[-1])
 
 
-def _zeros(size: int) -> Any:
-    return jnp.zeros((size, size))
-
-
-_no_factor = jit(_zeros, static_argnames="size")
+_no_factor = jit(lambda size: jnp.zeros((size, size)), static_argnums=0)
 """What a call without a factor is given: compiled, for JAX's own zeros take four times as long."""

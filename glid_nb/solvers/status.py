@@ -12,10 +12,7 @@ RUNNING, CONVERGED, NO_DECREASE, REFUSED, INDEFINITE, BLOCKED, PENDING = range(7
 class Status(Enum):
     """Outcome of a solve; every member's value is a word and its ``message`` a full sentence."""
 
-    CONVERGED = (
-        "converged",
-        "The solver converged: the Newton decrement is below the tolerance.",
-    )
+    CONVERGED = ("converged", "The solver converged: the Newton decrement is below the tolerance.")
     STATIONARY = (
         "stationary",
         "The solver converged as far as double precision allows: no step lowers the energy.",

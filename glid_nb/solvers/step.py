@@ -115,7 +115,6 @@ def iterations(
 
     point = evaluation.evaluated(problem, coefficients)
     real, blank = problem.matrices.real, jnp.full(MOST_PER_CALL, jnp.nan)
-    never, none = jnp.zeros(MOST_PER_CALL, bool), jnp.zeros(MOST_PER_CALL, int)
     start = State(
         point=point,
         start_iso=point.energy_iso,
@@ -123,7 +122,15 @@ def iterations(
         iteration=jnp.array(0),
         outcome=jnp.array(RUNNING),
         decrement=jnp.array(jnp.inf),
-        records=Record(blank, blank, blank, blank, blank, never, none),
+        records=Record(
+            energy_iso=blank,
+            energy_p2p=blank,
+            step=blank,
+            decrement=blank,
+            sigma2_lower=blank,
+            hessian_modified=jnp.zeros(MOST_PER_CALL, bool),
+            corrections=jnp.zeros(MOST_PER_CALL, int),
+        ),
         refused=jnp.zeros_like(real),
         sigma2_lower=jnp.full(real.shape, jnp.nan),
         factor=factor,

@@ -45,12 +45,7 @@ def check_belongs(map: HarmonicMap, domain: Domain) -> None:
 class SubspaceDescent(Descent):
     """A method at work on maps of the harmonic subspace.
 
-    Parameters
-    ----------
-    method : Method
-    inputs : Inputs
-    reduced : bool
-        Whether the unknowns are those of the columns that have any, or of all columns.
+    ``reduced``: the unknowns are those of the columns that have any, not of all.
 
     Attributes
     ----------

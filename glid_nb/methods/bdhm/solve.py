@@ -79,10 +79,10 @@ class BDHM(DistortionBounds, Method):
 
     def run(self, inputs: Inputs) -> Result:
         """Alternate between frames and cone programs until none lowers the energy."""
-        return follow(lambda: GeneratedDescent(self, inputs, self._steps(inputs)))
+        return follow(lambda: GeneratedDescent(self, inputs, self._steps(_Descent(self, inputs))))
 
-    def _steps(self, inputs: Inputs) -> Steps:
-        descent = _Descent(self, inputs)
+    def _steps(self, descent: _Descent) -> Steps:
+        inputs = descent.inputs
         identity, start = HarmonicMap.identity(inputs.domain), self.harmonic_start(inputs)
         now: Iterate | Ending = descent.started(identity if start is None else start)
         if not self.hold(now.certificate):
@@ -107,7 +107,7 @@ class _Descent:
     """One run, and the samples that it adds to as it goes."""
 
     def __init__(self, method: BDHM, inputs: Inputs) -> None:
-        self.method, self.align = method, inputs.options.align
+        self.method, self.inputs = method, inputs
         with single_blas_thread():
             self.problem = BoundedProblem(inputs.domain, inputs.pose, inputs.options.p2p_weight)
         samples = self.problem.samples
@@ -116,7 +116,7 @@ class _Descent:
         self.far = True
 
     def started(self, map: HarmonicMap) -> Iterate:
-        v = self.problem.unknowns(map, self.align)
+        v = self.problem.unknowns(map, self.inputs.options.align)
         return Iterate(v, sum(self.problem.energies(v)), self._proved(v))
 
     def reached(self, now: Iterate) -> Reached:

@@ -102,14 +102,8 @@ def bounded_biharmonic_weights(mesh: Triangulation, handles: bytes, iterations: 
 
     Each column has the least ``w K M^-1 K w`` within its bounds (``K`` the cotangent Laplacian,
     ``M`` the Voronoi areas); then rows are divided by their sums. Where ``iterations`` end libigl's
-    active-set method early, as they do on 10^4 vertices, bounds hold up to about 1e-4.
-
-    Parameters
-    ----------
-    mesh : Triangulation
-    handles : bytes
-        Of the (h,) indices of vertices, int64.
-    iterations : int
+    active-set method early, as they do on 10^4 vertices, bounds hold up to about 1e-4. ``handles``
+    are the bytes of (h,) indices of vertices, int64.
     """
     import igl  # noqa: PLC0415
 

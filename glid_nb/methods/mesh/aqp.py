@@ -66,7 +66,7 @@ class AQP(MeshMethod):
         problem = replace(problem, p2p_weight=1.0)
         theta = (1 - np.sqrt(1 / self.kappa)) / (1 + np.sqrt(1 / self.kappa))
         pinned = Pinned(problem.operators, problem.handles)
-        proxy = _Proxy(problem.operators, pinned, problem.energy, theta)
+        proxy = _Proxy(problem.operators, pinned, problem.inputs.energy, theta)
         now = start = self._started(problem, proxy)
         yield problem.at(start.w)
         if not np.isfinite(start.energy):
@@ -87,7 +87,7 @@ class AQP(MeshMethod):
             for _ in range(self.arap_iterations):
                 w = _arap_step(operators, proxy.pinned, w, problem.targets)
             w, _ = project(operators, proxy.pinned, w)
-        if problem.energy.name != "iso":
+        if problem.inputs.energy.name != "iso":
             # The projection leaves slender triangles, where an exponential energy overflows.
             smoothing = replace(proxy, energy=SymmetricDirichlet())
             for now, _ in itertools.islice(smoothing.path(smoothing.state(w)), _SMOOTHING):

@@ -27,26 +27,28 @@ def slim_energy(energy: Energy) -> tuple[str, float]:
     MethodError
         For AMIPS, ARAP, and the exponential energy with another parameter than libigl's.
     """
+    refused = None
     if isinstance(energy, AMIPS):
         # On triangles libigl weights EXP_CONFORMAL by the symmetric Dirichlet energy's gradient, so
         # it does not end at a minimum of that either, and it is not offered under another name.
-        raise MethodError(
-            "libigl's SLIM has no AMIPS: the closest of its energies, EXP_CONFORMAL, is "
+        refused = (
+            "has no AMIPS: the closest of its energies, EXP_CONFORMAL, is "
             "exp((sigma_1/sigma_2 + sigma_2/sigma_1)/2), without AMIPS' terms of area and with no "
             "s; use MIPS(), or AMIPS with the method aqp"
         )
-    if isinstance(energy, ARAP):
-        raise MethodError(
-            "libigl's SLIM has ARAP, but that is no barrier: maps creep up to the first flat "
-            "triangle, stay there and at last turn it over; use the method arap-mesh, or "
-            "SymmetricDirichlet()"
+    elif isinstance(energy, ARAP):
+        refused = (
+            "has ARAP, but that is no barrier: maps creep up to the first flat triangle, stay "
+            "there and at last turn it over; use the method arap-mesh, or SymmetricDirichlet()"
         )
-    if isinstance(energy, ExponentialSymmetricDirichlet) and energy.s != 2:
-        raise MethodError(
-            "libigl's SLIM minimises exp(sigma_1^2 + sigma_1^-2 + sigma_2^2 + sigma_2^-2), which "
-            "is exp(s E_iso) with s = 2, and its Python bindings cannot set the factor; got "
-            f"s = {energy.s}; use ExponentialSymmetricDirichlet(2), or the method aqp"
+    elif isinstance(energy, ExponentialSymmetricDirichlet) and energy.s != 2:
+        refused = (
+            "minimises exp(sigma_1^2 + sigma_1^-2 + sigma_2^2 + sigma_2^-2), which is exp(s E_iso) "
+            f"with s = 2, and its Python bindings cannot set the factor; got s = {energy.s}; use "
+            "ExponentialSymmetricDirichlet(2), or the method aqp"
         )
+    if refused:
+        raise MethodError(f"libigl's SLIM {refused}")
     return {
         "iso": ("SYMMETRIC_DIRICHLET", 2.0),
         "exp": ("EXP_SYMMETRIC_DIRICHLET", 1.0),
@@ -82,7 +84,7 @@ class SLIM(MeshMethod):
         """libigl's iterations."""
         import igl  # noqa: PLC0415
 
-        name, factor = slim_energy(problem.energy)
+        name, factor = slim_energy(problem.inputs.energy)
         mesh, w = problem.operators.mesh, problem.start
         flat = np.column_stack([mesh.vertices, np.zeros(len(mesh.vertices))])
         if flips(*problem.operators.wirtinger(w)):

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb.energies import Energy
 from glid_nb.geometry import MeshMap, Triangulation, as_points, triangulate
 from glid_nb.harmonic import as_complex
 from glid_nb.methods.mesh.operators import MeshOperators, flips
@@ -33,7 +32,6 @@ class MeshProblem:
     """(h,) vertex indices."""
     targets: Array
     """(h,) complex."""
-    energy: Energy
     p2p_weight: float
     start: Array
     """(v,) complex: the images to start from, rigidly moved if that was asked for."""
@@ -60,7 +58,7 @@ class MeshProblem:
             turn, middle, aim = rigid_motion(images[handles], targets)
             images = aim + turn * (images - middle)
         weight = inputs.options.p2p_weight
-        return cls(inputs, operators, handles, targets, inputs.energy, weight, images)
+        return cls(inputs, operators, handles, targets, weight, images)
 
     def map_of(self, w: Array) -> MeshMap:
         """The map with these images."""
@@ -74,7 +72,7 @@ class MeshProblem:
             miss = w[self.handles] - self.targets
             entry = Iteration(
                 iteration=0,
-                energy_iso=self.operators.energy(self.energy, fz, fzb),
+                energy_iso=self.operators.energy(self.inputs.energy, fz, fzb),
                 energy_p2p=self.p2p_weight / 2 * float((np.abs(miss) ** 2).sum()),
                 time=0.0,
                 step=step,

@@ -46,14 +46,7 @@ class SubspaceMethod(Method):
     family = "harmonic"
     window = 50
     tolerance: ClassVar[float] = 1e-9
-    options = (
-        "sampling",
-        "certificate",
-        "p2p_weight",
-        "conformal",
-        "align",
-        "max_iterations",
-    )
+    options = ("sampling", "certificate", "p2p_weight", "conformal", "align", "max_iterations")
 
     def direction(self, at: DirectedDescent) -> Array | Ending:
         """A descent direction (4c,), or the end of the method."""

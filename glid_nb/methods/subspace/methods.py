@@ -145,11 +145,7 @@ class NewtonPaper(_CompiledNewton):
     name = "newton-paper"
     label = "Newton, the paper's"
     options = ("p2p_weight", "conformal", "align", "max_iterations", "iterations_per_call")
-    changed: ClassVar = {
-        "sampling": "uniform",
-        "certificate": "lipschitz",
-        "hessian": "projected",
-    }
+    changed: ClassVar = {"sampling": "uniform", "certificate": "lipschitz", "hessian": "projected"}
 
 
 @dataclass(frozen=True)
