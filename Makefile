@@ -22,7 +22,7 @@ test: $(VENV)/.test browser
 	$(PYTEST) --nbval --nbval-current-env notebooks
 
 unit: $(VENV)/.test
-	$(PYTEST) --no-skip -m "not slow and not browser" -n auto
+	$(PYTEST) --no-skip -m "not slow and not browser" -n auto tests
 
 lint: $(VENV)/.dev
 	$(VENV)/bin/ruff check .

@@ -1,4 +1,4 @@
-"""Strict checks of arguments: a wrong type, number or keyword is refused by name."""
+"""Strict checks of arguments, refused by name, and arrays as immutable values."""
 
 from __future__ import annotations
 
@@ -8,12 +8,14 @@ from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from numbers import Integral, Real
 from types import NoneType
-from typing import Any, Literal, get_args, get_origin, get_type_hints
+from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._errors import did_you_mean
+
+A = TypeVar("A", bound=NDArray[Any])
 
 
 def check_type(
@@ -31,15 +33,7 @@ def check_type(
 
 
 def check_count(name: str, value: Any, least: int, unit: str) -> int:
-    """``value`` as an int.
-
-    Raises
-    ------
-    TypeError
-        It is not a whole number.
-    ValueError
-        It is less than ``least``.
-    """
+    """``value`` as an int; a TypeError unless it is whole, a ValueError if it is too small."""
     if isinstance(value, bool) or not isinstance(value, Integral):
         raise TypeError(f"{name} must be a whole number of {unit}, not {value!r:.60}")
     if value < least:
@@ -105,11 +99,8 @@ def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str
 def real_array(value: Any) -> NDArray[np.float64]:
     """``value`` as a new float64 array; a missing number (None) becomes NaN.
 
-    Raises
-    ------
-    TypeError, ValueError
-        For ragged nesting and for anything but real numbers in floating-point range, such as
-        text, truth values and complex numbers.
+    A TypeError or ValueError for ragged nesting and for anything but real numbers in floating-point
+    range, such as text, truth values and complex numbers.
     """
     if _holds_truth_value(value):
         raise TypeError("true and false are not numbers")
@@ -122,6 +113,30 @@ def real_array(value: Any) -> NDArray[np.float64]:
         return np.array([_number(v) for v in array.ravel()]).reshape(array.shape)
     except OverflowError as error:
         raise ValueError("a number is too large for floating point") from error
+
+
+def number_pairs(
+    value: Any, wanted: str, error: type[Exception], shape: str = ""
+) -> NDArray[np.float64]:
+    """(n, 2) numbers as a new float64 array, also for an empty list; NaN and infinity pass.
+
+    The message of the ``error`` begins with ``wanted``, "handles must be a list of [x, y] pairs",
+    for another shape with ``shape`` if that is given.
+    """
+    try:
+        pairs = real_array(value)
+    except (TypeError, ValueError) as problem:
+        raise error(f"{wanted} ({problem})") from problem
+    pairs = pairs.reshape(-1, 2) if pairs.shape == (0,) else pairs
+    if pairs.ndim != 2 or pairs.shape[1] != 2:
+        raise error(f"{shape or wanted + '; the shape is'} {pairs.shape}")
+    return pairs
+
+
+def read_only(array: A) -> A:
+    """The array itself, which nobody can write to from now on."""
+    array.setflags(write=False)
+    return array
 
 
 def _number(value: Any) -> float:

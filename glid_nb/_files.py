@@ -11,16 +11,26 @@ from typing import Literal
 def write_bytes_atomically(path: Path, data: bytes) -> None:
     """Write ``data`` to a temporary file beside ``path``, then rename it over ``path``.
 
-    Raises
-    ------
-    OSError
-        It cannot be written; the message names ``path`` or its folder.
+    The message of an OSError names ``path`` or its folder.
     """
     path = Path(path)
     if path.is_dir():
         raise IsADirectoryError(f"{path.absolute()} is a folder; name a file")
     try:
-        _write(path, data)
+        handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(data)
+                file.flush()
+                os.fsync(file.fileno())
+            # mkstemp makes private files; set the permissions that open() would.
+            mask = os.umask(0)
+            os.umask(mask)
+            Path(name).chmod(0o666 & ~mask)
+            Path(name).replace(path)
+        except BaseException:
+            Path(name).unlink(missing_ok=True)
+            raise
     except OSError as error:
         raise in_words(error, path, "written") from error
 
@@ -43,20 +53,3 @@ def in_words(error: OSError, path: Path, done: Literal["read", "written"]) -> OS
     else:
         text = f"{path} cannot be {done}: {error.strerror or error}"
     return type(error)(text)
-
-
-def _write(path: Path, data: bytes) -> None:
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        # mkstemp makes private files; set the permissions that open() would.
-        mask = os.umask(0)
-        os.umask(mask)
-        Path(name).chmod(0o666 & ~mask)
-        Path(name).replace(path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise

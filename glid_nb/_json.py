@@ -29,18 +29,8 @@ _KINDS = {
 def parse_json(raw: bytes, name: str, kind: str = "a JSON file", *, nan: bool = True) -> Any:
     """The JSON value in the bytes of a file; numbers beyond floating point become infinite.
 
-    Parameters
-    ----------
-    raw : bytes
-    name, kind : str
-        For the message "(name) is not (kind): ...".
-    nan : bool
-        Accept NaN and Infinity, so that a later check can name their key.
-
-    Raises
-    ------
-    InputFileError
-        For invalid JSON, and for an object with a repeated key.
+    Raises InputFileError, "(name) is not (kind): ...", for invalid JSON and for repeated keys. NaN
+    and Infinity may be accepted, so that a later check can name their key.
     """
     try:
         return json.loads(
@@ -56,15 +46,7 @@ def parse_json(raw: bytes, name: str, kind: str = "a JSON file", *, nan: bool = 
 
 
 def read_object(path: str | Path) -> dict[str, Any]:
-    """The JSON object in a file.
-
-    Raises
-    ------
-    InputFileError
-        When the file is not UTF-8 text, not JSON, or not an object at the top.
-    OSError
-        When it cannot be read.
-    """
+    """The JSON object in a file; InputFileError for anything else, OSError for no file."""
     data = parse_json(Path(path).read_bytes(), str(path))
     if not isinstance(data, dict):
         raise InputFileError(f"{path} must hold a JSON object {{...}}, not {_KINDS[type(data)]}")
@@ -90,17 +72,9 @@ def check_fields(
     *,
     others: bool = False,
 ) -> None:
-    """Raise InputFileError unless ``data`` is an object with valid keys and values.
+    """Raise InputFileError unless ``data``, called ``name``, is an object of valid keys and values.
 
-    Parameters
-    ----------
-    data : any JSON value
-    name : str
-        What messages call it.
-    required, optional : mapping of keys to checks
-        Optional keys may be missing or null.
-    others : bool
-        Accept other keys too.
+    Optional keys may be missing or null. Other keys are refused unless ``others`` is true.
     """
     check_object(data, name)
     known = {**required, **(optional or {})}
@@ -119,17 +93,14 @@ def anything(value: Any, key: str) -> None:
     """Accept any value; it is checked where it is used."""
 
 
-def check_kind(kind: type) -> Check:
-    """The check that a value is of this kind."""
-
-    def check(value: Any, key: str) -> None:
-        if type(value) is not kind:
-            raise InputFileError(f"{key} must be {_KINDS[kind]}, not {_shown(value)}")
-
-    return check
+def _check_kind(value: Any, key: str, kind: type) -> None:
+    if type(value) is not kind:
+        raise InputFileError(f"{key} must be {_KINDS[kind]}, not {_shown(value)}")
 
 
-check_object, check_list, check_text = check_kind(dict), check_kind(list), check_kind(str)
+check_object: Check = functools.partial(_check_kind, kind=dict)
+check_list: Check = functools.partial(_check_kind, kind=list)
+check_text: Check = functools.partial(_check_kind, kind=str)
 
 
 def check_positive(value: Any, key: str) -> None:
@@ -175,8 +146,7 @@ def _shown(value: Any) -> str:
 
 
 def _integer(digits: str) -> int | float:
-    number = float(digits)
-    return int(digits) if math.isfinite(number) else number
+    return int(digits) if math.isfinite(number := float(digits)) else number
 
 
 def _refuse_constant(constant: str) -> None:

@@ -53,10 +53,9 @@ def single_blas_thread() -> Iterator[None]:
     finally:
         with _lock:
             _depth -= 1
-            if _depth == 0 and _limiter is not None:
+            if _depth == 0:
                 _limiter.restore_original_limits()
                 OpenBLASController.clear_controlling_thread(force=True)
-                _limiter = None
 
 
 @functools.cache
@@ -80,43 +79,26 @@ def double_precision(function: Callable[P, R]) -> Callable[P, R]:
 def in_chunks(program: Callable[..., R], size: int, rows: Sequence[NDArray[Any]], *fixed: Any) -> R:
     """Run a compiled program over rows in chunks of one size, so that it compiles once.
 
-    Parameters
-    ----------
-    program : callable
-        ``program(*chunk, *fixed)`` returns a pytree of arrays with one row per row of the chunk.
-    size : int
-        Rows per chunk; the last chunk is filled up with copies of its first row.
-    rows : sequence of arrays
-        All with the same number of rows, which may be 0.
-
-    Returns
-    -------
-    The pytree for all rows, of NumPy arrays.
+    ``program(*chunk, *fixed)`` returns a pytree of arrays with one row per row of the chunk; the
+    result is the pytree for all rows, which may be none, of NumPy arrays. The last chunk is filled
+    up with copies of the last row.
     """
     count = len(rows[0])
-    parts, structure = [], None
+    rows = rows if count else [np.zeros((1, *a.shape[1:]), a.dtype) for a in rows]
+    parts = []
     for first in range(0, max(count, 1), size):
-        chunk = [a[first : first + size] for a in rows]
-        outputs = program(*(_filled(a, size) for a in chunk), *fixed)
-        own = slice(len(chunk[0]))
-        parts.append([np.asarray(a)[own] for a in jax.tree.leaves(outputs)])
-        structure = jax.tree.structure(outputs)
-    columns = zip(*parts, strict=True)
-    return jax.tree.unflatten(structure, [np.concatenate(column) for column in columns])
-
-
-def _filled(chunk: NDArray[Any], size: int) -> NDArray[Any]:
-    filling = chunk[:1] if len(chunk) else np.zeros((1, *chunk.shape[1:]), chunk.dtype)
-    return np.concatenate([chunk, np.repeat(filling, size - len(chunk), axis=0)])
+        index = np.minimum(np.arange(first, first + size), len(rows[0]) - 1)
+        own = slice(min(size, count - first))
+        outputs = program(*(a[index] for a in rows), *fixed)
+        parts.append(jax.tree.map(lambda a, own=own: np.asarray(a)[own], outputs))
+    return jax.tree.map(lambda *column: np.concatenate(column), *parts)
 
 
 def cache_directory() -> Path:
     """The folder for compiled programs: ``$GLID_NB_CACHE``, else the user's cache directory."""
-    named = os.environ.get("GLID_NB_CACHE")
-    if named:
+    if named := os.environ.get("GLID_NB_CACHE"):
         return Path(named)
-    base = os.environ.get("XDG_CACHE_HOME")
-    return (Path(base) if base else Path.home() / ".cache") / "glid_nb"
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "glid_nb"
 
 
 def enable_compilation_cache() -> Path:
@@ -143,10 +125,7 @@ _COMPILING = (
 
 
 class CompilationClock:
-    """Counts the programs that JAX compiles or loads in this process, and the seconds it takes.
-
-    The seconds are those of tracing, lowering and compiling, which do not overlap.
-    """
+    """Counts the programs that JAX traces, lowers, and compiles or loads, and the seconds of it."""
 
     def __init__(self) -> None:
         self.programs = 0
@@ -159,7 +138,5 @@ class CompilationClock:
             self.programs += event == _COMPILING[-1]
 
 
-@functools.cache
-def compilation_clock() -> CompilationClock:
-    """The process's one :class:`CompilationClock`."""
-    return CompilationClock()
+compilation_clock = functools.cache(CompilationClock)
+"""The process's one clock."""

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import glid_nb
 from glid_nb.cli.output import check_folder
-from glid_nb.cli.progress import Progress
+from glid_nb.cli.progress import step
 from studies.cases import reference_cases
 from studies.study import Plan, run_studies
 
@@ -58,7 +58,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     studies = importlib.import_module(f"studies.{chosen.what}").STUDIES
     cases = {} if chosen.reference is None else reference_cases(chosen.reference)
     glid_nb.enable_compilation_cache()
-    with Progress().step("measuring") as detail:
+    with step("measuring") as detail:
         plan = Plan(cases, chosen.repeats, chosen.quick, detail)
         page = run_studies(
             studies,

@@ -54,11 +54,6 @@ def timed_in_turn(
 
 def summary(seconds: list[float]) -> Timing:
     """Median and quartiles of several timings."""
-    low, median, high = np.quantile(seconds, [0.25, 0.5, 0.75])
-    return {
-        "median": float(median),
-        "low": float(low),
-        "high": float(high),
-        "least": min(seconds),
-        "runs": len(seconds),
-    }
+    low, median, high = np.quantile(seconds, [0.25, 0.5, 0.75]).tolist()
+    quartiles = {"median": median, "low": low, "high": high}
+    return {**quartiles, "least": min(seconds), "runs": len(seconds)}

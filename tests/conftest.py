@@ -39,8 +39,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     """All processes of a run share what they compile, and so do runs one after the other."""
-    if "GLID_NB_CACHE" not in os.environ and config.cache is not None:
-        os.environ["GLID_NB_CACHE"] = str(config.cache.mkdir("glid_nb"))
+    cache = getattr(config, "cache", None)  # absent with -p no:cacheprovider
+    if "GLID_NB_CACHE" not in os.environ and cache is not None:
+        os.environ["GLID_NB_CACHE"] = str(cache.mkdir("glid_nb"))
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -61,7 +61,7 @@ def domain(name: str) -> Domain:
 def reference(map: HarmonicMap) -> ReferenceMap:
     """The same map in plain NumPy."""
     return ReferenceMap(
-        map.domain.offset_loops_complex,
+        map.domain.offset_cage.loops_complex,
         map.domain.hole_points @ np.array([1, 1j]),
         map.phi,
         map.psi,
@@ -73,7 +73,7 @@ def dense_check(name: str, count: int = 200_000) -> DenseCheck:
     """2 x 10^5 points on the boundary and inside."""
     d = domain(name)
     return DenseCheck.on(
-        d.cage_loops_complex, d.offset_loops_complex, d.hole_points @ np.array([1, 1j]), count
+        d.cage.loops_complex, d.offset_cage.loops_complex, d.hole_points @ np.array([1, 1j]), count
     )
 
 

@@ -15,6 +15,7 @@ def run_python(source: str) -> list[str]:
     return done.stdout.splitlines()
 
 
+@pytest.mark.slow
 def test_an_editor_is_made_without_jax_and_computes_with_it() -> None:
     source = """
 import sys, glid_nb
@@ -28,6 +29,7 @@ editor.close()
     assert run_python(source) == ["[]", "[[1.0, 0.5]] True", "True"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("imported", ["before", "after"])
 def test_an_energy_goes_through_a_users_own_compiled_function(imported: str) -> None:
     lines = ["import jax", "import glid_nb; Energy = glid_nb.AMIPS"]
@@ -36,6 +38,7 @@ def test_an_energy_goes_through_a_users_own_compiled_function(imported: str) -> 
     assert run_python(source) == ["3.0"]
 
 
+@pytest.mark.slow
 def test_what_waits_is_done_once_and_before_anything_is_computed() -> None:
     source = """
 from glid_nb import _jax
@@ -50,6 +53,7 @@ print(done)
     assert run_python(source) == ["[]", "6.0 [1.0]", "[1.0, 'at once']"]
 
 
+@pytest.mark.slow
 def test_what_is_compiled_later_is_still_a_function_of_its_own_name() -> None:
     source = '''
 import sys

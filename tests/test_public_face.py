@@ -49,6 +49,7 @@ def test_importing_loads_nothing_heavy() -> None:
     assert loaded == "[]"
 
 
+@pytest.mark.slow
 def test_loading_every_name_leaves_the_jax_configuration_alone() -> None:
     source = """
 import jax

@@ -13,6 +13,7 @@ from glid_nb._errors import InputError, InputFileError, about, did_you_mean
 PACKAGE = Path(glid_nb.__file__).parent
 
 
+@pytest.mark.slow
 def test_every_refusal_of_the_package_is_an_input_error() -> None:
     """A plain ValueError is what a bug raises; the command line tells them apart by the class."""
     strangers = [

@@ -30,6 +30,7 @@ def run_python(source: str) -> list[str]:
     return done.stdout.split("\n")[:-1]
 
 
+@pytest.mark.slow
 def test_a_float32_program_beside_the_package_is_unchanged() -> None:
     """In one process, in the main thread and in others, before, during and after the work."""
     lines = run_python("""
@@ -146,6 +147,7 @@ assert threads() == {2}, threads()
 """
 
 
+@pytest.mark.slow
 def test_blas_is_limited_and_set_back(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
     run_python(
@@ -164,6 +166,7 @@ assert threads() == {2}
     )
 
 
+@pytest.mark.slow
 def test_the_last_of_several_threads_sets_blas_back(monkeypatch: pytest.MonkeyPatch) -> None:
     """As when an editor's solver thread and a cell's solve overlap, and both threads live on."""
     monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
@@ -241,6 +244,7 @@ print(clock.programs > 0 and clock.seconds > 0)
     }
 
 
+@pytest.mark.slow
 def test_a_users_own_compilation_cache_stays(tmp_path: Path) -> None:
     lines = run_python(f"""
 import jax

@@ -5,7 +5,6 @@ from glid_nb.certificate.bdhm import BDHM as BDHM
 from glid_nb.certificate.certify import PROOFS as PROOFS
 from glid_nb.certificate.certify import Certificate as Certificate
 from glid_nb.certificate.certify import CertificateKind as CertificateKind
-from glid_nb.certificate.certify import PanelCertificate as PanelCertificate
 from glid_nb.certificate.certify import certify as certify
 from glid_nb.certificate.hermite import Hermite as Hermite
 from glid_nb.certificate.injectivity import GlobalInjectivity as GlobalInjectivity

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._jax import jit, jnp
-from glid_nb._runtime import COMPILER_OPTIONS, in_chunks
+from glid_nb._runtime import COMPILER_OPTIONS
 from glid_nb.certificate import rounding
 from glid_nb.certificate.panels import modulus
 from glid_nb.certificate.paper import derivative_bound_weights
-from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
+from glid_nb.harmonic import HarmonicMap, cauchy, run_on
 from glid_nb.harmonic.cauchy import Singularities
 
 Array = NDArray[Any]
@@ -25,7 +25,7 @@ _FINAL_ROUNDING = 1 + 1e-12
 
 
 class Jets(NamedTuple):
-    """A map to second order at the starts of panels; every field is a (p,) array.
+    """A map to second order at the starts of panels; every field is an array over the panels.
 
     The errors bound the rounding errors of the image and of its first and second derivative in any
     unit direction. ``third`` bounds the third derivative along the whole panel.
@@ -108,17 +108,10 @@ class Arcs(NamedTuple):
         return self.sagitta + self.error
 
 
-class JetEvaluator:
-    """Evaluates one map's :class:`Jets`, in chunks of one size."""
-
-    def __init__(self, map: HarmonicMap) -> None:
-        basis = basis_of(map.domain)
-        self._coefficients = np.stack([basis.pad(map.phi), basis.pad(map.psi)])
-        self._singularities = basis.singularities
-
-    def __call__(self, start: Array, end: Array) -> Jets:
-        """Jets at the (p,) complex points ``start``, with ``third`` for the panels to ``end``."""
-        return in_chunks(_kernel, _CHUNK, (start, end), self._coefficients, self._singularities)
+def jets_of(map: HarmonicMap, start: Array, end: Array) -> Jets:
+    """Jets at the complex points ``start``, with ``third`` for the panels to ``end``."""
+    jets = run_on(map, _kernel, _CHUNK, start.ravel(), end.ravel())
+    return Jets(*(values.reshape(start.shape) for values in jets))
 
 
 @functools.partial(jit, compiler_options=COMPILER_OPTIONS)
@@ -126,11 +119,11 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularitie
     columns = (cauchy.cauchy_coordinates, cauchy.first_derivatives, cauchy.second_derivatives)
     values, slopes, curvatures = (c(start, singularities) @ coefficients.T for c in columns)
     jumps = modulus(cauchy.slope_jumps(coefficients, singularities)).sum(axis=0)
-    third = derivative_bound_weights(start, end, singularities, 2) @ jumps
+    third: Any = derivative_bound_weights(start, end, singularities, 2) @ jumps
     # Twice, for the sums over phi and over psi.
-    slack = 2 * rounding.slack_factor(coefficients.shape[1]) * modulus(coefficients).max()
+    slack: Any = 2 * rounding.slack_factor(coefficients.shape[1]) * modulus(coefficients).max()
     first_scale, second_scale = cauchy.rounding_scale(start, singularities)
-    parts: tuple[Any, ...] = (
+    return Jets(
         values[:, 0] + jnp.conj(values[:, 1]),
         slopes[:, 0],
         slopes[:, 1],
@@ -141,7 +134,6 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularitie
         slack * second_scale,
         third,
     )
-    return Jets(*parts)
 
 
 def _value_scale(z: Any, singularities: Singularities) -> Any:

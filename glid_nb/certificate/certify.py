@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._jax import jit, jnp
-from glid_nb._runtime import COMPILER_OPTIONS, double_precision, in_chunks
+from glid_nb._runtime import COMPILER_OPTIONS, double_precision
 from glid_nb.certificate import rounding
 from glid_nb.certificate.bdhm import BDHM
 from glid_nb.certificate.hermite import Hermite
-from glid_nb.certificate.panels import EndValues, PanelBounds, PanelProof, after_split, modulus
+from glid_nb.certificate.panels import EndValues, PanelBounds, PanelProof, modulus, split
 from glid_nb.certificate.paper import Lipschitz, windings
-from glid_nb.geometry import Panels, as_points, graded_panels, place
-from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
+from glid_nb.geometry import Panels, graded_panels, place
+from glid_nb.harmonic import HarmonicMap, cauchy, run_on
 
 Array = NDArray[Any]
 CertificateKind = Literal["hermite", "lipschitz", "bdhm"]
@@ -35,65 +35,34 @@ _MAX_PANELS = 400_000
 
 
 @dataclass(frozen=True, eq=False)
-class PanelCertificate:
-    """What is proved on each panel of the boundary.
+class PanelCertificate(Panels):
+    """Panels, and the bounds proved on each of them: (p,) arrays."""
 
-    Attributes
-    ----------
-    start, end : (p, 2) arrays
-        End points, world coordinates, in order along each loop.
-    loop, depth : (p,) int arrays
-        Loop of the cage (0 exterior, then holes), and how often the panel was split.
-    sigma2_lower, sigma1_upper, k_upper : (p,) arrays
-        Certified bounds on the whole panel.
-    """
-
-    start: Array
-    end: Array
-    loop: Array
-    depth: Array
     sigma2_lower: Array
     sigma1_upper: Array
     k_upper: Array
-
-    def __len__(self) -> int:
-        return len(self.start)
-
-    @property
-    def length(self) -> Array:
-        """(p,) lengths of the panels, world units."""
-        return np.linalg.norm(self.end - self.start, axis=1)
 
 
 @dataclass(frozen=True, eq=False)
 class Certificate:
     """The outcome of :func:`certify` for a whole domain (Theorem 4.2).
 
-    Attributes
-    ----------
-    certified : bool
-        Whether the map is proved locally injective on the closed domain.
-    sigma2_lower, sigma1_upper, k_upper : float
-        Bounds on the singular values and the little dilatation: on the whole domain when
-        ``certified``, otherwise on the boundary only.
-    windings : tuple of int
-        Turns of ``f_z`` along each loop of the cage, exterior first.
-    panels : PanelCertificate
-        The same bounds per panel.
-    kind : str
-        The kind of proof.
-    reason : str
-        One sentence: what is proved, or where and why the proof failed.
+    The bounds on the singular values and the little dilatation hold on the whole domain when
+    ``certified``, otherwise on the boundary only.
     """
 
     certified: bool
+    """Whether the map is proved locally injective on the closed domain."""
     sigma2_lower: float
     sigma1_upper: float
     k_upper: float
     windings: tuple[int, ...]
+    """Turns of ``f_z`` along each loop of the cage, exterior first."""
     panels: PanelCertificate
+    """The same bounds per panel."""
     kind: CertificateKind
     reason: str
+    """One sentence: what is proved, or where and why the proof failed."""
 
     @property
     def winding(self) -> int:
@@ -122,10 +91,6 @@ class _Known(NamedTuple):
         """(p,) bool: the map is proved to fold at the panel's start."""
         return self.sigma2_seen <= -2 * self.slack
 
-    @property
-    def injective(self) -> Array:
-        return np.asarray(self.bounds.injective)
-
 
 @double_precision
 def certify(
@@ -140,45 +105,33 @@ def certify(
 
     Parameters
     ----------
-    map : HarmonicMap
     kind : "hermite", "lipschitz" or "bdhm"
         Cubic interpolants with Bernstein coefficients, the paper's Lipschitz constants (26)-(27),
         or the larger ones of bounded distortion harmonic mappings (Figure 7).
     panels : Panels, optional
         Pieces of the boundary to start from; by default graded ones.
     refine : bool
-        Split panels on which the proof fails or whose bounds are loose; the paper does not.
-    tightness : float
-        With ``refine``, panels are split until the bounds are within this relative distance of
-        values that the map attains.
+        Split panels on which the proof fails, as the paper does not, or whose bounds are further
+        than the relative ``tightness`` from values that the map attains.
     """
     if kind not in PROOFS:
         raise ValueError(f"unknown kind of certificate {kind!r}; choose one of {', '.join(PROOFS)}")
     if not tightness > 0:
         raise ValueError(f"tightness is {tightness}; it must be positive")
-    basis = basis_of(map.domain)
-    coefficients = np.stack([basis.pad(map.phi), basis.pad(map.psi)])
-
-    def evaluate(panels: Panels) -> _Known:
-        run = functools.partial(_kernel, kind=kind)
-        ends = (panels.start, panels.end)
-        return in_chunks(run, _CHUNK, ends, coefficients, basis.singularities)
-
+    evaluate = functools.partial(run_on, map, functools.partial(_kernel, kind=kind), _CHUNK)
     panels = graded_panels(map.domain) if panels is None else panels
-    known = evaluate(panels)
+    known: _Known = evaluate(panels.start, panels.end)
     for _ in range(_MAX_ROUNDS if refine else 0):
         wanted = _to_split(known, tightness) & panels.divisible
         if known.folded.any() or not wanted.any() or len(panels) > _MAX_PANELS:
             break
-        parent, panels = panels.parents(wanted), panels.split(wanted)
-        new = wanted[parent]
-        known = after_split(known, parent, new, evaluate(panels.chosen(new)))
+        panels, known = split(panels, known, wanted, evaluate)
     return _conclude(map, panels, known, kind)
 
 
 def _to_split(known: _Known, tightness: float) -> Array:
     """(p,) bool: the proof fails, or the panel keeps the overall bounds from being tight."""
-    bounds, injective = known.bounds, known.injective
+    bounds, injective = known.bounds, np.asarray(known.bounds.injective)
     worst = known.k_seen.max()
     k_slack = tightness * max(worst, 1e-3)
     # Splitting does not reduce the allowance for rounding, so smaller gains are not worth it.
@@ -200,44 +153,30 @@ def _to_split(known: _Known, tightness: float) -> Array:
 def _conclude(
     map: HarmonicMap, panels: Panels, known: _Known, kind: CertificateKind
 ) -> Certificate:
-    bounds = known.bounds
+    bounds, unproved = known.bounds, ~np.asarray(known.bounds.injective)
     turns = windings(np.asarray(bounds.turning), panels.loop, 1 + map.domain.n_holes)
-    reason = _failure(panels, known, sum(turns))
-    per_panel = [np.asarray(a) for a in (bounds.sigma2_lower, bounds.sigma1_upper, bounds.k_upper)]
-    for values in per_panel:
-        values.flags.writeable = False
-    return Certificate(
-        not reason,
-        float(bounds.sigma2_lower.min()),
-        float(bounds.sigma1_upper.max()),
-        float(bounds.k_upper.max()),
-        turns,
-        PanelCertificate(
-            as_points(panels.start), as_points(panels.end), panels.loop, panels.depth, *per_panel
-        ),
-        kind,
-        reason or f"Proved locally injective on {len(panels)} panels.",
-    )
-
-
-def _failure(panels: Panels, known: _Known, zeros: int) -> str:
-    """Why the map is not certified; empty if it is."""
-    unproved = ~known.injective
+    certified = False
     if known.folded.any():
         i = int(np.argmin(known.sigma2_seen))
-        return (
+        reason = (
             f"The map is not locally injective: sigma_2 = {known.sigma2_seen[i]:.3g} "
             f"near {place(panels.start[i])}."
         )
-    if unproved.any():
-        i = int(np.argmin(known.bounds.sigma2_lower))
-        return (
+    elif unproved.any():
+        i = int(np.argmin(bounds.sigma2_lower))
+        reason = (
             f"Undecided: {int(unproved.sum())} of {len(panels)} panels could not be proved "
             f"injective, the worst near {place(panels.middle[i])}."
         )
-    if zeros != 0:
-        return f"The map is not locally injective: f_z has {zeros} zeros in the domain."
-    return ""
+    elif sum(turns) != 0:
+        reason = f"The map is not locally injective: f_z has {sum(turns)} zeros in the domain."
+    else:
+        certified, reason = True, f"Proved locally injective on {len(panels)} panels."
+    sigma2, sigma1, k = (np.asarray(values) for values in bounds[:3])
+    along = (panels.start, panels.end, panels.loop, panels.depth, panels.next)
+    per_panel = PanelCertificate(*along, sigma2, sigma1, k)
+    extremes = (float(sigma2.min()), float(sigma1.max()), float(k.max()))
+    return Certificate(certified, *extremes, turns, per_panel, kind, reason)
 
 
 @functools.partial(jit, static_argnames="kind", compiler_options=COMPILER_OPTIONS)

@@ -18,6 +18,7 @@ split until that decides.
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -26,44 +27,38 @@ import shapely
 from numpy.typing import NDArray
 
 from glid_nb._runtime import double_precision
-from glid_nb.certificate.arcs import Arcs, JetEvaluator
+from glid_nb.certificate.arcs import Arcs, jets_of
 from glid_nb.certificate.certify import Certificate, certify
-from glid_nb.certificate.crossing import proved_crossing
-from glid_nb.certificate.panels import after_split
+from glid_nb.certificate.panels import split
 from glid_nb.geometry import Panels, as_points, graded_panels, place
-from glid_nb.geometry.panels import segment_distance
+from glid_nb.geometry.panels import cross, point_distance, segment_distance, segments_cross
 from glid_nb.harmonic import HarmonicMap
 
 Array = NDArray[Any]
-Verdict = Literal["yes", "no", "undecided"]
 
 _MAX_ROUNDS = 40
+# A crossing is looked for in so many pairs of panels,
+_PLACES = 32
+_NEWTON_STEPS = 8
+# and proved on windows of these half-lengths, relative to the shorter arc.
+_WINDOWS = 4.0 ** -np.arange(4)
 
 
 @dataclass(frozen=True, eq=False)
 class GlobalInjectivity:
-    """The outcome of :func:`global_injectivity`.
+    """The outcome of :func:`global_injectivity`."""
 
-    Attributes
-    ----------
-    verdict : "yes", "no" or "undecided"
-        Whether the map is injective on the closed domain; "yes" and "no" are proved.
-    reason : str
-        One sentence: what is proved, or why nothing is.
-    n_panels : int
-        Number of pieces of the boundary at the end; 0 when the map is not certified.
-    crossing : (2,) array or None
-        With "no", a point at which the image of the boundary crosses itself.
-    parameters : (2, 2) array or None
-        With "no", the two boundary points, one per row, that are mapped to ``crossing``. That two
-        such points exist is proved; these are their rounded coordinates.
-    """
-
-    verdict: Verdict
+    verdict: Literal["yes", "no", "undecided"]
+    """Whether the map is injective on the closed domain; "yes" and "no" are proved."""
     reason: str
+    """One sentence: what is proved, or why nothing is."""
     n_panels: int
+    """Number of pieces of the boundary at the end; 0 when the map is not certified."""
     crossing: Array | None = None
+    """With "no", a (2,) point at which the image of the boundary crosses itself."""
     parameters: Array | None = None
+    """With "no", the two boundary points, one per row, that are mapped to ``crossing``. That two
+    such points exist is proved; these are their rounded coordinates."""
 
 
 @double_precision
@@ -72,14 +67,9 @@ def global_injectivity(
 ) -> GlobalInjectivity:
     """Decide whether a locally injective map is injective on the whole closed domain.
 
-    Parameters
-    ----------
-    map : HarmonicMap
-    certificate : Certificate, optional
-        Of ``map``; by default it is computed. For an uncertified map the verdict is "undecided".
-    max_panels : int
-        Give up beyond this many pieces of the boundary. That happens where images touch without
-        crossing, or are closer than rounding.
+    For an uncertified map the verdict is "undecided"; its certificate is computed unless it is
+    given. It is also undecided where more than ``max_panels`` pieces of the boundary were needed:
+    where images touch without crossing, or are closer than rounding.
 
     Examples
     --------
@@ -94,7 +84,7 @@ def global_injectivity(
     if not certificate.certified:
         reason = f"Undecided, because local injectivity is not certified: {certificate.reason}"
         return GlobalInjectivity("undecided", reason, 0)
-    evaluate = JetEvaluator(map)
+    evaluate = functools.partial(jets_of, map)
     panels = graded_panels(map.domain)
     jets = evaluate(panels.start, panels.end)
     for _ in range(_MAX_ROUNDS):
@@ -109,9 +99,14 @@ def global_injectivity(
                 "boundary meet only where neighbours join."
             )
             return GlobalInjectivity("yes", reason, len(panels))
-        double_point = proved_crossing(map.domain, panels, arcs, pairs, evaluate)
+        double_point = _proved_crossing(map, panels, arcs, pairs)
         if double_point is not None:
-            return _overlapping(*double_point, len(panels))
+            image, points = double_point
+            reason = (
+                f"The map overlaps itself: the boundary points {place(points[0])} and "
+                f"{place(points[1])} are both mapped to {place(image)}."
+            )
+            return GlobalInjectivity("no", reason, len(panels), as_points(image), as_points(points))
         # Split the larger arc of a pair, or both if they are about equal.
         first, second = pairs
         sagitta = arcs.sagitta
@@ -121,9 +116,7 @@ def global_injectivity(
         wanted = unresolved & (sagitta > arcs.error) & panels.divisible
         if not wanted.any() or len(panels) + wanted.sum() > max_panels:
             break
-        parent, panels = panels.parents(wanted), panels.split(wanted)
-        new = wanted[parent]
-        jets = after_split(jets, parent, new, evaluate(panels.start[new], panels.end[new]))
+        panels, jets = split(panels, jets, wanted, evaluate)
     return _undecided(panels, pairs, unresolved)
 
 
@@ -136,9 +129,8 @@ def _pairs_not_apart(arcs: Arcs, panels: Panels) -> Array:
     first, second = shapely.STRtree(boxes).query(boxes)
     wanted = (first < second) & (panels.next[first] != second) & (panels.next[second] != first)
     first, second = first[wanted], second[wanted]
-    distance = segment_distance(
-        arcs.start[first], arcs.end[first], arcs.start[second], arcs.end[second]
-    )
+    a, b = arcs.at(first), arcs.at(second)
+    distance = segment_distance(a.start, a.end, b.start, b.end)
     return np.stack([first, second])[:, ~(distance > r[first] + r[second])]
 
 
@@ -166,12 +158,72 @@ def _corner_simple(arcs: Arcs, following: Array) -> Array:
     return back_clear & ahead_clear
 
 
-def _overlapping(image: complex, points: Array, n_panels: int) -> GlobalInjectivity:
-    reason = (
-        f"The map overlaps itself: the boundary points {place(points[0])} and "
-        f"{place(points[1])} are both mapped to {place(image)}."
-    )
-    return GlobalInjectivity("no", reason, n_panels, as_points(image), as_points(points))
+def _proved_crossing(
+    map: HarmonicMap, panels: Panels, arcs: Arcs, pairs: Array
+) -> tuple[complex, Array] | None:
+    """A double point of the image of the boundary, and the two boundary points mapped to it.
+
+    Newton's method finds candidates, starting from pairs of panels whose chords cross. A candidate
+    is proved on windows around it on the two edges, which may extend over several panels.
+    """
+    a, b = (arcs.at(index) for index in pairs)
+    pairs = pairs[:, segments_cross(a.start, a.end, b.start, b.end)]
+    if not pairs.size:
+        return None
+    # The flatter the arcs, the more likely they cross where their chords do.
+    bulge = arcs.sagitta / np.abs(arcs.end - arcs.start)
+    pairs = pairs[:, np.argsort(bulge[pairs].max(axis=0))[:_PLACES]]
+
+    edges = Panels.along(map.domain.cage.loops_complex)
+    edge = np.cumsum(np.isin(panels.start, edges.start))[pairs] - 1
+    origin, length = edges.start[edge], edges.length[edge]
+    direction = (edges.end[edge] - origin) / length
+    position = np.abs(panels.middle[pairs] - origin)
+
+    def along(position: Array) -> tuple[Array, Array]:
+        z = origin + position * direction
+        jets = jets_of(map, z, z)
+        return jets.f, jets.first(direction)
+
+    for _ in range(_NEWTON_STEPS):
+        image, tangent = along(position)
+        determinant = cross(tangent[0], tangent[1])
+        determinant = np.where(determinant == 0, np.inf, determinant)
+        step = cross(tangent[::-1], image[0] - image[1]) / determinant
+        position = np.clip(position + step, 0, length)
+    image, tangent = along(position)
+
+    size = (np.abs(tangent) * panels.length[pairs]).min(axis=0)
+    half = (size / np.abs(tangent))[..., None] * _WINDOWS
+    low = np.maximum(position[..., None] - half, 0)
+    high = np.minimum(position[..., None] + half, length[..., None])
+    apart = (edge[0] != edge[1])[:, None] | (high[0] < low[1]) | (high[1] < low[0])
+    start, end = (origin[..., None] + p * direction[..., None] for p in (low, high))
+    windows = Arcs.between(start, end, jets_of(map, start, end), jets_of(map, end, end))
+    proved = (apart & _certainly_cross(windows)).any(axis=1)
+    # The proof may succeed on a wide window before Newton's method has settled.
+    proved &= np.abs(image[0] - image[1]) <= 1e-9 * size + windows.error.max(axis=(0, 2))
+    if not proved.any():
+        return None
+    best = int(np.argmax(proved))
+    return complex(image[:, best].mean()), (origin + position * direction)[:, best]
+
+
+def _certainly_cross(pair: Arcs) -> Array:
+    """Whether the two arcs of each pair are proved to meet in the interior of both.
+
+    On the unit square let ``F(s, t)`` be the difference of the points of the arcs at relative
+    parameters ``s`` and ``t``, and ``L(s, t)`` the same for the chords. ``L`` is affine and has
+    one simple zero if the chords cross. If ``|F - L| < |L|`` on the square's boundary, ``F`` has
+    the same degree there, 1 or -1, and so a zero. On an edge of the square one of the points is an
+    end of an arc, where arc and chord agree, so ``|F - L|`` is at most the sagitta of the other.
+    """
+    a, b = pair.at(0), pair.at(1)
+    clear = segments_cross(a.start, a.end, b.start, b.end)
+    for arc, other in ((a, b), (b, a)):
+        for end in (arc.start, arc.end):
+            clear = clear & (point_distance(end, other.start, other.end) > arc.error + other.radius)
+    return clear
 
 
 def _undecided(panels: Panels, pairs: Array, unresolved: Array) -> GlobalInjectivity:

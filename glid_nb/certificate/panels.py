@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self, TypeVar
 
 from numpy.typing import NDArray
 
 from glid_nb._jax import jax, jnp
+from glid_nb.geometry import Panels
 from glid_nb.harmonic.cauchy import Singularities
 
 if TYPE_CHECKING:
@@ -74,15 +76,23 @@ class PanelProof(Protocol):
 T = TypeVar("T")
 
 
-def after_split(known: T, parent: NDArray[Any], new: NDArray[Any], fresh: T) -> T:
-    """A pytree of NumPy arrays over panels after a split, with ``fresh`` values on new panels."""
+def split(
+    panels: Panels, known: T, chosen: NDArray[Any], evaluate: Callable[..., T]
+) -> tuple[Panels, T]:
+    """Panels with the chosen, divisible ones halved, and what is known of each panel.
 
-    def merged(values: NDArray[Any], others: NDArray[Any]) -> NDArray[Any]:
+    ``known`` is a pytree of NumPy arrays over the panels; ``evaluate(start, end)`` makes it for the
+    new ones.
+    """
+    finer, parent = panels.split(chosen)
+    new = chosen[parent]
+
+    def merged(values: NDArray[Any], fresh: NDArray[Any]) -> NDArray[Any]:
         result = values[parent]
-        result[new] = others
+        result[new] = fresh
         return result
 
-    return jax.tree.map(merged, known, fresh)
+    return finer, jax.tree.map(merged, known, evaluate(finer.start[new], finer.end[new]))
 
 
 def modulus(z: Complex[Array, " *k"]) -> Float[Array, " *k"]:

@@ -1,4 +1,4 @@
-"""Bounds on the rounding errors of the certificate.
+"""Bounds on the rounding errors of the certificate, and its bounds rounded for text.
 
 The certificate's inequalities are evaluated in double precision. Each panel's remainder is
 enlarged by ``slack_factor(n) * scale * max_j |phi_j|``, a first-order running error bound
@@ -13,6 +13,8 @@ error of a sum whose coefficients ``t dphi`` have up to twice the largest modulu
 
 from __future__ import annotations
 
+import math
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from typing import TYPE_CHECKING
 
 from glid_nb._jax import jnp
@@ -48,3 +50,22 @@ def panel_scale(
     length = jnp.abs(end - start)
     scales = [rounding_scale(z, singularities) for z in (start, end)]
     return jnp.maximum(*(value + length * slope for value, slope in scales))
+
+
+def rounded_down(value: float, digits: int = 3) -> str:
+    """A lower bound as text that is a bound too, with ``digits`` significant digits."""
+    return _written(value, digits, ROUND_FLOOR, -math.inf)
+
+
+def rounded_up(value: float, digits: int = 3) -> str:
+    """An upper bound as text, with ``digits`` significant digits and at most so many decimals."""
+    return _written(value, digits, ROUND_CEILING, -digits)
+
+
+def _written(value: float, digits: int, rounding: str, least_exponent: float) -> str:
+    if not (value > 0 and math.isfinite(value)):
+        return f"{value:.{digits}g}"
+    exact = Decimal(float(value))
+    exponent = int(max(exact.adjusted() + 1 - digits, least_exponent))
+    rounded = exact.quantize(Decimal(1).scaleb(exponent), rounding)
+    return f"{float(rounded):.{digits}g}"

@@ -9,9 +9,8 @@ for any other picture handles are placed automatically and one or two of them mo
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, cast
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,16 +18,10 @@ from numpy.typing import NDArray
 import glid_nb
 from glid_nb._errors import InputFileError, about
 from glid_nb._json import json_text
-from glid_nb.cli.flags import (
-    add_solver_flags,
-    add_trace_flags,
-    energy_of,
-    options_of,
-    trace_options_of,
-)
-from glid_nb.cli.output import check_folder, summary_json, summary_text, write_all
-from glid_nb.cli.progress import Progress
-from glid_nb.cli.solving import check_interrupted, run_solver
+from glid_nb.cli import flags
+from glid_nb.cli.output import check_folder
+from glid_nb.cli.progress import step
+from glid_nb.cli.solving import finish, run_solver
 from glid_nb.cli.trace import cage_data, size_in_words
 
 DEFAULT_SAMPLE = "gecko"
@@ -38,48 +31,35 @@ _CROPPED = 1e-3
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "image",
-        nargs="?",
-        default=DEFAULT_SAMPLE,
-        metavar="IMAGE",
-        help=f"a picture's file, or the name of a sample (default: {DEFAULT_SAMPLE})",
-    )
-    parser.add_argument(
-        "--pose",
-        metavar="FILE.json",
-        help="handles and targets, world coordinates; for a sample also gentle or extreme",
-    )
-    parser.add_argument(
-        "--out",
-        type=Path,
-        default=Path("glid-nb-demo"),
-        metavar="DIR",
-        help="folder of the results (default: %(default)s)",
-    )
-    parser.add_argument("--json", action="store_true", help="print the summary as JSON")
-    add_solver_flags(parser)
-    add_trace_flags(parser)
+    add = parser.add_argument
+    image = f"a picture's file, or the name of a sample (default: {DEFAULT_SAMPLE})"
+    add("image", nargs="?", default=DEFAULT_SAMPLE, metavar="IMAGE", help=image)
+    pose = "handles and targets, world coordinates; for a sample also gentle or extreme"
+    add("--pose", metavar="FILE.json", help=pose)
+    out = "folder of the results (default: %(default)s)"
+    add("--out", type=Path, default=Path("glid-nb-demo"), metavar="DIR", help=out)
+    add("--json", action="store_true", help="print the summary as JSON")
+    flags.add_solver_flags(parser)
+    flags.add_trace_flags(parser)
 
 
 def run(chosen: argparse.Namespace) -> None:
     out: Path = chosen.out
     check_folder(out)
-    energy, options = energy_of(chosen), options_of(chosen)
-    tracing_options = trace_options_of(chosen)
-    progress = Progress()
+    energy, options = flags.energy_of(chosen), flags.options_of(chosen)
+    tracing_options = flags.trace_options_of(chosen)
     source, sample = _source(chosen.image)
     image = glid_nb.read_image(source)
-    with about(source), progress.step(f"tracing {source.name}"):
+    with about(source), step(f"tracing {source.name}"):
         tracing = glid_nb.trace(image, tracing_options)
         domain = glid_nb.Domain.from_cage(tracing.cage)
     pose, origin = _pose(chosen.pose, sample, domain)
 
-    result, report = run_solver(domain, pose, energy, options, progress)
+    result, report = run_solver(domain, pose, energy, options)
     assert isinstance(result.map, glid_nb.HarmonicMap)
-    with progress.step("rendering"):
+    with step("rendering"):
         deformed, cropped = _deformed(image, result.map)
-    with progress.step("drawing the overview"):
+    with step("drawing the overview"):
         figure = glid_nb.figures.figure_png(glid_nb.figures.overview(image, result, pose))
 
     files: dict[Path, bytes | str] = {
@@ -90,17 +70,18 @@ def run(chosen: argparse.Namespace) -> None:
         out / "report.json": json_text(report),
     }
     out.mkdir(parents=True, exist_ok=True)
-    write_all(files)
-
     notes = [*tracing.notes, *domain.notes]
     if cropped:
         notes.append("deformed.png is zoomed out, for the shape leaves the picture's frame")
-    if chosen.json:
-        extra = {"image": str(source), "pose": origin, "notes": notes}
-        print(summary_json(report, files, **extra))
-    else:
-        print(summary_text(report, files, _rows(source, image, tracing, pose, origin, notes)))
-    check_interrupted(result)
+    moved = int((np.linalg.norm(pose.targets - pose.handles, axis=1) > 0).sum())
+    rows = [
+        ("picture", f"{source}, {tracing.frame.width} x {tracing.frame.height} pixels"),
+        ("cage", size_in_words(tracing.cage)),
+        *(("notes", note) for note in notes),
+        ("pose", f"{origin}: {len(pose)} handles, {moved} moved"),
+    ]
+    extra = {"image": str(source), "pose": origin, "notes": notes}
+    finish(result, report, files, chosen.json, rows, **extra)
 
 
 def _source(image: str) -> tuple[Path, str | None]:
@@ -145,21 +126,3 @@ def _deformed(
     if in_place.outside <= _CROPPED:
         return png(in_place.picture), False
     return glid_nb.export.picture_png(image, harmonic_map, view="fit"), True
-
-
-def _rows(
-    source: Path,
-    image: NDArray[np.unsignedinteger],
-    tracing: glid_nb.Tracing,
-    pose: glid_nb.Pose,
-    origin: str,
-    notes: Sequence[str],
-) -> list[tuple[str, Any]]:
-    height, width = image.shape[:2]
-    moved = int((np.linalg.norm(pose.targets - pose.handles, axis=1) > 0).sum())
-    return [
-        ("picture", f"{source}, {width} x {height} pixels"),
-        ("cage", size_in_words(tracing.cage)),
-        *(("notes", note) for note in notes),
-        ("pose", f"{origin}: {len(pose)} handles, {moved} moved"),
-    ]

@@ -19,12 +19,8 @@ _WITH_S = " and ".join(name for name, energy in ENERGIES.items() if "s" in energ
 
 def add_solver_flags(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument_group("energy and solver").add_argument
-    add(
-        "--energy",
-        metavar=f"{{{','.join(ENERGIES)}}}",
-        default="iso",
-        help="; ".join(f"{name}: {energy.label}" for name, energy in ENERGIES.items()),
-    )
+    energies = "; ".join(f"{name}: {energy.label}" for name, energy in ENERGIES.items())
+    add("--energy", metavar=f"{{{','.join(ENERGIES)}}}", default="iso", help=energies)
     add("--s", type=float, metavar="S", help=f"parameter of {_WITH_S}, above 0 (default 1)")
     kinds = get_type_hints(glid_nb.Options)
     for field in dataclasses.fields(glid_nb.Options):
@@ -50,21 +46,12 @@ def add_trace_flags(parser: argparse.ArgumentParser) -> None:
         metavar="{auto,alpha,threshold,color,scribbles}",
         help="how the foreground is found (default: what suits the picture)",
     )
-    add(
-        "--scribbles",
-        type=Path,
-        metavar="FILE.json",
-        help="strokes, as lists of [x, y] pixels, under the keys foreground and background",
-    )
+    strokes = "strokes, as lists of [x, y] pixels, under the keys foreground and background"
+    add("--scribbles", type=Path, metavar="FILE.json", help=strokes)
     add("--invert", action=argparse.BooleanOptionalAction, help="swap foreground and background")
     add("--threshold", type=float, metavar="T", help="least value of the foreground, 0 to 1")
-    add(
-        "--background",
-        type=float,
-        nargs=3,
-        metavar=("R", "G", "B"),
-        help="background colour, each 0 to 1 (default: estimated from the border)",
-    )
+    color = "background colour, each 0 to 1 (default: estimated from the border)"
+    add("--background", type=float, nargs=3, metavar=("R", "G", "B"), help=color)
     add("--background-at", help="a pixel that shows the background's colour", **pixel)
     add("--smoothing", type=float, metavar="PX", help="blur before the outline is taken")
     add("--component", type=int, metavar="I", help="which component, 0 being the largest")
@@ -76,23 +63,12 @@ def add_trace_flags(parser: argparse.ArgumentParser) -> None:
     add("--min-edge", type=float, metavar="PX", help="shorter edges are merged")
     add("--max-edge", type=float, metavar="PX", help="longer edges are divided")
     for verb, done in (("keep", "kept"), ("drop", "filled")):
-        add(
-            f"--{verb}-hole",
-            dest=f"{verb}_holes",
-            action="append",
-            help=f"a pixel in a hole that is {done} whatever its size; may be repeated",
-            **pixel,
-        )
+        text = f"a pixel in a hole that is {done} whatever its size; may be repeated"
+        add(f"--{verb}-hole", dest=f"{verb}_holes", action="append", help=text, **pixel)
 
 
 def energy_of(chosen: argparse.Namespace) -> glid_nb.Energy:
-    """The chosen energy.
-
-    Raises
-    ------
-    InputError
-        The name is unknown, or --s is not positive or given for an energy without it.
-    """
+    """The chosen energy; InputError for an unknown name, or --s for an energy without it."""
     energy = glid_nb.energy_by_name(chosen.energy, chosen.s)
     if chosen.s is not None and not hasattr(energy, "s"):
         raise glid_nb.InputError(f"--s is the parameter of {_WITH_S}; {energy.name} has none")
@@ -112,5 +88,5 @@ def trace_options_of(chosen: argparse.Namespace) -> glid_nb.TraceOptions:
 
 def _given(chosen: argparse.Namespace, kind: Any) -> dict[str, Any]:
     """The fields of a dataclass whose flags are given, with their values."""
-    values = {field.name: getattr(chosen, field.name, None) for field in dataclasses.fields(kind)}
-    return {name: value for name, value in values.items() if value is not None}
+    known = {field.name for field in dataclasses.fields(kind)}
+    return {k: value for k, value in vars(chosen).items() if k in known and value is not None}

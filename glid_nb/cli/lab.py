@@ -30,24 +30,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FOLDER",
         help="where to work; made if it is missing (default: here)",
     )
-    parser.add_argument(
-        "--print", action="store_true", help="only print the command that would be run"
-    )
+    parser.add_argument("--print", action="store_true", help="only print what would be run")
     parser.add_argument("jupyter", nargs="*", metavar="ARGUMENT", help="for JupyterLab, after --")
 
 
 def run(chosen: argparse.Namespace) -> None:
     if importlib.util.find_spec("jupyterlab") is None:
-        raise InputError(
-            "JupyterLab is not installed here; install it with: pip install 'glid-nb[lab]'"
-        )
-    folder: Path = chosen.folder
-    notebook = folder / NOTEBOOK
+        raise InputError("JupyterLab is not installed here; run: pip install 'glid-nb[lab]'")
+    notebook = chosen.folder / NOTEBOOK
     command = [sys.executable, "-m", "jupyterlab", str(notebook), *chosen.jupyter]
     if chosen.print:
         print(" ".join(command))
         return
-    folder.mkdir(parents=True, exist_ok=True)
+    chosen.folder.mkdir(parents=True, exist_ok=True)
     if not notebook.exists():
         shutil.copyfile(_bundled_notebook(), notebook)
     status = subprocess.run(command, check=False).returncode
@@ -57,8 +52,7 @@ def run(chosen: argparse.Namespace) -> None:
 
 def _bundled_notebook() -> Path:
     """The editor's notebook: in an installed package, or beside it in a checkout."""
-    package = Path(glid_nb.__file__).resolve().parent
-    for folder in (package, package.parent):
+    for folder in Path(glid_nb.__file__).resolve().parents[:2]:
         if (folder / _BUNDLED).is_file():
             return folder / _BUNDLED
     raise InputError(f"{_BUNDLED} is missing from this installation; install glid-nb again")

@@ -8,10 +8,11 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from glid_nb._bounds import rounded_down, rounded_up
 from glid_nb._errors import InputFileError
 from glid_nb._files import write_bytes_atomically, write_text_atomically
+from glid_nb.certificate.rounding import rounded_down, rounded_up
 
+_TIMES = {"compile": 2, "solve": 3, "certify": 3}
 _LONG = ("history", "options", "versions", "machine")
 _INJECTIVE = {
     "yes": "locally and globally",
@@ -20,19 +21,14 @@ _INJECTIVE = {
 }
 
 
-def check_file(path: Path) -> None:
-    """Raise an OSError if no file can be made at ``path``."""
+def check_file(path: Path, suffix: str = "") -> None:
+    """Raise an OSError if no file can be made at ``path``, an InputFileError for another suffix."""
+    if suffix and path.suffix.lower() != suffix:
+        raise InputFileError(f"{path}: only {suffix} is written; name a file that ends in {suffix}")
     if path.is_dir():
         raise IsADirectoryError(21, "is a folder; name a file", str(path))
     if not path.parent.is_dir():
         raise FileNotFoundError(2, "there is no such folder to write to", str(path.parent))
-
-
-def check_png(path: Path) -> None:
-    """:func:`check_file`, and an InputFileError unless the name ends in .png."""
-    if path.suffix.lower() != ".png":
-        raise InputFileError(f"{path}: pictures are written as PNG; name a file that ends in .png")
-    check_file(path)
 
 
 def check_folder(path: Path) -> None:
@@ -60,20 +56,18 @@ def summary_json(report: Mapping[str, Any], files: Iterable[Path], **extra: Any)
 def summary_text(
     report: Mapping[str, Any], files: Iterable[Path], rows: Iterable[tuple[str, str]] = ()
 ) -> str:
-    """The report of ``build_report`` on one screen: ``rows`` of (name, text) and ``files`` too."""
-    table = [*rows, *_rows(report), *_written(files)]
-    width = max(len(name) for name, _ in table)
-    lines = []
-    for name, group in groupby(table, key=lambda row: row[0]):
-        for i, (_, text) in enumerate(group):
-            lines.append(f"{name if i == 0 else '':<{width}}  {text}".rstrip())
-    return "\n".join(lines)
-
-
-def _written(files: Iterable[Path]) -> list[tuple[str, str]]:
+    """The report on one screen: ``rows`` of (name, text) and ``files`` too."""
     folders = groupby(files, key=lambda path: path.parent)
-    rows = [("written", f"{folder}: {', '.join(p.name for p in f)}") for folder, f in folders]
-    return rows or [("written", "nothing; name files with --out and --report")]
+    written = [f"{folder}: {', '.join(path.name for path in f)}" for folder, f in folders]
+    written = written or ["nothing; name files with --out and --report"]
+    table = [*rows, *_rows(report), *(("written", text) for text in written)]
+    width = max(len(name) for name, _ in table)
+    names = [name for name, _ in table]
+    lines = (
+        f"{'' if name == before else name:<{width}}  {text}".rstrip()
+        for before, (name, text) in zip(["", *names], table, strict=False)
+    )
+    return "\n".join(lines)
 
 
 def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
@@ -91,6 +85,7 @@ def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
     if report["proof_panels"] != report["panels"]:
         panels += f"; {report['proof_panels']} in the final proof"
     e, e_iso, e_p2p = (_bounded(report[key], "{:.6g}".format) for key in ("E", "E_iso", "E_p2p"))
+    seconds = (f"{part} {report[f'{part}_time']:.{n}f} s" for part, n in _TIMES.items())
     return [
         ("status", report["message"]),
         ("unknowns", f"{report['n_unknowns']}"),
@@ -103,11 +98,7 @@ def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("k", f"<= {_bounded(report['k_upper'], rounded_up, 6)}"),
         ("winding number", winding),
         ("injective", injective if report["certified"] else "not proved"),
-        (
-            "times",
-            f"compile {report['compile_time']:.2f} s, solve {report['solve_time']:.3f} s, "
-            f"certify {report['certify_time']:.3f} s",
-        ),
+        ("times", ", ".join(seconds)),
     ]
 
 

@@ -11,40 +11,30 @@ from pathlib import Path
 
 import glid_nb
 from glid_nb._errors import about
-from glid_nb.cli.output import check_png, write_all
-from glid_nb.cli.progress import Progress
+from glid_nb.cli.output import check_file, write_all
+from glid_nb.cli.progress import step
 
 MAX_SIDE = 20_000
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("image", type=Path, metavar="IMAGE", help="the picture's file")
-    parser.add_argument("map", type=Path, metavar="map.json", help="as `glid-nb solve` writes it")
-    parser.add_argument(
-        "--out", type=Path, metavar="picture.png", required=True, help="where the result goes"
-    )
-    parser.add_argument(
-        "--size",
-        type=_pixels,
-        nargs=2,
-        metavar=("W", "H"),
-        help="pixels of the result (default: the picture's)",
-    )
-    parser.add_argument(
-        "--view",
-        choices=("source", "fit"),
-        default="source",
-        help="show the part of the plane that the picture covers (default), or all of the result",
-    )
+    add = parser.add_argument
+    add("image", type=Path, metavar="IMAGE", help="the picture's file")
+    add("map", type=Path, metavar="map.json", help="as `glid-nb solve` writes it")
+    add("--out", type=Path, metavar="picture.png", required=True, help="where the result goes")
+    size = "pixels of the result (default: the picture's)"
+    add("--size", type=_pixels, nargs=2, metavar=("W", "H"), help=size)
+    view = "show the part of the plane that the picture covers (default), or all of the result"
+    add("--view", choices=("source", "fit"), default="source", help=view)
 
 
 def run(chosen: argparse.Namespace) -> None:
-    check_png(chosen.out)
+    check_file(chosen.out, ".png")
     glid_nb.enable_compilation_cache()
     harmonic_map = glid_nb.HarmonicMap.load(chosen.map)
     image = glid_nb.read_image(chosen.image)
     size = tuple(chosen.size or image.shape[1::-1])
-    with about(chosen.map), Progress().step("rendering"):
+    with about(chosen.map), step("rendering"):
         picture = glid_nb.export.picture_png(image, harmonic_map, size, chosen.view)
     write_all({chosen.out: picture})
     print(f"{chosen.out}: {size[0]} x {size[1]} pixels")

@@ -17,13 +17,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(chosen: argparse.Namespace) -> None:
     names = samples.names()
     if chosen.json:
-        files = {
-            name: {
-                "picture": str(samples.path(name)),
-                "poses": {kind: str(samples.pose_path(name, kind)) for kind in _KINDS},
-            }
-            for name in names
-        }
+        poses = {name: {k: str(samples.pose_path(name, k)) for k in _KINDS} for name in names}
+        files = {name: {"picture": str(samples.path(name)), "poses": poses[name]} for name in names}
         print(json.dumps(files))
         return
     width = max(map(len, names))

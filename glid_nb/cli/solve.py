@@ -14,23 +14,18 @@ import glid_nb
 from glid_nb._errors import about
 from glid_nb._json import json_text
 from glid_nb.cli.flags import add_solver_flags, energy_of, options_of
-from glid_nb.cli.output import check_file, summary_json, summary_text, write_all
-from glid_nb.cli.progress import Progress
-from glid_nb.cli.solving import check_interrupted, run_solver
+from glid_nb.cli.output import check_file
+from glid_nb.cli.solving import finish, run_solver
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("problem", type=Path, metavar="PROBLEM.json", help="what is solved")
-    parser.add_argument("--out", type=Path, metavar="map.json", help="where the map goes")
-    parser.add_argument("--report", type=Path, metavar="report.json", help="where the report goes")
-    parser.add_argument(
-        "--start",
-        type=Path,
-        metavar="map.json",
-        help="a certified map of the same domain to start from (default: the identity, moved "
-        "rigidly towards the targets)",
-    )
-    parser.add_argument("--json", action="store_true", help="print the summary as JSON")
+    add = parser.add_argument
+    add("problem", type=Path, metavar="PROBLEM.json", help="what is solved")
+    add("--out", type=Path, metavar="map.json", help="where the map goes")
+    add("--report", type=Path, metavar="report.json", help="where the report goes")
+    start = "a certified map of the same domain to start from (default: see --align)"
+    add("--start", type=Path, metavar="map.json", help=start)
+    add("--json", action="store_true", help="print the summary as JSON")
     add_solver_flags(parser)
 
 
@@ -42,15 +37,11 @@ def run(chosen: argparse.Namespace) -> None:
     energy, options = energy_of(chosen), options_of(chosen)
     start = glid_nb.HarmonicMap.load(chosen.start) if chosen.start else None
     with about(chosen.start or chosen.problem):
-        result, report = run_solver(
-            problem.domain, problem.pose, energy, options, Progress(), start
-        )
-    files: dict[Path, bytes | str] = {}
+        result, report = run_solver(problem.domain, problem.pose, energy, options, start)
     assert isinstance(result.map, glid_nb.HarmonicMap)
+    files: dict[Path, bytes | str] = {}
     if chosen.out:
         files[chosen.out] = json_text(result.map.to_dict())
     if chosen.report:
         files[chosen.report] = json_text(report)
-    write_all(files)
-    print(summary_json(report, files) if chosen.json else summary_text(report, files))
-    check_interrupted(result)
+    finish(result, report, files, chosen.json)

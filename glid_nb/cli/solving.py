@@ -1,4 +1,4 @@
-"""Solving with progress that can be stopped, and the report of it."""
+"""Solving with progress that can be stopped, and what is written and printed afterwards."""
 
 from __future__ import annotations
 
@@ -6,10 +6,12 @@ import signal
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import glid_nb
-from glid_nb.cli.progress import Progress
+from glid_nb.cli.output import summary_json, summary_text, write_all
+from glid_nb.cli.progress import step
 
 
 def run_solver(
@@ -17,7 +19,6 @@ def run_solver(
     pose: glid_nb.Pose,
     energy: glid_nb.Energy,
     options: glid_nb.Options,
-    progress: Progress,
     start: glid_nb.HarmonicMap | None = None,
 ) -> tuple[glid_nb.Result, dict[str, Any]]:
     """The result and its report.
@@ -26,40 +27,46 @@ def run_solver(
     """
     glid_nb.enable_compilation_cache()
     with (
-        progress.step("solving (new shapes are compiled first; Ctrl-C stops)") as detail,
+        step("solving (new shapes are compiled first; Ctrl-C stops)") as detail,
         _interruptible() as interrupted,
     ):
 
         def show(state: glid_nb.Progress) -> bool:
-            detail(_in_words(state))
+            if state.history:
+                last = state.history[-1]
+                detail(f"iteration {last.iteration}, energy {last.energy:.6g}")
+            else:  # the first step was refused, so panels are split first
+                detail("before the first iteration, splitting panels")
             return interrupted()
 
         result = glid_nb.solve(domain, pose, energy, options, start=start, callback=show)
-    with progress.step("proving the result"):
-        report = glid_nb.build_report(result)
-    return result, report
+    with step("proving the result"):
+        return result, glid_nb.build_report(result)
 
 
-def check_interrupted(result: glid_nb.Result) -> None:
-    """Raise KeyboardInterrupt after a solve that Ctrl-C stopped, once its files are written."""
+def finish(
+    result: glid_nb.Result,
+    report: dict[str, Any],
+    files: dict[Path, bytes | str],
+    json: bool,
+    rows: list[tuple[str, str]] | None = None,
+    **extra: Any,
+) -> None:
+    """Write the files and print the summary, with ``extra`` as JSON or with ``rows`` as text.
+
+    Raises KeyboardInterrupt after a solve that Ctrl-C stopped.
+    """
+    write_all(files)
+    text = summary_json(report, files, **extra) if json else summary_text(report, files, rows or [])
+    print(text)
     if result.status is glid_nb.Status.STOPPED:
         raise KeyboardInterrupt
-
-
-def _in_words(state: glid_nb.Progress) -> str:
-    if not state.history:  # the first step was refused, so panels are split first
-        return "before the first iteration, splitting panels"
-    last = state.history[-1]
-    return f"iteration {last.iteration}, energy {last.energy:.6g}"
 
 
 @contextmanager
 def _interruptible() -> Iterator[Callable[[], bool]]:
     """Turn the first Ctrl-C into a request; yields a function that tells whether it was made."""
     asked = threading.Event()
-    if threading.current_thread() is not threading.main_thread():
-        yield asked.is_set
-        return
 
     def ask(signal_number: int, frame: Any) -> None:
         if asked.is_set():

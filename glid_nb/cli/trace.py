@@ -16,14 +16,13 @@ from glid_nb._errors import about
 from glid_nb._json import write_json
 from glid_nb.cli.flags import add_trace_flags, trace_options_of
 from glid_nb.cli.output import check_file
-from glid_nb.cli.progress import Progress
+from glid_nb.cli.progress import step
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("image", type=Path, metavar="IMAGE", help="the picture's file")
-    parser.add_argument(
-        "--out", type=Path, metavar="cage.json", required=True, help="where the cage goes"
-    )
+    out = "where the cage goes"
+    parser.add_argument("--out", type=Path, metavar="cage.json", required=True, help=out)
     add_trace_flags(parser)
 
 
@@ -31,7 +30,7 @@ def run(chosen: argparse.Namespace) -> None:
     check_file(chosen.out)
     options = trace_options_of(chosen)
     image = glid_nb.read_image(chosen.image)
-    with about(chosen.image), Progress().step(f"tracing {chosen.image.name}"):
+    with about(chosen.image), step(f"tracing {chosen.image.name}"):
         tracing = glid_nb.trace(image, options)
     write_json(chosen.out, cage_data(tracing))
     print(f"{chosen.out}: {size_in_words(tracing.cage)}")

@@ -28,12 +28,8 @@ class CustomEnergy(Energy):
     ----------
     function : callable
         ``E(x, y) -> scalar``, twice differentiable by JAX, with its minimum at the isometry
-        ``E(1, 0)``. Use one function object for many solves; each new one is compiled anew.
-
-    Raises
-    ------
-    EnergyError
-        It cannot be called with two numbers, does not return one, cannot be differentiated, or is
+        ``E(1, 0)``. Use one function object for many solves; each new one is compiled anew. An
+        EnergyError says so if it does not make one number of two, cannot be differentiated, or is
         not finite at the isometry.
 
     Examples

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-import numbers
 from abc import ABC, abstractmethod
 from dataclasses import fields
+from numbers import Real
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self, TypeVar
 
 from glid_nb._errors import InputError
@@ -38,7 +38,8 @@ class Energy(ABC):
     other samples.
 
     Subclasses are frozen dataclasses decorated with :func:`register_energy`. Their fields are the
-    parameters: positive numbers with a default. All values of a parameter share a compiled program.
+    parameters: positive finite numbers with a default; anything else raises EnergyError. All values
+    of a parameter share a compiled program.
     """
 
     name: ClassVar[str]
@@ -89,15 +90,13 @@ def register_energy(cls: type[E]) -> type[E]:
     the same fields for equal and sometimes runs one energy with the program compiled for another.
     Here the class is part of the tree's structure.
     """
-    names = cls.parameters()
-
-    def flatten(energy: E) -> tuple[tuple[Any, ...], type[E]]:
-        return tuple(getattr(energy, name) for name in names), cls
-
-    def unflatten(known: type[E], leaves: Any) -> E:
-        return known(*leaves)
-
-    once_loaded(lambda: jax.tree_util.register_pytree_node(cls, flatten, unflatten))
+    once_loaded(
+        lambda: jax.tree_util.register_pytree_node(
+            cls,
+            lambda energy: (tuple(vars(energy).values()), cls),
+            lambda known, parameters: known(*parameters),
+        )
+    )
     ENERGIES[cls.name] = cls
     return cls
 
@@ -105,12 +104,8 @@ def register_energy(cls: type[E]) -> type[E]:
 def energy_by_name(name: str, s: float | None = None) -> Energy:
     """The energy called ``name``, such as "iso", "exp", "amips", "mips" or "arap".
 
-    ``s`` is the parameter of ``exp`` and ``amips`` (default 1); the others ignore it.
-
-    Raises
-    ------
-    EnergyError
-        The name is unknown, or ``s`` is not positive.
+    ``s``, a positive number, is the parameter of ``exp`` and ``amips`` (default 1); the others
+    ignore it. EnergyError lists the names if there is no such energy.
     """
     if not isinstance(name, str) or name not in ENERGIES:
         raise EnergyError(f"unknown energy {name!r}; choose one of {', '.join(ENERGIES)}")
@@ -121,13 +116,7 @@ def energy_by_name(name: str, s: float | None = None) -> Energy:
 
 
 def as_energy(energy: Energy | str | None) -> Energy:
-    """The energy given as such or by name; the symmetric Dirichlet energy for None.
-
-    Raises
-    ------
-    EnergyError
-        The name is unknown, or ``energy`` is not an energy.
-    """
+    """The energy given as such or by name; the symmetric Dirichlet energy for None."""
     if isinstance(energy, str | None):
         return energy_by_name(energy or "iso")
     if not isinstance(energy, Energy):
@@ -144,13 +133,11 @@ def _checked_parameter(energy: str, name: str, value: Any) -> Any:
     JAX tracers, whose range was checked outside the traced program, and the plain objects with
     which JAX rebuilds pytrees are returned unchanged.
     """
-    if isinstance(value, numbers.Real) and not isinstance(value, bool):
-        number = float(value)
-        if math.isfinite(number) and number > 0:
-            return number
-        raise EnergyError(
-            f"{name} of the energy {energy!r} must be positive and finite, got {number}"
-        )
+    number = float(value) if isinstance(value, Real) and not isinstance(value, bool) else math.nan
+    if 0 < number < math.inf:
+        return number
     if type(value) is object or isinstance(value, jax.Array | jax.ShapeDtypeStruct):
         return value
-    raise EnergyError(f"{name} of the energy {energy!r} must be a positive number, got {value!r}")
+    raise EnergyError(
+        f"{name} of the energy {energy!r} must be a positive finite number, got {value!r:.60}"
+    )

@@ -51,11 +51,6 @@ class ExponentialSymmetricDirichlet(Energy):
     s : float
         Sharpness, positive: the larger, the lower the greatest distortion and the higher the
         average one (Figure 6).
-
-    Raises
-    ------
-    EnergyError
-        When ``s`` is not a positive finite number.
     """
 
     s: float = 1.0
@@ -93,11 +88,6 @@ class AMIPS(Energy):
     ----------
     s : float
         Weight of the angles, positive.
-
-    Raises
-    ------
-    EnergyError
-        When ``s`` is not a positive finite number.
     """
 
     s: float = 1.0

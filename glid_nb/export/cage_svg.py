@@ -11,11 +11,9 @@ from numpy.typing import NDArray
 from glid_nb.figures.style import BLUE, CYAN, GREY, INK
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
+from glid_nb.imaging.mesh import deformed_loops
 from glid_nb.solvers import Pose
 
-TOLERANCE = 0.002  # world units between polylines and curves; the picture is 20 long
-_START = 4  # parts per edge before refinement
-_ROUNDS = 12  # of refinement
 _MARGIN = 0.02  # around everything, as a share of the longer side
 
 
@@ -66,37 +64,6 @@ def cage_svg(
         f'viewBox="{x:.2f} {y:.2f} {w:.2f} {h:.2f}">\n'
         f"  <title>Deformed cage</title>\n  {body}\n</svg>\n"
     )
-
-
-def deformed_loops(map: HarmonicMap, tolerance: float = TOLERANCE) -> list[NDArray[np.float64]]:
-    """The images of the cage's loops as polylines within ``tolerance`` of the curves."""
-    return [_deformed_loop(map, loop, tolerance) for loop in map.domain.cage.loops]
-
-
-def _deformed_loop(
-    map: HarmonicMap, loop: NDArray[np.float64], tolerance: float
-) -> NDArray[np.float64]:
-    n = len(loop)
-    following = np.roll(loop, -1, axis=0)
-
-    def at(t: NDArray[np.float64]) -> NDArray[np.float64]:
-        # Vertex i of the loop is at t = i.
-        edge = np.minimum(t.astype(np.intp), n - 1)
-        share = (t - edge)[:, None]
-        return map(loop[edge] * (1 - share) + following[edge] * share)
-
-    t = np.arange(_START * n + 1) / _START
-    points = at(t)
-    for _ in range(_ROUNDS):
-        middle = (t[1:] + t[:-1]) / 2
-        images = at(middle)
-        gap = np.linalg.norm(images - (points[1:] + points[:-1]) / 2, axis=1)
-        bent = np.flatnonzero(gap > tolerance)
-        if not bent.size:
-            break
-        t = np.insert(t, bent + 1, middle[bent])
-        points = np.insert(points, bent + 1, images[bent], axis=0)
-    return points[:-1]
 
 
 def _path(

@@ -18,9 +18,6 @@ if TYPE_CHECKING:
     from trimesh import Trimesh
     from trimesh.visual.material import Material
 
-VERTICES = 5000
-"""About how many vertices a mesh gets by default."""
-
 _RELIEF = 0.02  # world units from the lowest to the highest sheet of an overlapping shape
 
 
@@ -47,10 +44,7 @@ class TexturedMesh:
 
 
 def textured_mesh(
-    image: ArrayLike,
-    map: HarmonicMap,
-    n_vertices: int = VERTICES,
-    tolerance: float | None = None,
+    image: ArrayLike, map: HarmonicMap, n_vertices: int = 5000, tolerance: float | None = None
 ) -> TexturedMesh:
     """Triangulate a map's domain and give each vertex its image and its place in the picture.
 
@@ -73,11 +67,9 @@ def textured_mesh(
     height, width = texture.shape[:2]
     mesh = deformed_mesh(map, n_vertices, tolerance)
     u, v = (PixelFrame(width, height).to_pixel(mesh.vertices) / [width, height]).T
-    span = np.ptp(mesh.heights) or 1.0
-    z = _RELIEF * (mesh.heights - mesh.heights.min()) / span
-    return TexturedMesh(
-        np.column_stack([mesh.images, z]), np.column_stack([u, 1 - v]), mesh.triangles, texture
-    )
+    z = mesh.heights - mesh.heights.min()
+    positions = np.column_stack([mesh.images, _RELIEF * z / (z.max() or 1.0)])
+    return TexturedMesh(positions, np.column_stack([u, 1 - v]), mesh.triangles, texture)
 
 
 def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:

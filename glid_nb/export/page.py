@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._bounds import rounded_down, rounded_up
 from glid_nb.certificate import Certificate, global_injectivity
+from glid_nb.certificate.rounding import rounded_down, rounded_up
 from glid_nb.export.picture import png
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
@@ -94,9 +94,8 @@ def _bounds(points: NDArray[np.float64]) -> list[float]:
     return [*points.min(axis=0).tolist(), *points.max(axis=0).tolist()]
 
 
-def _base64(data: NDArray[Any] | bytes) -> str:
-    raw = data if isinstance(data, bytes) else data.tobytes()
-    return base64.b64encode(raw).decode("ascii")
+def _base64(data: bytes | NDArray[Any]) -> str:
+    return base64.b64encode(data).decode("ascii")
 
 
 def _read(name: str) -> str:

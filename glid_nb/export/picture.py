@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Sequence
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,8 +13,9 @@ from PIL import Image, ImageDraw
 
 from glid_nb.figures.style import CYAN, INK
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.mesh import deformed_mesh
-from glid_nb.imaging.render import OutputFrame, View, draw_mesh, outline_points, render
+from glid_nb.imaging import PixelFrame
+from glid_nb.imaging.mesh import deformed_loops, deformed_mesh
+from glid_nb.imaging.render import View, draw_mesh, render
 from glid_nb.imaging.texture import Texture
 from glid_nb.solvers import Pose
 
@@ -33,23 +34,7 @@ def picture_png(
     size: tuple[int, int] | None = None,
     view: View = "source",
 ) -> bytes:
-    """Warp a picture through a map; the result is a PNG file with an alpha channel.
-
-    Parameters
-    ----------
-    image : (h, w, 4), (h, w, 3) or (h, w) array
-        The picture that the map's cage was traced from.
-    map : HarmonicMap
-    size : (w, h), optional
-        Pixels of the result; by default the image's own.
-    view : "source" or "fit"
-        Show what the picture showed, or all of the deformed shape; see `glid_nb.render`.
-
-    Raises
-    ------
-    ValueError
-        When an argument is out of range; the message names it.
-    """
+    """Warp a picture through a map, as `glid_nb.render` does; a PNG file with an alpha channel."""
     return png(render(image, map, size, view=view))
 
 
@@ -112,106 +97,66 @@ def animation_bytes(
         raise ValueError(f"background is {background}; it must be three numbers from 0 to 255")
     if format not in get_args(Format):
         raise ValueError(f"unknown format {format!r}; choose one of {', '.join(get_args(Format))}")
-    texture = Texture.from_image(image)
-    frame = _common_frame(maps, size)
-    tolerance = _TOLERANCE_PX / frame.pixels_per_unit
+    texture, frame = Texture.from_image(image), _common_frame(maps, size)
     pictures = []
     for i, map in enumerate(maps):
-        mesh = deformed_mesh(map, _VERTICES, tolerance)
-        picture = _on_background(draw_mesh(texture, mesh, frame), background)
+        mesh = deformed_mesh(map, _VERTICES, _TOLERANCE_PX * frame.units_per_pixel)
+        picture = Image.new("RGBA", (frame.width, frame.height), (*background, 255))
+        picture.alpha_composite(Image.fromarray(draw_mesh(texture, mesh, frame)))
         if poses is not None:
-            picture = _with_marks(picture, poses[i], map, frame)
-        pictures.append(picture)
+            picture.alpha_composite(_marks(poses[i], map, frame))
+        pictures.append(picture.convert("RGB"))
     if there_and_back:
         pictures += pictures[-2:0:-1]
-    return _encoded(pictures, 1000.0 / frames_per_second, background, format)
-
-
-def _common_frame(maps: list[HarmonicMap], size: int) -> OutputFrame:
-    """A frame that holds all the deformed shapes; their boundaries suffice to find it."""
-    loops = [map(outline_points(map)) for map in maps]
-    low = np.min([loop.min(axis=0) for loop in loops], axis=0)
-    high = np.max([loop.max(axis=0) for loop in loops], axis=0)
-    extent = (high - low) / (1 - 2 * _MARGIN)
-    scale = size / float(extent.max())
-    width, height = (max(1, math.ceil(side * scale)) for side in extent)
-    x, y = (low + high) / 2
-    return OutputFrame((width, height), scale, (float(x), float(y)))
-
-
-def _on_background(pixels: NDArray[np.uint8], background: tuple[int, int, int]) -> Image.Image:
-    ground = Image.new("RGBA", (pixels.shape[1], pixels.shape[0]), (*background, 255))
-    return Image.alpha_composite(ground, Image.fromarray(pixels)).convert("RGB")
-
-
-def _with_marks(
-    picture: Image.Image, pose: Pose, map: HarmonicMap, frame: OutputFrame
-) -> Image.Image:
-    if not len(pose):
-        return picture
-    size = (picture.width * _SMOOTH, picture.height * _SMOOTH)
-    layer = Image.new("RGBA", size, (0, 0, 0, 0))
-    draw = ImageDraw.Draw(layer)
-    targets = frame.to_pixel(pose.targets) * _SMOOTH
-    images = frame.to_pixel(map(pose.handles)) * _SMOOTH
-    unit = max(size)
-    for (x, y), (u, v) in zip(targets, images, strict=True):
-        draw.line([(x, y), (u, v)], fill=INK, width=max(1, round(unit / 400)))
-    for points, radius, color in ((targets, _TARGET, CYAN), (images, _HANDLE, INK)):
-        r = radius * unit
-        for x, y in points:
-            draw.ellipse((x - r, y - r, x + r, y + r), fill=color, outline="white", width=_SMOOTH)
-    small = layer.resize(picture.size, Image.Resampling.LANCZOS)
-    return Image.alpha_composite(picture.convert("RGBA"), small).convert("RGB")
-
-
-def _encoded(
-    pictures: list[Image.Image],
-    milliseconds: float,
-    background: tuple[int, int, int],
-    format: Format,
-) -> bytes:
-    kind = "PNG"
+    duration = 1000.0 / frames_per_second
     if format == "gif":
-        # Flat areas would flicker if each frame had its own palette.
-        palette = _palette(pictures, background)
-        pictures = [_with_palette(picture, palette, background) for picture in pictures]
-        kind, milliseconds = "GIF", 10 * max(1, round(milliseconds / 10))
+        pictures, duration = _with_palette(pictures, background), 10 * max(1, round(duration / 10))
+    kind: Any = {"format": "GIF" if format == "gif" else "PNG", "save_all": True, "optimize": False}
     buffer = io.BytesIO()
-    pictures[0].save(
-        buffer,
-        format=kind,
-        save_all=True,
-        append_images=pictures[1:],
-        duration=milliseconds,
-        loop=0,
-        optimize=False,
-    )
+    pictures[0].save(buffer, append_images=pictures[1:], duration=duration, loop=0, **kind)
     return buffer.getvalue()
 
 
-def _palette(pictures: list[Image.Image], background: tuple[int, int, int]) -> Image.Image:
-    """A picture with a palette for all frames, made from at most eight of them.
+def _common_frame(maps: list[HarmonicMap], size: int) -> PixelFrame:
+    """A frame that holds all the deformed shapes; their boundaries suffice to find it."""
+    points = np.concatenate([deformed_loops(map)[0] for map in maps])
+    extent = np.ptp(points, axis=0)
+    width, height = (max(1, math.ceil(side)) for side in size * (extent / extent.max()))
+    return PixelFrame(width, height).showing([points.min(axis=0), points.max(axis=0)], _MARGIN)
 
-    The exact background comes first; an averaged one would show a dither pattern.
-    """
-    chosen = pictures[:: max(1, math.ceil(len(pictures) / 8))]
-    width, height = pictures[0].size
-    montage = Image.new("RGB", (width, height * len(chosen)))
-    for i, picture in enumerate(chosen):
-        montage.paste(picture, (0, i * height))
-    colors = montage.quantize(255, method=Image.Quantize.MEDIANCUT).getpalette() or []
-    palette = Image.new("P", (1, 1))
-    palette.putpalette([*background, *colors[: 3 * 255]])
-    return palette
+
+def _marks(pose: Pose, map: HarmonicMap, frame: PixelFrame) -> Image.Image:
+    """Disks at the targets, dots at the images of the handles, and lines between them."""
+    layer = Image.new("RGBA", (frame.width * _SMOOTH, frame.height * _SMOOTH))
+    draw, unit = ImageDraw.Draw(layer), max(layer.size)
+    targets = frame.to_pixel(pose.targets) * _SMOOTH
+    images = frame.to_pixel(map(pose.handles)) * _SMOOTH
+    for ends in np.concatenate([targets, images], axis=1).tolist():
+        draw.line(ends, fill=INK, width=max(1, round(unit / 400)))
+    for points, radius, color in ((targets, _TARGET, CYAN), (images, _HANDLE, INK)):
+        for point in points.tolist():
+            draw.circle(point, radius * unit, fill=color, outline="white", width=_SMOOTH)
+    return layer.resize((frame.width, frame.height), Image.Resampling.LANCZOS)
 
 
 def _with_palette(
-    picture: Image.Image, palette: Image.Image, background: tuple[int, int, int]
-) -> Image.Image:
-    indices = np.array(picture.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG))
-    # Pillow looks up colours in bins of four levels, so it may miss the background.
-    indices[(np.asarray(picture) == background).all(axis=2)] = 0
-    result = Image.fromarray(indices)
-    result.putpalette(palette.getpalette() or [])
+    pictures: list[Image.Image], background: tuple[int, int, int]
+) -> list[Image.Image]:
+    """The pictures with one palette, made from at most eight of them.
+
+    Flat areas would flicker if each had its own. The exact background comes first; an averaged one
+    would show a dither pattern.
+    """
+    chosen = pictures[:: math.ceil(len(pictures) / 8)]
+    montage = Image.fromarray(np.concatenate([np.asarray(picture) for picture in chosen]))
+    colors = [*background, *(montage.quantize(255).getpalette() or [])]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(colors)
+    result = []
+    for picture in pictures:
+        indices = np.array(picture.quantize(palette=palette))
+        # Pillow looks up colours in bins of four levels, so it may miss the background.
+        indices[(np.asarray(picture) == background).all(axis=2)] = 0
+        result.append(Image.fromarray(indices))
+        result[-1].putpalette(colors)
     return result

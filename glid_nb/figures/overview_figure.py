@@ -7,14 +7,15 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import shapely
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
 from numpy.typing import ArrayLike, NDArray
+from PIL import Image
 
 from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot
 from glid_nb.figures.style import (
@@ -30,10 +31,9 @@ from glid_nb.figures.style import (
     distortion_colors,
 )
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.frame import PixelFrame
-from glid_nb.imaging.mesh import DeformedMesh, deformed_mesh
-from glid_nb.imaging.rasterise import render_mesh
-from glid_nb.imaging.render import OutputFrame, along_loop, draw_mesh
+from glid_nb.imaging import PixelFrame, as_rgba8
+from glid_nb.imaging.mesh import DeformedMesh, deformed_loops, deformed_mesh
+from glid_nb.imaging.render import draw_mesh
 from glid_nb.imaging.texture import Texture
 
 if TYPE_CHECKING:
@@ -50,6 +50,7 @@ _NAMES = ("Source", "Deformation", "Distortion", "Energy", "Newton steps", "Cert
 
 _SHRINK = 1.7  # a common scale may make a picture smaller by this factor
 _DPI = 300
+_OVERSAMPLING = 2  # of the deformed picture
 _TICKS = (1, 1.1, 1.2, 1.5, 2, 3, 5, 10, 20, 50, 100, 1000, 10_000)
 _MISS = 0.004  # handles farther from their target, relative to the shape's size, get a line
 
@@ -57,7 +58,7 @@ Floats = NDArray[np.float64]
 
 
 def overview(
-    image: ArrayLike | Texture, result: Result, pose: Pose | None = None, *, width: float = 7.0
+    image: ArrayLike, result: Result, pose: Pose | None = None, *, width: float = 7.0
 ) -> Figure:
     """A figure that summarises a solve.
 
@@ -69,7 +70,7 @@ def overview(
 
     Parameters
     ----------
-    image : (h, w, c) or (h, w) array, or Texture
+    image : (h, w, c) or (h, w) array
         The picture that the cage was traced from.
     result : Result
         What :func:`glid_nb.solve` returned.
@@ -93,16 +94,14 @@ def overview(
     """
     if not width >= _NARROWEST:
         raise ValueError(f"width is {width} inches; the text needs at least {_NARROWEST}")
-    texture = image if isinstance(image, Texture) else Texture.from_image(image)
+    picture = as_rgba8(image)
     map, certificate = result.map, result.certificate
     if certificate is None or not isinstance(map, HarmonicMap):
         raise TypeError("the overview shows a certified map; the result's is one of a mesh")
     pose = result.pose if pose is None else pose
-    cage, outer = map.domain.cage, map.domain.offset_cage
-    outline = [map(along_loop(loop, 8)) for loop in cage.loops]
-    source = _box(outer.exterior)
+    cage, outline = map.domain.cage, deformed_loops(map)
     target = _enlarged(_box(np.concatenate(outline)), pose.targets)
-    views = _common_scale(source, target)
+    views = _common_scale(_box(map.domain.offset_cage.exterior), target)
 
     across, up = np.ptp(views[0], axis=0)
     tall = min(width / 3 * up / across, _TALLEST)
@@ -116,28 +115,21 @@ def overview(
     for axes, letter, name in zip((*pictures, *plots), "abcdef", _NAMES, strict=True):
         _label(axes, letter, name, (0, 4) if axes in pictures else (-24, 26))
 
+    pixels = _OVERSAMPLING * _DPI * width / 3
+    frame = PixelFrame(round(pixels), round(pixels * up / across)).showing(views[1])
+    mesh = deformed_mesh(map, 4000, 0.25 * _OVERSAMPLING * frame.units_per_pixel)
+    _show(pictures[0], picture, PixelFrame(picture.shape[1], picture.shape[0]))
+    _show(pictures[1], draw_mesh(Texture.from_image(picture), mesh, frame), frame)
+    _draw_distortion(pictures[2], map, mesh)
     _mark_source(pictures[0], map, pose)
     _mark_result(pictures[1], map, pose, outline)
     _draw_loops(pictures[2], outline, color=INK, linewidth=0.5)
-    shown = deformed_mesh(map, 4000, 0.25 * np.ptp(views[1, :, 0]) / (width / 3 * _DPI))
-    strip, places = _distortion(pictures[2], map, shown)
+    for axes, view in zip(pictures, views[[0, 1, 1]], strict=True):
+        axes.set(xlim=view[:, 0], ylim=view[:, 1], aspect="equal")
     EnergyPlot(plots[0]).update(result.history, result.start_energy)
     StepPlot(plots[1]).update(result.history)
     CertificatePlot(plots[2], cage).update(certificate, map)
-
-    figure.draw_without_rendering()  # lays out the axes, whose pixels the pictures need
-    figure.set_layout_engine("none")
-    for axes, view in zip(pictures, views[[0, 1, 1]], strict=True):
-        _fit(axes, view)
-    pixels = PixelFrame(texture.width, texture.height)
-    corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * [pixels.width, pixels.height]
-    quad = np.array([[0, 1, 2], [0, 2, 3]])
-    frame = _frame_of(pictures[0])
-    positions = frame.to_pixel(pixels.to_world(corners))
-    _show(pictures[0], render_mesh(texture, corners, positions, quad, frame.size))
-    frame = _frame_of(pictures[1])
-    _show(pictures[1], draw_mesh(texture, shown, frame))
-    _show(pictures[2], draw_mesh(strip, shown, frame, places))
+    figure.draw_without_rendering()  # lays out the axes
     return figure
 
 
@@ -190,27 +182,12 @@ def _label(axes: Axes, letter: str, name: str, shift: tuple[float, float]) -> No
         )
 
 
-def _fit(axes: Axes, view: Floats) -> None:
-    """Centre this box in the axes, as large as possible and not stretched."""
-    size = axes.get_window_extent().size
-    half = size * (np.ptp(view, axis=0) / size).max() / 2
-    low, high = view.mean(axis=0) - half, view.mean(axis=0) + half
-    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
-
-
-def _frame_of(axes: Axes) -> OutputFrame:
-    (xmin, xmax), (ymin, ymax) = axes.get_xlim(), axes.get_ylim()
-    box = axes.get_window_extent()
-    size = max(1, round(box.width)), max(1, round(box.height))
-    return OutputFrame(size, size[0] / (xmax - xmin), ((xmin + xmax) / 2, (ymin + ymax) / 2))
-
-
-def _show(axes: Axes, picture: NDArray[np.uint8]) -> None:
-    """Put an RGBA picture of the axes' own resolution behind everything else, on white."""
-    alpha = picture[..., 3:] / 255
-    opaque = np.rint(picture[..., :3] * alpha + 255 * (1 - alpha)).astype(np.uint8)
-    extent = (*axes.get_xlim(), *axes.get_ylim())
-    axes.imshow(opaque, extent=extent, aspect="auto", interpolation="nearest", zorder=0)
+def _show(axes: Axes, picture: NDArray[np.uint8], frame: PixelFrame) -> None:
+    """Put an RGBA picture behind everything else, on white."""
+    white = Image.new("RGBA", picture.shape[1::-1], "white")
+    white.alpha_composite(Image.fromarray(picture))
+    xmin, ymin, xmax, ymax = frame.bounds
+    axes.imshow(white, extent=(xmin, xmax, ymin, ymax), zorder=0)
 
 
 def _mark_source(axes: Axes, map: HarmonicMap, pose: Pose) -> None:
@@ -235,24 +212,28 @@ def _mark_result(axes: Axes, map: HarmonicMap, pose: Pose, outline: list[Floats]
     _add_legend(axes)
 
 
-def _distortion(
-    axes: Axes, map: HarmonicMap, mesh: DeformedMesh
-) -> tuple[NDArray[np.uint8], Floats]:
-    """The distortion's colours as a strip to draw with, and each vertex's place in it.
-
-    Also adds the colour bar below the axes.
-    """
+def _draw_distortion(axes: Axes, map: HarmonicMap, mesh: DeformedMesh) -> None:
+    """The distortion on a logarithmic scale, and its colour bar below the axes."""
     abs_fz, abs_fzb = (np.abs(v) for v in map.wirtinger(mesh.vertices))
     with np.errstate(divide="ignore"):
         distortion = np.maximum(abs_fz + abs_fzb, 1 / np.maximum(abs_fz - abs_fzb, 0))
     # Peaks at the cage's corners must not dominate the scale.
-    highest = max(1.25, min(_quantile(distortion, mesh, 0.995), 1e4))
-    norm, colors = LogNorm(1.0, highest), distortion_colors()
-    strip = np.tile((colors(np.arange(colors.N)) * 255).round().astype(np.uint8), (2, 1, 1))
-    value = np.asarray(norm(np.clip(distortion, 1.0, highest)))
-
+    values = distortion[mesh.triangles].mean(axis=1)
+    area = shapely.area(shapely.polygons(mesh.vertices[mesh.triangles]))
+    most = np.quantile(values, 0.995, weights=area, method="inverted_cdf")
+    highest = max(1.25, min(float(most), 1e4))
+    colors = axes.tripcolor(
+        *mesh.images.T,
+        mesh.triangles,
+        np.clip(distortion, 1.0, highest),
+        shading="gouraud",
+        norm=LogNorm(1.0, highest),
+        cmap=distortion_colors(),
+        rasterized=True,
+        zorder=0,
+    )
     scale = axes.figure.colorbar(
-        ScalarMappable(norm, colors),
+        colors,
         ax=axes,
         location="bottom",
         shrink=0.8,
@@ -268,17 +249,6 @@ def _distortion(
     scale.ax.xaxis.set_minor_locator(NullLocator())
     scale.ax.tick_params(labelsize=SMALL, length=2, width=HAIRLINE, pad=1.5, colors=INK)
     scale.outline.set(linewidth=HAIRLINE, edgecolor=INK)  # type: ignore[operator]
-    return strip, np.stack([0.5 + value * (colors.N - 1), np.ones(len(value))], axis=1)
-
-
-def _quantile(values: Floats, mesh: DeformedMesh, share: float) -> float:
-    """Quantile of the values at the vertices, weighted by undeformed area."""
-    e = mesh.vertices[mesh.triangles][:, 1:] - mesh.vertices[mesh.triangles][:, :1]
-    area = np.abs(e[:, 0, 0] * e[:, 1, 1] - e[:, 0, 1] * e[:, 1, 0])
-    value = values[mesh.triangles].mean(axis=1)
-    order = np.argsort(value)
-    total = np.cumsum(area[order])
-    return float(value[order[np.searchsorted(total, share * total[-1])]])
 
 
 def _spaced(ticks: list[float], highest: float) -> list[float]:

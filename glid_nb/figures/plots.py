@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Collection, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -18,22 +18,11 @@ from matplotlib.text import Text
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
-from glid_nb._bounds import rounded_down
 from glid_nb.certificate import Certificate
-from glid_nb.figures.style import (
-    BLUE,
-    FAINT,
-    GREEN,
-    HAIRLINE,
-    INK,
-    LEGEND,
-    LINE,
-    SKY,
-    SMALL,
-    VERMILION,
-    tidy,
-)
-from glid_nb.geometry import Cage
+from glid_nb.certificate.rounding import rounded_down
+from glid_nb.figures import style
+from glid_nb.figures.style import BLUE, FAINT, GREEN, INK, SKY, SMALL, VERMILION
+from glid_nb.geometry import Cage, loop_name
 from glid_nb.harmonic import HarmonicMap
 
 if TYPE_CHECKING:
@@ -59,37 +48,46 @@ Floats = NDArray[np.float64]
 
 
 class Plot:
-    """Axes, and artists in them that are updated.
+    """Axes, whose look is set here, and artists in them that are updated.
 
-    Parameters
-    ----------
-    axes : Axes
-        Axes to draw into; their look is set here.
-    animated : bool
-        Whether the artists are left out of a normal draw, to be blitted.
+    Animated artists are left out of a normal draw, to be blitted.
     """
-
-    def __init__(self, axes: Axes, animated: bool = False) -> None:
-        tidy(axes)
-        self.axes = axes
-        self._animated = animated
 
     artists: tuple[Artist, ...]
     """What ``update`` changes."""
+    _show: Any
 
-    def _line(self, color: str, linewidth: float = LINE, **style: Any) -> Line2D:
-        style = {"color": color, "linewidth": linewidth, "animated": self._animated, **style}
-        return self.axes.plot([], [], **style)[0]
+    def __init__(self, axes: Axes, animated: bool = False) -> None:
+        style.tidy(axes)
+        self.axes = axes
+        self._animated = animated
 
-    def _area(self, color: str, **style: Any) -> Any:
-        style = {"facecolor": color, "linewidth": 0, "animated": self._animated, **style}
-        return self.axes.fill([0.0], [0.0], **style)[0]
+    def update(self, *arguments: Any, **named: Any) -> bool:
+        """Show this, as ``_show`` takes it; True when limits or scale of the axes changed."""
+        axes = self.axes
+        before = axes.get_xlim(), axes.get_ylim(), axes.get_yscale()
+        self._show(*arguments, **named)
+        return before != (axes.get_xlim(), axes.get_ylim(), axes.get_yscale())
+
+    def _line(self, color: str, linewidth: float = style.LINE, **look: Any) -> Line2D:
+        look = {"color": color, "linewidth": linewidth, "markersize": 2.4, **look}
+        return self.axes.plot([], [], animated=self._animated, **look)[0]
+
+    def _area(self, color: str, **look: Any) -> Any:
+        look = {"facecolor": color, "linewidth": 0, "animated": self._animated, **look}
+        return self.axes.fill([0.0], [0.0], **look)[0]
+
+    def _beside(self, text: str, place: tuple[float, float], above: float, **look: Any) -> Text:
+        """Text ``above`` points over a place given in fractions of the axes."""
+        offset = {"xytext": (0.0, above), "textcoords": "offset points"}
+        look = {"color": INK, "fontsize": SMALL, **offset, **look}
+        return self.axes.annotate(text, place, xycoords="axes fraction", **look)
 
     def _note(self, legend: bool = True) -> Text:
         """Text above the axes at the right: beside the legend if they are wide, else above it."""
         above = _LEGEND_HEIGHT if legend and self._inches < _WIDE else 2.0
-        style = {"ha": "right", "va": "bottom", "annotation_clip": False, "in_layout": False}
-        return _beside(self.axes, "", (1, 1), above, animated=self._animated, **style)
+        look = {"ha": "right", "va": "bottom", "annotation_clip": False, "in_layout": False}
+        return self._beside("", (1, 1), above, animated=self._animated, **look)
 
     def _legend(self, *lines: Line2D) -> None:
         """Above the axes, or inside those of a narrow plot that is not animated."""
@@ -97,92 +95,101 @@ class Plot:
         if self._animated or self._inches > _NARROW:
             place = {"loc": "lower left", "bbox_to_anchor": (-0.03, 1.0), "borderaxespad": 0.3}
             place |= {"ncols": len(lines), "columnspacing": 0.7}
-        self.axes.legend(handles=lines, **place, **LEGEND).set_in_layout(False)
+        self.axes.legend(handles=lines, **place, **style.LEGEND).set_in_layout(False)
 
     @property
     def _inches(self) -> float:
         return self.axes.get_window_extent().width / self.axes.figure.dpi
 
-    def _view(self) -> tuple[Any, ...]:
-        return self.axes.get_xlim(), self.axes.get_ylim(), self.axes.get_yscale()
-
 
 class _OverIterations(Plot):
+    """Fields of iterations: as lines that join the ends of solves, with dots for one's others."""
+
+    _looks: ClassVar[dict[str, dict[str, Any]]] = {}
+    """The look of each line by the field that it shows, the lowest line first."""
+    _dotted: ClassVar[int]
+    """Which of the lines has faint dots for the iterations that it leaves out."""
+
     def __init__(self, axes: Axes, animated: bool = False) -> None:
         super().__init__(axes, animated)
         axes.set_xlabel("iteration", fontsize=SMALL, labelpad=2)
         axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
+        self._lines = [self._line(**look) for look in self._looks.values()]
+        if self._lines:
+            dots = {"linestyle": "none", "marker": "o", "markersize": 1.6, "markeredgewidth": 0.0}
+            color: Any = self._lines[self._dotted].get_color()
+            self._within = self._line(color, alpha=0.35, zorder=1.5, **dots)
+            self._legend(*reversed(self._lines))
+            self.artists = *self._lines, self._within
 
-    def _dots(self, color: str) -> Line2D:
-        """Faint dots for the iterations that a line leaves out."""
-        style = {"linestyle": "none", "marker": "o", "markersize": 1.6, "markeredgewidth": 0.0}
-        return self._line(color, alpha=0.35, zorder=1.5, **style)
+    def _join(self, x: Floats, values: Floats, starts: Collection[int], solving: bool) -> Floats:
+        """Show the lines' (l, n) values over the numbers of iterations; returns those joined.
+
+        ``starts`` are the iterations that began with moved targets, ``solving`` says whether the
+        solver still runs: the lines join the last iterations of the finished solves, or all if
+        they belong to one solve only.
+        """
+        begins = np.isin(x[1:], np.fromiter(starts, dtype=float))
+        ends = np.append(begins, not solving)[: len(x)]
+        ends |= not begins.any()
+        for line, joined in zip(self._lines, values[:, ends], strict=True):
+            line.set_data(x[ends], joined)
+            line.set_marker("o" if len(joined) <= _DOTTED else "")
+        self._within.set_data(x[~ends], values[self._dotted, ~ends])
+        self._limit_iterations(x)
+        return values[:, ends]
 
     def _limit_iterations(self, x: Floats) -> None:
         first, last = (float(x[0]), float(x[-1])) if len(x) else (0.0, 1.0)
+        ticks = _ROUND_ITERATIONS.tick_values(first, last)
+        low, high = first if first <= 1 else ticks[0], ticks[-1]
         if first == last:  # centre a single iteration
             low, high = first - 1, first + 1
-        else:
-            ticks = _ROUND_ITERATIONS.tick_values(first, last)
-            low, high = first if first <= 1 else ticks[0], ticks[-1]
         room = 0.03 * (high - low)
         self.axes.set_xlim(low - room, high + room)
 
     def _limit_decades(self, positive: Floats) -> None:
         """Show whole decades around the values, without the lowest if they span too many."""
-        axes = self.axes
-        axes.set_yscale("log")
-        axes.yaxis.set_major_locator(LogLocator(numticks=6))
-        axes.yaxis.set_minor_locator(NullLocator())
+        self.axes.set_yscale("log")
+        self.axes.yaxis.set_major_locator(LogLocator(numticks=6))
+        self.axes.yaxis.set_minor_locator(NullLocator())
         if not len(positive):
-            axes.set_ylim(0.1, 1.0)
-            return
+            positive = np.array([0.3])
         high = np.ceil(np.log10(positive.max()) + 0.1)
         low = np.floor(np.log10(positive.min()) - 0.1)
-        axes.set_ylim(10.0 ** max(low, high - _DECADES), 10.0**high)
+        self.axes.set_ylim(10.0 ** max(low, high - _DECADES), 10.0**high)
 
 
 class EnergyPlot(_OverIterations):
     """Energy after each iteration: the total, the isometric part and the targets' part."""
 
+    _looks: ClassVar = {
+        "energy_p2p": {"color": VERMILION, "label": "targets"},
+        "energy_iso": {"color": BLUE, "label": "isometric"},
+        "energy": {"color": INK, "label": "total", "linestyle": (0, (4, 1.5))},
+    }
+    _dotted = -1
+
     def __init__(self, axes: Axes, animated: bool = False) -> None:
         super().__init__(axes, animated)
-        self._p2p = self._line(VERMILION, label="targets")
-        self._iso = self._line(BLUE, label="isometric")
-        self._total = self._line(INK, label="total", linestyle=(0, (4, 1.5)))
-        self._within = self._dots(INK)
         self._text = self._note()
-        self._legend(self._total, self._iso, self._p2p)
-        self.artists = self._p2p, self._iso, self._total, self._within, self._text
+        self.artists = *self.artists, self._text
 
-    def update(
+    def _show(
         self,
         history: Sequence[Iteration],
         start_energy: float | None = None,
         starts: Collection[int] = (),
         solving: bool = False,
-    ) -> bool:
-        """Show these iterations; True when the limits or the scale of the axes changed.
-
-        ``start_energy`` is the total before the first of them, drawn at iteration 0. ``starts`` are
-        the iterations that began with moved targets, ``solving`` says whether the solver still
-        runs: the lines join the last iterations of the finished solves.
-        """
-        before = self._view()
-        records = [(r.iteration, r.energy_p2p, r.energy_iso, r.energy) for r in history]
+    ) -> None:
+        """Show iterations; ``start_energy`` is the total before the first, at iteration 0."""
+        rows = _rows(history, *self._looks)
         if start_energy is not None:
-            records.insert(0, (0, np.nan, np.nan, start_energy))
-        x, *series = np.array(records, dtype=float).reshape(-1, 4).T
-        ends = _ends(x, starts, solving)
-        for line, values in zip((self._p2p, self._iso, self._total), series, strict=True):
-            _show(line, x[ends], values[ends])
-        total = series[-1]
-        self._within.set_data(x[~ends], total[~ends])
-        self._text.set_text(f"E = {history[-1].energy:.4g}" if len(history) else "no iterations")
+            rows = np.insert(rows, 0, [0, np.nan, np.nan, start_energy], axis=1)
         # Only the lines count for the limits: the peaks after moved targets would flatten them.
-        total = total[ends]
-        values = np.concatenate([y[ends] for y in series])
-        values = values[np.isfinite(values)]
+        values = self._join(rows[0], rows[1:], starts, solving)
+        total, values = values[-1], values[np.isfinite(values)]
+        self._text.set_text(f"E = {history[-1].energy:.4g}" if len(history) else "no iterations")
         if len(total) and total[0] > _LOG_FROM * total[-1] > 0:
             # The targets' part may fall to 0; the axis need not follow it.
             lowest = 0.1 * float(total[total > 0].min())
@@ -190,43 +197,24 @@ class EnergyPlot(_OverIterations):
         else:
             self.axes.set_yscale("linear")
             self.axes.set_ylim(0.0, _rounded_up(1.2 * float(values.max(initial=1.0))))
-        self._limit_iterations(x)
-        return self._view() != before
 
 
 class StepPlot(_OverIterations):
     """Length of each step and the Newton decrement, on a logarithmic axis."""
 
-    def __init__(self, axes: Axes, animated: bool = False) -> None:
-        super().__init__(axes, animated)
-        self._decrement = self._line(BLUE, label="Newton decrement")
-        self._step = self._line(VERMILION, label="step length")
-        self._within = self._dots(BLUE)
-        self._legend(self._step, self._decrement)
-        self.artists = self._decrement, self._step, self._within
+    _looks: ClassVar = {
+        "decrement": {"color": BLUE, "label": "Newton decrement"},
+        "step": {"color": VERMILION, "label": "step length"},
+    }
+    _dotted = 0
 
-    def update(
-        self,
-        history: Sequence[Iteration],
-        starts: Collection[int] = (),
-        solving: bool = False,
-    ) -> bool:
-        """Show these iterations; True when the limits of the axes changed.
-
-        ``starts`` and ``solving`` as in :meth:`EnergyPlot.update`.
-        """
-        before = self._view()
-        records = [(r.iteration, r.step, r.decrement) for r in history]
-        x, steps, decrements = np.array(records, dtype=float).reshape(-1, 3).T
-        steps, decrements = (np.where(y > 0, y, np.nan) for y in (steps, decrements))
-        ends = _ends(x, starts, solving)
-        _show(self._step, x[ends], steps[ends])
-        _show(self._decrement, x[ends], decrements[ends])
-        self._within.set_data(x[~ends], decrements[~ends])
-        values = np.concatenate([steps, decrements])
+    def _show(
+        self, history: Sequence[Iteration], starts: Collection[int] = (), solving: bool = False
+    ) -> None:
+        x, *series = _rows(history, *self._looks)
+        values = np.where(np.array(series) > 0, series, np.nan)
+        self._join(x, values, starts, solving)
         self._limit_decades(values[np.isfinite(values)])
-        self._limit_iterations(x)
-        return self._view() != before
 
 
 class TimePlot(_OverIterations):
@@ -240,15 +228,11 @@ class TimePlot(_OverIterations):
         self._text = self._note(legend=False)
         self.artists = self._bars, self._text
 
-    def update(self, history: Sequence[Iteration]) -> bool:
-        """Show these iterations; True when the limits of the axes changed."""
-        before = self._view()
-        records = [(r.iteration, 1e3 * r.time) for r in history]
-        x, times = np.array(records, dtype=float).reshape(-1, 2).T
-        times = np.where(np.isfinite(times) & (times > 0), times, 0.0)
-        sides = x[:, None] + [-0.4, -0.4, 0.4, 0.4]
-        heights = times[:, None] * [0.0, 1.0, 1.0, 0.0]
-        corners = np.stack([sides.ravel(), heights.ravel()], axis=1)
+    def _show(self, history: Sequence[Iteration]) -> None:
+        x, times = _rows(history, "time")
+        times = np.where(np.isfinite(times) & (times > 0), 1e3 * times, 0.0)
+        sides, ends = x[:, None] + [-0.4, -0.4, 0.4, 0.4], times[:, None] * [0.0, 1.0, 1.0, 0.0]
+        corners = np.stack([sides.ravel(), ends.ravel()], axis=1)
         self._bars.set_xy(corners if len(corners) else [[0.0, 0.0]])
         usual = float(np.median(times)) if len(times) else 0.0
         self._text.set_text(f"{usual:.3g} ms per iteration" if usual else "")
@@ -256,30 +240,21 @@ class TimePlot(_OverIterations):
         most = min(float(times.max()), 3 * usual) if usual else 1.0
         self.axes.set_ylim(0.0, _rounded_up(1.1 * most))
         self._limit_iterations(x)
-        return self._view() != before
 
 
 class CertificatePlot(Plot):
-    """The certified lower bound on sigma_2 along the boundary, and the sampled sigma_2.
+    """The certified lower bound on sigma_2 along the boundary of a cage, and the sampled sigma_2.
 
-    Parameters
-    ----------
-    axes : Axes
-    cage : Cage
-        The domain's boundary. Its loops are drawn side by side, with their names below, or their
-        numbers where names do not fit; so the axes must have about their final size.
-    animated : bool
-        As in `Plot`.
+    The loops are drawn side by side, with their names below, or their numbers where names do not
+    fit; so the axes must have about their final size.
     """
 
     def __init__(self, axes: Axes, cage: Cage, animated: bool = False) -> None:
         super().__init__(axes, animated)
         lengths = [float(np.linalg.norm(np.roll(p, -1, 0) - p, axis=1).sum()) for p in cage.loops]
-        self._loop_starts = np.concatenate([[0.0], np.cumsum(lengths)])
-        axes.set_xlim(0.0, float(self._loop_starts[-1]))
-        self._name_loops(cage)
-        axes.axhline(0.0, color=VERMILION, linewidth=LINE, zorder=1)
-        _beside(axes, "threshold 0", (0, 0), -_AXIS_NAME, va="top", color=VERMILION)
+        self._name_loops(np.concatenate([[0.0], np.cumsum(lengths)]))
+        axes.axhline(0.0, color=VERMILION, linewidth=style.LINE, zorder=1)
+        self._beside("threshold 0", (0, 0), -_AXIS_NAME, va="top", color=VERMILION)
         self._bound = self._line(BLUE, 0.9, label="certified bound", zorder=3)
         self._truth = self._line(INK, 0.45, label="σ₂, sampled", zorder=4)
         self._fill = self._area(SKY, alpha=0.35, zorder=2)
@@ -289,71 +264,56 @@ class CertificatePlot(Plot):
         self._legend(self._truth, self._bound)
         self.artists = self._fill, self._bound, self._truth, self._least, self._text
 
-    def _name_loops(self, cage: Cage) -> None:
-        axes = self.axes
-        if not cage.n_holes:
+    def _name_loops(self, starts: Floats) -> None:
+        """Name the loops, which begin at these places; the last is the boundary's end."""
+        axes, end = self.axes, float(starts[-1])
+        axes.set_xlim(0.0, end)
+        if len(starts) == 2:
             axes.set_xlabel("arc length", fontsize=SMALL, labelpad=2)
             axes.xaxis.set_major_locator(MaxNLocator(5))
             return
-        for loop, (start, end) in enumerate(itertools.pairwise(self._loop_starts)):
+        for loop, (left, right) in enumerate(itertools.pairwise(starts)):
             if loop % 2:
-                axes.axvspan(start, end, color=FAINT, alpha=0.25, linewidth=0, zorder=0)
+                axes.axvspan(left, right, color=FAINT, alpha=0.25, linewidth=0, zorder=0)
             if loop:
-                axes.axvline(start, color=FAINT, linewidth=HAIRLINE, zorder=0)
-        pixels = axes.get_window_extent().width / self._loop_starts[-1]
-        character = _CHARACTER * SMALL * axes.figure.dpi / 72
-        places, names = zip(*_loop_names(self._loop_starts, character / pixels), strict=True)
+                axes.axvline(left, color=FAINT, linewidth=style.HAIRLINE, zorder=0)
+        character = _CHARACTER * SMALL / 72 / self._inches * end
+        places, names = zip(*_loop_names(starts, character), strict=True)
         axes.set_xticks(places, names)
         if any(name[0].isdigit() for name in names):
-            middle = float(self._loop_starts[1] / self._loop_starts[-1] + 1.0) / 2
-            name = "hole" if cage.n_holes == 1 else "holes"
-            _beside(axes, name, (middle, 0), -_AXIS_NAME, va="top", ha="center")
+            middle = (float(starts[1]) / end + 1.0) / 2
+            name = "hole" if len(starts) == 3 else "holes"
+            self._beside(name, (middle, 0), -_AXIS_NAME, va="top", ha="center")
         axes.tick_params(axis="x", length=0, pad=3)
 
-    def clear(self) -> None:
-        """Show that nothing is certified."""
+    def _show(self, certificate: Certificate | None, map: HarmonicMap | None = None) -> None:
+        """Show what is proved; with the map also its sigma_2, sampled five times per panel."""
         for line in (self._bound, self._truth, self._least):
             line.set_data([], [])
-        self._fill.set_xy([[0.0, 0.0]])
-        self._text.set_text("not certified")
-        self._text.set_color(VERMILION)
-
-    def update(self, certificate: Certificate, map: HarmonicMap | None = None) -> bool:
-        """Show a certificate; with the map also its sigma_2, sampled five times per panel.
-
-        Returns
-        -------
-        bool
-            Whether the limits of the axes changed.
-        """
-        before = self._view()
+        certified = certificate is not None and certificate.certified
+        self._text.set_color(INK if certified else VERMILION)
+        if certificate is None:
+            self._fill.set_xy([[0.0, 0.0]])
+            self._text.set_text("not certified")
+            return
+        proof = f"σ₂ ≥ {rounded_down(certificate.sigma2_lower)}" if certified else "not certified"
+        self._text.set_text(f"{proof}, {_winding(certificate)}")
         panels = certificate.panels
         length, bound = panels.length, np.nan_to_num(panels.sigma2_lower, nan=-1.0)
-        # The panels of a loop come in order, the first one at the loop's start.
+        # The panels come in order, loop by loop; the first one of each at the loop's start.
         first = np.flatnonzero(np.diff(panels.loop, prepend=-1))
-        left = np.cumsum(length) - length
-        shift = self._loop_starts[panels.loop[first]] - left[first]
-        left = left + np.repeat(shift, np.diff(first, append=len(length)))
-        ends = np.stack([left, left + length], axis=1)
+        ends = np.cumsum(length)[:, None] - length[:, None] * [1.0, 0.0]
         levels = np.stack([bound, bound], axis=1)
         self._bound.set_data(_with_gaps(ends, first), _with_gaps(levels, first))
         upper = np.stack([ends.ravel(), np.maximum(levels.ravel(), 0.0)], axis=1)
-        self._fill.set_xy(np.concatenate([[[ends[0, 0], 0]], upper, [[ends[-1, 1], 0]]]))
+        self._fill.set_xy(np.concatenate([[[0.0, 0.0]], upper, [[ends[-1, 1], 0.0]]]))
         least = int(np.argmin(bound))
         self._least.set_data([ends[least].mean()], [bound[least]])
-        certified = certificate.certified
-        lower = rounded_down(certificate.sigma2_lower) if certified else ""
-        proof = f"σ₂ ≥ {lower}" if certified else "not certified"
-        self._text.set_text(f"{proof}, {_winding(certificate)}")
-        self._text.set_color(INK if certified else VERMILION)
-
         seen = levels
-        self._truth.set_data([], [])
         if map is not None:
-            along = (panels.end - panels.start)[:, None] * _SAMPLES[:, None]
-            points = (panels.start[:, None] + along).reshape(-1, 2)
+            points = panels.start[:, None] + (panels.end - panels.start)[:, None] * _SAMPLES
             seen = np.asarray(map.sigma2(points)).reshape(len(bound), -1)
-            places = left[:, None] + length[:, None] * _SAMPLES
+            places = ends[:, :1] + length[:, None] * _SAMPLES
             self._truth.set_data(_with_gaps(places, first), _with_gaps(seen, first))
         # High peaks are cut off: what matters is the distance from 0.
         top = max(0.1, min(float(seen.max()), _PEAK * float(np.quantile(seen, 0.9))))
@@ -361,35 +321,12 @@ class CertificatePlot(Plot):
         high = _rounded_up(1.2 * top)
         low = max(min(-0.04 * high, -_rounded_up(-1.05 * bottom)), -max(high, 1.0))
         self.axes.set_ylim(low, high)
-        return self._view() != before
 
 
-def _ends(x: Floats, starts: Collection[int], solving: bool) -> NDArray[np.bool_]:
-    """Which iterations ``x`` end a solve; all of them if they belong to one solve only.
-
-    While the solver runs, the last iteration ends nothing.
-    """
-    begins = np.isin(x[1:], np.fromiter(starts, dtype=float))
-    return np.append(begins, not solving)[: len(x)] if begins.any() else np.ones(len(x), dtype=bool)
-
-
-def _show(line: Line2D, x: Floats, values: Floats) -> None:
-    line.set_data(x, values)
-    line.set_marker("o" if len(x) <= _DOTTED else "")
-    line.set_markersize(2.4)
-
-
-def _beside(axes: Axes, text: str, place: tuple[float, float], above: float, **style: Any) -> Text:
-    """Text ``above`` points over a place given in fractions of the axes."""
-    return axes.annotate(
-        text,
-        place,
-        xycoords="axes fraction",
-        xytext=(0.0, above),
-        textcoords="offset points",
-        fontsize=SMALL,
-        **{"color": INK, **style},
-    )
+def _rows(history: Sequence[Iteration], *fields: str) -> Floats:
+    """(1 + fields, n) the iterations' numbers, and their values of some fields."""
+    records = [[getattr(i, field) for field in ("iteration", *fields)] for i in history]
+    return np.array(records, dtype=float).reshape(-1, 1 + len(fields)).T
 
 
 def _rounded_up(value: float) -> float:
@@ -401,35 +338,30 @@ def _loop_names(starts: Floats, character: float) -> list[tuple[float, str]]:
 
     ``starts`` are the loops' starts and the boundary's end, ``character`` is a character's width.
     """
-    width = np.diff(starts)
 
     def fits(name: str, loop: int) -> bool:
-        return (len(name) + 1) * character <= width[loop]
+        return (len(name) + 1) * character <= starts[loop + 1] - starts[loop]
+
+    def group(loop: int) -> int:
+        return loop if not loop or fits(str(loop), loop) else -1
 
     names: list[tuple[float, str]] = []
-    first = 0
-    while first < len(width):
-        last = first
-        name = Cage.loop_name(first).removesuffix(" loop")
-        if not fits(name, first) and first:
-            name = str(first)
-            while not fits(name, first) and last + 1 < len(width):
-                if fits(str(last + 1), last + 1):
-                    break
-                last += 1
-            name = name if last == first else f"{first}–{last}"
+    for _, loops in itertools.groupby(range(len(starts) - 1), group):
+        together = list(loops)
+        first, last = together[0], together[-1]
+        name = loop_name(first).removesuffix(" loop")
+        if first and not (first == last and fits(name, first)):
+            name = str(first) if first == last else f"{first}–{last}"
         names.append((float(starts[first] + starts[last + 1]) / 2, name))
-        first = last + 1
     return names
 
 
 def _winding(certificate: Certificate) -> str:
     """The winding number of ``f_z``, and each loop's own where they are not all 0."""
+    each = enumerate(certificate.windings)
+    loops = (f"{loop_name(i).removesuffix(' loop')} {turns}" for i, turns in each)
     text = f"winding number {certificate.winding}"
-    if any(certificate.windings):
-        each = enumerate(certificate.windings)
-        loops = (f"{Cage.loop_name(i).removesuffix(' loop')} {turns}" for i, turns in each)
-        text += f" ({', '.join(loops)})"
+    text += f" ({', '.join(loops)})" if any(certificate.windings) else ""
     return text.replace("-", "\N{MINUS SIGN}")
 
 

@@ -6,19 +6,14 @@ and coordinates follow in parentheses.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb.geometry._loops import (
-    GeometryError,
-    loop_name,
-    place,
-    plain_name,
-    point_objects,
-    point_rows,
-    segments,
-)
+from glid_nb._arguments import number_pairs
+from glid_nb.geometry._loops import GeometryError, loop_name, place, plain_name, segments
 
 # Parts of the boundary closer than this share of the cage's size count as touching: a few thousand
 # roundings, below which neither an offset nor a normal direction can be computed.
@@ -27,22 +22,23 @@ RESOLUTION = 1e-12
 
 def checked_vertices(vertices: ArrayLike, name: str) -> NDArray[np.float64]:
     """A float64 copy of (n, 2) finite vertices, n >= 3."""
-    loop = point_rows(vertices, f"{name}: vertices", "n")
+    wanted = f"{name}: vertices must"
+    loop = number_pairs(
+        vertices,
+        f"{wanted} be pairs of numbers [[x, y], ...]",
+        GeometryError,
+        f"{wanted} have the shape (n, 2), not",
+    )
     if len(loop) < 3:
         raise GeometryError(f"{name}: {len(loop)} vertices given, a loop needs at least 3")
-    bad = np.flatnonzero(~np.isfinite(loop).all(axis=1))
-    if bad.size:
-        i = int(bad[0])
-        raise GeometryError(
-            f"{name}: vertex {i} is ({loop[i, 0]}, {loop[i, 1]}); "
-            "replace the NaN or infinite coordinate or leave the vertex out"
-        )
-    huge = np.flatnonzero((np.abs(loop) > 1e100).any(axis=1))
-    if huge.size:
-        i = int(huge[0])
-        raise GeometryError(
-            f"{name}: vertex {i} at {place(loop[i])} is too large to compute with; rescale the cage"
-        )
+    wrong = np.flatnonzero(~(np.abs(loop) <= 1e100).all(axis=1))
+    if wrong.size:
+        x, y = loop[wrong[0]]
+        if np.isfinite([x, y]).all():
+            problem = f"at {place([x, y])} is too large to compute with; rescale the cage"
+        else:
+            problem = f"is ({x}, {y}); replace the NaN or infinite coordinate or leave it out"
+        raise GeometryError(f"{name}: vertex {wrong[0]} {problem}")
     return loop
 
 
@@ -60,23 +56,21 @@ def check_loops(loops: list[NDArray[np.float64]]) -> None:
 
 def _check_distinct(loop: NDArray[np.float64], number: int, resolution: float) -> None:
     name, plain = loop_name(number), plain_name(number)
-    points = point_objects(loop)
+    points: Any = shapely.points(loop)
     pairs = shapely.STRtree(points).query(points, predicate="dwithin", distance=resolution).T
     pairs = sorted((i, j) for i, j in pairs.tolist() if i < j)
     if not pairs:
         return
     i, j = pairs[0]
+    twice = f"{plain} has two points in one place; leave one of them out"
     if pairs == [(0, len(loop) - 1)]:
         raise GeometryError(
             f"{name}: the last vertex {j} repeats vertex 0 at {place(loop[0])}; "
             "loops close by themselves, leave the last vertex out",
             loop[0],
-            _sentence(f"{plain} has two points in one place; leave one of them out"),
+            _sentence(twice),
         )
-    if j == i + 1:
-        problem = f"{plain} has two points in one place; leave one of them out"
-    else:
-        problem = f"{plain} touches itself; move one of the points that meet"
+    problem = twice if j == i + 1 else f"{plain} touches itself; move one of the points that meet"
     raise _refusal(problem, f"{name}: vertices {i} and {j} coincide at {place(loop[i])}", loop[i])
 
 
@@ -98,8 +92,8 @@ def _check_fold_back(loop: NDArray[np.float64], number: int, resolution: float) 
     before, after = np.roll(segments(loop), 1), segments(loop)
     corner_before, corner_after = np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0)
     gap = np.minimum(
-        shapely.distance(before, point_objects(corner_after)),
-        shapely.distance(after, point_objects(corner_before)),
+        shapely.distance(before, shapely.points(corner_after)),
+        shapely.distance(after, shapely.points(corner_before)),
     )
     folded = np.flatnonzero(gap <= resolution)
     if folded.size:
@@ -134,27 +128,23 @@ def _check_crossings(loops: list[NDArray[np.float64]], resolution: float) -> Non
     edge_a, edge_b = (_edge(int(index[i[first]]), int(sizes[number[i[first]]])) for i in (e, f))
     verb = "cross" if crossing[first] else "touch"
     if a != b:
+        plain = f"{plain_name(b)} {verb}es {plain_name(a)}; move it away or merge the two"
         name_a = "the exterior loop" if a == 0 else loop_name(a)
-        raise _refusal(
-            f"{plain_name(b)} {verb}es {plain_name(a)}; move it away or merge the two",
-            f"edge {edge_b} of {loop_name(b)} and edge {edge_a} of {name_a} {verb} at "
-            f"{place(point)}",
-            point,
-        )
-    if verb == "cross":
-        advice = "move its points, or change their order, so that no two sides cross"
+        what = f"edge {edge_b} of {loop_name(b)} and edge {edge_a} of {name_a}"
     else:
-        advice = "move the points apart that meet"
-    raise _refusal(
-        f"{plain_name(a)} {verb}es itself; {advice}",
-        f"{loop_name(a)}: the edges {edge_a} and {edge_b} {verb} at {place(point)}",
-        point,
-    )
+        advice = (
+            "move its points, or change their order, so that no two sides cross"
+            if verb == "cross"
+            else "move the points apart that meet"
+        )
+        plain = f"{plain_name(a)} {verb}es itself; {advice}"
+        what = f"{loop_name(a)}: the edges {edge_a} and {edge_b}"
+    raise _refusal(plain, f"{what} {verb} at {place(point)}", point)
 
 
 def _check_nesting(loops: list[NDArray[np.float64]]) -> None:
     # The loops are known not to meet, so one vertex of each decides for the whole loop.
-    starts = point_objects(np.array([loop[0] for loop in loops]))
+    starts: Any = shapely.points(np.array([loop[0] for loop in loops]))
     regions = [shapely.Polygon(loop) for loop in loops]
     outer, inner = shapely.STRtree(starts).query(regions, predicate="contains")
     around = sorted(zip(outer.tolist(), inner.tolist(), strict=True))

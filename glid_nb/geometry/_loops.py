@@ -9,19 +9,14 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import real_array
 from glid_nb._errors import InputError
 
 
 class GeometryError(InputError):
     """A polygon, offset or domain that cannot be used; the message says where and what to do.
 
-    Attributes
-    ----------
-    point
-        The place of the problem, to mark in a picture; None if there is none.
-    plain
-        The message without coordinates and vertex numbers, for use beside such a picture.
+    ``point`` is the place of the problem, to mark in a picture, or None. ``plain`` is the message
+    without coordinates and vertex numbers, for use beside such a picture.
     """
 
     def __init__(
@@ -33,12 +28,12 @@ class GeometryError(InputError):
 
 
 def loop_name(index: int) -> str:
-    """The name of loop `index` of a cage in messages: "exterior loop", "hole 1", ..."""
+    """The name of a cage's loop in messages: "exterior loop", "hole 1", ..."""
     return "exterior loop" if index == 0 else f"hole {index}"
 
 
 def plain_name(index: int) -> str:
-    """The name of loop `index` in plain words: "the outline", "hole 1", "hole 2", ..."""
+    """Its name in plain words: "the outline", "hole 1", ..."""
     return "the outline" if index == 0 else f"hole {index}"
 
 
@@ -77,37 +72,14 @@ def next_index(loop: NDArray[np.intp]) -> NDArray[np.intp]:
     """Index of the next element, cyclic within each run of equal ``loop`` numbers."""
     following = np.arange(1, len(loop) + 1)
     first = np.flatnonzero(np.diff(loop, prepend=-1))
-    last = np.append(first[1:], len(loop)) - 1
-    following[last] = first
+    following[np.append(first[1:], len(loop)) - 1] = first
     return following
-
-
-def encloses(large: NDArray[np.float64], small: NDArray[np.float64]) -> bool:
-    """Whether ``small`` lies in ``large``, (n, 2) loops that are known not to meet."""
-    return bool(shapely.contains_xy(shapely.Polygon(large), *small[0]))
 
 
 def segments(loop: NDArray[np.float64]) -> NDArray[np.object_]:
     """(n,) shapely line strings, the edges of an (n, 2) loop."""
     ends = np.stack([loop, np.roll(loop, -1, axis=0)], axis=1)
     return np.asarray(shapely.linestrings(ends), dtype=object)
-
-
-def point_objects(points: NDArray[np.float64]) -> NDArray[np.object_]:
-    """(n,) shapely points at (n, 2) positions."""
-    return np.asarray(shapely.points(points), dtype=object)
-
-
-def point_rows(value: ArrayLike, what: str, count: str) -> NDArray[np.float64]:
-    """A float64 copy of (n, 2) points; messages use ``what`` and ``count``, such as "n"."""
-    try:
-        points = real_array(value)
-    except (TypeError, ValueError) as error:
-        raise GeometryError(f"{what} must be pairs of numbers [[x, y], ...] ({error})") from error
-    points = points.reshape(-1, 2) if points.shape == (0,) else points
-    if points.ndim != 2 or points.shape[1] != 2:
-        raise GeometryError(f"{what} must have the shape ({count}, 2), not {points.shape}")
-    return points
 
 
 def loop_list(value: Any, key: str) -> list[Any]:

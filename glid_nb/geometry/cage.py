@@ -11,6 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import read_only
 from glid_nb.geometry._checks import RESOLUTION, check_loops, checked_vertices
 from glid_nb.geometry._loops import GeometryError, edge_lengths, loop_list, loop_name, signed_area
 
@@ -27,21 +28,12 @@ class Cage:
     Parameters
     ----------
     exterior
-        (n, 2) vertices in order, either orientation; the first is not repeated at the end.
+        (n, 2) vertices in order, either orientation; the first is not repeated at the end. Kept as
+        a read-only float64 array, counter-clockwise.
     holes
-        Hole loops, each (k, 2), either orientation.
+        Hole loops, each (k, 2), either orientation; kept clockwise.
 
-    Attributes
-    ----------
-    exterior
-        (n, 2) read-only float64 array, counter-clockwise.
-    holes
-        Tuple of (k, 2) read-only float64 arrays, clockwise.
-
-    Raises
-    ------
-    GeometryError
-        The loops do not bound a domain; the message names the loop, the vertex and its coordinates.
+    If the loops do not bound a domain, a GeometryError names the loop, the vertex and its place.
     """
 
     exterior: NDArray[np.float64]
@@ -68,11 +60,6 @@ class Cage:
         """The loops as nested lists under the keys ``cage`` and ``holes``, ready for JSON."""
         return {"cage": self.exterior.tolist(), "holes": [hole.tolist() for hole in self.holes]}
 
-    @staticmethod
-    def loop_name(index: int) -> str:
-        """The name of loop `index` in messages: "exterior loop", "hole 1", "hole 2", ..."""
-        return loop_name(index)
-
     @property
     def loops(self) -> tuple[NDArray[np.float64], ...]:
         """The exterior loop, then the holes."""
@@ -81,7 +68,7 @@ class Cage:
     @cached_property
     def loops_complex(self) -> tuple[NDArray[np.complex128], ...]:
         """The loops as read-only complex128 arrays x + iy."""
-        return tuple(_read_only(loop[:, 0] + 1j * loop[:, 1]) for loop in self.loops)
+        return tuple(read_only(loop[:, 0] + 1j * loop[:, 1]) for loop in self.loops)
 
     def equals(self, other: Cage) -> bool:
         """Whether all loops have the same vertices in the same order."""
@@ -128,19 +115,10 @@ class Cage:
         return polygon
 
     def contains(self, points: ArrayLike, tolerance: float = 0.0) -> NDArray[np.bool_]:
-        """Which points lie in the closed domain.
+        """Which of the (..., 2) points lie in the closed domain; not those with NaN.
 
-        Parameters
-        ----------
-        points
-            (..., 2) array of positions.
-        tolerance
-            Points outside by at most this distance count as inside; it is at least 1e-12 of the
-            cage's size, so that rounded boundary points count too.
-
-        Returns
-        -------
-        (...) boolean array; False where a coordinate is NaN.
+        Points outside by at most the tolerance count as inside; it is at least 1e-12 of the cage's
+        size, so that rounded boundary points count too.
         """
         xy = np.asarray(points, dtype=np.float64)
         if xy.shape[-1:] != (2,):
@@ -157,23 +135,12 @@ class Cage:
             wider = shapely.buffer(self.polygon, 2 * max(reach, 1e-4 * self.longer_side))
             shapely.prepare(wider)
             rest = rest[shapely.intersects_xy(wider, flat[rest, 0], flat[rest, 1])]
-            inside[rest] = shapely.dwithin(self._outline, shapely.points(flat[rest]), reach)
+            inside[rest] = shapely.dwithin(self.polygon, shapely.points(flat[rest]), reach)
         return inside.reshape(xy.shape[:-1])
-
-    @cached_property
-    def _outline(self) -> shapely.MultiLineString:
-        outline = shapely.MultiLineString([np.vstack([loop, loop[:1]]) for loop in self.loops])
-        shapely.prepare(outline)
-        return outline
-
-
-def _read_only(array: NDArray[Any]) -> NDArray[Any]:
-    array.setflags(write=False)
-    return array
 
 
 def _oriented(loop: NDArray[np.float64], ccw: bool) -> NDArray[np.float64]:
     """A read-only copy of the loop with the given orientation and the same vertex 0."""
     if (signed_area(loop) > 0) != ccw:
         loop = np.concatenate([loop[:1], loop[:0:-1]])
-    return _read_only(np.array(loop))
+    return read_only(np.array(loop))

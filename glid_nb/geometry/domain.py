@@ -11,7 +11,9 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb.geometry._loops import GeometryError, encloses, loop_list, loop_name, place, point_rows
+from glid_nb._arguments import number_pairs, read_only
+from glid_nb._errors import about
+from glid_nb.geometry._loops import GeometryError, loop_list, loop_name, place
 from glid_nb.geometry.cage import Cage
 from glid_nb.geometry.offset import Offset, offset_cage
 from glid_nb.geometry.offset import hole_points as choose_hole_points
@@ -36,14 +38,12 @@ class Domain:
         P^, with the exterior loop outside that of `cage` and hole i inside hole i of `cage`.
         Vertex counts may differ from those of `cage`.
     hole_points
-        (N, 2), one point strictly inside each hole of `offset_cage`, in the same order.
+        (N, 2), one point strictly inside each hole of `offset_cage`, in the same order; by default
+        they are chosen.
     notes
         Sentences about choices made, such as a reduced offset.
 
-    Raises
-    ------
-    GeometryError
-        The parts do not fit; the message names the loop and the place.
+    Where the parts do not fit a GeometryError names the loop and the place.
     """
 
     cage: Cage
@@ -55,16 +55,14 @@ class Domain:
         self,
         cage: Cage,
         offset_cage: Cage,
-        hole_points: ArrayLike = (),
+        hole_points: ArrayLike | None = None,
         notes: tuple[str, ...] = (),
     ) -> None:
-        points = _checked_hole_points(hole_points, cage.n_holes)
         _check_enclosed(cage, offset_cage)
-        _check_hole_points(points, offset_cage)
-        points.setflags(write=False)
+        chosen = choose_hole_points(offset_cage) if hole_points is None else hole_points
         object.__setattr__(self, "cage", cage)
         object.__setattr__(self, "offset_cage", offset_cage)
-        object.__setattr__(self, "hole_points", points)
+        object.__setattr__(self, "hole_points", _checked_hole_points(chosen, offset_cage))
         object.__setattr__(self, "notes", tuple(notes))
 
     @classmethod
@@ -75,7 +73,7 @@ class Domain:
         cage's bounding box. It is reduced in narrow passages; `notes` says where.
         """
         result = _offset_of(cage, offset)
-        return cls(cage, result.cage, choose_hole_points(result.cage), result.notes)
+        return cls(cage, result.cage, notes=result.notes)
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Domain:
@@ -86,26 +84,19 @@ class Domain:
         are chosen; loops are reoriented where needed. ``offset_holes`` needs ``offset_cage``, and
         ``offset`` has no effect beside it.
         """
-        cage = Cage.from_dict(data)
-        notes = _checked_notes(data.get("notes"))
+        cage, notes = Cage.from_dict(data), _checked_notes(data.get("notes"))
+        holes = loop_list(data.get("offset_holes"), "offset_holes")
+        points = data.get("hole_points")
         if data.get("offset_cage") is not None:
-            holes = loop_list(data.get("offset_holes"), "offset_holes")
-            try:
+            with about("offset cage", GeometryError):
                 outer = Cage(data["offset_cage"], holes)
-            except GeometryError as error:
-                raise GeometryError(f"offset cage: {error}") from error
-        elif data.get("offset_holes"):
+            return cls(cage, outer, points, notes)
+        if holes:
             raise GeometryError(
                 "'offset_holes' is given without 'offset_cage'; give both or neither"
             )
-        else:
-            result = _offset_of(cage, data.get("offset"))
-            outer, notes = result.cage, notes + result.notes
-        points = data.get("hole_points")
-        if points is None:
-            _check_enclosed(cage, outer)
-            points = choose_hole_points(outer)
-        return cls(cage, outer, points, notes)
+        result = _offset_of(cage, data.get("offset"))
+        return cls(cage, result.cage, points, notes + result.notes)
 
     def to_dict(self) -> dict[str, Any]:
         """Nested lists under the keys that `from_dict` reads, ready for JSON."""
@@ -127,16 +118,6 @@ class Domain:
         """Length m + N of phi and of psi: m offset-cage vertices, then the hole points."""
         return self.offset_cage.n_vertices + self.n_holes
 
-    @property
-    def cage_loops_complex(self) -> tuple[NDArray[np.complex128], ...]:
-        """Loops of the cage as complex128 arrays."""
-        return self.cage.loops_complex
-
-    @property
-    def offset_loops_complex(self) -> tuple[NDArray[np.complex128], ...]:
-        """Loops of the offset cage as complex128 arrays."""
-        return self.offset_cage.loops_complex
-
     @cached_property
     def hole_points_complex(self) -> NDArray[np.complex128]:
         """(N,) hole points as a read-only complex128 array."""
@@ -157,22 +138,6 @@ def _checked_notes(notes: Any) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def _checked_hole_points(hole_points: ArrayLike, n_holes: int) -> NDArray[np.float64]:
-    points = point_rows(hole_points, "hole points", "N")
-    if len(points) != n_holes:
-        raise GeometryError(
-            f"{len(points)} hole points given for a cage with {n_holes} holes; give one per hole"
-        )
-    bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
-    if bad.size:
-        i = int(bad[0])
-        raise GeometryError(
-            f"the point of hole {i + 1} is ({points[i, 0]}, {points[i, 1]}); "
-            "replace the NaN or infinite coordinate"
-        )
-    return points
-
-
 def _check_enclosed(cage: Cage, offset_cage: Cage) -> None:
     """The closed domain of `cage` must lie in the open domain of `offset_cage`."""
     if offset_cage.n_holes != cage.n_holes:
@@ -183,30 +148,48 @@ def _check_enclosed(cage: Cage, offset_cage: Cage) -> None:
     # Loops of different index need no check: the loops of either cage do not meet.
     for i, (loop, offset_loop) in enumerate(zip(cage.loops, offset_cage.loops, strict=True)):
         name = "the exterior loop" if i == 0 else loop_name(i)
-        ring, offset_ring = shapely.LinearRing(loop), shapely.LinearRing(offset_loop)
-        if shapely.intersects(ring, offset_ring):
-            meeting = shapely.get_coordinates(shapely.intersection(ring, offset_ring))[0]
+        meeting = shapely.intersection(shapely.LinearRing(loop), shapely.LinearRing(offset_loop))
+        if not meeting.is_empty:
             raise GeometryError(
-                f"the offset of {name} meets {name} itself at {place(meeting)}; "
-                "use a smaller offset there, or leave the offset cage out to have it chosen"
+                f"the offset of {name} meets {name} itself at "
+                f"{place(shapely.get_coordinates(meeting)[0])}; use a smaller offset there, or "
+                "leave the offset cage out to have it chosen"
             )
-        if i == 0 and not encloses(offset_loop, loop):
+        outer, inner = (offset_loop, loop) if i == 0 else (loop, offset_loop)
+        if shapely.contains_xy(shapely.Polygon(outer), *inner[0]):
+            continue
+        if i == 0:
             raise GeometryError(
                 "the offset cage's exterior loop does not enclose the cage: vertex 0 of the "
                 f"exterior loop at {place(loop[0])} lies outside it; move the offset loop outward"
             )
-        if i > 0 and not encloses(loop, offset_loop):
-            raise GeometryError(
-                f"offset hole {i} does not lie in {name}: its vertex 0 at {place(offset_loop[0])} "
-                "is outside; move it into the hole, and list the offset holes in the order of the "
-                "holes"
-            )
+        raise GeometryError(
+            f"offset hole {i} does not lie in {name}: its vertex 0 at {place(offset_loop[0])} "
+            "is outside; move it into the hole, and list the offset holes in the order of the holes"
+        )
 
 
-def _check_hole_points(points: NDArray[np.float64], offset_cage: Cage) -> None:
-    for i, (point, hole) in enumerate(zip(points, offset_cage.holes, strict=True), start=1):
-        if not shapely.contains_xy(shapely.Polygon(hole), *point):
+def _checked_hole_points(points: ArrayLike, offset_cage: Cage) -> NDArray[np.float64]:
+    """(N, 2) read-only points, one in each offset hole."""
+    checked = number_pairs(
+        points,
+        "hole points must be pairs of numbers [[x, y], ...]",
+        GeometryError,
+        "hole points must have the shape (N, 2), not",
+    )
+    if len(checked) != offset_cage.n_holes:
+        raise GeometryError(
+            f"{len(checked)} hole points given for a cage with {offset_cage.n_holes} holes; "
+            "give one per hole"
+        )
+    for i, ((x, y), hole) in enumerate(zip(checked, offset_cage.holes, strict=True), start=1):
+        if not np.isfinite([x, y]).all():
             raise GeometryError(
-                f"the point of hole {i} at {place(point)} does not lie strictly inside offset hole "
-                f"{i}; move it there, or leave hole_points out to have them chosen"
+                f"the point of hole {i} is ({x}, {y}); replace the NaN or infinite coordinate"
             )
+        if not shapely.contains_xy(shapely.Polygon(hole), x, y):
+            raise GeometryError(
+                f"the point of hole {i} at {place([x, y])} does not lie strictly inside offset "
+                f"hole {i}; move it there, or leave hole_points out to have them chosen"
+            )
+    return read_only(checked)

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from numbers import Real
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from glid_nb._arguments import read_only
 from glid_nb.geometry._loops import (
     GeometryError,
     edge_lengths,
-    encloses,
     loop_name,
     next_index,
     place,
@@ -41,26 +42,19 @@ _SHRINK = 0.8
 
 @dataclass(frozen=True, eq=False)
 class Offset:
-    """An offset cage and how far it lies from its cage.
-
-    Attributes
-    ----------
-    cage
-        The offset cage P^, one vertex per vertex of the cage in the same order.
-    distances
-        Per loop, (n,) distances of vertex i of P^ from the lines of the two cage edges at vertex i.
-        Below the wanted distance in narrow places and where an acute corner's mitre was cut back.
-    notes
-        A sentence per place where the distance had to be reduced.
-    """
+    """An offset cage and how far it lies from its cage."""
 
     cage: Cage
+    """The offset cage P^, one vertex per vertex of the cage in the same order."""
     distances: tuple[NDArray[np.float64], ...]
+    """Per loop, (n,) distances of vertex i of P^ from the lines of the two cage edges at vertex i.
+    Below the wanted distance in narrow places and where an acute corner's mitre was cut back."""
     notes: tuple[str, ...] = ()
+    """A sentence per place where the distance had to be reduced."""
 
 
 def offset_cage(cage: Cage, distance: float) -> Offset:
-    """Move the exterior loop outward and every hole loop into its hole.
+    """Move the exterior loop outward and every hole loop into its hole, in the cage's units.
 
     Every edge moves by `distance` along its normal and neighbours meet in a mitre, so P^ has one
     vertex per cage vertex, as in Chen & Weber (2017). Where that does not fit (a narrow passage, a
@@ -68,19 +62,10 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
     P^ encloses the cage strictly: the distance of each of its edges from the cage is at least 0.3
     of the smaller of the distances at its ends.
 
-    Parameters
-    ----------
-    cage
-        The cage P.
-    distance
-        Wanted distance between P and P^, in the cage's units.
-
-    Raises
-    ------
-    GeometryError
-        The distance is not a positive number, or the cage has a passage too narrow for float64.
+    A GeometryError for a distance that is not positive, and for a passage too narrow for float64.
     """
-    distance = _checked_distance(distance)
+    if not (isinstance(distance, Real) and 0 < distance < np.inf):
+        raise GeometryError(f"the offset must be a positive number, not {distance!r:.60}")
     corners = _Corners(cage, distance)
     local = corners.smoothed(np.minimum(distance, corners.passage_limits(_PASSAGE_LENGTH)))
     for _ in range(1 + _GLOBAL_ROUNDS):
@@ -108,24 +93,14 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
             error.point,
             "There is no room around the outline here; widen the narrowest passage",
         ) from error
-    distances = corners.split(local * corners.height)
-    for array in distances:
-        array.setflags(write=False)
-    return Offset(outer, tuple(distances), _notes(corners, local, distance))
+    distances = tuple(map(read_only, corners.split(local * corners.height)))
+    return Offset(outer, distances, _notes(corners, local, distance))
 
 
 def hole_points(cage: Cage) -> NDArray[np.float64]:
-    """(N, 2) points, one strictly inside each hole: the centre of its largest inscribed circle.
+    """(N, 2) points, one strictly inside each hole of an offset cage.
 
-    Parameters
-    ----------
-    cage
-        The offset cage.
-
-    Raises
-    ------
-    GeometryError
-        A hole is too narrow.
+    Each is the centre of the largest inscribed circle; a GeometryError for too narrow a hole.
     """
     points = np.empty((cage.n_holes, 2))
     for i, hole in enumerate(cage.holes):
@@ -150,29 +125,16 @@ def hole_points(cage: Cage) -> NDArray[np.float64]:
     return points
 
 
-def _checked_distance(distance: float) -> float:
-    try:
-        number = float(distance)
-    except (TypeError, ValueError) as error:
-        raise GeometryError(f"the offset must be a positive number, not {distance!r}") from error
-    if not (np.isfinite(number) and number > 0):
-        raise GeometryError(f"the offset must be a positive number, not {number}")
-    return number
-
-
 class _Corners:
     """The vertices of all loops in one array, with directions and mitres at each."""
 
     def __init__(self, cage: Cage, distance: float) -> None:
-        self.cage = cage
         self.distance = distance
         sizes = np.array([len(loop) for loop in cage.loops])
         self.starts = np.concatenate([[0], np.cumsum(sizes)])
         self.loop = np.repeat(np.arange(len(sizes)), sizes)
-        index = np.arange(self.starts[-1])
         self.next = next_index(self.loop)
-        self.previous = np.empty_like(index)
-        self.previous[self.next] = index
+        self.previous = np.argsort(self.next)
         self.points = np.concatenate(cage.loops)
         self.length = np.concatenate([edge_lengths(loop) for loop in cage.loops])
         self.perimeter = np.add.reduceat(self.length, self.starts[:-1])
@@ -181,9 +143,6 @@ class _Corners:
         self.normal = np.stack([self.along[:, 1], -self.along[:, 0]], axis=1)  # away from P
         self.edges = np.concatenate([segments(loop) for loop in cage.loops])
         self.tree = shapely.STRtree(self.edges)
-        self._set_mitres()
-
-    def _set_mitres(self) -> None:
         before, after = self.along[self.previous], self.along
         bulge = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
         self.convex = bulge > 0
@@ -215,11 +174,8 @@ class _Corners:
 
         Only pairs whose way along the loop is at least `min_ratio` times their gap count.
         """
-        w, e = self.tree.query(
-            shapely.points(self.points),
-            predicate="dwithin",
-            distance=self.distance / _PASSAGE_SHARE,
-        )
+        points, reach = shapely.points(self.points), self.distance / _PASSAGE_SHARE
+        w, e = self.tree.query(points, predicate="dwithin", distance=reach)
         apart = (e != w) & (self.next[e] != w) & (self.loop[e] == self.loop[w])
         w, e = w[apart], e[apart]
         arm = self.points[w] - self.points[e]
@@ -277,9 +233,8 @@ class _Corners:
         """(n,) factors that lengthen offset edges which are too short or reversed."""
         gain = local * self.gain_start + local[self.next] * self.gain_end
         loss = (1.0 - _KEPT_LENGTH) * self.length
-        short = gain < -loss * (1 + 1e-9)
+        edge = np.flatnonzero(gain < -loss * (1 + 1e-9))
         factors = np.ones(len(local))
-        edge = np.flatnonzero(short)
         factor = np.clip(loss[edge] / -gain[edge], 0.25, 0.95)
         # Only the ends that shorten the edge shrink.
         start, end = self.gain_start[edge] < 0, self.gain_end[edge] < 0
@@ -300,9 +255,8 @@ class _Corners:
         self._shrink_ends(factors, edges, e, self.edges[f])
 
         e, f = shapely.STRtree(edges).query(edges, predicate="dwithin", distance=reach)
-        apart = (
-            (self.loop[e] == self.loop[f]) & (e != f) & (self.next[e] != f) & (self.next[f] != e)
-        )
+        neighbours = (e == f) | (self.next[e] == f) | (self.next[f] == e)
+        apart = (self.loop[e] == self.loop[f]) & ~neighbours
         e, f = e[apart], f[apart]
         gap = shapely.distance(edges[e], edges[f])
         # The neighbours of a short edge are close anyway, so the gap is compared with the way too.
@@ -329,8 +283,6 @@ class _Corners:
         others: NDArray[np.object_],
     ) -> None:
         """Lower the factors at the ends of the edges `e`, more at the end nearer to `others`."""
-        if not len(e):
-            return
         meeting = shapely.get_point(shapely.shortest_line(edges[e], others), 0)
         t = shapely.line_locate_point(edges[e], meeting, normalized=True)
         np.minimum.at(factors, e, np.where(t < 0.75, _SHRINK, 0.9))
@@ -338,23 +290,25 @@ class _Corners:
 
     def _encloses(self, local: NDArray[np.float64]) -> bool:
         """Whether the offset loops, known not to meet the cage, lie outside the domain."""
-        pairs = zip(self.cage.loops, self.split(self.moved(local)), strict=True)
-        return all(encloses(*(b, a) if i == 0 else (a, b)) for i, (a, b) in enumerate(pairs))
+        pairs = zip(self.split(self.points), self.split(self.moved(local)), strict=True)
+        around = [(b, a) if i == 0 else (a, b) for i, (a, b) in enumerate(pairs)]
+        return all(
+            shapely.contains_xy(shapely.Polygon(large), *small[0]) for large, small in around
+        )
 
 
 def _notes(corners: _Corners, local: NDArray[np.float64], distance: float) -> tuple[str, ...]:
     """A sentence per loop on which the distance was reduced by over a tenth."""
     notes: list[str] = []
-    reduced = local < 0.9 * distance
-    for loop, (a, b) in enumerate(zip(corners.starts[:-1], corners.starts[1:], strict=True)):
-        where = np.flatnonzero(reduced[a:b])
-        if not where.size:
-            continue
-        least = int(a + where[np.argmin(local[a + where])])
-        share = "everywhere" if len(where) == b - a else f"at {len(where)} of {b - a} vertices"
-        notes.append(
-            f"{loop_name(loop)}: the offset {distance:.4g} was reduced {share}, to "
-            f"{local[least]:.4g} at vertex {least - a} {place(corners.points[least])}, "
-            "because there is no room for more."
-        )
+    for loop, distances in enumerate(corners.split(local)):
+        reduced = int((distances < 0.9 * distance).sum())
+        if reduced:
+            least, count = int(np.argmin(distances)), len(distances)
+            share = "everywhere" if reduced == count else f"at {reduced} of {count} vertices"
+            notes.append(
+                f"{loop_name(loop)}: the offset {distance:.4g} was reduced {share}, to "
+                f"{distances[least]:.4g} at vertex {least} "
+                f"{place(corners.points[corners.starts[loop] + least])}, because there is no room "
+                "for more."
+            )
     return tuple(notes)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._arguments import read_only
 from glid_nb.geometry._loops import GeometryError, edge_lengths, next_index, subdivided
 
 if TYPE_CHECKING:
@@ -25,25 +26,29 @@ _EVEN = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Panels:
-    """Consecutive pieces of the cage's edges, loop by loop.
-
-    Attributes
-    ----------
-    start, end : (p,) complex array
-        End points; ``end[i] == start[next[i]]``.
-    loop : (p,) int array
-        The loop of the cage: 0 exterior, then the holes.
-    depth : (p,) int array
-        How often the panel was split since the first grading.
-    next : (p,) int array
-        The panel that follows on the same closed loop.
-    """
+    """Consecutive pieces of the cage's edges, loop by loop; every field is a (p,) array."""
 
     start: Array
     end: Array
+    """Complex end points; ``end[i] == start[next[i]]``."""
     loop: Array
+    """The loop of the cage: 0 exterior, then the holes."""
     depth: Array
+    """How often the panel was split since the first grading."""
     next: Array
+    """The panel that follows on the same closed loop."""
+
+    def __post_init__(self) -> None:
+        for array in vars(self).values():
+            read_only(array)
+
+    @classmethod
+    def along(cls, loops: Sequence[Array]) -> Panels:
+        """Panels from each vertex of closed complex loops to the next."""
+        start = np.concatenate(loops)
+        loop = np.repeat(np.arange(len(loops)), [len(points) for points in loops])
+        following = next_index(loop)
+        return Panels(start, start[following], loop, np.zeros(len(start), dtype=int), following)
 
     def __len__(self) -> int:
         return len(self.start)
@@ -63,28 +68,18 @@ class Panels:
         """(p,) bool: False where the midpoint coincides with an end in floating point."""
         return (self.middle != self.start) & (self.middle != self.end)
 
-    def split(self, chosen: Array) -> Panels:
-        """The panels in order, with those of ``chosen`` (p,) bool halved if :attr:`divisible`."""
-        middle = self.middle
+    def split(self, chosen: Array) -> tuple[Panels, Array]:
+        """The panels in order, with those of ``chosen`` (p,) bool halved if :attr:`divisible`.
+
+        Beside them the (q,) indices of the panels that they come from.
+        """
         chosen = chosen & self.divisible
-        count = np.where(chosen, 2, 1)
-        first = np.cumsum(count) - count
-        start, end = np.repeat(self.start, count), np.repeat(self.end, count)
-        end[first[chosen]] = middle[chosen]
-        start[first[chosen] + 1] = middle[chosen]
-        depth = np.repeat(self.depth + chosen, count)
-        return _linked(start, end, np.repeat(self.loop, count), depth)
-
-    def parents(self, chosen: Array) -> Array:
-        """(q,) int: for each panel of ``split(chosen)``, the index of the panel it comes from."""
-        return np.repeat(np.arange(len(self)), np.where(chosen & self.divisible, 2, 1))
-
-    def chosen(self, which: Array) -> Panels:
-        """Only the panels of ``which`` (p,) bool; their ``next`` has no meaning."""
-        index = np.arange(int(which.sum()))
-        return Panels(
-            self.start[which], self.end[which], self.loop[which], self.depth[which], index
-        )
+        parent = np.repeat(np.arange(len(self)), np.where(chosen, 2, 1))
+        second = np.flatnonzero(np.diff(parent, prepend=-1) == 0)
+        start, end = self.start[parent], self.end[parent]
+        start[second] = end[second - 1] = self.middle[chosen]
+        loop, depth = self.loop[parent], (self.depth + chosen)[parent]
+        return Panels(start, end, loop, depth, next_index(loop)), parent
 
 
 def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
@@ -92,22 +87,16 @@ def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
 
     The singularities are the offset cage's vertices and the hole points. Each edge of the cage is
     bisected until this holds, so panels are short only where the map may vary fast.
-
-    Parameters
-    ----------
-    domain : Domain
-    ratio : float
-        Positive; smaller means more panels.
     """
     if not ratio > 0:
         raise ValueError(f"ratio is {ratio}; it must be positive")
-    panels = edge_panels(domain)
+    panels = Panels.along(domain.cage.loops_complex)
     for _ in range(_MAX_BISECTIONS):
         too_long = panels.length > ratio * _clearance(domain, panels.start, panels.end)
         if not too_long.any():
             break
-        panels = panels.split(too_long)
-    return _linked(panels.start, panels.end, panels.loop, np.zeros(len(panels), dtype=int))
+        panels, _ = panels.split(too_long)
+    return replace(panels, depth=np.zeros(len(panels), dtype=int))
 
 
 def paired(panels: Panels, domain: Domain, ratio: float) -> Array:
@@ -129,53 +118,26 @@ def paired(panels: Panels, domain: Domain, ratio: float) -> Array:
     return fits & ((index - last_unfit) % 2 == 1)
 
 
-def edge_panels(domain: Domain) -> Panels:
-    """One panel per edge of the cage."""
-    return panels_along(domain.cage.loops_complex)
-
-
 def uniform_panels(cage: Cage, n: int = 10_000) -> Panels:
     """The segments between about `n` even samples of the boundary (the set G of section 9).
 
     A loop of length P_l gets n_l = ceil(P_l / P * n) samples, P the whole perimeter; an edge of it
     gets c = ceil(length / P_l * n_l), at a + (b - a) k / c for k = 0, ..., c - 1. Rounding up makes
     the total slightly larger than `n`.
-
-    Raises
-    ------
-    GeometryError
-        `n` is less than 1.
     """
     if n < 1:
         raise GeometryError(f"the number of boundary samples must be at least 1, not {n}")
-    lengths = [edge_lengths(loop) for loop in cage.loops]
-    per_loop = [float(edges.sum()) for edges in lengths]
-    perimeter = sum(per_loop)
     points = []
-    for loop, edges, length in zip(cage.loops_complex, lengths, per_loop, strict=True):
-        n_loop = np.ceil(length / perimeter * n)
-        points.append(subdivided(loop, np.ceil(edges / length * n_loop).astype(int)))
-    return panels_along(points)
-
-
-def panels_along(loops: Sequence[Array]) -> Panels:
-    """Panels from each vertex of closed complex loops to the next."""
-    start = np.concatenate(loops)
-    loop = np.repeat(np.arange(len(loops)), [len(points) for points in loops])
-    return _linked(start, start[next_index(loop)], loop, np.zeros(len(start), dtype=int))
+    for loop, edges in zip(cage.loops_complex, map(edge_lengths, cage.loops), strict=True):
+        n_loop = np.ceil(edges.sum() / cage.perimeter * n)
+        points.append(subdivided(loop, np.ceil(edges / edges.sum() * n_loop).astype(int)))
+    return Panels.along(points)
 
 
 def _clearance(domain: Domain, start: Array, end: Array) -> Array:
     """(p,) distances of segments to the nearest singularity of ``f_z``."""
-    singular = np.concatenate([*domain.offset_loops_complex, domain.hole_points_complex])
+    singular = np.concatenate([*domain.offset_cage.loops_complex, domain.hole_points_complex])
     return point_distance(singular, start[:, None], end[:, None]).min(axis=1, initial=np.inf)
-
-
-def _linked(start: Array, end: Array, loop: Array, depth: Array) -> Panels:
-    panels = Panels(start, end, loop, depth, next_index(loop))
-    for array in (panels.start, panels.end, panels.loop, panels.depth, panels.next):
-        array.flags.writeable = False
-    return panels
 
 
 def cross(a: Array, b: Array) -> Array:

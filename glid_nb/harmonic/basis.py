@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -80,9 +81,10 @@ class Basis(NamedTuple):
         return padded
 
 
-def build_basis(domain: Domain) -> Basis:
-    """The basis of ``domain``: Cauchy coordinates of its offset cage plus one log per hole."""
-    loops = domain.offset_loops_complex
+@functools.lru_cache(maxsize=64)
+def basis_of(domain: Domain) -> Basis:
+    """The basis of a domain, cached: Cauchy coordinates of the offset cage, a log per hole."""
+    loops = domain.offset_cage.loops_complex
     sizes = [len(loop) for loop in loops]
     vertices = np.concatenate(loops)
     rho = domain.hole_points_complex

@@ -30,12 +30,6 @@ class FixedPoints:
         F' = 1/(2 pi i) sum_e s_e L_e
 
     with the slope s_e of phi along the edge from z_e, so one matrix product evaluates a map.
-
-    Parameters
-    ----------
-    domain : Domain
-        The domain of all maps.
-    points : (k, 2) array_like
     """
 
     def __init__(self, domain: Domain, points: ArrayLike) -> None:

@@ -6,22 +6,23 @@ import functools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import real_array
+from glid_nb._arguments import number_pairs, read_only, real_array
 from glid_nb._errors import InputError, about
-from glid_nb._jax import jax, jnp
+from glid_nb._jax import jit, jnp
 from glid_nb._json import parse_json, write_json
 from glid_nb._runtime import double_precision, in_chunks
-from glid_nb.geometry import Cage, Domain, as_points, uniform_panels
+from glid_nb.geometry import Domain, as_points, loop_name, uniform_panels
 from glid_nb.harmonic import cauchy
-from glid_nb.harmonic.basis import Basis, build_basis
+from glid_nb.harmonic.basis import basis_of
 from glid_nb.harmonic.cauchy import Singularities
 
 Array = NDArray[Any]
+R = TypeVar("R")
 
 FORMAT = "glid_nb-map"
 FORMAT_VERSION = 1
@@ -33,12 +34,6 @@ _SMALL_CHUNK = 64
 
 class MapError(InputError):
     """A harmonic map's coefficients, its file, or points to evaluate it at are not valid."""
-
-
-@functools.lru_cache(maxsize=64)
-def basis_of(domain: Domain) -> Basis:
-    """The (cached) basis of a domain."""
-    return build_basis(domain)
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -53,14 +48,8 @@ class HarmonicMap:
     domain : Domain
         Where the map lives.
     phi, psi : (n,) complex array_like
-        Coefficients, ``n`` = offset-cage vertices + holes, including those fixed to zero. For the
-        holes ``phi_j = conj(psi_j)`` must hold (Section 5).
-
-    Raises
-    ------
-    MapError
-        When the counts do not match the domain, a coefficient is not finite, or a hole's two
-        coefficients are not conjugate.
+        Finite coefficients, ``n`` = offset-cage vertices + holes, including those fixed to zero.
+        For the holes ``phi_j = conj(psi_j)`` must hold (Section 5); else a MapError says which.
     """
 
     domain: Domain
@@ -80,8 +69,7 @@ class HarmonicMap:
             bad = np.flatnonzero(~np.isfinite(values))
             if bad.size:
                 raise MapError(f"{name}[{bad[0]}] is {values[bad[0]]}; it must be finite")
-            values.flags.writeable = False
-            object.__setattr__(self, name, values)
+            object.__setattr__(self, name, read_only(values))
         holes = slice(n - domain.n_holes, n)
         gap = np.abs(self.phi[holes] - self.psi[holes].conj())
         scale = 1 + np.abs(self.phi[holes])
@@ -95,22 +83,15 @@ class HarmonicMap:
     @classmethod
     def identity(cls, domain: Domain) -> HarmonicMap:
         """The identity map: ``phi`` = the exterior offset vertices, everything else 0."""
-        exterior = domain.offset_loops_complex[0]
+        exterior = domain.offset_cage.loops_complex[0]
         phi = np.zeros(domain.n_coefficients, dtype=complex)
         phi[: len(exterior)] = exterior
         return cls(domain, phi, np.zeros_like(phi))
 
     def __call__(self, points: ArrayLike) -> Array:
-        """Images of points.
+        """(k, 2) images of (k, 2) points, world coordinates.
 
-        Parameters
-        ----------
-        points : (k, 2) array_like
-            World coordinates. Certificates hold only for points that ``domain.cage.contains``.
-
-        Returns
-        -------
-        (k, 2) array
+        Certificates hold only for points that ``domain.cage.contains``.
         """
         (f,) = self._evaluate(_values, points)
         return as_points(f)
@@ -124,7 +105,7 @@ class HarmonicMap:
         """The ``order``-th complex derivatives of ``f_z`` and of ``conj(f_zbar)``, order >= 1."""
         if order < 1:
             raise ValueError(f"order is {order}; it must be at least 1")
-        fz, fzb_conj = self._evaluate(_higher(order), points)
+        fz, fzb_conj = self._evaluate(functools.partial(_higher, order=order), points)
         return fz, fzb_conj
 
     def sigma1(self, points: ArrayLike) -> Array:
@@ -162,8 +143,8 @@ class HarmonicMap:
             "format": FORMAT,
             "version": FORMAT_VERSION,
             **self.domain.to_dict(),
-            "phi": complex_to_pairs(self.phi),
-            "psi": complex_to_pairs(self.psi),
+            "phi": as_points(self.phi).tolist(),
+            "psi": as_points(self.psi).tolist(),
         }
 
     @classmethod
@@ -174,11 +155,9 @@ class HarmonicMap:
         version = data.get("version")
         if version != FORMAT_VERSION:
             raise MapError(f"map version {version!r} is not supported; expected {FORMAT_VERSION}")
-        required = ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "phi", "psi")
-        for key in required:
-            # A domain without these would choose others, and so have another basis.
-            chosen = key in ("offset_cage", "offset_holes", "hole_points")
-            if key not in data or (chosen and data[key] is None):
+        for key in ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "phi", "psi"):
+            # A domain without one of its parts would choose it, and so have another basis.
+            if key not in data or (data[key] is None and key not in ("phi", "psi")):
                 raise MapError(f'the map lacks the key "{key}"')
         with about("the map's domain is not valid", MapError):
             domain = Domain.from_dict(data)
@@ -187,7 +166,7 @@ class HarmonicMap:
             # The coefficients follow the file's order of vertices.
             if not np.array_equal(real_array(loop), kept):
                 wanted = "counter-clockwise" if i == 0 else "clockwise"
-                raise MapError(f"the offset cage's {Cage.loop_name(i)} must run {wanted}")
+                raise MapError(f"the offset cage's {loop_name(i)} must run {wanted}")
         phi, psi = (complex_from_pairs(data[key], f'"{key}"') for key in ("phi", "psi"))
         return cls(domain, phi, psi)
 
@@ -197,27 +176,26 @@ class HarmonicMap:
 
     @classmethod
     def load(cls, path: str | Path) -> HarmonicMap:
-        """Read a map written by :meth:`save`.
-
-        Raises
-        ------
-        MapError
-            The file is not a valid map; the message names it and what is wrong.
-        OSError
-            It cannot be read.
-        """
+        """Read a map written by :meth:`save`; MapError names the file and what is wrong there."""
         with about(path, MapError):
             return cls.from_dict(parse_json(Path(path).read_bytes(), str(path)))
 
     @double_precision
-    def _evaluate(self, kernel: Callable[..., Any], points: ArrayLike) -> tuple[Array, ...]:
+    def _evaluate(self, program: Callable[..., Any], points: ArrayLike) -> tuple[Array, ...]:
         z = as_complex(points)
-        basis = basis_of(self.domain)
-        coefficients = np.stack([basis.pad(self.phi), basis.pad(self.psi)])
         # Only two chunk sizes, so that few programs are compiled.
-        large = max(_SMALL_CHUNK, _CHUNK_ELEMENTS // basis.n_columns)
-        chunk = _SMALL_CHUNK if len(z) <= _SMALL_CHUNK else large
-        return in_chunks(_compiled(kernel), chunk, (z,), coefficients, basis.singularities)
+        large = max(_SMALL_CHUNK, _CHUNK_ELEMENTS // basis_of(self.domain).n_columns)
+        return run_on(self, program, _SMALL_CHUNK if len(z) <= _SMALL_CHUNK else large, z)
+
+
+def run_on(map: HarmonicMap, program: Callable[..., R], chunk: int, *points: Array) -> R:
+    """``program(*points, coefficients, singularities)`` for a map's (2, c) padded coefficients.
+
+    It is compiled and takes ``chunk`` of the points, (p,) complex arrays, at a time.
+    """
+    basis = basis_of(map.domain)
+    coefficients = np.stack([basis.pad(map.phi), basis.pad(map.psi)])
+    return in_chunks(program, chunk, points, coefficients, basis.singularities)
 
 
 def as_complex(points: ArrayLike) -> Array:
@@ -236,46 +214,24 @@ def as_complex(points: ArrayLike) -> Array:
     return z
 
 
+@jit
 def _values(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any]:
     c = cauchy.cauchy_coordinates(z, singularities)
     return (c @ coefficients[0] + jnp.conj(c @ coefficients[1]),)
 
 
+@jit
 def _first(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any, Any]:
     d = cauchy.first_derivatives(z, singularities)
     return d @ coefficients[0], d @ coefficients[1]
 
 
-@functools.cache
-def _higher(order: int) -> Callable[..., Any]:
-    def kernel(z: Any, coefficients: Any, singularities: Singularities) -> Any:
-        return tuple(cauchy.higher_derivative(z, c, singularities, order) for c in coefficients)
-
-    return kernel
-
-
-@functools.cache
-def _compiled(kernel: Callable[..., Any]) -> Callable[..., Any]:
-    return jax.jit(kernel)
-
-
-def complex_to_pairs(values: Array) -> list[list[float]]:
-    """Coefficients as [re, im] pairs for JSON."""
-    return [[v.real, v.imag] for v in values.tolist()]
+@functools.partial(jit, static_argnames="order")
+def _higher(z: Any, coefficients: Any, singularities: Singularities, order: int) -> Any:
+    return tuple(cauchy.higher_derivative(z, c, singularities, order) for c in coefficients)
 
 
 def complex_from_pairs(value: Any, name: str) -> Array:
-    """The coefficients that :func:`complex_to_pairs` wrote, bit for bit.
-
-    Raises
-    ------
-    MapError
-        ``value`` is anything else; the message begins with ``name``.
-    """
-    try:
-        array = real_array(value)
-    except (TypeError, ValueError) as error:
-        raise MapError(f"{name} must be a list of [re, im] pairs of numbers") from error
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise MapError(f"{name} must be a list of [re, im] pairs; its shape is {array.shape}")
-    return array.view(complex)[:, 0]  # keeps signed zeros and infinities
+    """[re, im] pairs as coefficients, bit for bit; the message of the MapError has the ``name``."""
+    pairs = number_pairs(value, f"{name} must be a list of [re, im] pairs of numbers", MapError)
+    return pairs.view(complex)[:, 0]  # keeps signed zeros and infinities

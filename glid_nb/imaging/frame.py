@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from numbers import Integral
 
 import numpy as np
@@ -20,13 +20,16 @@ class PixelFrame:
 
     Pixel coordinates are continuous, (x right, y down), with (0, 0) at the top left *corner* of the
     picture: the pixel in row i and column j covers [j, j + 1] x [i, i + 1] and has its centre at
-    (j + 0.5, i + 0.5). World coordinates are (x right, y up), with the origin at the centre of the
-    picture, whose longer side is 20 units long.
+    (j + 0.5, i + 0.5). World coordinates are (x right, y up). The world's origin is at the centre
+    of a picture that is traced, and its longer side is 20 units long.
 
     Parameters
     ----------
     width, height
         Size of the picture in pixels, at least 1.
+    zoom, centre
+        Of a drawn picture: its longer side shows 20 / zoom units, and its middle the world point
+        centre.
 
     Examples
     --------
@@ -38,6 +41,8 @@ class PixelFrame:
 
     width: int
     height: int
+    zoom: float = 1.0
+    centre: tuple[float, float] = (0.0, 0.0)
 
     def __post_init__(self) -> None:
         for name in ("width", "height"):
@@ -51,27 +56,36 @@ class PixelFrame:
     @property
     def units_per_pixel(self) -> float:
         """Side of a pixel in world units."""
-        return LONGER_SIDE / max(self.width, self.height)
+        return LONGER_SIDE / max(self.width, self.height) / self.zoom
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:
         """The picture's rectangle in world units, (xmin, ymin, xmax, ymax)."""
-        x, y = 0.5 * self.width * self.units_per_pixel, 0.5 * self.height * self.units_per_pixel
-        return -x, -y, x, y
+        (x, y), unit = self.centre, 0.5 * self.units_per_pixel
+        w, h = unit * self.width, unit * self.height
+        return x - w, y - h, x + w, y + h
+
+    def showing(self, bounds: ArrayLike, margin: float = 0.0) -> PixelFrame:
+        """The frame of a picture of this size that shows a rectangle as large as possible.
+
+        ``bounds`` are as above, or its lower and upper corner (2, 2). ``margin`` is the least room
+        around it, as a share of the picture's sides.
+        """
+        low, high = np.reshape(bounds, (2, 2))
+        pixels_per_unit = (2 * self._middle / (high - low)).min() * (1 - 2 * margin)
+        zoom = float(pixels_per_unit * LONGER_SIDE / max(self.width, self.height))
+        x, y = (low + high) / 2
+        return replace(self, zoom=zoom, centre=(float(x), float(y)))
 
     def to_world(self, pixels: ArrayLike) -> NDArray[np.float64]:
         """World coordinates of pixel coordinates; shape (..., 2) in and out."""
-        points = _points(pixels)
-        x = (points[..., 0] - 0.5 * self.width) * self.units_per_pixel
-        y = (0.5 * self.height - points[..., 1]) * self.units_per_pixel
-        return np.stack([x, y], axis=-1)
+        unit = self.units_per_pixel
+        return (_points(pixels) - self._middle) * [unit, -unit] + self.centre
 
     def to_pixel(self, world: ArrayLike) -> NDArray[np.float64]:
         """Pixel coordinates of world coordinates; shape (..., 2) in and out."""
-        points = _points(world)
-        x = points[..., 0] / self.units_per_pixel + 0.5 * self.width
-        y = 0.5 * self.height - points[..., 1] / self.units_per_pixel
-        return np.stack([x, y], axis=-1)
+        unit = self.units_per_pixel
+        return (_points(world) - self.centre) / [unit, -unit] + self._middle
 
     def index_at(self, point: tuple[float, float], name: str = "point") -> tuple[int, int]:
         """(row, column) of the pixel at a point (x, y) in pixel coordinates.
@@ -89,6 +103,10 @@ class PixelFrame:
                 "That place lies outside the picture",
             )
         return int(y), int(x)
+
+    @property
+    def _middle(self) -> NDArray[np.float64]:
+        return np.array([self.width, self.height]) / 2
 
 
 def _points(values: ArrayLike) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""Which holes of a shape stay holes of its cage."""
+"""Which holes of a shape stay holes of its cage, and the offset of its outline."""
 
 from __future__ import annotations
 
@@ -11,12 +11,19 @@ import shapely
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
+from glid_nb._arguments import read_only
 from glid_nb.imaging.options import Point
-from glid_nb.imaging.outline import Outline
+from glid_nb.imaging.outline import Outline, ring_loop, thinned
 
 # Least area of a hole, relative to the component and in square pixels. Holes in the alpha channel
 # are intended; those found by colour may be eyes or highlights.
 _LEAST_SHARE, _LEAST_SHARE_BY_COLOR, _LEAST_AREA = 0.002, 0.0075, 9.0
+# Automatic offset, relative to the square root of the shape's area; at least so many pixels, but on
+# tiny shapes at most this share.
+_OFFSET, _LEAST_OFFSET, _MOST_OFFSET = 0.01, 2.0, 0.05
+_SLIT = 0.5  # slits narrower than this times the offset on each side are closed
+_ROUGH, _FINE = 0.05, 0.03  # tolerances of simplification before and after, times the offset
+_SHRUNK = 0.2  # a hole that would keep less than this share of its area gets a smaller offset
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +53,11 @@ class Hole:
     kept: bool
     by_offset: bool = False
 
+    @property
+    def place(self) -> str:
+        """`pixel` for messages."""
+        return f"({self.pixel[0]:.0f}, {self.pixel[1]:.0f})"
+
 
 class HoleRule(NamedTuple):
     """Which holes are kept: those of a least area in square pixels, with exceptions by pixels."""
@@ -74,45 +86,122 @@ def choose_holes(
 
     `method` is the one that found the foreground; the other parameters are those of `TraceOptions`.
     """
-    least = least_bay = min_hole_area
-    if least is None or least_bay is None:
-        share = _LEAST_SHARE_BY_COLOR if method in ("color", "threshold") else _LEAST_SHARE
-        least = max(share * outline.component.area, _LEAST_AREA)
-        least_bay = max(_LEAST_SHARE * outline.component.area, _LEAST_AREA)
-    least = max(least, outline.speck)
-    rule = HoleRule(least, least_bay, keep, drop)
+    by_color = _LEAST_SHARE_BY_COLOR if method in ("color", "threshold") else _LEAST_SHARE
+    least, least_bay = (
+        max(share * outline.component.area, _LEAST_AREA) if min_hole_area is None else min_hole_area
+        for share in (by_color, _LEAST_SHARE)
+    )
+    rule = HoleRule(max(least, outline.speck), least_bay, keep, drop)
     holes = tuple(map(rule.hole, outline.holes))
-    filled = [h for h in holes if not h.kept and not _holds_any(h.loop, drop)]
     notes = []
-    if filled or outline.n_specks:
-        count = len(filled) + outline.n_specks
+    filled = sum(not hole.kept and not _holds_any(hole.loop, drop) for hole in holes)
+    if count := filled + outline.n_specks:
         notes.append(
             f"{count} small {'hole was' if count == 1 else 'holes were'} filled; the least area is "
-            f"{least:.4g} square pixels"
+            f"{rule.min_area:.4g} square pixels"
         )
     for name, points in (("keep_holes", keep), ("drop_holes", drop)):
         notes += [
             f"{name}: there is no hole at the pixel ({x:g}, {y:g})"
             for x, y in points
-            if not any(_holds_any(hole.loop, ((x, y),)) for hole in holes)
+            if not any(_holds_any(hole.loop, [(x, y)]) for hole in holes)
         ]
     return holes, rule, tuple(notes)
 
 
 def filled_mask(outline: Outline, holes: tuple[Hole, ...]) -> NDArray[np.bool_]:
     """(h, w) read-only mask of the component with the holes that are not kept filled."""
-    mask = outline.inside.copy()
-    dropped = [hole for hole in holes if not hole.kept]
-    if dropped:
-        filling = Image.new("1", mask.shape[::-1])
-        for hole in dropped:
+    filling = Image.new("1", outline.inside.shape[::-1])
+    for hole in holes:
+        if not hole.kept:
             # This also fills the pixels on the hole's outline, which belong to the shape.
             ImageDraw.Draw(filling).polygon((hole.loop - 0.5).ravel().tolist(), fill=1, outline=1)
-        mask |= np.asarray(filling)
-    mask.setflags(write=False)
-    return mask
+    return read_only(outline.inside | np.asarray(filling))
 
 
 def _holds_any(loop: NDArray[np.float64], points: Sequence[Point]) -> bool:
     """Whether a loop goes around one of the points."""
     return any(shapely.contains_xy(shapely.Polygon(loop), *point) for point in points)
+
+
+@dataclass(frozen=True, eq=False)
+class Dilation:
+    """An outline after the offset, in pixel coordinates."""
+
+    exterior: NDArray[np.float64]
+    holes: tuple[NDArray[np.float64], ...]
+    offset: float
+    least_offset: float  # the smallest that a narrow hole got
+    listed: tuple[Hole, ...]  # all holes; those made by the offset come last
+    notes: tuple[str, ...]
+
+
+def dilate(
+    outline: Outline, holes: tuple[Hole, ...], rule: HoleRule, offset: float | None = None
+) -> Dilation:
+    """Move the outline's exterior outwards and the kept holes inwards by `offset` pixels.
+
+    None: about 1 % of the shape's size, less if that would close a bay.
+    """
+    shape = shapely.Polygon(outline.exterior)
+    size = float(np.sqrt(shape.area))
+    largest = max(_OFFSET * size, min(_LEAST_OFFSET, _MOST_OFFSET * size))
+    tried = []
+    for chosen in (largest, 0.5 * largest, 0.25 * largest) if offset is None else (offset,):
+        grown = thinned(_moved(shape, chosen, 1)[0], _FINE * chosen) if chosen > 0 else shape
+        bays = [rule.hole(ring_loop(ring), by_offset=True) for ring in grown.interiors]
+        tried.append((chosen, grown, bays))
+        if not any(bay.kept for bay in bays):
+            break
+    else:
+        tried.append(tried[0])
+    chosen, grown, bays = tried[-1]
+    notes: list[str] = []
+    loops: list[NDArray[np.float64]] = []
+    least = chosen
+    for hole in (hole for hole in holes if hole.kept):
+        parts, used = _shrunk(hole.loop, chosen, rule.min_area)
+        loops += parts
+        least = min(least, used)
+        if used < chosen:
+            notes.append(
+                f"the hole at {hole.place} is too narrow for an offset of {chosen:.3g} px; it got "
+                f"{used:.3g} px"
+            )
+        if len(parts) > 1:
+            notes.append(f"the offset divided the hole at {hole.place} into {len(parts)}")
+    for bay in (bay for bay in bays if bay.kept):
+        loops.append(bay.loop)
+        notes.append(
+            f"the offset of {chosen:.3g} px closed a bay at {bay.place}, which became a hole; a "
+            "smaller offset leaves it open"
+        )
+    exterior = ring_loop(grown.exterior)
+    return Dilation(exterior, tuple(loops), chosen, least, (*holes, *bays), tuple(notes))
+
+
+def _moved(region: shapely.Polygon, offset: float, sign: int) -> list[shapely.Polygon]:
+    """Parts of the region grown (sign 1) or shrunk (-1) by `offset`, the largest first.
+
+    Very narrow slits of the grown region and tongues of the shrunk one are removed.
+    """
+    slit = _SLIT * offset
+    region = thinned(region, _ROUGH * offset)
+    moved = region.buffer(sign * (offset + slit)).buffer(-sign * slit)
+    parts = [part for part in shapely.get_parts(moved) if not part.is_empty]
+    return sorted(parts, key=lambda part: -part.area)
+
+
+def _shrunk(
+    loop: NDArray[np.float64], offset: float, min_area: float
+) -> tuple[list[NDArray[np.float64]], float]:
+    """The parts that a hole shrinks to, and the offset used: less for a hole that would vanish."""
+    region = shapely.Polygon(loop)
+    for used in (offset, 0.5 * offset, 0.25 * offset):
+        if used == 0:
+            break
+        parts = _moved(region, used, -1)
+        parts = parts[:1] + [part for part in parts[1:] if part.area >= min_area]
+        if parts and sum(part.area for part in parts) >= _SHRUNK * region.area:
+            return [ring_loop(thinned(part, _FINE * used).exterior) for part in parts], used
+    return [loop], 0.0

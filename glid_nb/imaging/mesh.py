@@ -1,4 +1,4 @@
-"""A triangle mesh of a deformed shape, fine enough to be drawn with straight edges."""
+"""Deformed shapes as triangles and as loops, fine enough to be drawn with straight edges."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from glid_nb.harmonic import HarmonicMap
 _MOST_VERTICES = 1_000_000
 _MOST_ROUNDS = 12
 
+_PER_EDGE = 4  # parts of a cage's edge before refinement
 _CANDIDATES = 2000  # vertices that the innermost one is chosen from
 
 # The pieces of a triangle, by the sum of 1, 2 and 4 for sides 0, 1 and 2 that have a new vertex.
@@ -92,65 +93,84 @@ def deformed_mesh(
     vertices, triangles = start.vertices, start.triangles
     heights = sheet_heights(map.domain.cage, vertices, triangles)
     images = map(vertices)
-    # Edges that were found straight enough are not tested again.
-    straight, error = np.zeros(0, np.int64), 0.0
+    first, error = 0, 0.0
     for _ in range(_MOST_ROUNDS):
         edges, edge_of = unique_edges(triangles)
-        fresh = np.flatnonzero(~np.isin(_keys(edges), straight, assume_unique=True))
-        middles = vertices[edges[fresh]].mean(axis=1)
-        middle_images = map(middles)
-        bend = np.linalg.norm(middle_images - images[edges[fresh]].mean(axis=1), axis=1)
+        # All others were straight enough in an earlier round.
+        fresh = np.flatnonzero(edges.max(axis=1) >= first)
+        middles, middle_images, bend = _halved(map, vertices, images, edges[fresh])
         bent = bend > (np.inf if tolerance is None else tolerance)
+        if not bent.any() or len(vertices) + bent.sum() > _MOST_VERTICES:
+            break
         error = max(error, float(bend[~bent].max(initial=0.0)))
-        straight = np.concatenate([straight, _keys(edges[fresh[~bent]])])
-        if not bent.any():
-            break
-        if len(vertices) + bent.sum() > _MOST_VERTICES:
-            error = float(bend.max())
-            break
+        first = len(vertices)
         new_vertex = np.full(len(edges), -1, np.int32)
-        new_vertex[fresh[bent]] = len(vertices) + np.arange(bent.sum(), dtype=np.int32)
+        new_vertex[fresh[bent]] = first + np.arange(bent.sum(), dtype=np.int32)
         vertices = np.concatenate([vertices, middles[bent]])
         images = np.concatenate([images, middle_images[bent]])
         heights = np.concatenate([heights, heights[edges[fresh[bent]]].mean(axis=1)])
         triangles = _split(triangles, new_vertex[edge_of])
-    else:
-        error = max(error, float(bend.max()))
+    error = max(error, float(bend.max(initial=0.0)))
     triangles = triangles[np.argsort(heights[triangles].mean(axis=1), kind="stable")]
     return DeformedMesh(vertices, images, triangles, heights, error)
 
 
+def deformed_loops(map: HarmonicMap, tolerance: float = 0.002) -> list[Floats]:
+    """The images of the cage's loops as polylines within ``tolerance`` world units of them."""
+    loops = []
+    for loop in map.domain.cage.loops:
+        share = np.arange(_PER_EDGE)[:, None] / _PER_EDGE
+        edge = (np.roll(loop, -1, axis=0) - loop)[:, None]
+        points = np.concatenate([(loop[:, None] + share * edge).reshape(-1, 2), loop[:1]])
+        images = map(points)
+        for _ in range(_MOST_ROUNDS):
+            start = np.arange(len(points) - 1)
+            edges = np.stack([start, start + 1], axis=1)
+            middles, middle_images, bend = _halved(map, points, images, edges)
+            bent = np.flatnonzero(bend > tolerance)
+            if not len(bent):
+                break
+            points = np.insert(points, bent + 1, middles[bent], axis=0)
+            images = np.insert(images, bent + 1, middle_images[bent], axis=0)
+        loops.append(images[:-1])
+    return loops
+
+
+def _halved(
+    map: HarmonicMap, points: Floats, images: Floats, edges: NDArray[np.integer]
+) -> tuple[Floats, Floats, Floats]:
+    """The middles of edges, their images, and how far these are from the image edges' middles."""
+    middles = points[edges].mean(axis=1)
+    middle_images = map(middles)
+    return (
+        middles,
+        middle_images,
+        np.linalg.norm(middle_images - images[edges].mean(axis=1), axis=1),
+    )
+
+
 def sheet_heights(cage: Cage, vertices: Floats, triangles: Ints) -> Floats:
-    """Heights that decide which part of a shape covers which where its image overlaps itself.
+    """(v,) heights that decide which part of a shape covers which where its image overlaps itself.
 
     A locally injective map can still move an arm over the body. The heights are continuous on the
     shape, so that the order does not change from one triangle to the next. They grow with the
     geodesic distance from the shape's innermost point, so that limbs cover the trunk; smaller
     shares of the distance from the opposite point and of x order the two ends of a ring and the
-    left and right arm.
-
-    Parameters
-    ----------
-    cage : Cage
-    vertices, triangles
-        A triangulation of the cage, undeformed.
-
-    Returns
-    -------
-    (v,) array
+    left and right arm. ``vertices`` and ``triangles`` are the cage's, undeformed.
     """
     edges, _ = unique_edges(triangles)
     length = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
     n = len(vertices)
     graph = scipy.sparse.csr_array((length, (edges[:, 0], edges[:, 1])), shape=(n, n))
+
+    def distances(vertex: int) -> Floats:
+        return scipy.sparse.csgraph.dijkstra(graph, directed=False, indices=vertex)
+
     candidates = np.arange(0, n, max(1, n // _CANDIDATES))
     outline = shapely.boundary(cage.polygon)
     depth = shapely.distance(outline, shapely.points(vertices[candidates]))
-    inner = scipy.sparse.csgraph.dijkstra(
-        graph, directed=False, indices=candidates[np.argmax(depth)]
-    )
-    opposite = int(np.argmax(np.where(np.isfinite(inner), inner, -1)))
-    along = scipy.sparse.csgraph.dijkstra(graph, directed=False, indices=opposite)
+    inner = distances(candidates[np.argmax(depth)])
+    along = distances(int(np.argmax(np.where(np.isfinite(inner), inner, -1))))
     return np.nan_to_num(inner + 0.35 * along, posinf=0.0) + 0.35 * vertices[:, 0]
 
 
@@ -161,12 +181,9 @@ def unique_edges(triangles: Ints) -> tuple[Ints, Ints]:
     """
     sides = np.stack([np.roll(triangles, -1, axis=1), np.roll(triangles, 1, axis=1)], axis=2)
     sides = np.sort(sides.reshape(-1, 2), axis=1)
-    _, first, inverse = np.unique(_keys(sides), return_index=True, return_inverse=True)
+    keys = sides @ np.array([1 << 32, 1])
+    _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
     return sides[first], inverse.reshape(-1, 3).astype(np.int32)
-
-
-def _keys(edges: Ints) -> NDArray[np.int64]:
-    return (edges[:, 0].astype(np.int64) << 32) | edges[:, 1]
 
 
 def _split(triangles: Ints, middle: Ints) -> Ints:

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
+from numbers import Integral, Real
 from pathlib import Path
-from typing import Literal, get_args
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import number_pairs, read_only, unmet
 from glid_nb._errors import about
 from glid_nb._json import check_fields, check_strokes, read_object
 from glid_nb.imaging.errors import TraceError
@@ -144,75 +147,70 @@ class TraceOptions:
     max_edge: float | None = None
 
     def __post_init__(self) -> None:
-        if self.method not in get_args(Method):
-            raise TraceError(
-                f"method must be one of {', '.join(get_args(Method))}, not {self.method!r}"
-            )
+        if expected := unmet(Method, self.method):
+            raise TraceError(f"method must be {expected}, not {self.method!r}")
         if self.invert not in (None, True, False):
             raise TraceError(f"invert must be True, False or None, not {self.invert!r}")
-        self._check_number("threshold", 0, 1)
-        for name in ("smoothing", "min_hole_area", "offset", "simplify", "min_edge"):
-            self._check_number(name, 0, math.inf)
-        if self.max_edge != math.inf:
-            self._check_number("max_edge", 0.5, math.inf)
-        for name, least in (("component", 0), ("max_vertices", 3)):
+        if self.scribbles is not None and not isinstance(self.scribbles, Scribbles):
+            kind = type(self.scribbles).__name__
+            raise TraceError(f"scribbles must be of the class Scribbles, not {kind}")
+        for name, check in _CHECKS.items():
             value = getattr(self, name)
-            if value is None and name == "max_vertices":
-                continue
-            if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
-                raise TraceError(f"{name} must be a whole number, at least {least}, not {value!r}")
-            object.__setattr__(self, name, int(value))
-        for name in ("background_at", "component_at"):
-            value = getattr(self, name)
-            object.__setattr__(self, name, None if value is None else _numbers(value, 2, name))
-        for name in ("keep_holes", "drop_holes"):
-            points = getattr(self, name)
-            if not isinstance(points, Iterable):
-                raise TraceError(f"{name} must be a list of pixels (x, y), not {points!r}")
-            object.__setattr__(self, name, tuple(_numbers(p, 2, name) for p in points))
-        if self.background is not None:
-            color = _numbers(self.background, 3, "background")
-            if not all(0 <= c <= 1 for c in color):
-                raise TraceError(
-                    f"background must be (red, green, blue), each in [0, 1], not {color}"
-                )
-            object.__setattr__(self, "background", color)
+            if value is not None or name == "component":
+                object.__setattr__(self, name, check(value, name))
         if self.background is not None and self.background_at is not None:
             raise TraceError("background and background_at are both given; give one of them")
-        if self.scribbles is not None and not isinstance(self.scribbles, Scribbles):
-            raise TraceError(
-                f"scribbles must be of the class Scribbles, not {type(self.scribbles).__name__}"
-            )
         if self.method == "scribbles" and self.scribbles is None:
             raise TraceError(
                 "the method 'scribbles' needs scribbles=Scribbles(foreground, background)"
             )
 
-    def _check_number(self, name: str, low: float, high: float) -> None:
-        value = getattr(self, name)
-        if value is None:
-            return
-        number = _number(value, name)
-        if not (low <= number <= high and number < math.inf):
-            span = f"in [{low}, {high}]" if high < math.inf else f"at least {low}, and finite"
-            raise TraceError(f"{name} must be a number {span}, not {value!r}")
-        object.__setattr__(self, name, number)
 
-
-def _number(value: object, name: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float, np.number)):
+def _number(value: Any, name: str, low: float = 0, high: float = math.inf) -> float:
+    if isinstance(value, bool) or not isinstance(value, Real):
         raise TraceError(f"{name} must be a number, not {value!r}")
-    return float(value.real)
+    if not low <= value <= high or (value == math.inf and name != "max_edge"):
+        span = f"in [{low}, {high}]" if high < math.inf else f"at least {low}, and finite"
+        raise TraceError(f"{name} must be a number {span}, not {value!r}")
+    return float(value)
 
 
-def _numbers(value: object, count: int, name: str) -> tuple:
-    what = "pixels (x, y)" if count == 2 else "(red, green, blue)"
-    if not isinstance(value, Iterable) or isinstance(value, (str, bytes)):
-        raise TraceError(f"{name} must be given as {what}, not {value!r}")
-    numbers = tuple(_number(v, name) for v in value)
-    if len(numbers) != count or not all(map(math.isfinite, numbers)):
+def _whole(value: Any, name: str, least: int = 0) -> int:
+    if isinstance(value, bool) or not isinstance(value, Integral) or value < least:
+        raise TraceError(f"{name} must be a whole number, at least {least}, not {value!r}")
+    return int(value)
+
+
+def _numbers(value: Any, name: str, what: str = "pixels (x, y)", count: int = 2) -> tuple:
+    given = tuple(value) if isinstance(value, Iterable) and not isinstance(value, str) else ()
+    if len(given) != count or any(isinstance(v, Real) and not math.isfinite(v) for v in given):
         raise TraceError(f"{name} must be given as {what} with finite numbers, not {value!r}")
-    return numbers
+    return tuple(_number(v, name, -math.inf) for v in given)
+
+
+def _color(value: Any, name: str) -> tuple[float, ...]:
+    color = _numbers(value, name, "(red, green, blue)", 3)
+    if not all(0 <= c <= 1 for c in color):
+        raise TraceError(f"{name} must be (red, green, blue), each in [0, 1], not {color}")
+    return color
+
+
+def _points(value: Any, name: str) -> tuple[Point, ...]:
+    if not isinstance(value, Iterable):
+        raise TraceError(f"{name} must be a list of pixels (x, y), not {value!r}")
+    return tuple(_numbers(point, name) for point in value)
+
+
+_CHECKS: dict[str, Callable[[Any, str], Any]] = {
+    "background": _color,
+    "threshold": partial(_number, high=1),
+    "component": _whole,
+    "max_vertices": partial(_whole, least=3),
+    "max_edge": partial(_number, low=0.5),
+    **dict.fromkeys(("smoothing", "min_hole_area", "offset", "simplify", "min_edge"), _number),
+    **dict.fromkeys(("background_at", "component_at"), _numbers),
+    **dict.fromkeys(("keep_holes", "drop_holes"), _points),
+}
 
 
 def _strokes(
@@ -223,17 +221,15 @@ def _strokes(
             raise TraceError(
                 f"scribbles: the {name} mask must have the shape (h, w), not {strokes.shape}"
             )
-        mask = strokes.copy()
-        mask.setflags(write=False)
-        return mask
+        return read_only(strokes.copy())
     lines = []
     for i, stroke in enumerate(strokes):
-        line = np.array(stroke, dtype=np.float64)
-        if line.ndim != 2 or line.shape[1] != 2 or not len(line) or not np.isfinite(line).all():
-            raise TraceError(
-                f"scribbles: {name} stroke {i} must be a (k, 2) array of finite pixel coordinates "
-                "(x, y); for a mask use an array of bool"
-            )
-        line.setflags(write=False)
-        lines.append(line)
+        wanted = (
+            f"scribbles: {name} stroke {i} must be a (k, 2) array of finite pixel coordinates "
+            "(x, y); for a mask use an array of bool"
+        )
+        line = number_pairs(stroke, wanted, TraceError)
+        if not len(line) or not np.isfinite(line).all():
+            raise TraceError(wanted)
+        lines.append(read_only(line))
     return tuple(lines)

@@ -1,19 +1,24 @@
-"""The outline of one component, with sub-pixel accuracy."""
+"""The connected components of a foreground, and the outline of one with sub-pixel accuracy."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.ndimage import label
+from scipy.ndimage import find_objects, label
 from skimage.measure import block_reduce, find_contours
 
+from glid_nb._arguments import read_only
 from glid_nb.geometry._loops import signed_area
-from glid_nb.imaging.components import Component, Components
+from glid_nb.imaging.errors import TraceError
 from glid_nb.imaging.foreground import Foreground
+from glid_nb.imaging.frame import PixelFrame
+from glid_nb.imaging.options import Point
 
+_LISTED = 50  # components that are described
 _PRECISION = 0.05  # pixels; vertices that change the outline by less are dropped
 _SPECK_SHARE, _SPECK = 1e-5, 4  # smaller holes, relative to the component and in pixels, are noise
 _MOST_HOLES = 100
@@ -21,6 +26,88 @@ _MOST_HOLES = 100
 # a lower resolution. A drawing of 8,000 px has some 30,000.
 _NOISY, _ROUGH = 20_000, 100_000
 _LEAST_DIFFERENCE = 0.02  # between a pixel and the level, relative to the level
+
+
+@dataclass(frozen=True)
+class Component:
+    """A connected part of the foreground.
+
+    Attributes
+    ----------
+    rank
+        By area, from 0 for the largest.
+    area
+        Number of pixels.
+    bounds
+        Bounding box (xmin, ymin, xmax, ymax) in pixel coordinates.
+    pixel
+        Centre (x, y) of one of its pixels.
+    """
+
+    rank: int
+    area: int
+    bounds: tuple[int, int, int, int]
+    pixel: Point
+
+
+@dataclass(frozen=True, eq=False)
+class Components:
+    """All components of a foreground, the largest first.
+
+    Pixels that share a side or a corner are connected.
+    """
+
+    found: NDArray[np.int32]  # (h, w) labels, 0 in the background
+    labels: NDArray[np.intp]  # (n,) the label of each component
+    areas: NDArray[np.intp]  # (n,) in pixels, descending
+    boxes: list[tuple[slice, slice]]  # (n,) rows and columns, by label
+
+    @cached_property
+    def largest(self) -> tuple[Component, ...]:
+        """At most fifty."""
+        return tuple(map(self._described, range(min(len(self.areas), _LISTED))))
+
+    def component(self, rank: int) -> Component:
+        """The component of a rank; a TraceError if there is none."""
+        if not 0 <= rank < (count := len(self.areas)):
+            components, are = ("component", "is") if count == 1 else ("components", "are")
+            raise TraceError(
+                f"component {rank} does not exist: the foreground has {count} {components}, "
+                "counted from 0, the largest",
+                f"The component that was chosen is gone, {count} {are} left; choose another",
+            )
+        return self.largest[rank] if rank < _LISTED else self._described(rank)
+
+    def _described(self, rank: int) -> Component:
+        rows, columns = self.boxes[self.labels[rank] - 1]
+        left = columns.start + int(np.argmax(self.found[rows.start, columns] == self.labels[rank]))
+        bounds = columns.start, rows.start, columns.stop, rows.stop
+        return Component(rank, int(self.areas[rank]), bounds, (left + 0.5, rows.start + 0.5))
+
+    def rank_at(self, point: Point) -> int:
+        """Rank of the component at a point (x, y) in pixel coordinates; a TraceError if none."""
+        height, width = self.found.shape
+        row, column = PixelFrame(width=width, height=height).index_at(point, "component_at")
+        found = self.found[row, column]
+        if found == 0:
+            raise TraceError(
+                f"component_at: the pixel ({point[0]:g}, {point[1]:g}) is background; pick a pixel "
+                "of the shape",
+                "There is only background at the place that was picked; pick a place on the shape",
+            )
+        return int(np.flatnonzero(self.labels == found)[0])
+
+
+def find_components(mask: NDArray[np.bool_]) -> Components:
+    """Label the components of an (h, w) mask that is not empty."""
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    box = slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
+    found = np.zeros(mask.shape, dtype=np.int32)
+    count = label(mask[box], np.ones((3, 3)), output=found[box])
+    areas = np.bincount(found[box].ravel())[1:]
+    order = np.argsort(-areas, kind="stable")
+    boxes = [box] if count == 1 else find_objects(found)
+    return Components(found, order + 1, areas[order], boxes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +123,7 @@ class Outline:
     holes: tuple[NDArray[np.float64], ...]  # the largest first
     n_specks: int  # holes that were filled, as noise or as not among the hundred largest
     speck: float  # square pixels; smaller holes are noise
-    block: int  # side in pixels of the blocks traced as one; above 1 for very rough outlines
+    notes: tuple[str, ...]
     inside: NDArray[np.bool_]  # (h, w) the pixels in the component or in a speck
 
 
@@ -75,7 +162,12 @@ def find_outline(
     inside = np.zeros(components.found.shape, dtype=bool)
     inside[crop] = part
     n_specks = specks + len(loops) - len(chosen)
-    return Outline(component, exterior, tuple(holes), n_specks, least, block, inside)
+    notes = (
+        f"the outline is very rough: it was traced in blocks of {block} x {block} pixels; more "
+        "smoothing, or another way to find the foreground, may help",
+    )
+    notes = notes if block > 1 else ()
+    return Outline(component, exterior, tuple(holes), n_specks, least, notes, inside)
 
 
 def _steps(inside: NDArray[np.bool_]) -> int:
@@ -129,6 +221,4 @@ def thinned(polygon: shapely.Polygon, tolerance: float) -> shapely.Polygon:
 
 def ring_loop(ring: shapely.LinearRing) -> NDArray[np.float64]:
     """(n, 2) read-only vertices of a ring, without the repeated last one."""
-    loop = shapely.get_coordinates(ring)[:-1]
-    loop.setflags(write=False)
-    return loop
+    return read_only(shapely.get_coordinates(ring)[:-1])

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
 import io
 import os
 import re
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from PIL import Image, ImageOps, UnidentifiedImageError
 from PIL.TiffImagePlugin import TiffImageFile
 
+from glid_nb._errors import about
 from glid_nb.imaging.errors import TraceError
 
 MAX_SIDE = 8000
@@ -29,7 +28,7 @@ RGBA = NDArray[np.uint8] | NDArray[np.uint16]
 _TIFF_STARTS = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 _BITS_PER_SAMPLE = 258  # the TIFF tag
 _ADDRESS = re.compile(r"([a-z][a-z0-9+.-]+):/{1,2}(.*)", re.IGNORECASE | re.DOTALL)
-_ROWS = 256  # rows per block where a whole picture in float would need gigabytes
+_ROWS = 256  # per block where a whole picture in float would need gigabytes
 
 
 def read_image(source: ImageSource, name: str | None = None) -> RGBA:
@@ -55,26 +54,20 @@ def read_image(source: ImageSource, name: str | None = None) -> RGBA:
         The file is missing, damaged or not a picture, the path is a URL, or the picture is empty
         or too large.
     """
-    if isinstance(source, Image.Image):
-        return _from_pillow(source, name or "the PIL image")
     if isinstance(source, (str, os.PathLike)):
-        address = _ADDRESS.match(str(source))
-        if address:
-            scheme, rest = address.groups()  # a Path keeps one slash of two
-            raise TraceError(
-                f"{scheme}://{rest} is an address, and only files are read; download the picture "
-                "and give the path of its file, or give its bytes"
-            )
-        path = Path(source)
-        try:
-            data = path.read_bytes()
-        except FileNotFoundError as error:
-            raise TraceError(f"{path}: there is no such file") from error
-        except OSError as error:
-            raise TraceError(f"{path} cannot be read: {error.strerror or error}") from error
-        return _decode(data, name or str(path))
-    if isinstance(source, (bytes, bytearray, memoryview)):
-        return _decode(bytes(source), name or "the picture")
+        name, source = name or str(Path(source)), _bytes_of(source)
+    try:
+        if isinstance(source, Image.Image):
+            return _from_pillow(source, name or "the PIL image")
+        if isinstance(source, (bytes, bytearray, memoryview)):
+            name = name or "the picture"
+            return _decode(bytes(source), name)
+    except TraceError:
+        raise
+    except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
+        raise TraceError(f"{name} is too large ({error}); scale it down first") from error
+    except Exception as error:  # decoders raise errors of any type
+        raise TraceError(f"{name} is damaged or cut short: {error}") from error
     return as_rgba(source)
 
 
@@ -135,11 +128,7 @@ def as_rgba8(image: ArrayLike) -> NDArray[np.uint8]:
     rgba = as_rgba(image)
     if rgba.dtype == np.uint8:
         return rgba.view(np.uint8)
-    rounded = np.empty(rgba.shape, dtype=np.uint8)
-    for start in range(0, len(rgba), _ROWS):
-        rows = slice(start, start + _ROWS)
-        rounded[rows] = (rgba[rows].astype(np.uint32) + 128) // 257
-    return rounded
+    return (rgba // 257 + (rgba % 257 > 128)).astype(np.uint8)
 
 
 def check_size(width: int, height: int, name: str = "the image") -> None:
@@ -168,52 +157,52 @@ def _from_float(array: NDArray[Any]) -> NDArray[np.uint16]:
     result = np.empty(array.shape, dtype=np.uint16)
     for start in range(0, len(array), _ROWS):
         block = array[start : start + _ROWS].astype(np.float64)
-        result[start : start + _ROWS] = np.rint(np.clip(block, 0, 1) * 65535)
+        result[start : start + _ROWS] = np.rint(block.clip(0, 1) * 65535)
     return result
 
 
-@contextlib.contextmanager
-def _naming(name: str) -> Iterator[None]:
-    """Turn errors of decoders, which may be of any type, into a TraceError."""
+def _bytes_of(path: str | os.PathLike[str]) -> bytes:
+    if address := _ADDRESS.match(str(path)):
+        scheme, rest = address.groups()  # a Path keeps one slash of two
+        raise TraceError(
+            f"{scheme}://{rest} is an address, and only files are read; download the picture "
+            "and give the path of its file, or give its bytes"
+        )
+    path = Path(path)
     try:
-        yield
-    except TraceError:
-        raise
-    except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
-        raise TraceError(f"{name} is too large ({error}); scale it down first") from error
-    except Exception as error:
-        raise TraceError(f"{name} is damaged or cut short: {error}") from error
+        return path.read_bytes()
+    except FileNotFoundError as error:
+        raise TraceError(f"{path}: there is no such file") from error
+    except OSError as error:
+        raise TraceError(f"{path} cannot be read: {error.strerror or error}") from error
 
 
 def _decode(data: bytes, name: str) -> RGBA:
     if not data:
         raise TraceError(f"{name} is empty")
-    with _naming(name):
-        try:
-            picture = Image.open(io.BytesIO(data))
-        except UnidentifiedImageError as error:
-            if data.startswith(_TIFF_STARTS):
-                return _from_tifffile(data, name)  # formats that Pillow does not know
-            raise TraceError(
-                f"{name} is not in a picture format that can be read; save it as PNG or JPEG first"
-            ) from error
+    try:
+        picture = Image.open(io.BytesIO(data))
+    except UnidentifiedImageError as error:
+        if data.startswith(_TIFF_STARTS):
+            return _from_tifffile(data, name)  # formats that Pillow does not know
+        raise TraceError(
+            f"{name} is not in a picture format that can be read; save it as PNG or JPEG first"
+        ) from error
+    with picture:
         tags = picture.tag_v2 if isinstance(picture, TiffImageFile) else {}
-        bits = max(tags.get(_BITS_PER_SAMPLE, (8,)))
-        if picture.mode in ("RGB", "RGBA") and bits > 8:
+        if picture.mode in ("RGB", "RGBA") and max(tags.get(_BITS_PER_SAMPLE, (8,))) > 8:
             return _from_tifffile(data, name)  # Pillow would round to 8 bit
-        with picture:
-            return _from_pillow(picture, name)
+        return _from_pillow(picture, name)
 
 
 def _from_pillow(picture: Image.Image, name: str) -> RGBA:
     if 0 in picture.size:
         raise TraceError(f"{name} is empty: it has {picture.width} x {picture.height} pixels")
     check_size(*picture.size, name)  # before the pixels are decoded
-    with _naming(name):
-        picture = ImageOps.exif_transpose(picture)
-        if picture.mode == "F" or picture.mode.startswith("I"):
-            return _from_array(np.asarray(picture), name)
-        return np.array(picture.convert("RGBA"))
+    picture = ImageOps.exif_transpose(picture)
+    if picture.mode == "F" or picture.mode.startswith("I"):
+        return _from_array(np.asarray(picture), name)
+    return np.array(picture.convert("RGBA"))
 
 
 def _from_tifffile(data: bytes, name: str) -> RGBA:
@@ -235,7 +224,5 @@ def _from_array(array: NDArray[Any], name: str) -> RGBA:
                 f"{name}: the grey values run from {low} to {high}; only 8 and 16 bit are supported"
             )
         array = array.astype(np.uint16)
-    try:
+    with about(name, TraceError):
         return as_rgba(array)
-    except TraceError as error:
-        raise TraceError(f"{name}: {error}") from error

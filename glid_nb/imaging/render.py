@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 import shapely
@@ -12,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.errors import RenderError
 from glid_nb.imaging.frame import PixelFrame
-from glid_nb.imaging.mesh import DeformedMesh, deformed_mesh
+from glid_nb.imaging.mesh import DeformedMesh, deformed_loops, deformed_mesh
 from glid_nb.imaging.rasterise import render_mesh
 from glid_nb.imaging.texture import Texture
 
@@ -21,62 +20,25 @@ View = Literal["source", "fit"]
 _TOLERANCE_PX = 0.25  # straight mesh edges may stray from the map by this many output pixels
 _PIXELS_PER_VERTEX = 500  # output pixels per vertex of the mesh before refinement
 _EVEN_VERTICES = 1000, 8000  # least and most of these vertices
+_MOST_PIXELS = 1 << 30
 _MARGIN = 0.04  # room around the shape with view="fit", as a share of the output's sides
 _OVERHANG = 2.0  # world units by which a cage may reach beyond its picture, due to its offset
 
 
-@dataclass(frozen=True)
-class OutputFrame:
-    """The similarity transform from world coordinates to the pixels of an output picture.
-
-    Parameters
-    ----------
-    size : (w, h)
-        Pixels.
-    pixels_per_unit : float
-        Scale, output pixels per world unit.
-    centre : (x, y)
-        World coordinates at the middle of the picture.
-    """
-
-    size: tuple[int, int]
-    pixels_per_unit: float
-    centre: tuple[float, float]
-
-    def to_pixel(self, world: ArrayLike) -> NDArray[np.float64]:
-        """Continuous pixel coordinates of world coordinates; shape (k, 2) in and out."""
-        offset = (np.asarray(world, dtype=np.float64) - self.centre) * self.pixels_per_unit
-        return np.array(self.size) / 2 + offset * [1, -1]
-
-    @property
-    def bounds(self) -> tuple[float, float, float, float]:
-        """The rectangle shown, (xmin, ymin, xmax, ymax) in world units."""
-        half = np.array(self.size) / (2 * self.pixels_per_unit)
-        low, high = self.centre - half, self.centre + half
-        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
-
-
-@dataclass(frozen=True, eq=False)
-class Rendering:
-    """A warped picture and how it was made.
-
-    Attributes
-    ----------
-    picture : (h, w, 4) uint8 array
-        RGBA, straight alpha.
-    frame : OutputFrame
-    mesh : DeformedMesh
-    outside : float
-        Share of the deformed shape's area outside the frame, from 0 to 1.
-    error_px : float
-        How far the mesh's straight edges stray from the map, output pixels.
-    """
+class Rendering(NamedTuple):
+    """A warped picture, its frame, and the mesh that was drawn."""
 
     picture: NDArray[np.uint8]
-    frame: OutputFrame
+    frame: PixelFrame
     mesh: DeformedMesh
-    outside: float
-    error_px: float
+
+    @property
+    def outside(self) -> float:
+        """Share of the deformed shape's area outside the frame, from 0 to 1."""
+        triangles = shapely.polygons(self.mesh.images[self.mesh.triangles])
+        area = shapely.area(triangles)
+        inside = shapely.area(shapely.clip_by_rect(triangles, *self.frame.bounds))
+        return float(np.maximum(area - inside, 0).sum() / area.sum())
 
 
 def render(
@@ -86,23 +48,6 @@ def render(
     n_vertices: int | None = None,
     view: View = "source",
 ) -> NDArray[np.uint8]:
-    """Warp a picture through a map; see `rendering`, whose ``picture`` this is.
-
-    Returns
-    -------
-    (h, w, 4) uint8 array
-        RGBA with straight alpha, transparent where the deformed shape is not.
-    """
-    return rendering(image, map, size, n_vertices, view).picture
-
-
-def rendering(
-    image: ArrayLike | Texture,
-    map: HarmonicMap,
-    size: tuple[int, int] | None = None,
-    n_vertices: int | None = None,
-    view: View = "source",
-) -> Rendering:
     """Warp a picture through a map.
 
     Parameters
@@ -120,42 +65,53 @@ def rendering(
         Show the rectangle of the image, letter-boxed if ``size`` has another aspect ratio; or all
         of the deformed shape, with a margin.
 
+    Returns
+    -------
+    (h, w, 4) uint8 array
+        RGBA with straight alpha, transparent where the deformed shape is not.
+
     Raises
     ------
     RenderError
         An argument is out of range, the map's cage does not fit the picture, or the map collapses
         the shape; the message says which.
     """
+    return rendering(image, map, size, n_vertices, view).picture
+
+
+def rendering(
+    image: ArrayLike | Texture,
+    map: HarmonicMap,
+    size: tuple[int, int] | None = None,
+    n_vertices: int | None = None,
+    view: View = "source",
+) -> Rendering:
+    """`render`, with the frame and the mesh too."""
     if view not in get_args(View):
         raise RenderError(f"unknown view {view!r}; choose one of {', '.join(get_args(View))}")
-    texture = image if isinstance(image, Texture) else Texture.from_image(image)
-    source = PixelFrame(texture.width, texture.height)
-    width, height = (texture.width, texture.height) if size is None else size
+    texture = Texture.from_image(image)
+    source = PixelFrame(*texture.size)
+    width, height = texture.size if size is None else size
     if min(width, height) < 1:
         raise RenderError(f"size is {width} x {height} pixels; both sides must be at least 1")
-
+    if width * height >= _MOST_PIXELS:
+        raise RenderError(f"size is {width} x {height} pixels; at most 2^30 pixels can be drawn")
     _check_fits(source, map)
-    xmin, ymin, xmax, ymax = source.bounds
-    margin = 0.0
+    shown, margin = np.reshape(source.bounds, (2, 2)), 0.0
     if view == "fit":
-        outline = map(outline_points(map))
-        (xmin, ymin), (xmax, ymax) = outline.min(axis=0), outline.max(axis=0)
-        margin = _MARGIN
-    if xmax <= xmin or ymax <= ymin:
+        exterior = deformed_loops(map)[0]
+        shown, margin = np.stack([exterior.min(axis=0), exterior.max(axis=0)]), _MARGIN
+    if np.ptp(shown, axis=0).min() <= 0:
         raise RenderError(
             "the map collapses the shape to a point or a line; there is nothing to show"
         )
-    scale = float(min(width / (xmax - xmin), height / (ymax - ymin))) * (1 - 2 * margin)
-    centre = float(xmin + xmax) / 2, float(ymin + ymax) / 2
-    frame = OutputFrame((int(width), int(height)), scale, centre)
-
+    frame = PixelFrame(width, height).showing(shown, margin)
     if n_vertices is None:
         even = int(np.clip(width * height / _PIXELS_PER_VERTEX, *_EVEN_VERTICES))
-        mesh = deformed_mesh(map, even, _TOLERANCE_PX / scale)
+        mesh = deformed_mesh(map, even, _TOLERANCE_PX * frame.units_per_pixel)
     else:
         mesh = deformed_mesh(map, n_vertices)
-    picture = draw_mesh(texture, mesh, frame)
-    return Rendering(picture, frame, mesh, _share_outside(mesh, frame), mesh.error * scale)
+    return Rendering(draw_mesh(texture, mesh, frame), frame, mesh)
 
 
 def _check_fits(frame: PixelFrame, map: HarmonicMap) -> None:
@@ -172,46 +128,8 @@ def _check_fits(frame: PixelFrame, map: HarmonicMap) -> None:
         )
 
 
-def draw_mesh(
-    texture: ArrayLike | Texture,
-    mesh: DeformedMesh,
-    frame: OutputFrame,
-    places: NDArray[np.float64] | None = None,
-) -> NDArray[np.uint8]:
-    """The RGBA pixels of a textured mesh.
-
-    ``places`` (v, 2) are the vertices in the texture, pixels; by default their undeformed positions
-    in the picture that the cage was traced from.
-    """
-    texture = texture if isinstance(texture, Texture) else Texture.from_image(texture)
-    if places is None:
-        places = PixelFrame(texture.width, texture.height).to_pixel(mesh.vertices)
-    positions = frame.to_pixel(mesh.images)
-    return render_mesh(texture, places, positions, mesh.triangles, frame.size, mesh.heights)
-
-
-def outline_points(map: HarmonicMap) -> NDArray[np.float64]:
-    """Points on the exterior loop, dense enough to bound the deformed shape."""
-    return along_loop(map.domain.cage.exterior, 16)
-
-
-def along_loop(loop: NDArray[np.float64], per_edge: int) -> NDArray[np.float64]:
-    """(n * per_edge, 2) points along a polygon (n, 2), evenly spread on each edge."""
-    t = np.linspace(0, 1, per_edge, endpoint=False)[:, None]
-    return (loop[:, None] + t * (np.roll(loop, -1, axis=0) - loop)[:, None]).reshape(-1, 2)
-
-
-def _share_outside(mesh: DeformedMesh, frame: OutputFrame) -> float:
-    corners = mesh.images[mesh.triangles]
-    e = corners[:, 1:] - corners[:, :1]
-    area = np.abs(e[:, 0, 0] * e[:, 1, 1] - e[:, 0, 1] * e[:, 1, 0]) / 2
-    low, high = corners.min(axis=1), corners.max(axis=1)
-    xmin, ymin, xmax, ymax = frame.bounds
-    out = ((high <= [xmin, ymin]) | (low >= [xmax, ymax])).any(axis=1)
-    cut = ~out & ((low < [xmin, ymin]) | (high > [xmax, ymax])).any(axis=1)
-    lost = area[out].sum()
-    if cut.any():
-        rings = np.concatenate([corners[cut], corners[cut][:, :1]], axis=1)
-        kept = shapely.area(shapely.clip_by_rect(shapely.polygons(rings), xmin, ymin, xmax, ymax))
-        lost += np.maximum(area[cut] - kept, 0).sum()
-    return float(lost / area.sum()) if area.sum() > 0 else 0.0
+def draw_mesh(texture: Texture, mesh: DeformedMesh, frame: PixelFrame) -> NDArray[np.uint8]:
+    """The RGBA pixels of a deformed mesh whose cage was traced from the texture."""
+    places = PixelFrame(*texture.size).to_pixel(mesh.vertices)
+    positions, size = frame.to_pixel(mesh.images), (frame.width, frame.height)
+    return render_mesh(texture, places, positions, mesh.triangles, size, mesh.heights)

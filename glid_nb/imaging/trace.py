@@ -12,14 +12,18 @@ from numpy.typing import NDArray
 
 from glid_nb._arguments import check_keywords
 from glid_nb.geometry import Cage
-from glid_nb.imaging.components import Component, Components, find_components
-from glid_nb.imaging.dilate import Dilation, dilate
 from glid_nb.imaging.errors import TraceError
 from glid_nb.imaging.foreground import Foreground, find_foreground, scaled_picture, smoothed
 from glid_nb.imaging.frame import PixelFrame
-from glid_nb.imaging.holes import Hole, choose_holes, filled_mask
+from glid_nb.imaging.holes import Dilation, Hole, choose_holes, dilate, filled_mask
 from glid_nb.imaging.options import TraceOptions
-from glid_nb.imaging.outline import Outline, find_outline
+from glid_nb.imaging.outline import (
+    Component,
+    Components,
+    Outline,
+    find_components,
+    find_outline,
+)
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.imaging.simplify import Simplified, simplify
 
@@ -143,12 +147,12 @@ class Tracer:
         holes, rule, hole_notes = self._stage("holes", choose_holes, outline, *hole_options)
         mask = self._stage("mask", filled_mask, outline, holes)
         dilation = self._stage("dilation", dilate, outline, holes, rule, o.offset)
-        size_options = (o.simplify, o.max_vertices, o.min_edge, o.max_edge)
-        simplified, cage = self._stage("cage", self._cage, dilation, *size_options)
+        sizes = tuple((name, getattr(o, name)) for name in ("max_vertices", "min_edge", "max_edge"))
+        simplified, cage = self._stage("cage", self._cage, dilation, o.simplify, sizes)
         notes = (
             *foreground.notes,
             *_component_notes(components, rank, o),
-            *_roughness_notes(outline),
+            *outline.notes,
             *hole_notes,
             *dilation.notes,
             *simplified.notes,
@@ -165,7 +169,7 @@ class Tracer:
             simplify=simplified.tolerance,
             component=outline.component,
             components=components.largest,
-            n_components=components.n_components,
+            n_components=len(components.areas),
             outline=outline.exterior,
             holes=dilation.listed,
         )
@@ -181,22 +185,10 @@ class Tracer:
         return self._stage("scaled", scaled_picture, self.image)
 
     def _cage(
-        self,
-        dilation: Dilation,
-        tolerance: float | None,
-        max_vertices: int | None,
-        min_edge: float | None,
-        max_edge: float | None,
+        self, dilation: Dilation, tolerance: float | None, sizes: tuple[tuple[str, Any], ...]
     ) -> tuple[Simplified, Cage]:
-        simplified = simplify(
-            (dilation.exterior, *dilation.holes),
-            tolerance,
-            offset=dilation.offset,
-            room=dilation.least_offset,
-            max_vertices=max_vertices,
-            min_edge=min_edge,
-            max_edge=max_edge,
-        )
+        loops, room = (dilation.exterior, *dilation.holes), dilation.least_offset
+        simplified = simplify(loops, tolerance, offset=dilation.offset, room=room, **dict(sizes))
         to_world = self.frame.to_world
         return simplified, Cage(to_world(simplified.exterior), map(to_world, simplified.holes))
 
@@ -209,24 +201,14 @@ class Tracer:
 
 def _component_notes(components: Components, rank: int, options: TraceOptions) -> list[str]:
     """A note if much of the foreground is left out and no component was chosen."""
-    others = components.areas.sum() - components.areas[rank]
-    share = others / components.areas.sum()
+    share = 1 - components.areas[rank] / components.areas.sum()
     if options.component_at is not None or options.component or share < _LEFT_OUT:
         return []
-    count = components.n_components - 1
-    return [
-        f"{count} smaller {'component' if count == 1 else 'components'}, {share:.0%} of the "
-        f"foreground, {'was' if count == 1 else 'were'} left out"
-    ]
-
-
-def _roughness_notes(outline: Outline) -> list[str]:
-    if outline.block == 1:
-        return []
-    return [
-        f"the outline is very rough: it was traced in blocks of {outline.block} x {outline.block} "
-        "pixels; more smoothing, or another way to find the foreground, may help"
-    ]
+    count = len(components.areas) - 1
+    left_out = f"component, {share:.0%} of the foreground, was left out"
+    if count > 1:
+        left_out = f"components, {share:.0%} of the foreground, were left out"
+    return [f"{count} smaller {left_out}"]
 
 
 def _coverage_notes(outline: Outline, holes: tuple[Hole, ...], simplified: Simplified) -> list[str]:

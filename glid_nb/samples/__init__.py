@@ -12,7 +12,8 @@ name            holes  shows
 ==============  =====  ====================================================
 
 The pictures are RGBA with a transparent background. In a checkout
-``python -m studies.samples.draw`` draws them again.
+``python -m studies.samples.draw`` draws them again. For a name or kind that does not exist every
+function raises SampleError, which lists those that do.
 """
 
 from __future__ import annotations
@@ -42,26 +43,14 @@ def names() -> tuple[str, ...]:
 
 
 def path(name: str) -> Path:
-    """The PNG file of a sample.
-
-    Raises
-    ------
-    SampleError
-        There is no sample of that name.
-    """
+    """The PNG file of a sample."""
     if name not in _NAMES:
         raise SampleError(f"there is no sample {name!r}: choose one of {', '.join(_NAMES)}")
     return _PICTURES / f"{name}.png"
 
 
 def image(name: str) -> NDArray[np.uint8]:
-    """(h, w, 4) RGBA pixels of a sample, not premultiplied, row 0 at the top.
-
-    Raises
-    ------
-    SampleError
-        There is no sample of that name.
-    """
+    """(h, w, 4) RGBA pixels of a sample, not premultiplied, row 0 at the top."""
     with Image.open(path(name)) as picture:
         return np.array(picture.convert("RGBA"))
 
@@ -70,11 +59,6 @@ def pose_path(name: str, kind: PoseKind) -> Path:
     """The JSON file of a sample's pose, "gentle" or "extreme".
 
     It holds `handles` and `targets`, lists of [x, y] in world coordinates, and `description`.
-
-    Raises
-    ------
-    SampleError
-        There is no sample of that name, or no pose of that kind.
     """
     kinds = get_args(PoseKind)
     if kind not in kinds:

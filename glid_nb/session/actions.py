@@ -18,7 +18,8 @@ from glid_nb._arguments import real_array
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.session.edit_state import EditedPose, EditError, EditState
+from glid_nb.session.document import NamedPose
+from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.solvers import Method, Pose
 
 Array = NDArray[Any]
@@ -45,19 +46,19 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
             raise EditError(f"there already is a handle at {_text(point)}")
     wanted = _places_now(state, points) if targets is None else _points(targets, "to")
     handles = np.concatenate([pose.handles, points])
-    return _with_pose(state, Pose(handles, np.concatenate([pose.targets, wanted])))
+    return state.changed(pose=Pose(handles, np.concatenate([pose.targets, wanted])))
 
 
 def remove_handles(state: EditState, indices: Iterable[int]) -> EditState:
     """Remove some handles."""
     chosen = _checked_indices(state, indices)
     kept = np.setdiff1d(np.arange(len(state.pose)), chosen)
-    return _with_pose(state, Pose(state.pose.handles[kept], state.pose.targets[kept]))
+    return state.changed(pose=Pose(state.pose.handles[kept], state.pose.targets[kept]))
 
 
 def clear_handles(state: EditState) -> EditState:
     """Remove all handles; the shape relaxes."""
-    return _with_pose(state, Pose([], []))
+    return state.changed(pose=Pose([], []))
 
 
 def move_targets(state: EditState, indices: Iterable[int], targets: ArrayLike) -> EditState:
@@ -67,7 +68,7 @@ def move_targets(state: EditState, indices: Iterable[int], targets: ArrayLike) -
     if len(wanted) not in (1, len(chosen)):
         raise EditError(f"to holds {len(wanted)} points for {len(chosen)} handles; give one each")
     moved[chosen] = wanted
-    return _with_pose(state, state.pose.with_targets(moved))
+    return state.changed(pose=state.pose.with_targets(moved))
 
 
 def move_target(state: EditState, handle: int, to: ArrayLike) -> EditState:
@@ -84,40 +85,39 @@ def nudge(state: EditState, indices: Iterable[int], delta: ArrayLike) -> EditSta
 def reset(state: EditState) -> EditState:
     """The undeformed shape: the identity map, and every target on its handle."""
     pose = state.pose.with_targets(state.pose.handles)
-    current = state.current.changed(pose=pose, map=HarmonicMap.identity(state.domain))
-    return state.with_current(current)
+    return state.changed(pose=pose, map=HarmonicMap.identity(state.domain))
 
 
 def set_energy(state: EditState, energy: Energy) -> EditState:
     """Minimise another energy; refused when the method cannot minimise it."""
     state.current.method.check(energy)
-    return state.with_current(state.current.changed(energy=energy))
+    return state.changed(energy=energy)
 
 
 def set_options(state: EditState, **changes: Any) -> EditState:
     """Solve with other options; their names are those of :class:`~glid_nb.solvers.Options`."""
     options = replace(state.current.options, **changes)
-    return state.with_current(state.current.changed(options=options))
+    return state.changed(options=options)
 
 
 def set_method(state: EditState, method: Method | str, **settings: Any) -> EditState:
     """Solve by another of :mod:`glid_nb.methods`, or its name; refused when it cannot run."""
     method = methods.by_name(method, **settings) if isinstance(method, str) else method
     method.check(state.current.energy)
-    return state.with_current(state.current.changed(method=method))
+    return state.changed(method=method)
 
 
 def set_pose(state: EditState, pose: Pose) -> EditState:
     """Replace all handles and targets; the shape stays until the solver moves it."""
     pose.check_inside(state.domain)
-    return _with_pose(state, pose)
+    return state.changed(pose=pose)
 
 
 def set_domain(state: EditState, domain: Domain) -> EditState:
     """Replace the domain: all poses keep the handles inside it and restart at the identity."""
     identity = HarmonicMap.identity(domain)
 
-    def moved(pose: EditedPose) -> EditedPose:
+    def moved(pose: NamedPose) -> NamedPose:
         inside = domain.cage.contains(pose.pose.handles)
         kept = Pose(pose.pose.handles[inside], pose.pose.targets[inside])
         return pose.changed(pose=kept, map=identity)
@@ -131,12 +131,12 @@ def drop_hole(state: EditState, index: int) -> EditState:
     if not 0 <= index < old.n_holes:
         raise EditError(f"there is no hole {index + 1}; the domain has {old.n_holes}")
 
-    def others(values: Iterable[Any]) -> list[Any]:
-        return [value for i, value in enumerate(values) if i != index]
-
-    cage = Cage(old.cage.exterior, others(old.cage.holes))
-    offset_cage = Cage(old.offset_cage.exterior, others(old.offset_cage.holes))
-    return set_domain(state, Domain(cage, offset_cage, others(old.hole_points), old.notes))
+    cage, offset_cage = (
+        Cage(whole.exterior, (*whole.holes[:index], *whole.holes[index + 1 :]))
+        for whole in (old.cage, old.offset_cage)
+    )
+    points = np.delete(old.hole_points, index, axis=0)
+    return set_domain(state, Domain(cage, offset_cage, points, old.notes))
 
 
 def save_pose(state: EditState, name: str | None = None) -> EditState:
@@ -174,13 +174,9 @@ def go_to_pose(state: EditState, index: int) -> EditState:
     return replace(state, active=_checked_pose(state, index))
 
 
-def _with_inserted(state: EditState, index: int, pose: EditedPose) -> EditState:
+def _with_inserted(state: EditState, index: int, pose: NamedPose) -> EditState:
     poses = (*state.poses[:index], pose, *state.poses[index:])
     return replace(state, poses=poses, active=index)
-
-
-def _with_pose(state: EditState, pose: Pose) -> EditState:
-    return state.with_current(state.current.changed(pose=pose))
 
 
 def _points(values: ArrayLike, name: str) -> Array:

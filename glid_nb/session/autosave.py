@@ -16,94 +16,6 @@ INTERVAL = 3.0
 """Least number of seconds between two saves, by default."""
 
 
-class Autosave:
-    """Saves the document that was submitted last, at most once per interval.
-
-    A thread writes the file atomically and skips documents that a later one replaces. What is
-    pending is written when the process ends or this object is dropped. A file that another program
-    has changed is not touched again: later saves go to a new file beside it (`free_sibling`).
-
-    Parameters
-    ----------
-    path : path
-    interval : float
-        Least number of seconds between two saves; the first is made at once.
-    on_done : callable, optional
-        Called, in the thread, after each save: with the exception if it failed, else with None. The
-        next submission tries again.
-    """
-
-    def __init__(
-        self,
-        path: str | Path,
-        interval: float = INTERVAL,
-        on_done: Callable[[Exception | None], None] | None = None,
-    ) -> None:
-        if not interval >= 0:
-            raise ValueError(f"interval is {interval}; it must be at least 0 seconds")
-        self._file = _File(Path(path), on_done)
-        self._worker: LatestWins[Document] = LatestWins(
-            self._file.save, self, f"autosave {Path(path).name}", interval=interval, finish=True
-        )
-        _all.add(self)
-
-    @property
-    def path(self) -> Path:
-        """The file."""
-        return self._file.path
-
-    @property
-    def left(self) -> Path | None:
-        """The file that was given up because another program changed it; else None."""
-        return self._file.left
-
-    @property
-    def error(self) -> Exception | None:
-        """What went wrong with the last save; None when it went well."""
-        return self._file.error
-
-    @property
-    def n_saved(self) -> int:
-        """Number of saves that succeeded."""
-        return self._file.n_saved
-
-    def submit(self, document: Document) -> None:
-        """Save this document soon; returns at once."""
-        if self._worker.closed:
-            raise RuntimeError(f"the autosave of {self.path} is closed")
-        self._worker.submit(document)
-
-    def write(self, document: Document) -> None:
-        """Save this document now, in this thread, even if another program has changed the file.
-
-        Raises
-        ------
-        DocumentError, OSError
-            It cannot be written; what was there before stays.
-        """
-        self._worker.cancel()  # what is pending is older
-        try:
-            self._file.write(document)
-        except Exception:
-            self._worker.submit(document)
-            raise
-
-    def take_over(self) -> None:
-        """Accept the file as it is now, whoever wrote it."""
-        self._file.take_over()
-
-    def flush(self, timeout: float | None = None) -> bool:
-        """Save what is pending now; whether that ended, well or not, within ``timeout`` seconds."""
-        return self._worker.hurry(timeout)
-
-    def close(self) -> None:
-        """Save what is pending and end the thread; submitting is an error from then on."""
-        self._worker.close()
-
-
-_all: weakref.WeakSet[Autosave] = weakref.WeakSet()
-
-
 class OwnFiles:
     """The files that an editor wrote or opened, so that it replaces no others unasked.
 
@@ -136,11 +48,107 @@ class OwnFiles:
         )
 
 
+class SavedFile:
+    """The file of an `Autosave`; it holds no reference to that, so it does not keep it alive."""
+
+    def __init__(
+        self, path: Path, own: OwnFiles, on_done: Callable[[Exception | None], None] | None
+    ) -> None:
+        self.path, self.own, self._on_done = path, own, on_done
+        self.left: Path | None = None
+        """The file that was given up because another program changed it."""
+        self.error: Exception | None = None
+        """What went wrong with the last save; None when it went well."""
+        self.n_saved = 0
+        """Number of saves that succeeded."""
+        self._writing = threading.Lock()
+        own.note_session(path)
+
+    def save(self, document: Document, _: object) -> None:
+        """Write the file, or one beside it where another program has changed it."""
+        with self._writing:
+            self.error = None
+            try:
+                if self.own.strangers([self.path], self.path):
+                    self.left, self.path = self.path, free_sibling(self.path)
+                save_document(document, self.path)
+                if self.own.session == self.left:
+                    self.own.session = self.path
+                self.own.note([self.path], self.path)
+                self.n_saved += 1
+            except Exception as error:  # reported; the next submission tries again
+                self.error = error
+        if self._on_done is not None:
+            self._on_done(self.error)
+
+    def write(self, document: Document) -> None:
+        """Write the file, whoever has changed it."""
+        with self._writing:
+            save_document(document, self.path)
+            self.own.note([self.path], self.path)
+            self.error = None
+
+
+class Autosave:
+    """Saves the document that was submitted last, at most once per interval.
+
+    A thread writes the file atomically and skips documents that a later one replaces. What is
+    pending is written when the process ends or this object is dropped. A file that another program
+    has changed is not touched again: later saves go to a new file beside it (`free_sibling`).
+
+    Between two saves pass at least ``interval`` seconds; the first is made at once. After each
+    ``on_done`` is called, in the thread, with the exception if it failed, else with None; the next
+    submission tries again. The file as it is now becomes one of the ``own`` files.
+    """
+
+    def __init__(
+        self,
+        path: str | Path,
+        interval: float = INTERVAL,
+        on_done: Callable[[Exception | None], None] | None = None,
+        own: OwnFiles | None = None,
+    ) -> None:
+        if not interval >= 0:
+            raise ValueError(f"interval is {interval}; it must be at least 0 seconds")
+        self.file = SavedFile(Path(path), own or OwnFiles(), on_done)
+        """The file, and how its saves went."""
+        self._worker: LatestWins[Document] = LatestWins(
+            self.file.save, self, f"autosave {Path(path).name}", interval=interval, finish=True
+        )
+        _all.add(self)
+
+    def submit(self, document: Document) -> None:
+        """Save this document soon; returns at once."""
+        if self._worker.closed:
+            raise RuntimeError(f"the autosave of {self.file.path} is closed")
+        self._worker.submit(document)
+
+    def write(self, document: Document) -> None:
+        """Save this document now, in this thread, even if another program has changed the file."""
+        self._worker.cancel()  # what is pending is older
+        try:
+            self.file.write(document)
+        except Exception:
+            self._worker.submit(document)
+            raise
+
+    def flush(self, timeout: float | None = None) -> bool:
+        """Save what is pending now; whether that ended, well or not, within ``timeout`` seconds."""
+        return self._worker.hurry(timeout)
+
+    def close(self) -> None:
+        """Save what is pending and end the thread; submitting is an error from then on."""
+        self._worker.close()
+
+
+_all: weakref.WeakSet[Autosave] = weakref.WeakSet()
+
+
 def flush(path: str | Path) -> None:
     """Save what any editor of this process has pending for a file, before the file is read."""
     wanted = Path(path).resolve()
     for autosave in tuple(_all):
-        if autosave.path.resolve() == wanted:
+        if autosave.file.path.resolve() == wanted:
             autosave.flush()
 
 
@@ -148,43 +156,6 @@ def free_sibling(path: Path) -> Path:
     """The first of name-2, name-3, ... that does not exist."""
     others = (path.with_stem(f"{path.stem}-{number}") for number in itertools.count(2))
     return next(other for other in others if not other.exists())
-
-
-class _File:
-    """The file of an `Autosave`; it holds no reference to that, so it does not keep it alive."""
-
-    def __init__(self, path: Path, on_done: Callable[[Exception | None], None] | None) -> None:
-        self.path, self._on_done = path, on_done
-        self.left: Path | None = None
-        self.error: Exception | None = None
-        self.n_saved = 0
-        self._known = _version_of(path)
-        self._writing = threading.Lock()
-
-    def save(self, document: Document, _: object) -> None:
-        """Write the file, or one beside it where another program has changed it."""
-        failure: Exception | None = None
-        with self._writing:
-            try:
-                if _version_of(self.path) not in (None, self._known):
-                    self.left, self.path = self.path, free_sibling(self.path)
-                save_document(document, self.path)
-                self._known = _version_of(self.path)
-            except Exception as error:  # reported; the next submission tries again
-                failure = error
-            self.error = failure
-            self.n_saved += failure is None
-        if self._on_done is not None:
-            self._on_done(failure)
-
-    def write(self, document: Document) -> None:
-        with self._writing:
-            save_document(document, self.path)
-            self._known, self.error = _version_of(self.path), None
-
-    def take_over(self) -> None:
-        with self._writing:
-            self._known = _version_of(self.path)
 
 
 def _version_of(path: Path) -> tuple[int, ...] | None:

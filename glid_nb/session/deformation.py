@@ -14,19 +14,17 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb._arguments import check_type
 from glid_nb.certificate import Certificate
 from glid_nb.energies import Energy
-from glid_nb.geometry import Domain, MeshMap
+from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session import actions
 from glid_nb.session.document import certificate_of
-from glid_nb.session.edit_state import EditedPose, EditError, EditState, Solution
-from glid_nb.session.history import History
-from glid_nb.session.live_solver import Frame, LiveSolver, Task
-from glid_nb.session.moment import Moment
-from glid_nb.session.observed import Observed
-from glid_nb.session.point_finder import PointFinder
+from glid_nb.session.edit_state import EditError, EditState, Frame, Moment, Task
+from glid_nb.session.live_solver import LiveSolver
+from glid_nb.session.model import History, Observed
+from glid_nb.session.point_finder import find_source
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins
-from glid_nb.solvers import DeformationMap, Options, Pose
+from glid_nb.solvers import Options, Pose
 
 Array = NDArray[Any]
 P = ParamSpec("P")
@@ -82,52 +80,37 @@ class Deformation(Observed):
         *,
         begin: bool = True,
     ) -> None:
-        self._start(History(EditState.initial(domain, pose, energy, options)), begin)
-
-    @classmethod
-    def from_state(cls, state: EditState, *, begin: bool = True) -> Deformation:
-        """A deformation at a state, with an empty undo history."""
-        return cls.from_history(History(state), begin=begin)
-
-    @classmethod
-    def from_history(cls, history: History[EditState], *, begin: bool = True) -> Deformation:
-        """A deformation with the whole undo history of another one."""
-        new = cls.__new__(cls)
-        new._start(history.ended(), begin)
-        return new
-
-    def _start(self, history: History[EditState], begin: bool) -> None:
         super().__init__()
-        self._history = history
+        self.history = History(EditState.initial(domain, pose, energy, options))
+        """The undo history."""
+        self.selection: tuple[int, ...] = ()
+        """Indices of the selected handles."""
+        self.dragged: tuple[int, ...] = ()
+        """Indices of the handles that are being dragged, a gesture of the history."""
+        self.begun = False
+        """Whether the solver was ever asked for something."""
         self._chain = 0
-        # The handles that are dragged; they also name the drag as a gesture of the history.
-        self._held: tuple[int, ...] | None = None
-        self._selection: tuple[int, ...] = ()
         self._frame: Frame | None = None
         self._error: Exception | None = None
-        self._finder = PointFinder(history.present.domain)
         solver = LiveSolver(self._accept, self._fail)
         self._worker = LatestWins(solver.solve, self, "live solver")
-        self._begun = self._closed = False
+        self._closed = False
         if begin:
             self.begin()
+
+    @classmethod
+    def from_history(cls, history: History[EditState]) -> Deformation:
+        """A deformation at a state, with its undo history; the solver waits for :meth:`begin`."""
+        new = cls(history.present.domain, begin=False)
+        new.history = history.ended()
+        return new
 
     # State
 
     @property
-    def history(self) -> History[EditState]:
-        """The undo history."""
-        return self._history
-
-    @property
     def state(self) -> EditState:
         """The present domain and poses."""
-        return self._history.present
-
-    @property
-    def domain(self) -> Domain:
-        """The domain of all maps."""
-        return self.state.domain
+        return self.history.present
 
     @property
     def map(self) -> HarmonicMap:
@@ -140,73 +123,28 @@ class Deformation(Observed):
         return self.state.pose
 
     @property
-    def poses(self) -> tuple[EditedPose, ...]:
-        """The list of poses; ``state.active`` says which is edited."""
-        return self.state.poses
-
-    @property
     def moment(self) -> Moment:
         """The state and what the solver has made of it, at one moment."""
         with self._lock:
-            worker = self._worker
             return Moment(
                 self.state,
                 self._frame,
-                worker.busy,
-                worker.paused,
+                self._worker.busy,
+                self._worker.paused,
                 self._error,
-                self._selection,
+                self.selection,
                 self.dragged,
             )
 
     @property
-    def comparison(self) -> MeshMap | None:
-        """The map of a method on a mesh: see :attr:`Moment.comparison`."""
-        return self.moment.comparison
-
-    @property
-    def shown(self) -> DeformationMap:
-        """The map to draw: the comparison, or the certified map."""
-        return self.moment.shown
-
-    @property
-    def solution(self) -> Solution | None:
-        """How the solve of the present pose ended; None before."""
-        return self.moment.solution
-
-    @property
-    def solved(self) -> bool:
-        """Whether the solve of the present pose has come to its end."""
-        return self.moment.solved
-
-    @property
-    def selection(self) -> tuple[int, ...]:
-        """Indices of the selected handles."""
-        return self._selection
-
-    @property
-    def dragged(self) -> tuple[int, ...]:
-        """Indices of the handles that are being dragged."""
-        return self._held or ()
-
-    @property
-    def frame(self) -> Frame | None:
-        """The solver's last frame, if it belongs to the present state; else None."""
-        return self._frame
-
-    @property
     def certificate(self) -> Certificate:
         """The certificate of the present map, computed from its coefficients alone."""
-        return self.certificate_of(self.map)
-
-    def certificate_of(self, map: HarmonicMap) -> Certificate:
-        """The certificate of a map, computed once from its coefficients alone."""
-        return certificate_of(map)
+        return certificate_of(self.map)
 
     @property
     def status(self) -> StatusLine:
         """What the editor is doing, in words; at rest with the bounds of :attr:`certificate`."""
-        return describe(self.moment, self.certificate_of)
+        return describe(self.moment)
 
     @property
     def busy(self) -> bool:
@@ -214,28 +152,18 @@ class Deformation(Observed):
         return self._worker.busy
 
     @property
-    def begun(self) -> bool:
-        """Whether the solver was ever asked for something."""
-        return self._begun
-
-    @property
-    def alive(self) -> bool:
-        """Whether the solver's thread runs."""
-        return self._worker.alive
-
-    @property
     def can_undo(self) -> bool:
         """Whether there is something to undo."""
-        return bool(self._history.past) or self._held is not None
+        return bool(self.history.past or self.dragged)
 
     @property
     def can_redo(self) -> bool:
         """Whether there is something to redo."""
-        return bool(self._history.future) and self._held is None
+        return bool(self.history.future) and not self.dragged
 
     def find(self, point: ArrayLike) -> Array | None:
         """The point of the undeformed shape that is drawn at ``point``; None outside the shape."""
-        return self._finder.find(self.shown, point)
+        return find_source(self.moment.shown, point)
 
     # Actions
 
@@ -281,8 +209,8 @@ class Deformation(Observed):
                 return
             if past and domain.cage.equals(past[-1].domain.cage) and not self.dragged:
                 self.undo()
-                return
-            self.apply(actions.set_domain, domain)
+            else:
+                self.apply(actions.set_domain, domain)
 
     def apply(
         self,
@@ -302,14 +230,13 @@ class Deformation(Observed):
         with self.locked():
             self._check_open()
             new = action(self.state, *arguments, **named)
-            held = self._held
+            held = self.dragged
             self.end_drag()
             before = self.state
             if new is before:
                 return
-            self._set(self._history.step(new))
-            if held is not None:
-                self._held = _still_there(held, before.pose, new.pose) or None
+            self._set(self.history.step(new))
+            self.dragged = _still_there(held, before.pose, new.pose)
 
     # Dragging: many small moves, one step for undo
 
@@ -328,17 +255,17 @@ class Deformation(Observed):
             self._check_open()
             self.end_drag()
             actions.nudge(self.state, indices, (0, 0))  # refuses what does not exist
-            self._held = tuple(int(i) for i in indices)
+            self.dragged = tuple(int(i) for i in indices)
 
     def drag_to(self, targets: ArrayLike) -> None:
         """Move the targets of the dragged handles to (h, 2)."""
         with self.locked():
-            if self._held is None:
+            if not self.dragged:
                 raise EditError("nothing is being dragged; begin a drag first")
             moved = actions.move_targets(self.state, self.dragged, targets)
             if np.array_equal(moved.pose.targets, self.pose.targets):
                 return
-            self._history = self._history.step(moved, gesture=self._held)
+            self.history = self.history.step(moved, gesture=self.dragged)
             self._error = None
             self._submit()
             self._tell("state", "status")
@@ -346,24 +273,21 @@ class Deformation(Observed):
     def end_drag(self) -> None:
         """End the drag, if any; the whole drag is one step for undo."""
         with self.locked():
-            if self._held is None:
+            if not self.dragged:
                 return
-            self._held = None
-            origin = self._history.origin
-            if origin is not None and np.array_equal(
-                origin.present.pose.targets, self.pose.targets
-            ):
-                self._history = origin.refined(self.state)  # the drag came back to its start
-            self._history = self._history.ended()
+            self.dragged = ()
+            origin, targets = self.history.origin, self.pose.targets
+            if origin is not None and np.array_equal(origin.present.pose.targets, targets):
+                self.history = origin.refined(self.state)  # the drag came back to its start
+            self.history = self.history.ended()
             self._tell("state")
 
     def cancel_drag(self) -> None:
         """End the drag, if any, and go back to exactly the state before it."""
         with self.locked():
-            if self._held is None:
-                return
-            self._held = None
-            self._set(self._history.cancelled())
+            if self.dragged:
+                self.dragged = ()
+                self._set(self.history.cancelled())
 
     # Undo
 
@@ -371,17 +295,17 @@ class Deformation(Observed):
         """Go one step back; during a drag, to where that began."""
         with self.locked():
             self._check_open()
-            if self._held is not None:
+            if self.dragged:
                 self.cancel_drag()
-            elif self._history.past:
-                self._set(self._history.undone())
+            elif self.history.past:
+                self._set(self.history.undone())
 
     def redo(self) -> None:
         """Go one step forward again."""
         with self.locked():
             self._check_open()
             if self.can_redo:
-                self._set(self._history.redone())
+                self._set(self.history.redone())
 
     # Selection
 
@@ -390,19 +314,16 @@ class Deformation(Observed):
         with self.locked():
             count = len(self.pose)
             chosen = tuple(dict.fromkeys(int(i) for i in indices if 0 <= i < count))
-            if chosen != self._selection:
-                self._selection = chosen
+            if chosen != self.selection:
+                self.selection = chosen
                 self._tell("selection")
 
     # Solving
 
     def begin(self) -> None:
-        """Start the solver, which compiles before the first drag; nothing if it was started before.
-
-        Returns at once.
-        """
+        """Start the solver, which compiles before the first drag, unless it was; do not wait."""
         with self.locked():
-            if not self._begun:
+            if not self.begun:
                 self._submit()
                 self._tell("status")
 
@@ -410,16 +331,11 @@ class Deformation(Observed):
         """Wait until the present pose is solved; whether it is within ``timeout`` seconds.
 
         An interrupt stops the solve and keeps the map that it has reached.
-
-        Raises
-        ------
-        EditError
-            When this is closed.
         """
         check_type("timeout", timeout, Real | None, "give seconds, or None to wait to the end")
         with self.locked():
             self._check_open()
-            if not self.solved and not self.busy:
+            if not self.moment.solved and not self.busy:
                 self._submit()
         try:
             return self._worker.wait(timeout)
@@ -442,7 +358,7 @@ class Deformation(Observed):
             if value == self.paused:
                 return
             self._worker.paused = value
-            if not value and not self.solved:
+            if not value and not self.moment.solved:
                 self._submit()
             self._tell("state", "status")
 
@@ -472,23 +388,20 @@ class Deformation(Observed):
 
     def _set(self, history: History[EditState]) -> None:
         old, new = self.state, history.present
-        self._history, self._error = history, None
+        self.history, self._error = history, None
         self._chain += 1
-        if new.domain is not self._finder.domain:
-            self._finder = PointFinder(new.domain)
         if (frame := self._frame) is not None:
             same_method = frame.task.pose.method is new.current.method
             if frame.map is not new.map or (frame.mesh is not None and not same_method):
                 self._frame = None
-        self._selection = _still_there(self._selection, old.pose, new.pose)
+        self.selection = _still_there(self.selection, old.pose, new.pose)
         self._submit()
         self._tell("state", "frame", "selection", "status")
 
     def _submit(self, single: bool = False) -> None:
-        self._begun = True
-        if single or not self.solved:
-            task = Task(self.state.current, self._chain, single)
-            self._worker.submit(task, at_once=single)
+        self.begun = True
+        if single or not self.moment.solved:
+            self._worker.submit(Task(self.state.current, self._chain, single), at_once=single)
         else:
             self._worker.cancel()
 
@@ -499,25 +412,21 @@ class Deformation(Observed):
             if frame.mesh is None:
                 current = self.state.current
                 latest = frame.task.pose.asks_the_same(current)
-                solved = frame.solution if latest else None
-                new = replace(current, map=frame.map, solution=solved)
-                self._history = self._history.refined(self.state.with_current(new))
+                new = replace(current, map=frame.map, solution=frame.solution if latest else None)
+                self.history = self.history.refined(self.state.with_current(new))
             self._frame, self._error = frame, None
             self._tell("frame", "status")
 
     def _fail(self, error: Exception) -> None:
         with self.locked():
             self._error = error
-            if self.comparison is not None:
+            if self.moment.comparison is not None:
                 self._frame = None  # of an earlier problem
             self._tell("frame", "status")
 
 
 def _still_there(chosen: Iterable[int], old: Pose, new: Pose) -> tuple[int, ...]:
     """Indices in the new pose of those of the chosen handles that it has."""
-    kept = []
-    for i in chosen:
-        if i < len(old):
-            found = np.flatnonzero((new.handles == old.handles[i]).all(axis=1))
-            kept.extend(int(j) for j in found[:1])
-    return tuple(kept)
+    places = {tuple(handle): j for j, handle in enumerate(new.handles.tolist())}
+    before = [tuple(old.handles[i].tolist()) for i in chosen if i < len(old)]
+    return tuple(places[handle] for handle in before if handle in places)

@@ -4,24 +4,27 @@ from __future__ import annotations
 
 import weakref
 from collections.abc import Sized
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._arguments import read_only
 from glid_nb._errors import InputFileError, about
 from glid_nb.certificate import Certificate, certify
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
-from glid_nb.solvers import Method, Newton, Options, Pose
+from glid_nb.solvers import Iteration, Method, Newton, Options, Pose, Status
 
 MOST_POSES = 1000
 """Most poses that a document may hold."""
 
 _LONGEST_NAME = 200
-
+# What a solve of a pose depends on, by the names of the fields.
+_ASKED = {"pose": Pose, "energy": Energy, "options": Options, "method": Method}
 
 # Maps are immutable, so each is certified once, however often it is shown or saved.
 _certificates: weakref.WeakKeyDictionary[HarmonicMap, Certificate] = weakref.WeakKeyDictionary()
@@ -29,6 +32,23 @@ _certificates: weakref.WeakKeyDictionary[HarmonicMap, Certificate] = weakref.Wea
 
 class DocumentError(InputFileError):
     """A document's parts do not fit together, or a file holds no valid document."""
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """How a solve ended; small, since an undo history holds many."""
+
+    status: Status
+    message: str
+    history: tuple[Iteration, ...]
+    """The latest iterations of the gesture."""
+    starts: tuple[int, ...]
+    """Numbers of the iterations at which the targets had moved."""
+
+    @property
+    def ended(self) -> bool:
+        """Whether the solver came to its end, rather than being stopped."""
+        return self.status is not Status.STOPPED
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +69,8 @@ class NamedPose:
         The result; certified.
     method : Method
         What solves it. The result of a method on a mesh is not kept.
+    solution : Solution, optional
+        How the solve of all that ended with ``map``; not saved.
 
     Raises
     ------
@@ -62,6 +84,7 @@ class NamedPose:
     options: Options
     map: HarmonicMap
     method: Method = field(default_factory=Newton)
+    solution: Solution | None = None
 
     def __post_init__(self) -> None:
         _check_kind("the name of a pose", self.name, str)
@@ -70,11 +93,23 @@ class NamedPose:
                 f"the name of a pose must have 1 to {_LONGEST_NAME} characters, "
                 f"not {len(self.name)}"
             )
-        kinds = (Pose, Energy, Options, HarmonicMap, Method)
-        for key, kind in zip(("pose", "energy", "options", "map", "method"), kinds, strict=True):
+        for key, kind in {**_ASKED, "map": HarmonicMap}.items():
             _check_kind(f"{key} of the pose {self.name!r}", getattr(self, key), kind)
         with about(f"the pose {self.name!r}", DocumentError):
             self.pose.check_inside(self.map.domain)
+
+    @property
+    def solved(self) -> bool:
+        """Whether a solve ended with ``map``; never for a method on a mesh."""
+        return self.solution is not None and self.solution.ended
+
+    def changed(self, **changes: Any) -> NamedPose:
+        """A copy with another pose, energy, options, map or method; it is no longer solved."""
+        return replace(self, solution=None, **changes)
+
+    def asks_the_same(self, other: NamedPose) -> bool:
+        """Whether pose, energy, options and method are the very same objects."""
+        return all(getattr(self, key) is getattr(other, key) for key in _ASKED)
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,9 +158,7 @@ class Document:
         if not self.cage.equals(self.domain.cage):
             raise DocumentError("cage: it is not the cage of the domain")
         if self.trace_options.scribbles not in (None, self.scribbles):
-            raise DocumentError(
-                "trace_options: its scribbles are not those of the document; pass the same object"
-            )
+            raise DocumentError("trace_options: its scribbles are not those of the document")
         check_count(self.poses)
         for i, pose in enumerate(self.poses):
             _check_kind(f"poses[{i}]", pose, NamedPose)
@@ -134,10 +167,8 @@ class Document:
                     f"poses[{i}] ({pose.name!r}): its map lives on another domain than the document"
                 )
         last = max(len(self.poses) - 1, 0)
-        if isinstance(self.active, bool) or not isinstance(self.active, int):
-            raise DocumentError(f"active must be a whole number, not {self.active!r}")
-        if not 0 <= self.active <= last:
-            raise DocumentError(f"active must be 0 to {last}, not {self.active}")
+        if type(self.active) is not int or not 0 <= self.active <= last:
+            raise DocumentError(f"active must be 0 to {last}, not {self.active!r}")
 
     @property
     def active_pose(self) -> NamedPose | None:
@@ -170,7 +201,4 @@ def _checked_image(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
         raise DocumentError(
             f"image must be a uint8 array of the shape (h, w, 4), not {array.dtype} {array.shape}"
         )
-    if array.flags.writeable:
-        array = array.copy()
-        array.setflags(write=False)
-    return array
+    return read_only(array.copy()) if array.flags.writeable else array

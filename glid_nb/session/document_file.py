@@ -11,40 +11,22 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from glid_nb import methods
+from glid_nb import _json, methods
 from glid_nb._errors import InputFileError, about
-from glid_nb._json import (
-    anything,
-    check_fields,
-    check_list,
-    check_loops,
-    check_object,
-    check_points,
-    check_text,
-    parse_json,
-)
-from glid_nb.energies import CustomEnergy, Energy, energy_by_name
-from glid_nb.geometry import Domain
+from glid_nb.energies import CustomEnergy, energy_by_name
+from glid_nb.geometry import Domain, as_points
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.harmonic.map import complex_from_pairs, complex_to_pairs
+from glid_nb.harmonic.map import complex_from_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE
-from glid_nb.session.archive import read_archive, write_archive
-from glid_nb.session.document import (
-    Document,
-    DocumentError,
-    NamedPose,
-    certificate_of,
-    check_count,
-)
-from glid_nb.session.png import image_png, light_png, read_png
-from glid_nb.solvers import Method, Newton, Options, Pose
+from glid_nb.session.archive import image_png, light_png, read_archive, read_png, write_archive
+from glid_nb.session.document import Document, DocumentError, NamedPose, certificate_of, check_count
+from glid_nb.solvers import Newton, Options, Pose
 
 T = TypeVar("T")
 
 FORMAT = "glid_nb-document"
 FORMAT_VERSION = 2
-_READABLE = (1, 2)
 
 _JSON, _IMAGE = "document.json", "image.png"
 _MASKS = {key: f"scribbles-{key}.png" for key in ("foreground", "background")}
@@ -55,26 +37,17 @@ _MOST_BYTES = {
     **dict.fromkeys(_MASKS.values(), MAX_SIDE**2),
 }
 _KEYS = {
-    "format": check_text,
-    "version": anything,
-    "image_size_px": anything,
-    "domain": check_object,
-    "trace_options": check_object,
-    "poses": check_list,
-    "active": anything,
+    **dict.fromkeys(("format", "version", "image_size_px", "domain", "active"), _json.anything),
+    "trace_options": _json.check_object,
+    "poses": _json.check_list,
 }
-_POSE_KEYS_OF_VERSION_1 = {
-    "name": check_text,
-    "handles": check_points,
-    "targets": check_points,
-    "energy": check_object,
-    "options": check_object,
-    "phi": anything,
-    "psi": anything,
+_POSE_KEYS = {
+    **dict.fromkeys(("name", "energy", "options", "phi", "psi"), _json.anything),
+    "handles": _json.check_points,
+    "targets": _json.check_points,
 }
-_POSE_KEYS = {**_POSE_KEYS_OF_VERSION_1, "method": check_object}
 _DOMAIN_KEYS = ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "notes")
-_MOST_ITERATIONS = 200  # written where max_iterations is None, the method's own limit
+_MOST_ITERATIONS = 200  # was written where max_iterations is None, the method's own limit
 _MASK = "mask"  # written instead of strokes; the pixels are in another member
 _NEVER = "never"  # TraceOptions.max_edge == inf, which JSON cannot say
 
@@ -85,12 +58,8 @@ def save_document(document: Document, path: str | Path) -> None:
     ``document.json`` holds everything but pixels, which are in ``image.png``; scribbled masks are
     in ``scribbles-*.png``. Numbers are written so that they read back bit for bit.
 
-    Raises
-    ------
-    DocumentError
-        When a map is not certified, or an energy is a Python function; nothing is written.
-    OSError
-        When the file cannot be written; what was there before stays.
+    A DocumentError if a map is not certified, or an energy is a Python function. When the file is
+    not written, what was there before stays.
     """
     scribbles, masks = _scribbles_to_members(document.scribbles)
     height, width = document.image.shape[:2]
@@ -112,21 +81,16 @@ def save_document(document: Document, path: str | Path) -> None:
 def load_document(path: str | Path) -> Document:
     """Read a document that :func:`save_document` wrote; every map in it is certified anew.
 
-    Raises
-    ------
-    DocumentError
-        When the file is no valid document; the message names the file and the culprit.
-    OSError
-        When it cannot be read.
+    A DocumentError names the file and the culprit if it is no valid document.
     """
     with about(path, DocumentError):
         members = read_archive(Path(path), _MOST_BYTES)
         for name in (_JSON, _IMAGE):
             if name not in members:
                 raise DocumentError(f"{name} is missing; this is no glid_nb document")
-        data = parse_json(members[_JSON], _JSON, "JSON", nan=False)
-        pose_keys = _POSE_KEYS if _checked_version(data) > 1 else _POSE_KEYS_OF_VERSION_1
-        check_fields(data, _JSON, _KEYS, {"scribbles": check_object})
+        data = _json.parse_json(members[_JSON], _JSON, "JSON", nan=False)
+        since_2 = {"method": _json.anything} if _checked_version(data) > 1 else {}
+        _json.check_fields(data, _JSON, _KEYS, {"scribbles": _json.check_object})
         size = _checked_size(data["image_size_px"])
         image = np.asarray(read_png(members[_IMAGE], size, "RGBA", _IMAGE), dtype=np.uint8)
         scribbles = _scribbles_from_members(data.get("scribbles"), members, size)
@@ -134,22 +98,21 @@ def load_document(path: str | Path) -> Document:
         options = _trace_options_from_dict(data["trace_options"], scribbles)
         check_count(data["poses"])
         poses = tuple(
-            _pose_from_dict(f"poses[{i}]", pose, domain, pose_keys)
+            _pose_from_dict(f"poses[{i}]", pose, domain, {**_POSE_KEYS, **since_2})
             for i, pose in enumerate(data["poses"])
         )
         return Document(image, domain.cage, domain, options, scribbles, poses, data["active"])
 
 
 def _checked_version(data: Any) -> int:
-    check_object(data, _JSON)
+    _json.check_object(data, _JSON)
     if data.get("format") != FORMAT:
         raise DocumentError(f'{_JSON}: the key "format" is not "{FORMAT}"')
     version = data.get("version")
-    if version not in _READABLE or isinstance(version, bool | float):
+    if version not in (1, 2) or isinstance(version, bool | float):
         raise DocumentError(
-            f"version {version!r:.20} of the format is not supported, only "
-            f"{' and '.join(map(str, _READABLE))}; a newer glid_nb may have written it: update "
-            "this one"
+            f"version {version!r:.20} of the format is not supported, only 1 and 2; a newer "
+            "glid_nb may have written it: update this one"
         )
     return version
 
@@ -166,79 +129,55 @@ def _checked_size(value: Any) -> tuple[int, int]:
 
 
 def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
-    where = f"poses[{index}] ({pose.name!r})"
-    _check_certified(pose.map, where)
+    with about(f"poses[{index}] ({pose.name!r})", DocumentError):
+        _check_certified(pose.map)
+        energy = pose.energy
+        if isinstance(energy, CustomEnergy):
+            raise DocumentError(
+                "its energy is a Python function, which cannot be saved; choose a named energy"
+            )
     return {
         "name": pose.name,
         **pose.pose.to_dict(),
-        "energy": _energy_to_dict(pose.energy, where),
-        "options": _options_to_dict(pose.options),
+        "energy": {"name": energy.name, **{k: getattr(energy, k) for k in energy.parameters()}},
+        "options": dataclasses.asdict(pose.options),
         "method": {"name": pose.method.name, "settings": pose.method.settings},
-        "phi": complex_to_pairs(pose.map.phi),
-        "psi": complex_to_pairs(pose.map.psi),
+        "phi": as_points(pose.map.phi).tolist(),
+        "psi": as_points(pose.map.psi).tolist(),
     }
 
 
 def _pose_from_dict(where: str, data: Any, domain: Domain, keys: Mapping[str, Any]) -> NamedPose:
     with about(where, DocumentError):
-        check_fields(data, where, keys)
-    where = f"{where} ({data['name']!r:.60})"
-    with about(where, DocumentError):
+        _json.check_fields(data, where, keys)
+    with about(f"{where} ({data['name']!r:.60})", DocumentError):
         phi, psi = (complex_from_pairs(data[key], key) for key in ("phi", "psi"))
-        pose = NamedPose(
-            data["name"],
-            Pose.from_dict(data),
-            _energy_from_dict(data["energy"]),
-            _options_from_dict(data["options"]),
-            HarmonicMap(domain, phi, psi),
-            _method_from_dict(data["method"]) if "method" in keys else Newton(),
-        )
-    _check_certified(pose.map, where)
+        energy, named = data["energy"], {"name": _json.check_text}
+        with about("energy"):
+            _json.check_fields(energy, "energy", named, {"s": _json.anything})
+            energy = energy_by_name(energy["name"], energy.get("s"))
+        method = data.get("method", {"name": Newton.name, "settings": {}})
+        with about("method"):
+            _json.check_fields(method, "method", {**named, "settings": _json.check_object})
+            method = methods.by_name(method["name"], **method["settings"])
+        options = _from_fields(Options, data["options"], "options")
+        if options.max_iterations == _MOST_ITERATIONS:
+            options = dataclasses.replace(options, max_iterations=None)
+        map = HarmonicMap(domain, phi, psi)
+        pose = NamedPose(data["name"], Pose.from_dict(data), energy, options, map, method)
+        _check_certified(map)
     return pose
 
 
-def _check_certified(map: HarmonicMap, where: str) -> None:
+def _check_certified(map: HarmonicMap) -> None:
     certificate = certificate_of(map)
     if not certificate.certified:
-        raise DocumentError(f"{where}: its map is not certified. {certificate.reason}")
-
-
-def _energy_to_dict(energy: Energy, where: str) -> dict[str, Any]:
-    if isinstance(energy, CustomEnergy):
-        raise DocumentError(
-            f"{where}: its energy is a Python function, which cannot be saved; choose a named "
-            "energy"
-        )
-    return {"name": energy.name, **{name: getattr(energy, name) for name in energy.parameters()}}
-
-
-def _energy_from_dict(data: Any) -> Energy:
-    with about("energy"):
-        check_fields(data, "energy", {"name": check_text}, {"s": anything})
-        return energy_by_name(data["name"], data.get("s"))
-
-
-def _options_to_dict(options: Options) -> dict[str, Any]:
-    most = _MOST_ITERATIONS if options.max_iterations is None else options.max_iterations
-    return {**dataclasses.asdict(options), "max_iterations": most}
-
-
-def _options_from_dict(data: Any) -> Options:
-    options = _from_fields(Options, data, "options")
-    if options.max_iterations == _MOST_ITERATIONS:
-        return dataclasses.replace(options, max_iterations=None)
-    return options
-
-
-def _method_from_dict(data: Any) -> Method:
-    with about("method"):
-        check_fields(data, "method", {"name": check_text, "settings": check_object})
-        return methods.by_name(data["name"], **data["settings"])
+        raise DocumentError(f"its map is not certified. {certificate.reason}")
 
 
 def _domain_from_dict(data: Any) -> Domain:
     with about("domain"):
-        check_fields(data, "domain", dict.fromkeys(_DOMAIN_KEYS, anything))
+        _json.check_fields(data, "domain", dict.fromkeys(_DOMAIN_KEYS, _json.anything))
         domain = Domain.from_dict(data)
     if domain.to_dict() != data:
         # The maps' coefficients follow the order of the loops' vertices.
@@ -247,11 +186,8 @@ def _domain_from_dict(data: Any) -> Domain:
 
 
 def _trace_options_to_dict(options: TraceOptions) -> dict[str, Any]:
-    data = {f.name: getattr(options, f.name) for f in dataclasses.fields(options)}
-    data["scribbles"] = options.scribbles is not None
-    if data["max_edge"] == math.inf:
-        data["max_edge"] = _NEVER
-    return data
+    data = {**vars(options), "scribbles": options.scribbles is not None}
+    return {**data, "max_edge": _NEVER} if options.max_edge == math.inf else data
 
 
 def _trace_options_from_dict(data: Any, scribbles: Scribbles | None) -> TraceOptions:
@@ -269,7 +205,7 @@ def _trace_options_from_dict(data: Any, scribbles: Scribbles | None) -> TraceOpt
 def _from_fields(kind: type[T], data: Any, name: str) -> T:
     """A dataclass by its fields; those that are missing keep their defaults."""
     fields = [field.name for field in dataclasses.fields(kind)]  # type: ignore[arg-type]
-    check_fields(data, name, {}, dict.fromkeys(fields, anything))
+    _json.check_fields(data, name, {}, dict.fromkeys(fields, _json.anything))
     with about(name):
         return kind(**data)
 
@@ -279,16 +215,11 @@ def _scribbles_to_members(
 ) -> tuple[dict[str, Any] | None, dict[str, bytes]]:
     if scribbles is None:
         return None, {}
-    data: dict[str, Any] = {}
-    members: dict[str, bytes] = {}
-    for key, member in _MASKS.items():
-        value = getattr(scribbles, key)
-        if isinstance(value, np.ndarray):
-            data[key] = _MASK
-            members[member] = light_png(value)
-        else:
-            data[key] = [stroke.tolist() for stroke in value]
-    return data, members
+    values = {key: getattr(scribbles, key) for key in _MASKS}
+    masks = {key: value for key, value in values.items() if isinstance(value, np.ndarray)}
+    strokes = {k: [s.tolist() for s in v] for k, v in values.items() if k not in masks}
+    members = {_MASKS[key]: light_png(mask) for key, mask in masks.items()}
+    return {**strokes, **dict.fromkeys(masks, _MASK)}, members
 
 
 def _scribbles_from_members(
@@ -296,12 +227,12 @@ def _scribbles_from_members(
 ) -> Scribbles | None:
     if data is None:
         return None
-    check_fields(data, "scribbles", dict.fromkeys(_MASKS, anything))
+    _json.check_fields(data, "scribbles", dict.fromkeys(_MASKS, _json.anything))
     values: dict[str, Any] = {}
     for key, member in _MASKS.items():
         values[key] = data[key]
         if data[key] != _MASK:
-            check_loops(data[key], f"scribbles.{key}", each="stroke")
+            _json.check_loops(data[key], f"scribbles.{key}", each="stroke")
         elif member in members:
             values[key] = read_png(members[member], size, "1", member)
         else:

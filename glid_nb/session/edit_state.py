@@ -1,114 +1,28 @@
-"""The state of the deformation editor, as an immutable value."""
+"""The values of the deformation editor: its state, the solver's tasks and frames, a moment."""
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Sequence
+import math
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from glid_nb._errors import InputError
 from glid_nb.energies import Energy, SymmetricDirichlet
-from glid_nb.geometry import Domain
+from glid_nb.geometry import Domain, MeshMap, Panels
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.session.document import NamedPose
-from glid_nb.solvers import Iteration, Method, Newton, Options, Pose, Result, Status
+from glid_nb.session.document import NamedPose, Solution
+from glid_nb.solvers import DeformationMap, Iteration, Options, Pose
 
 LIVE_OPTIONS = Options(restarts=0, iterations_per_call=1)
 """Options for solving during a drag: a frame per iteration, and no restarts."""
 
-MOST_ITERATIONS = 200
-"""Most iterations of a gesture that are kept, the latest ones."""
-
 
 class EditError(InputError):
     """An action that the editor refuses; the message says why and what to do."""
-
-
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """How a solve ended; small, since an undo history holds many."""
-
-    status: Status
-    message: str
-    energy: float
-    energy_iso: float
-    energy_p2p: float
-    history: tuple[Iteration, ...]
-    starts: tuple[int, ...] = ()
-    """Numbers of the gesture's iterations at which the targets had moved."""
-
-    @property
-    def ended(self) -> bool:
-        """Whether the solver came to its end, rather than being stopped."""
-        return self.status is not Status.STOPPED
-
-    @classmethod
-    def of(
-        cls, result: Result, before: Sequence[Iteration] = (), starts: tuple[int, ...] = (1,)
-    ) -> Solution:
-        """The end of a solve that went on after the iterations ``before``."""
-        return cls(
-            result.status,
-            result.message,
-            result.energy,
-            result.energy_iso,
-            result.energy_p2p,
-            continued_history(before, result.history),
-            starts,
-        )
-
-
-def continued_history(
-    before: Sequence[Iteration], more: Sequence[Iteration]
-) -> tuple[Iteration, ...]:
-    """Both histories as one, numbered consecutively."""
-    last = before[-1].iteration if before else 0
-    latest = more[-MOST_ITERATIONS:]
-    return (*before, *(replace(i, iteration=last + i.iteration) for i in latest))[-MOST_ITERATIONS:]
-
-
-@dataclass(frozen=True, eq=False)
-class EditedPose:
-    """A pose that is edited, and the map found for it so far."""
-
-    name: str
-    pose: Pose
-    energy: Energy
-    options: Options
-    map: HarmonicMap
-    """The best map so far; always certified."""
-    solution: Solution | None = None
-    """How the solve of this pose, energy, options and method ended with ``map``; None before."""
-    method: Method = field(default_factory=Newton)
-    """A method on a mesh leaves ``map`` as it is."""
-
-    @property
-    def solved(self) -> bool:
-        """Whether a solve ended with ``map``; never for a method on a mesh."""
-        return self.solution is not None and self.solution.ended
-
-    def asks_the_same(self, other: EditedPose) -> bool:
-        """Whether pose, energy, options and method are the very same objects."""
-        return (
-            self.pose is other.pose
-            and self.energy is other.energy
-            and self.options is other.options
-            and self.method is other.method
-        )
-
-    def changed(self, **changes: Any) -> EditedPose:
-        """A copy with another pose, energy, options or method; it is no longer solved."""
-        return replace(self, solution=None, **changes)
-
-    def named(self) -> NamedPose:
-        """The pose as a document keeps it."""
-        return NamedPose(self.name, self.pose, self.energy, self.options, self.map, self.method)
-
-    @classmethod
-    def from_named(cls, pose: NamedPose) -> EditedPose:
-        """A document's pose, not solved: documents do not keep the solution."""
-        return cls(pose.name, pose.pose, pose.energy, pose.options, pose.map, method=pose.method)
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,8 +31,8 @@ class EditState:
 
     domain: Domain
     """The domain of all maps."""
-    poses: tuple[EditedPose, ...]
-    """At least one."""
+    poses: tuple[NamedPose, ...]
+    """At least one. Their maps are the best ones so far, and always certified."""
     active: int = 0
     """Index of the pose that is edited."""
 
@@ -133,24 +47,14 @@ class EditState:
         """One pose on a domain, at the identity map."""
         pose = Pose([], []) if pose is None else pose
         pose.check_inside(domain)
-        first = EditedPose(
-            "Pose 1",
-            pose,
-            SymmetricDirichlet() if energy is None else energy,
-            LIVE_OPTIONS if options is None else options,
-            HarmonicMap.identity(domain),
+        energy = SymmetricDirichlet() if energy is None else energy
+        options = LIVE_OPTIONS if options is None else options
+        return cls(
+            domain, (NamedPose("Pose 1", pose, energy, options, HarmonicMap.identity(domain)),)
         )
-        return cls(domain, (first,))
-
-    @classmethod
-    def from_poses(cls, domain: Domain, poses: Sequence[NamedPose], active: int = 0) -> EditState:
-        """The poses of a document; if it has none, one at the identity map."""
-        if not poses:
-            return cls.initial(domain)
-        return cls(domain, tuple(map(EditedPose.from_named, poses)), active)
 
     @property
-    def current(self) -> EditedPose:
+    def current(self) -> NamedPose:
         """The pose that is edited."""
         return self.poses[self.active]
 
@@ -169,7 +73,103 @@ class EditState:
         """The map that moves nothing."""
         return HarmonicMap.identity(self.domain)
 
-    def with_current(self, current: EditedPose) -> EditState:
+    def changed(self, **changes: Any) -> EditState:
+        """A copy with another pose, energy, options, map or method of the pose that is edited."""
+        return self.with_current(self.current.changed(**changes))
+
+    def with_current(self, current: NamedPose) -> EditState:
         """A copy with another value of the pose that is edited."""
         before, after = self.poses[: self.active], self.poses[self.active + 1 :]
         return replace(self, poses=(*before, current, *after))
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """What to solve."""
+
+    pose: NamedPose
+    """Handles, targets, energy, options, method, and the map to start from."""
+    chain: int
+    """A task continues from the map of the task before it only if both are of one chain."""
+    single: bool = False
+    """Stop after one compiled call, or one iteration of another method."""
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """A map during a solve, or its final one."""
+
+    task: Task
+    map: HarmonicMap
+    """Certified; for a method on a mesh the task's own."""
+    history: tuple[Iteration, ...]
+    """The latest iterations of this gesture."""
+    starts: tuple[int, ...]
+    """Numbers of the iterations at which the targets had moved."""
+    solution: Solution | None = None
+    """None while the solve goes on."""
+    panels: Panels | None = None
+    """Of the boundary; None for a method without panels."""
+    sigma2_lower: NDArray[Any] = field(default_factory=lambda: np.empty(0))
+    """(p,) certified bound per panel; empty when it is not known."""
+    mesh: MeshMap | None = None
+    """The map of a method on a mesh, which may fold."""
+
+    @property
+    def bound(self) -> float:
+        """The certified lower bound on sigma_2; NaN when the solver has not given one."""
+        if len(self.sigma2_lower):
+            return float(self.sigma2_lower.min())
+        known = self.history[-1].sigma2_lower if self.history else None
+        return math.nan if known is None else known
+
+
+@dataclass(frozen=True, eq=False)
+class Moment:
+    """Everything that a view of a deformation draws, read at one moment and so consistent."""
+
+    state: EditState
+    frame: Frame | None
+    """The solver's last frame, if it belongs to the state; else None."""
+    busy: bool
+    """Whether the solver has work."""
+    paused: bool
+    error: Exception | None = None
+    """The exception that ended the last solve, if one did."""
+    selection: tuple[int, ...] = ()
+    """Indices of the selected handles."""
+    dragged: tuple[int, ...] = ()
+    """Indices of the handles that are being dragged."""
+
+    @property
+    def map(self) -> HarmonicMap:
+        """The certified map."""
+        return self.state.map
+
+    @property
+    def comparison(self) -> MeshMap | None:
+        """The uncertified map of a method on a mesh, shown instead of :attr:`map`; else None.
+
+        It lags behind the state while the method works.
+        """
+        return None if self.frame is None else self.frame.mesh
+
+    @property
+    def shown(self) -> DeformationMap:
+        """The map to draw: the comparison, or the certified map."""
+        return self.map if self.comparison is None else self.comparison
+
+    @property
+    def solution(self) -> Solution | None:
+        """How the solve of the pose ended; None before."""
+        current, frame = self.state.current, self.frame
+        if current.method.certified:
+            return current.solution
+        # The result of a method on a mesh is only in the frame.
+        latest = frame is not None and frame.task.pose.asks_the_same(current)
+        return frame.solution if frame is not None and latest else None
+
+    @property
+    def solved(self) -> bool:
+        """Whether the solve of the pose has come to its end."""
+        return self.solution is not None and self.solution.ended

@@ -5,8 +5,7 @@ from __future__ import annotations
 import functools
 import warnings
 import weakref
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,14 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.geometry import Domain
-from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import ImageSource
 from glid_nb.session.autosave import Autosave, OwnFiles, flush, free_sibling
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, DocumentError
 from glid_nb.session.document_file import load_document, save_document
-from glid_nb.session.edit_state import EditedPose, EditError, EditState
-from glid_nb.session.observed import Observed
+from glid_nb.session.edit_state import EditError, EditState
+from glid_nb.session.model import History, Observed
 from glid_nb.session.tracing import TracingModel, TracingState
 
 Array = NDArray[np.uint8]
@@ -31,11 +29,17 @@ Array = NDArray[np.uint8]
 class _Session:
     """A picture being deformed, and its tracing as last applied."""
 
-    image: Array
+    tracing: TracingState
     domain: Domain | None
-    options: TraceOptions
-    scribbles: Scribbles | None
     deformation: Deformation
+    path: Path | None = None
+    """Its file, while undo or redo of the tracing may bring it back."""
+
+    @property
+    def image(self) -> Array:
+        """The picture."""
+        assert self.tracing.image is not None
+        return self.tracing.image
 
 
 @dataclass(frozen=True)
@@ -59,15 +63,7 @@ def open_document(path: str | Path) -> Document:
 
 
 def find_document(path: str | Path) -> Document | None:
-    """`open_document`, or None if there is no file.
-
-    Raises
-    ------
-    DocumentError
-        The file is no valid document, or the path cannot be that of a file.
-    OSError
-        It cannot be read.
-    """
+    """`open_document`, or None if there is no file; DocumentError where there cannot be one."""
     _check_place(Path(path))
     flush(path)
     return load_document(path) if Path(path).exists() else None
@@ -79,22 +75,9 @@ class EditorModel(Observed):
     ``observe`` reports ``"replaced"`` when ``deformation`` or ``tracing`` is another object, and
     ``"saved"`` after each save in the background; ``save_error`` says whether that failed.
 
-    Parameters
-    ----------
-    image
-        A picture, as in `glid_nb.read_image`; None to begin without one.
-    document : Document, optional
-        Begin with it instead.
-    path : path, optional
-        A file that is saved to every few seconds while something changes. If another program
-        changes it, a new file beside it is used from then on.
-
-    Raises
-    ------
-    TraceError
-        The picture cannot be read.
-    DocumentError
-        ``path`` cannot be that of a file.
+    It begins with a picture, as in `glid_nb.read_image`, with a document, or without either. The
+    file ``path`` is saved to every few seconds while something changes; if another program changes
+    it, a new file beside it is used from then on.
     """
 
     def __init__(
@@ -113,11 +96,10 @@ class EditorModel(Observed):
         self.own_files = OwnFiles()
         """The files that were saved, opened and exported."""
         self._session: _Session | None = None
-        # Sessions of other pictures, which undo of the tracing may bring back, and their files.
-        self._shelf: list[tuple[_Session, Path | None]] = []
+        # Sessions of other pictures, which undo of the tracing may bring back.
+        self._shelf: list[_Session] = []
         # The tracing that made each domain; undo of the deformation restores it.
-        self._sources: weakref.WeakKeyDictionary[Domain, TracingState]
-        self._sources = weakref.WeakKeyDictionary()
+        self._sources = weakref.WeakKeyDictionary[Domain, TracingState]()
         # The autosave's file as the user named it; files for other pictures are named after it.
         self._named_path: Path | None = None
         self._saved_work: tuple[Any, ...] = ()
@@ -134,30 +116,24 @@ class EditorModel(Observed):
     @property
     def autosave_path(self) -> Path | None:
         """The file of the autosave, if any."""
-        return None if self._autosave is None else self._autosave.path
+        return None if self._autosave is None else self._autosave.file.path
 
     @property
     def left_path(self) -> Path | None:
         """The file that the autosave gave up because another program changed it, if any."""
-        return None if self._autosave is None else self._autosave.left
+        return None if self._autosave is None else self._autosave.file.left
 
     def take_over_file(self) -> None:
         """Go on saving to the session file although another editor, now closed, wrote it last."""
-        if self._autosave is not None:
-            self._autosave.take_over()
-            self._note_autosave()
+        if self.autosave_path is not None:
+            self.own_files.note_session(self.autosave_path)
 
     @property
     def deformation(self) -> Deformation:
-        """The shape being deformed.
+        """The shape being deformed; EditError while nothing has been traced.
 
         Its solver begins with the first change, or when a view calls `Deformation.begin` after its
         first drawing, which compiling would delay.
-
-        Raises
-        ------
-        EditError
-            Nothing has been traced yet.
         """
         if self._session is None:
             raise EditError("there is no cage yet; open a picture and trace a shape first")
@@ -171,13 +147,12 @@ class EditorModel(Observed):
     @property
     def unsaved(self) -> bool:
         """Whether poses with handles, of any picture, are in no file."""
-        session = self._session
-        if session is None or self._autosave is not None:
+        if self._session is None or self._autosave is not None:
             return False
-        sessions = (session, *(shelved for shelved, _ in self._shelf))
+        states = (one.deformation.state for one in (self._session, *self._shelf))
         return any(
-            any(len(pose.pose) for pose in poses) and _work_of(poses) != self._saved_work
-            for poses in (one.deformation.poses for one in sessions)
+            any(len(pose.pose) for pose in state.poses) and _work_of(state) != self._saved_work
+            for state in states
         )
 
     @property
@@ -192,65 +167,54 @@ class EditorModel(Observed):
         tracing's undo or redo brings back returns with its poses and its file.
         """
         with self.locked():
-            domain, image = self.tracing.domain, self.tracing.image
-            session = self._session
+            domain, session = self.tracing.domain, self._session
             if domain is None or (session is not None and session.domain is domain):
                 return Application()
-            assert image is not None  # a domain comes from a picture
-            if session is not None and session.image is image:
+            if session is not None and session.image is self.tracing.image:
                 self._session = self._session_of(session.deformation)
                 return Application(_apply(session.deformation, domain))
             done = Application()
             if session is not None:
-                self._shelf.append((session, self.autosave_path))
-                by_redo = self.tracing.redo_reaches(session.image)
+                self._shelf.append(replace(session, path=self.autosave_path))
+                by_redo = any(state.image is session.image for state in self.tracing.history.future)
                 done = Application(0, True, self.autosave_path, by_redo)
-            self._change_picture(domain, image)
+            self._change_picture(domain)
             return done
 
     @property
     def document(self) -> Document:
         """Picture, cage and poses as one value."""
-        session = self._session
-        if session is None:
-            raise EditError("there is no cage yet; open a picture and trace a shape first")
-        state = session.deformation.state
+        deformation, session = self.deformation, self._session
+        assert session is not None
+        state = deformation.state
         if self.tracing.image is session.image:
-            session = self._session_of(session.deformation)
+            session = self._session_of(deformation)
+        traced = session.tracing
         return Document(
             session.image,
             state.domain.cage,
             state.domain,
-            session.options,
-            session.scribbles,
-            tuple(pose.named() for pose in state.poses),
+            traced.options,
+            traced.scribbles or traced.options.scribbles,
+            state.poses,
             state.active,
         )
 
     def save(self, path: str | Path) -> None:
-        """Write the document to a file, atomically.
-
-        Raises
-        ------
-        DocumentError, OSError
-            It cannot be written; what was there before stays.
-        """
+        """Write the document to a file; if that fails, what was there before stays."""
         autosave, path = self._autosave, Path(path)
-        if autosave is not None and autosave.path.resolve() == path.resolve():
+        if autosave is not None and autosave.file.path.resolve() == path.resolve():
             autosave.write(self.document)
             self._saved(None)
         else:
             save_document(self.document, path)
-        self._saved_work = _work_of(self.deformation.poses)
+        self._saved_work = _work_of(self.deformation.state)
         self.own_files.note_session(path)
 
     def load(self, path: str | Path) -> None:
         """Go on with the document in a file, which an autosave, if there is one, then saves to.
 
-        Raises
-        ------
-        DocumentError, OSError
-            It cannot be read; nothing has changed then.
+        Nothing has changed if it cannot be read.
         """
         document = open_document(path)
         with self.locked():
@@ -259,7 +223,7 @@ class EditorModel(Observed):
                 self._named_path = Path(path)
             self.own_files.note_session(path)
             self._take(document)
-            self._saved_work = _work_of(self.deformation.poses)
+            self._saved_work = _work_of(self.deformation.state)
 
     def autosave(self) -> None:
         """Save soon, if there is a file to save to and something to save."""
@@ -268,49 +232,38 @@ class EditorModel(Observed):
                 self._autosave.submit(self.document)
 
     def close(self) -> None:
-        """Save what is pending and end all threads.
-
-        Warns
-        -----
-        RuntimeWarning
-            The last state could not be saved.
-        """
+        """Save what is pending, with a warning if that fails, and end all threads."""
         with self.locked():
             self._observers.clear()
             autosave, self._autosave = self._autosave, None
         if autosave is not None:
             autosave.close()
-            self.own_files.note([autosave.path], autosave.path)
-            if autosave.error is not None:
-                text = f"the session was not saved: {autosave.error}"
+            if autosave.file.error is not None:
+                text = f"the session was not saved: {autosave.file.error}"
                 warnings.warn(text, RuntimeWarning, stacklevel=2)
         if self._session is not None:
             self._session.deformation.close()
 
     def _session_of(self, deformation: Deformation) -> _Session:
-        tracing = self.tracing
-        assert tracing.image is not None
-        if tracing.domain is not None:
-            self._sources[tracing.domain] = tracing.state
-        return _Session(
-            tracing.image, tracing.domain, tracing.options, tracing.scribbles, deformation
-        )
+        domain, state = self.tracing.domain, self.tracing.state
+        if domain is not None:
+            self._sources[domain] = state
+        return _Session(state, domain, deformation)
 
-    def _change_picture(self, domain: Domain, image: Array) -> None:
+    def _change_picture(self, domain: Domain) -> None:
         """Begin with a new picture, or go on with one that had a session before."""
-        shelved = next((s for s in self._shelf if s[0].image is image), None)
-        if shelved is None:
+        session = next((s for s in self._shelf if s.image is self.tracing.image), None)
+        if session is None:
             if self._named_path is not None and self._session is not None:
                 if self._autosave is not None:
                     self._autosave.flush()  # so that the next file gets another name
                 self._save_to(free_sibling(self._named_path))
             self._replace(Deformation(domain, begin=False))
             return
-        self._shelf.remove(shelved)
-        session, path = shelved
-        if path is not None:
-            self._save_to(path)
-        deformation = Deformation.from_history(session.deformation.history, begin=False)
+        self._shelf.remove(session)
+        if session.path is not None:
+            self._save_to(session.path)
+        deformation = Deformation.from_history(session.deformation.history)
         self._replace(deformation)
         if session.domain is not domain:
             _apply(deformation, domain)
@@ -319,19 +272,19 @@ class EditorModel(Observed):
         """Autosave to this file, after what is pending for another one is saved there."""
         old = self._autosave
         if old is not None:
-            if old.path.resolve() == path.resolve():
-                old.take_over()
+            if old.file.path.resolve() == path.resolve():
+                self.own_files.note_session(path)
                 return
             old.close()
         self._named_path = self._named_path or path
-        self._autosave = Autosave(path, on_done=self._saved)
-        self.own_files.note_session(path)
+        self._autosave = Autosave(path, on_done=self._saved, own=self.own_files)
 
     def _take(self, document: Document) -> None:
         self.tracing = TracingModel.from_document(document)
-        state = EditState.from_poses(document.domain, document.poses, document.active)
+        domain, poses = document.domain, tuple(pose.changed() for pose in document.poses)
+        state = EditState(domain, poses, document.active) if poses else EditState.initial(domain)
         self._shelf.clear()
-        self._replace(Deformation.from_state(state, begin=False))
+        self._replace(Deformation.from_history(History(state)))
 
     def _replace(self, deformation: Deformation) -> None:
         old, self._session = self._session, self._session_of(deformation)
@@ -345,11 +298,11 @@ class EditorModel(Observed):
             session = self._session
             if session is None or session.deformation is not deformation:
                 return
-            if what == "state" and session.domain is not deformation.domain:
-                self._follow(session, deformation.domain)
+            if what == "state" and session.domain is not deformation.state.domain:
+                self._follow(session, deformation.state.domain)
         if self._autosave is None or deformation.dragged:
             return
-        if what == "state" or (what == "frame" and deformation.solved):
+        if what == "state" or (what == "frame" and deformation.moment.solved):
             self.autosave()
 
     def _follow(self, session: _Session, domain: Domain) -> None:
@@ -358,8 +311,7 @@ class EditorModel(Observed):
         if tracing.image is not session.image or tracing.domain is None:
             return
         if not tracing.domain.cage.equals(domain.cage):
-            source = self._sources.get(domain)
-            if source is not None:
+            if (source := self._sources.get(domain)) is not None:
                 tracing.return_to(source)
             else:
                 tracing.set_loops(domain.cage.loops)
@@ -367,32 +319,19 @@ class EditorModel(Observed):
 
     def _saved(self, error: Exception | None) -> None:
         self.save_error = error
-        if error is None:
-            self._note_autosave()
         self._announce("saved")  # not by _tell: a thread that waits for the save may hold the lock
-
-    def _note_autosave(self) -> None:
-        if (path := self.autosave_path) is None:
-            return
-        self.own_files.note([path], path)
-        if self.own_files.session == self.left_path:
-            self.own_files.session = path
 
 
 def _apply(deformation: Deformation, domain: Domain) -> int:
     """Deform another outline of the same picture; how many handles that loses."""
-
-    def n_handles() -> int:
-        return sum(len(pose.pose) for pose in deformation.poses)
-
-    before = n_handles()
+    before = sum(len(pose.pose) for pose in deformation.state.poses)
     deformation.set_domain(domain)
-    return max(before - n_handles(), 0)
+    return max(before - sum(len(pose.pose) for pose in deformation.state.poses), 0)
 
 
-def _work_of(poses: Sequence[EditedPose]) -> tuple[Any, ...]:
+def _work_of(state: EditState) -> tuple[Any, ...]:
     """The user's choices in all poses, to be compared."""
-    return tuple((pose.name, pose.pose, pose.energy, pose.options, pose.method) for pose in poses)
+    return tuple((p.name, p.pose, p.energy, p.options, p.method) for p in state.poses)
 
 
 def _check_place(path: Path) -> None:

@@ -2,80 +2,37 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb.geometry import MeshMap, Panels
+from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.session.edit_state import EditedPose, Solution, continued_history
+from glid_nb.session.document import NamedPose, Solution
+from glid_nb.session.edit_state import Frame, Task
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.solvers import DeformationMap, Iteration, Newton, Progress, Result, solve
-from glid_nb.solvers.discretisation import Discretisation, discretise
+from glid_nb.solvers.discretisation import discretise
 
 Array = NDArray[Any]
 
 FRAME_INTERVAL = 1 / 40
 """Least number of seconds between two frames of one solve; the last frame is always sent."""
+MOST_ITERATIONS = 200
+"""Most iterations of a gesture that are kept, the latest ones."""
 # Panels are only ever split; with more than this multiple of the initial number, start afresh.
 _MOST_REFINED = 3.0
-
-
-@dataclass(frozen=True, eq=False)
-class Task:
-    """What to solve."""
-
-    pose: EditedPose
-    """Handles, targets, energy, options, method, and the map to start from."""
-    chain: int
-    """A task continues from the map of the task before it only if both are of one chain."""
-    single: bool = False
-    """Stop after one compiled call, or one iteration of another method."""
-
-
-@dataclass(frozen=True, eq=False)
-class Frame:
-    """A map during a solve, or its final one."""
-
-    task: Task
-    map: HarmonicMap
-    """Certified; for a method on a mesh the task's own."""
-    history: tuple[Iteration, ...]
-    """All iterations of this gesture so far."""
-    solution: Solution | None
-    """None while the solve goes on."""
-    panels: Panels | None = None
-    """Of the boundary; None for a method without panels."""
-    sigma2_lower: Array = field(default_factory=lambda: np.empty(0))
-    """(p,) certified bound per panel; empty when it is not known."""
-    mesh: MeshMap | None = None
-    """The map of a method on a mesh, which may fold."""
-    starts: tuple[int, ...] = ()
-    """Numbers of the gesture's iterations at which the targets had moved."""
-
-    @property
-    def bound(self) -> float:
-        """The certified lower bound on sigma_2; NaN when the solver has not given one."""
-        if len(self.sigma2_lower):
-            return float(self.sigma2_lower.min())
-        known = self.history[-1].sigma2_lower if self.history else None
-        return math.nan if known is None else known
 
 
 class LiveSolver:
     """Solves one task after the other, each from the map that the one before has reached.
 
-    Parameters
-    ----------
-    publish : bound method
-        Called with every :class:`Frame`; its object is not kept alive.
-    failed : bound method
-        Called with the exception that a solve raised; likewise.
+    ``publish`` is called with every :class:`Frame`, ``failed`` with the exception that a solve
+    raised; both are bound methods whose objects are not kept alive.
     """
 
     def __init__(
@@ -83,11 +40,12 @@ class LiveSolver:
     ) -> None:
         self._publish, self._failed = weakly(publish), weakly(failed)
         self._last: Result | None = None
-        self._last_chain: int | None = None
-        self._iterations: tuple[Iteration, ...] = ()
+        self._chain: int | None = None
+        # Of the gesture: the iterations before this task, and the first ones of all its tasks.
+        self._before: tuple[Iteration, ...] = ()
         self._starts: tuple[int, ...] = ()
         self._published = -np.inf
-        self._bounds = np.empty(0)
+        self._bounds: Array | None = None
 
     def solve(self, task: Task, worker: LatestWins[Task]) -> None:
         """Run the task's method and publish its frames.
@@ -95,35 +53,27 @@ class LiveSolver:
         A newer task interrupts this between two compiled calls, or two iterations of another
         method. So every task moves the shape, and the last one is solved to its end.
         """
-        continued = self._last_chain == task.chain and self._last is not None
-        last = self._last if continued else None
-        before = self._iterations if continued else ()
+        if self._chain != task.chain or self._last is None:
+            self._last, self._before, self._starts = None, (), ()
+        before = self._before
         start = before[-1].iteration + 1 if before else 1
-        earlier = tuple(i for i in self._starts if before and before[0].iteration <= i < start)
-        self._starts = (*earlier, start)
+        earlier = (i for i in self._starts if before and before[0].iteration <= i < start)
+        self._starts, self._bounds = (*earlier, start), None
         try:
-            result = self._result(task, worker, last, before)
+            result = self._result(task, worker)
         except Exception as error:  # shown to the user; the next task starts from its own map
             self._last = None
             self._failed(error)
             return
-        history = continued_history(before, result.history)
-        solution = Solution.of(result, before, self._starts)
-        frame = self._frame(task, result.map, history, solution, result.discretisation)
-        self._last, self._last_chain, self._iterations = result, task.chain, frame.history
+        frame = self._frame(task, result)
+        solution = Solution(result.status, result.message, frame.history, frame.starts)
+        self._last, self._chain, self._before = result, task.chain, frame.history
         self._published = time.monotonic()
-        self._publish(frame)
+        self._publish(replace(frame, solution=solution))
 
-    def _result(
-        self,
-        task: Task,
-        worker: LatestWins[Task],
-        last: Result | None,
-        before: tuple[Iteration, ...],
-    ) -> Result:
+    def _result(self, task: Task, worker: LatestWins[Task]) -> Result:
         edited, method = task.pose, task.pose.method
         calls = iterations = 0
-        self._bounds = np.empty(0)
 
         def callback(progress: Progress) -> bool:
             nonlocal calls, iterations
@@ -131,7 +81,7 @@ class LiveSolver:
                 # The report before the first iteration: every task takes at least a step.
                 return worker.cancelled
             calls += 1
-            self._bounds = np.empty(0) if progress.sigma2_lower is None else progress.sigma2_lower
+            self._bounds = progress.sigma2_lower
             moved, iterations = len(progress.history) > iterations, len(progress.history)
             # A first call may only split panels; those are kept for the next task.
             if worker.overtaken or (task.single and (moved or calls > 1)):
@@ -139,35 +89,30 @@ class LiveSolver:
             now = time.monotonic()
             if moved and now - self._published >= FRAME_INTERVAL:
                 self._published = now
-                history = continued_history(before, progress.history)
-                disc = progress.discretisation
-                self._publish(self._frame(task, progress.map, history, None, disc))
+                self._publish(self._frame(task, progress))
             return False
 
         # During a drag the shape must not turn as a whole; a single handle takes it along.
         align = isinstance(method, Newton) and len(edited.pose) == 1
         options = replace(edited.options, align=align, restarts=0)
-        start = _starting_point(edited, last)
+        start = _starting_point(edited, self._last)
         domain = edited.map.domain
         return solve(domain, edited.pose, edited.energy, options, start, callback, method=method)
 
-    def _frame(
-        self,
-        task: Task,
-        map: DeformationMap,
-        history: tuple[Iteration, ...],
-        solution: Solution | None,
-        discretisation: Discretisation | None,
-    ) -> Frame:
-        panels = None if discretisation is None else discretisation.panels
-        bounds = self._bounds
-        if panels is None or len(bounds) != len(panels):
-            bounds = np.empty(0)
+    def _frame(self, task: Task, now: Progress | Result) -> Frame:
+        last = self._before[-1].iteration if self._before else 0
+        more = (replace(i, iteration=last + i.iteration) for i in now.history[-MOST_ITERATIONS:])
+        history = (*self._before, *more)[-MOST_ITERATIONS:]
+        map = now.map
         mesh, certified = (map, task.pose.map) if isinstance(map, MeshMap) else (None, map)
-        return Frame(task, certified, history, solution, panels, bounds, mesh, self._starts)
+        panels = None if now.discretisation is None else now.discretisation.panels
+        bounds = self._bounds
+        if panels is None or bounds is None or len(bounds) != len(panels):
+            bounds = np.empty(0)
+        return Frame(task, certified, history, self._starts, None, panels, bounds, mesh)
 
 
-def _starting_point(edited: EditedPose, last: Result | None) -> DeformationMap | Result:
+def _starting_point(edited: NamedPose, last: Result | None) -> DeformationMap | Result:
     start = edited.map if last is None else last.map
     if isinstance(start, MeshMap):
         return start

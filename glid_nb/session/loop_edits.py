@@ -9,7 +9,8 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb.geometry import Cage, GeometryError
+from glid_nb._arguments import number_pairs, read_only
+from glid_nb.geometry import GeometryError, loop_name
 
 Loop: TypeAlias = NDArray[np.float64]
 Loops: TypeAlias = tuple[Loop, ...]
@@ -48,7 +49,7 @@ def delete_vertices(loops: Loops, vertices: Iterable[tuple[int, int]]) -> Loops:
             "The outline needs at least 3 points; move them instead",
         )
     rest = (np.delete(loop, list(gone.get(i, ())), axis=0) for i, loop in enumerate(loops))
-    return tuple(_read_only(loop) for i, loop in enumerate(rest) if i == 0 or len(loop) >= 3)
+    return tuple(read_only(loop) for i, loop in enumerate(rest) if i == 0 or len(loop) >= 3)
 
 
 def nearest_edge(loops: Loops, point: ArrayLike) -> tuple[int, int, Loop]:
@@ -80,12 +81,10 @@ def contains(loop: Loop, point: ArrayLike) -> bool:
 
 def checked_point(point: ArrayLike) -> Loop:
     """The point as a (2,) array; GeometryError unless it is a pair of finite numbers."""
-    try:
-        p = np.asarray(point, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise GeometryError(f"a point must be a pair of numbers, not {point!r:.60}") from error
-    if p.shape != (2,) or not np.isfinite(p).all():
-        raise GeometryError(f"a point must be a pair of finite numbers, not {point!r:.60}")
+    wanted = f"a point must be a pair of finite numbers, not {point!r:.60}"
+    p = number_pairs([point], wanted, GeometryError)[0]
+    if not np.isfinite(p).all():
+        raise GeometryError(wanted)
     return p
 
 
@@ -94,16 +93,10 @@ def _loop(loops: Loops, loop: int, index: int) -> Loop:
         raise GeometryError(f"there is no loop {loop}; there are {len(loops)}, counted from 0")
     if not 0 <= index < len(loops[loop]):
         raise GeometryError(
-            f"{Cage.loop_name(loop)} has no vertex {index}; it has {len(loops[loop])}, "
-            "counted from 0"
+            f"{loop_name(loop)} has no vertex {index}; it has {len(loops[loop])}, counted from 0"
         )
     return loops[loop]
 
 
 def _with(loops: Loops, index: int, loop: Loop) -> Loops:
-    return (*loops[:index], _read_only(loop), *loops[index + 1 :])
-
-
-def _read_only(loop: Loop) -> Loop:
-    loop.setflags(write=False)
-    return loop
+    return (*loops[:index], read_only(loop), *loops[index + 1 :])

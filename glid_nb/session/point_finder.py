@@ -19,37 +19,29 @@ _NEWTON_STEPS = 6
 _ROUNDING = 1e-9
 
 
-class PointFinder:
-    """Inverts the maps of one domain by Newton's method, from a start found on a coarse mesh."""
+def find_source(map: DeformationMap, point: Any) -> Array | None:
+    """The point z (2,) of the domain with f(z) = ``point``; None if there is none.
 
-    def __init__(self, domain: Domain) -> None:
-        self.domain = domain
-
-    @functools.cached_property
-    def _mesh(self) -> tuple[Array, Array]:
-        mesh = triangulate(self.domain.cage, _MESH_VERTICES)
-        return mesh.vertices, mesh.triangles
-
-    def find(self, map: DeformationMap, point: Any) -> Array | None:
-        """The point z (2,) of the domain with f(z) = ``point``; None if there is none.
-
-        Where the shape overlaps itself, it is the one that is drawn last, on top.
-        """
-        point = np.asarray(point, dtype=float)
-        if isinstance(map, MeshMap):
-            triangles, vertices = map.layered, map.triangulation.vertices
-            return _in_triangles(
-                map.images[triangles], vertices[triangles], point, turned_over=True
-            )
-        vertices, triangles = self._mesh
-        guess = _in_triangles(map(vertices)[triangles], vertices[triangles], point)
-        if guess is None:
-            return None
-        refined = _newton(map, guess, point)
-        for candidate in (refined, guess):
-            if candidate is not None and self.domain.cage.contains(candidate[None])[0]:
-                return candidate
+    Where the shape overlaps itself, it is the one that is drawn last, on top. Newton's method
+    refines what is found on a coarse mesh.
+    """
+    point = np.asarray(point, dtype=float)
+    if isinstance(map, MeshMap):
+        triangles, vertices = map.layered, map.triangulation.vertices
+        return _in_triangles(map.images[triangles], vertices[triangles], point, turned_over=True)
+    vertices, triangles = _mesh(map.domain)
+    guess = _in_triangles(map(vertices)[triangles], vertices[triangles], point)
+    if guess is None:
         return None
+    candidates = (_newton(map, guess, point), guess)
+    inside = map.domain.cage.contains
+    return next((z for z in candidates if z is not None and inside(z[None])[0]), None)
+
+
+@functools.lru_cache(maxsize=4)
+def _mesh(domain: Domain) -> tuple[Array, Array]:
+    mesh = triangulate(domain.cage, _MESH_VERTICES)
+    return mesh.vertices, mesh.triangles
 
 
 def _in_triangles(
@@ -60,12 +52,8 @@ def _in_triangles(
     Flipped triangles are skipped unless ``turned_over``: a coarse triangle may be flipped where the
     map itself is not.
     """
-    a, b, c = (images[:, k] - point for k in range(3))
-
-    def cross(p: Array, q: Array) -> Array:
-        return p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
-
-    weights = np.stack([cross(b, c), cross(c, a), cross(a, b)], axis=1)
+    second, third = (np.roll(images - point, -k, axis=1) for k in (1, 2))
+    weights = second[..., 0] * third[..., 1] - second[..., 1] * third[..., 0]
     total = weights.sum(axis=1)
     side = np.sign(total) if turned_over else np.ones(len(total))
     holding = np.flatnonzero(
@@ -88,8 +76,6 @@ def _newton(map: HarmonicMap, start: Array, point: Array) -> Array | None:
             return None
         dz = (fzb * w.conjugate() - fz.conjugate() * w) / determinant
         z = z + np.array([dz.real, dz.imag])
-        if not np.isfinite(z).all():
-            return None
         if abs(dz) < _ROUNDING:
             break
-    return z
+    return z if np.isfinite(z).all() else None

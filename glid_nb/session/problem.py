@@ -7,25 +7,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from glid_nb import _json
 from glid_nb._errors import about
-from glid_nb._json import (
-    check_fields,
-    check_loops,
-    check_points,
-    check_positive,
-    read_object,
-    write_json,
-)
 from glid_nb.geometry import Domain
 from glid_nb.solvers import Pose
 
-_POSE = {"handles": check_points, "targets": check_points}
+_POSE = {"handles": _json.check_points, "targets": _json.check_points}
 _CHOSEN_WHEN_MISSING = {
-    "holes": check_loops,
-    "offset": check_positive,
-    "offset_cage": check_points,
-    "offset_holes": check_loops,
-    "hole_points": check_points,
+    "holes": _json.check_loops,
+    "offset": _json.check_positive,
+    "offset_cage": _json.check_points,
+    "offset_holes": _json.check_loops,
+    "hole_points": _json.check_points,
 }
 
 
@@ -55,20 +48,17 @@ class Problem:
     def from_dict(cls, data: Mapping[str, Any]) -> Problem:
         """The problem in a JSON object.
 
-        Parameters
-        ----------
-        data : mapping
-            ``cage``, ``handles`` and ``targets`` are required, ``holes`` is optional, all in world
-            coordinates. ``offset`` (a distance), ``offset_cage``, ``offset_holes`` and
-            ``hole_points`` are chosen when missing. Other keys are ignored.
+        Its keys ``cage``, ``handles`` and ``targets`` are required, ``holes`` is optional, all in
+        world coordinates. ``offset`` (a distance), ``offset_cage``, ``offset_holes`` and
+        ``hole_points`` are chosen when missing. Other keys are ignored.
 
         Raises
         ------
         InputFileError, GeometryError, PoseError
             When something is missing or not valid; the message names the key or the place.
         """
-        required = {"cage": check_points, **_POSE}
-        check_fields(data, "a problem", required, _CHOSEN_WHEN_MISSING, others=True)
+        required = {"cage": _json.check_points, **_POSE}
+        _json.check_fields(data, "a problem", required, _CHOSEN_WHEN_MISSING, others=True)
         shape = {key: data.get(key) for key in ("cage", *_CHOSEN_WHEN_MISSING)}
         return cls(Domain.from_dict(shape), Pose.from_dict(data))
 
@@ -78,34 +68,24 @@ class Problem:
 
     def save(self, path: str | Path) -> None:
         """Write the problem as JSON, atomically."""
-        write_json(path, self.to_dict())
+        _json.write_json(path, self.to_dict())
 
     @classmethod
     def load(cls, path: str | Path) -> Problem:
         """Read a problem from a JSON file.
 
-        Raises
-        ------
-        InputFileError
-            When the file does not hold a valid problem; the message names the file and the culprit.
-        OSError
-            When it cannot be read.
+        An InputFileError names the file and the culprit if it does not hold a valid problem.
         """
         with about(path):
-            return cls.from_dict(read_object(path))
+            return cls.from_dict(_json.read_object(path))
 
 
 def load_pose(path: str | Path) -> Pose:
     """Read ``handles`` and ``targets`` from a JSON file; other keys are ignored.
 
-    Raises
-    ------
-    InputFileError
-        When the file does not hold a valid pose; the message names the file and the culprit.
-    OSError
-        When it cannot be read.
+    An InputFileError names the file and the culprit if it does not hold a valid pose.
     """
     with about(path):
-        data = read_object(path)
-        check_fields(data, "a pose", _POSE, others=True)
+        data = _json.read_object(path)
+        _json.check_fields(data, "a pose", _POSE, others=True)
         return Pose.from_dict(data)

@@ -24,21 +24,13 @@ _LIBRARIES = ("jax", "jaxlib", "numpy", "scipy")
 def build_report(result: Result) -> dict[str, Any]:
     """The report of a solve, with its certificate and global injectivity, both timed.
 
-    Parameters
-    ----------
-    result : Result
-
-    Returns
-    -------
-    dict
-        ``status`` and ``message``; ``certified`` and the ``proof`` in words; the energies ``E``,
-        ``E_iso`` and ``E_p2p``, and ``E_start`` before the first iteration; the certified bounds
-        ``sigma2_lower``, ``sigma1_upper`` and ``k_upper``; ``windings`` of f_z per loop (exterior
-        first) and their sum ``winding``; ``globally_injective`` ("yes", "no" or "undecided") and
-        a ``crossing`` if not; counts (``panels`` and ``panels_split`` are the solver's,
-        ``proof_panels`` those on which the final proof ended);
-        times in seconds; and the ``history``, one object per iteration. Numbers that are not
-        finite are null.
+    ``status`` and ``message``; ``certified`` and the ``proof`` in words; the energies ``E``,
+    ``E_iso`` and ``E_p2p``, and ``E_start`` before the first iteration; the certified bounds
+    ``sigma2_lower``, ``sigma1_upper`` and ``k_upper``; ``windings`` of f_z per loop (exterior
+    first) and their sum ``winding``; ``globally_injective`` ("yes", "no" or "undecided") and a
+    ``crossing`` if not; counts (``panels`` and ``panels_split`` are the solver's, ``proof_panels``
+    those on which the final proof ended); times in seconds; and the ``history``, one object per
+    iteration. Numbers that are not finite are null.
     """
     began = time.perf_counter()
     map_, certificate = result.map, result.certificate
@@ -75,27 +67,20 @@ def build_report(result: Result) -> dict[str, Any]:
         "solve_time": result.solve_time,
         "certify_time": certify_time,
         "options": dataclasses.asdict(options),
-        "history": [
-            {**dataclasses.asdict(entry), "energy": entry.energy} for entry in result.history
-        ],
-        "versions": _versions(),
-        "machine": _machine(),
+        "history": [{**dataclasses.asdict(one), "energy": one.energy} for one in result.history],
+        "versions": {
+            "glid_nb": version("glid-nb"),
+            "python": platform.python_version(),
+            **{name: version(name) for name in _LIBRARIES},
+        },
+        "machine": {
+            "system": platform.platform(),
+            "architecture": platform.machine(),
+            "cpus": os.cpu_count(),
+            "devices": [f"{one.platform}: {one.device_kind}" for one in jax.local_devices()],
+        },
     }
     return _plain(report)
-
-
-def _versions() -> dict[str, str]:
-    libraries = {name: version(name) for name in _LIBRARIES}
-    return {"glid_nb": version("glid-nb"), "python": platform.python_version(), **libraries}
-
-
-def _machine() -> dict[str, Any]:
-    return {
-        "system": platform.platform(),
-        "architecture": platform.machine(),
-        "cpus": os.cpu_count(),
-        "devices": [f"{device.platform}: {device.device_kind}" for device in jax.local_devices()],
-    }
 
 
 def _plain(value: Any) -> Any:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from glid_nb.energies import CustomEnergy
-from glid_nb.geometry import Domain
+from glid_nb.geometry import Cage, Domain
 from glid_nb.imaging import TraceError, trace
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.solvers import Newton
@@ -74,34 +74,18 @@ def _solve_lines(pose: NamedPose) -> list[str]:
 
 
 def _domain_lines(document: Document, picture: str) -> list[str]:
-    lines = []
+    domain, points = document.domain, document.domain.hole_points.tolist()
+    lines = [f"cage = {_cage(document.cage)}"]
     if _is_traced(document):
-        options = _changed(document.trace_options)
-        arguments = f"image, {options}" if options else "image"
-        lines += [
-            f"image = glid.read_image({picture!r})",
-            f"cage = glid.trace({arguments}).cage",
-        ]
-    else:
-        cage = document.cage
-        lines += [
-            "cage = glid.Cage(",
-            f"    {cage.exterior.tolist()},",
-            f"    {[hole.tolist() for hole in cage.holes]},",
-            ")",
-        ]
-    domain = document.domain
+        arguments = ", ".join(filter(None, ["image", _changed(document.trace_options)]))
+        lines = [f"image = glid.read_image({picture!r})", f"cage = glid.trace({arguments}).cage"]
     if Domain.from_cage(document.cage).to_dict() == domain.to_dict():
         return [*lines, "domain = glid.Domain.from_cage(cage)"]
-    outer = domain.offset_cage
-    return [
-        *lines,
-        "domain = glid.Domain(",
-        "    cage,",
-        f"    glid.Cage({outer.exterior.tolist()}, {[hole.tolist() for hole in outer.holes]}),",
-        f"    {domain.hole_points.tolist()},",
-        ")",
-    ]
+    return [*lines, f"domain = glid.Domain(cage, {_cage(domain.offset_cage)}, {points})"]
+
+
+def _cage(cage: Cage) -> str:
+    return f"glid.Cage({cage.exterior.tolist()}, {[hole.tolist() for hole in cage.holes]})"
 
 
 def _is_traced(document: Document) -> bool:

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
-from glid_nb._bounds import rounded_down, rounded_up
 from glid_nb.certificate import Certificate
+from glid_nb.certificate.rounding import rounded_down, rounded_up
 from glid_nb.geometry import MeshMap
-from glid_nb.harmonic import HarmonicMap
-from glid_nb.session.edit_state import EditState, Solution
-from glid_nb.session.live_solver import Frame
-from glid_nb.session.moment import Moment
+from glid_nb.session.document import Solution, certificate_of
+from glid_nb.session.edit_state import EditState, Frame, Moment
 from glid_nb.solvers import MethodError, Status
 
 Level = Literal["idle", "working", "good", "blocked", "error"]
@@ -29,14 +26,17 @@ class StatusLine:
     text: str
 
 
-def describe(moment: Moment, certificate_of: Callable[[HarmonicMap], Certificate]) -> StatusLine:
+def describe(moment: Moment) -> StatusLine:
     """The status of an editor.
 
     While the solver works it shows the solver's bound on sigma_2; at rest the bounds of the
     certificate, which is only then computed.
     """
-    if moment.error is not None:
-        return _describe_error(moment.error)
+    if (error := moment.error) is not None:
+        if isinstance(error, MethodError):
+            return StatusLine("blocked", str(error))
+        text = str(error) or type(error).__name__
+        return StatusLine("error", f"The solver failed: {text} The last certified map is shown.")
     state, frame, solution = moment.state, moment.frame, moment.solution
     if moment.busy and not moment.paused:
         if frame is None:
@@ -59,8 +59,8 @@ def describe(moment: Moment, certificate_of: Callable[[HarmonicMap], Certificate
         return _describe_comparison(solution, frame, proof())
     status = solution.status
     if status is Status.BLOCKED:
-        text = f"Blocked: the shape follows as far as it is proved not to fold{_miss(state)}"
-        return StatusLine("blocked", text + proof())
+        text = "Blocked: the shape follows as far as it is proved not to fold"
+        return StatusLine("blocked", text + _miss(state) + proof())
     if status in (Status.MAX_ITERATIONS, Status.INDEFINITE):
         return StatusLine("blocked", solution.message + proof())
     if status is Status.STOPPED:
@@ -77,13 +77,6 @@ def _describe_comparison(solution: Solution, frame: Frame, proof: str) -> Status
         ended = "done" if len(frame.history) == 1 else f"done after {len(frame.history)} iterations"
         return StatusLine("idle", f"{title}: {ended}" + proof)
     return StatusLine("blocked", f"{title}: {solution.message}" + proof)
-
-
-def _describe_error(error: Exception) -> StatusLine:
-    if isinstance(error, MethodError):
-        return StatusLine("blocked", str(error))
-    text = str(error) or type(error).__name__
-    return StatusLine("error", f"The solver failed: {text} The last certified map is shown.")
 
 
 def _bound(frame: Frame | None) -> str:

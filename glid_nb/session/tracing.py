@@ -11,26 +11,16 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import number_pairs, read_only
 from glid_nb.geometry import Cage, Domain, GeometryError
-from glid_nb.imaging import (
-    Hole,
-    PixelFrame,
-    Scribbles,
-    TraceError,
-    TraceOptions,
-    Tracer,
-    Tracing,
-    as_rgba8,
-    read_image,
-)
+from glid_nb.imaging import Hole, PixelFrame, Scribbles, TraceError, TraceOptions, Tracer, Tracing
 from glid_nb.imaging.options import Point
-from glid_nb.imaging.read import ImageSource
+from glid_nb.imaging.read import ImageSource, as_rgba8, read_image
 from glid_nb.imaging.trace import with_changes
 from glid_nb.session import loop_edits
 from glid_nb.session.document import Document
-from glid_nb.session.history import History
 from glid_nb.session.loop_edits import Loops
-from glid_nb.session.observed import Observed
+from glid_nb.session.model import History, Observed
 from glid_nb.session.worker import weakly
 
 Brush = Literal["foreground", "background"]
@@ -57,20 +47,13 @@ class TracingState:
     image: NDArray[np.uint8] | None = None
     """(h, w, 4) read-only uint8, or None before there is a picture."""
     options: TraceOptions = field(default_factory=TraceOptions)
-    """How to trace, without scribbles."""
+    """How to trace; with scribbles only if the method uses them."""
     scribbles: Scribbles | None = None
-    """Used when ``options.method`` is "scribbles"."""
+    """The painted strokes, used or not."""
     loops: Loops | None = None
     """The loops as edited by hand, world coordinates; None when they are as traced."""
     fallback: Domain | None = None
     """The last valid domain before this state, used while this state's own is not valid."""
-
-    @property
-    def trace_options(self) -> TraceOptions:
-        """The options, with the scribbles if they use them."""
-        if self.options.method != "scribbles":
-            return self.options
-        return replace(self.options, scribbles=self.scribbles or _NO_SCRIBBLES)
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,8 +71,6 @@ class TracingOutcome:
 
 
 _NO_SCRIBBLES = Scribbles([], [])
-# TraceOptions refuses the method without scribbles, but the state stores them separately.
-_METHOD_OF_SCRIBBLES: dict[str, Any] = {"method": "scribbles", "scribbles": _NO_SCRIBBLES}
 
 
 class TracingModel(Observed):
@@ -118,40 +99,32 @@ class TracingModel(Observed):
     def __init__(
         self, image: ImageSource | None = None, options: TraceOptions | None = None
     ) -> None:
-        chosen = TraceOptions() if options is None else options
+        super().__init__()
         pixels = None if image is None else _pixels(image)
-        self._begin(TracingState(pixels, _without_strokes(chosen), chosen.scribbles))
+        self.history = History(_state(pixels, options or TraceOptions()))
+        """The undo history."""
+        self._tracer: Tracer | None = None
+        self._outcome_of = functools.lru_cache(_KEPT_OUTCOMES)(weakly(self._evaluate))
 
     @classmethod
     def from_document(cls, document: Document) -> TracingModel:
         """A model with the document's picture, options, scribbles and cage."""
-        model = cls.__new__(cls)
-        state = TracingState(
-            document.image,
-            _without_strokes(document.trace_options),
-            document.scribbles,
-            document.cage.loops,
-            document.domain,
-        )
-        model._begin(state)
+        model = cls()
+        state = _state(document.image, document.trace_options, document.scribbles)
+        state = replace(state, loops=document.cage.loops, fallback=document.domain)
+        model.history = History(state)
         # A cage that tracing gives again was not edited by hand.
-        tracing = model.tracing
+        tracing = model.outcome.tracing
         if tracing is not None and tracing.cage.equals(document.cage):
-            model._history = History(replace(state, loops=None))
+            model.history = History(replace(state, loops=None))
         return model
-
-    def _begin(self, state: TracingState) -> None:
-        super().__init__()
-        self._history = History(state)
-        self._tracer: Tracer | None = None
-        self._outcome_of = functools.lru_cache(_KEPT_OUTCOMES)(weakly(self._evaluate))
 
     # State
 
     @property
     def state(self) -> TracingState:
         """The user's present choices."""
-        return self._history.present
+        return self.history.present
 
     @property
     def image(self) -> NDArray[np.uint8] | None:
@@ -168,24 +141,14 @@ class TracingModel(Observed):
 
     @property
     def options(self) -> TraceOptions:
-        """The options, with the scribbles if they use them."""
-        return self.state.trace_options
-
-    @property
-    def scribbles(self) -> Scribbles | None:
-        """The painted strokes, used or not."""
-        return self.state.scribbles
+        """How to trace; with scribbles only if the method uses them."""
+        return self.state.options
 
     @property
     def outcome(self) -> TracingOutcome:
         """What follows from the state; computed on first use."""
         with self._lock:
             return self._outcome_of(self.state)
-
-    @property
-    def tracing(self) -> Tracing | None:
-        """The result of automatic tracing; None if it failed."""
-        return self.outcome.tracing
 
     @property
     def loops(self) -> tuple[NDArray[np.float64], ...]:
@@ -196,7 +159,8 @@ class TracingModel(Observed):
     @property
     def holes(self) -> tuple[Hole, ...]:
         """The holes of the shape, kept or not."""
-        return () if self.tracing is None else self.tracing.holes
+        tracing = self.outcome.tracing
+        return () if tracing is None else tracing.holes
 
     @property
     def cage(self) -> Cage | None:
@@ -221,55 +185,38 @@ class TracingModel(Observed):
     @property
     def has_discarded_edits(self) -> bool:
         """Whether the last step, such as another option, discarded edits by hand."""
-        before = self._history.past[-1] if self._history.past else self.state
+        before = self.history.past[-1] if self.history.past else self.state
         return before.loops is not None and not self.edited and before.image is self.image
 
     @property
     def can_undo(self) -> bool:
         """Whether there is something to undo."""
-        return bool(self._history.past)
+        return bool(self.history.past)
 
     @property
     def can_redo(self) -> bool:
         """Whether there is something to redo."""
-        return bool(self._history.future)
-
-    def redo_reaches(self, image: NDArray[np.uint8] | None) -> bool:
-        """Whether redo can bring back this picture, the same array."""
-        return any(state.image is image for state in self._history.future)
-
-    def on_change(self, callback: Callable[[], None]) -> Callable[[], None]:
-        """Call ``callback`` after every change; returns a function that ends this."""
-        return self.observe(lambda _: callback())
+        return bool(self.history.future)
 
     # Actions
 
     def open(self, image: ImageSource) -> None:
-        """Open another picture, with the default options.
-
-        Raises
-        ------
-        TraceError
-            It cannot be read; nothing changes.
-        """
+        """Open another picture, with the default options; no change if it cannot be read."""
         self._step(TracingState(image=_pixels(image)))
 
     def set_options(self, gesture: Any = None, **changes: Any) -> None:
         """Trace with other options, fields of `TraceOptions`; discards edits by hand.
 
-        Raises
-        ------
-        TraceError
-            An unknown field, or a value out of its range; nothing changes.
+        A TraceError, and no change, for an unknown field or a value out of its range.
         """
         with self.locked():
             before = self.state
             if "scribbles" in changes:
                 raise TraceError("scribbles are painted: use paint(...) and clear_scribbles()")
-            if changes.get("method") == "scribbles":
-                changes = {**changes, **_METHOD_OF_SCRIBBLES}
-            elif "method" in changes:
-                changes = {**changes, "scribbles": None}
+            if "method" in changes:
+                used = changes["method"] == "scribbles"
+                strokes = (before.scribbles or _NO_SCRIBBLES) if used else None
+                changes = {**changes, "scribbles": strokes}
             options = with_changes(before.options, changes)
             if options == before.options and before.loops is None:
                 return
@@ -286,13 +233,7 @@ class TracingModel(Observed):
         self.set_options(component=0, component_at=point)
 
     def paint(self, brush: Brush, stroke: ArrayLike) -> None:
-        """Add a stroke on the shape or on the background, (k, 2) pixels, and trace by scribbles.
-
-        Raises
-        ------
-        TraceError
-            The stroke is not a list of finite points; nothing changes.
-        """
+        """Add a stroke on the shape or on the background, (k, 2) pixels, and trace by scribbles."""
         with self.locked():
             old = self.state.scribbles or _NO_SCRIBBLES
             strokes = {"foreground": old.foreground, "background": old.background}
@@ -300,13 +241,9 @@ class TracingModel(Observed):
                 raise TraceError(f"there is no brush {brush!r}; use foreground or background")
             if isinstance(strokes[brush], np.ndarray):
                 raise TraceError(f"the {brush} was given as a mask, which cannot be painted over")
-            try:
-                scribbles = Scribbles(**{**strokes, brush: (*strokes[brush], stroke)})
-            except TraceError:
-                raise
-            except (TypeError, ValueError) as error:
-                raise TraceError(f"a stroke must be a list of pixels (x, y): {error}") from error
-            options = with_changes(self.state.options, _METHOD_OF_SCRIBBLES)
+            line = number_pairs(stroke, "a stroke must be a list of pixels (x, y)", TraceError)
+            scribbles = Scribbles(**{**strokes, brush: (*strokes[brush], line)})
+            options = replace(self.options, method="scribbles", scribbles=scribbles)
             self._step(replace(self.state, options=options, scribbles=scribbles, loops=None))
 
     def clear_scribbles(self) -> None:
@@ -314,16 +251,18 @@ class TracingModel(Observed):
         with self.locked():
             state = self.state
             if state.scribbles is not None:
-                loops = None if state.options.method == "scribbles" else state.loops
-                self._step(replace(state, scribbles=None, loops=loops))
+                options, loops = state.options, state.loops
+                if options.method == "scribbles":
+                    options, loops = replace(options, scribbles=_NO_SCRIBBLES), None
+                self._step(replace(state, options=options, scribbles=None, loops=loops))
 
     def toggle_hole(self, number: int) -> None:
         """Drop a hole, or keep it if it was dropped; other loops keep their edits."""
         with self.locked():
-            state, frame = self.state, self.frame
-            if frame is None or not 0 <= number < len(self.holes):
-                raise TraceError(f"there is no hole {number}; there are {len(self.holes)}")
-            hole = self.holes[number]
+            state, holes = self.state, self.holes
+            if not 0 <= number < len(holes):
+                raise TraceError(f"there is no hole {number}; there are {len(holes)}")
+            hole = holes[number]
             region = shapely.Polygon(hole.loop)
             keep, drop = (
                 [p for p in points if not shapely.contains_xy(region, *p)]
@@ -332,14 +271,16 @@ class TracingModel(Observed):
             (drop if hole.kept else keep).append(hole.pixel)
             new = replace(state, options=replace(state.options, keep_holes=keep, drop_holes=drop))
             if state.loops is not None:
-                new = replace(new, loops=self._loops_with(new, hole))
+                new = replace(new, loops=self._loops_with(new, state.loops, hole))
             self._step(new)
 
     def move_vertex(self, loop: int, index: int, to: Point, gesture: Any = None) -> None:
         """Move a vertex of a loop that is shown."""
-        self._edit(
-            lambda loops: loop_edits.move_vertex(loops, loop, index, self._world(to)), gesture
-        )
+
+        def moved(loops: Loops) -> Loops:
+            return loop_edits.move_vertex(loops, loop, index, self._world(to))
+
+        self._edit(moved, gesture)
 
     def insert_vertex(self, at: Point) -> tuple[int, int]:
         """Add a vertex on the edge nearest to a point; returns its (loop, index)."""
@@ -354,10 +295,7 @@ class TracingModel(Observed):
     def delete_vertices(self, vertices: Iterable[tuple[int, int]]) -> None:
         """Delete vertices (loop, index); holes with fewer than three left are removed.
 
-        Raises
-        ------
-        GeometryError
-            The exterior would have fewer than three left; nothing changes.
+        A GeometryError, and no change, if the exterior would have fewer than three left.
         """
         chosen = list(vertices)
         if chosen:
@@ -377,30 +315,30 @@ class TracingModel(Observed):
         """Restore an earlier state, with its fallback, as a new step."""
         with self.locked():
             if state is not self.state:
-                self._go_to(self._history.step(state))
+                self._go_to(self.history.step(state))
 
     def undo(self) -> bool:
         """Go back one step; whether there was one."""
         with self.locked():
-            return self._go_to(self._history.undone())
+            return self._go_to(self.history.undone())
 
     def redo(self) -> bool:
         """Go forward one step again; whether there was one."""
         with self.locked():
-            return self._go_to(self._history.redone())
+            return self._go_to(self.history.redone())
 
     def cancel(self, gesture: Any) -> bool:
         """Go back to before a gesture, without redo; whether it was the last thing done."""
         with self.locked():
-            under_way = gesture is not None and self._history.gesture == gesture
-            return under_way and self._go_to(self._history.cancelled())
+            under_way = gesture is not None and self.history.gesture == gesture
+            return under_way and self._go_to(self.history.cancelled())
 
     # Internals
 
     def _step(self, state: TracingState, gesture: Any = None) -> None:
         """Make ``state`` the present one, with its fallback."""
         with self.locked():
-            before, history = self.state, self._history
+            before, history = self.state, self.history
             if gesture is not None and gesture == history.gesture:
                 fallback = before.fallback  # valid cages within a gesture do not count
             else:
@@ -409,9 +347,9 @@ class TracingModel(Observed):
 
     def _go_to(self, history: History[TracingState]) -> bool:
         """Make a history the present one; whether that is a change."""
-        if history is self._history:
+        if history is self.history:
             return False
-        self._history = history
+        self.history = history
         self._tell("state")
         return True
 
@@ -428,7 +366,7 @@ class TracingModel(Observed):
         problems: list[TracingProblem] = []
         tracing = None
         try:
-            tracing = self._tracer.trace(state.trace_options)
+            tracing = self._tracer.trace(state.options)
         except (TraceError, GeometryError) as error:
             problems.append(_problem(error, frame))
         loops, cage = state.loops, None
@@ -447,12 +385,9 @@ class TracingModel(Observed):
             domain = state.fallback
         return TracingOutcome(tracing, loops, domain, tuple(problems))
 
-    def _loops_with(self, state: TracingState, hole: Hole) -> Loops:
+    def _loops_with(self, state: TracingState, loops: Loops, hole: Hole) -> Loops:
         """The edited loops without a hole that is dropped, or with one that is kept again."""
-        frame, loops = self.frame, state.loops
-        assert frame is not None
-        assert loops is not None
-        inside = frame.to_world(hole.pixel)
+        inside = self._world(hole.pixel)
         if hole.kept:
             index = loop_edits.around(loops, inside)
             return loops if index is None else (*loops[:index], *loops[index + 1 :])
@@ -466,9 +401,8 @@ class TracingModel(Observed):
 
     def _check_inside(self, point: Point) -> None:
         """Raise unless the point lies in the picture."""
-        frame = self._frame_of_picture()
         x, y = loop_edits.checked_point(point)
-        frame.index_at((float(x), float(y)))
+        self._frame_of_picture().index_at((float(x), float(y)))
 
     def _frame_of_picture(self) -> PixelFrame:
         if (frame := self.frame) is None:
@@ -476,21 +410,23 @@ class TracingModel(Observed):
         return frame
 
 
-def _without_strokes(options: TraceOptions) -> TraceOptions:
-    return replace(options, scribbles=_NO_SCRIBBLES if options.method == "scribbles" else None)
+def _state(
+    image: NDArray[np.uint8] | None, options: TraceOptions, scribbles: Scribbles | None = None
+) -> TracingState:
+    """A state without edits; the strokes are those of the options if no others are given."""
+    scribbles = options.scribbles if scribbles is None else scribbles
+    used = options.method == "scribbles"
+    return TracingState(image, options if used else replace(options, scribbles=None), scribbles)
 
 
 def _problem(error: TraceError | GeometryError, frame: PixelFrame) -> TracingProblem:
     point = error.point if isinstance(error, GeometryError) else None
-    if point is None:
-        return TracingProblem(str(error), error.plain)
-    x, y = frame.to_pixel(point)
-    return TracingProblem(str(error), error.plain, (float(x), float(y)))
+    if point is not None:
+        x, y = frame.to_pixel(point)
+        point = (float(x), float(y))
+    return TracingProblem(str(error), error.plain, point)
 
 
 def _pixels(image: ImageSource) -> NDArray[np.uint8]:
     pixels = as_rgba8(read_image(image))
-    if pixels.flags.writeable:
-        pixels = pixels.copy()  # an array of the caller's
-        pixels.setflags(write=False)
-    return pixels
+    return read_only(pixels.copy()) if pixels.flags.writeable else pixels  # not the caller's array

@@ -18,19 +18,10 @@ class LatestWins(Generic[T]):
     The thread starts with the first task, and ends when this is closed, when its owner is gone, or
     with the process. Exceptions go to :func:`threading.excepthook`; the thread goes on.
 
-    Parameters
-    ----------
-    work : callable
-        Called with a task and this worker; a long task ends early when ``overtaken`` or
-        ``cancelled`` say so. It must not keep the owner alive: see :func:`weakly`.
-    owner : object
-        The object that the thread works for.
-    name : str
-        The name of the thread.
-    interval : float
-        Least number of seconds from the end of a task to the beginning of the next.
-    finish : bool
-        Whether closing does the pending task first, rather than dropping it.
+    ``work`` is called with a task and this worker; a long task ends early when ``overtaken`` or
+    ``cancelled`` say so. It must not keep the ``owner``, for whom it works, alive: see
+    :func:`weakly`. From the end of a task to the beginning of the next ``interval`` seconds pass.
+    Closing drops the pending task, or does it first with ``finish``.
     """
 
     def __init__(
@@ -46,9 +37,12 @@ class LatestWins(Generic[T]):
         self._changed = threading.Condition()
         # The pending task, and whether it is done although the worker is paused.
         self._pending: tuple[T, bool] | None = None
-        self._busy = self._cancelled = self._paused = self._hurried = self._closed = False
+        self._busy = self._cancelled = self._paused = self._hurried = False
+        self.closed = False
+        """Whether this was closed."""
+        self.thread: threading.Thread | None = None
+        """The thread; None before the first task."""
         self._ended = -float("inf")
-        self._thread: threading.Thread | None = None
         # This also ends the thread at the end of the process, before the interpreter shuts down.
         self._finalizer = weakref.finalize(owner, self._close)
 
@@ -58,12 +52,12 @@ class LatestWins(Generic[T]):
         A closed worker ignores it.
         """
         with self._changed:
-            if self._closed:
+            if self.closed:
                 return
             self._pending = (task, at_once)
-            if self._thread is None:
-                self._thread = threading.Thread(target=self._run, name=self._name, daemon=True)
-                self._thread.start()
+            if self.thread is None:
+                self.thread = threading.Thread(target=self._run, name=self._name, daemon=True)
+                self.thread.start()
             self._changed.notify_all()
 
     def cancel(self) -> None:
@@ -76,7 +70,7 @@ class LatestWins(Generic[T]):
         """Wait until there is nothing to do; whether that is within ``timeout`` seconds."""
         with self._changed:
             return self._changed.wait_for(
-                lambda: self._closed or not (self._busy or self._due()), timeout
+                lambda: self.closed or not (self._busy or self._due()), timeout
             )
 
     def hurry(self, timeout: float | None = None) -> bool:
@@ -98,7 +92,7 @@ class LatestWins(Generic[T]):
     @property
     def cancelled(self) -> bool:
         """Whether the running task was cancelled, or this is closed."""
-        return self._closed or self._cancelled
+        return self.closed or self._cancelled
 
     @property
     def overtaken(self) -> bool:
@@ -117,30 +111,15 @@ class LatestWins(Generic[T]):
             self._paused = value
             self._changed.notify_all()
 
-    @property
-    def thread(self) -> threading.Thread | None:
-        """The thread; None before the first task."""
-        return self._thread
-
-    @property
-    def alive(self) -> bool:
-        """Whether the thread runs."""
-        return self._thread is not None and self._thread.is_alive()
-
-    @property
-    def closed(self) -> bool:
-        """Whether this was closed."""
-        return self._closed
-
     def close(self) -> None:
         """End the thread and wait for that; later tasks are ignored."""
         self._finalizer()
 
     def _close(self) -> None:
         with self._changed:
-            self._closed = True
+            self.closed = True
             self._changed.notify_all()
-            thread = self._thread
+            thread = self.thread
         if thread is not None and thread is not threading.current_thread():
             thread.join()
 
@@ -151,12 +130,12 @@ class LatestWins(Generic[T]):
         """Wait for the next task; None once this is closed."""
         with self._changed:
             while True:
-                self._changed.wait_for(lambda: self._closed or self._due())
+                self._changed.wait_for(lambda: self.closed or self._due())
                 rest = self._ended + self._interval - time.monotonic()
-                self._changed.wait_for(lambda: self._closed or self._hurried, max(rest, 0.0))
-                if self._closed and not (self._finish and self._pending):
+                self._changed.wait_for(lambda: self.closed or self._hurried, max(rest, 0.0))
+                if self.closed and not (self._finish and self._pending):
                     return None
-                if self._pending is not None and (self._closed or self._due()):
+                if self._pending is not None and (self.closed or self._due()):
                     (task, _), self._pending = self._pending, None
                     self._busy = True
                     return (task,)

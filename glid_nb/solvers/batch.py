@@ -25,7 +25,7 @@ from glid_nb.solvers import step
 from glid_nb.solvers.loop import Advance, Stopwatch, followed
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import SLOW_ITERATIONS, Newton, NewtonDescent, descend
-from glid_nb.solvers.options import HessianKind, Options
+from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose, PoseError
 from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.restarts import improve
@@ -162,7 +162,7 @@ def _call(chosen: list[_Pose], per_device: int, devices: tuple[Any, ...]) -> flo
     filled, limits = [first] * size, np.zeros(size, dtype=int)
     for row, pose in zip(rows, chosen, strict=True):
         filled[row], limits[row] = pose, pose.settings().iterations
-    program, watch = _program(devices, first.inputs.options.hessian), Stopwatch()
+    program, watch = _program(devices), Stopwatch()
     state = program(
         first.problem,
         first.settings(),
@@ -185,7 +185,7 @@ def dealt(count: int, devices: int, per_device: int) -> Array:
 
 
 @functools.cache
-def _program(devices: tuple[Any, ...], hessian: HessianKind) -> Any:
+def _program(devices: tuple[Any, ...]) -> Any:
     """The compiled program for poses on these devices; each device loops on its own."""
     mesh = jax.sharding.Mesh(np.array(devices), ("poses",))
     # A CPU gains nothing from lockstep, in which every pose takes every branch; and the thread pool
@@ -202,7 +202,6 @@ def _program(devices: tuple[Any, ...], hessian: HessianKind) -> Any:
                 y,
                 jnp.zeros((len(problem.unknowns.free),) * 2),
                 settings._replace(iterations=limit),
-                hessian=hessian,
             )
             # A factor serves one pose at one time; it need not come back.
             return state._replace(factor=jnp.zeros(()))

@@ -15,7 +15,7 @@ import numpy as np
 from glid_nb._jax import jax, jit, jnp
 from glid_nb._runtime import double_precision, in_chunks
 from glid_nb.certificate import PROOFS, CertificateKind, PanelProof, rounding
-from glid_nb.certificate.panels import after_split
+from glid_nb.certificate.panels import split
 from glid_nb.geometry import Domain, graded_panels, uniform_panels
 from glid_nb.geometry.panels import Panels, paired
 from glid_nb.harmonic import basis_of, cauchy
@@ -136,20 +136,8 @@ class Discretisation:
     @double_precision
     def refined(self, chosen: np.ndarray) -> Discretisation:
         """The discretisation with the panels of ``chosen`` (p,) bool cut in half."""
-        chosen = chosen & self.panels.divisible
-        panels, old, basis = self.panels.split(chosen), self._rows(), self.basis
-        parent = np.repeat(np.arange(len(self.panels)), np.where(chosen, 2, 1))
-        children = np.flatnonzero(chosen[parent])
-        second = children[1::2]
-        slopes = basis_rows(cauchy.second_derivatives, panels.start[second], basis)
-        middles = basis_rows(cauchy.first_derivatives, panels.middle[children], basis)
-        proofs = _proof_rows(panels.start[children], panels.end[children], basis, self.certificate)
-        rows = _Rows(
-            after_split(old.ends, parent, second, old.middles[parent[second]]),
-            after_split(old.slopes, parent, second, slopes),
-            after_split(old.middles, parent, children, middles),
-            *after_split((old.proof, old.rounding), parent, children, proofs),
-        )
+        basis, evaluated = self.basis, functools.partial(_evaluated, self.basis, self.certificate)
+        panels, rows = split(self.panels, self._rows(), chosen, evaluated)
         size = len(self.matrices.real)
         if len(panels) > size:
             # Who splits once splits again: growing by more now saves compiling again and again,
@@ -187,14 +175,19 @@ def discretise(
     """
     basis, graded = basis_of(domain), sampling == "graded"
     panels = graded_panels(domain) if graded else uniform_panels(domain.cage, UNIFORM_SAMPLES)
-    ends = basis_rows(cauchy.first_derivatives, panels.start, basis)
-    rows = _Rows(
-        ends,
-        basis_rows(cauchy.second_derivatives, panels.start, basis),
-        basis_rows(cauchy.first_derivatives, panels.middle, basis) if graded else ends[:0],
-        *_proof_rows(panels.start, panels.end, basis, certificate),
-    )
+    rows = _evaluated(basis, certificate, panels.start, panels.end)
     return _assembled(domain, sampling, certificate, panels, rows, bucket(len(panels)))
+
+
+def _evaluated(
+    basis: Basis, certificate: CertificateKind, start: np.ndarray, end: np.ndarray
+) -> _Rows:
+    return _Rows(
+        basis_rows(cauchy.first_derivatives, start, basis),
+        basis_rows(cauchy.second_derivatives, start, basis),
+        basis_rows(cauchy.first_derivatives, (start + end) / 2, basis),
+        *_proof_rows(start, end, basis, certificate),
+    )
 
 
 def _assembled(
@@ -275,10 +268,14 @@ def _transposed(rows: np.ndarray) -> Array:
 
 
 def bucket(count: int) -> int:
-    """The padded size for ``count`` items: multiples of 32, from 512 on 16 sizes an octave."""
+    """The padded size for ``count`` items.
+
+    At least 128, up to 256 multiples of 64, then of 32, from 512 on 16 sizes an octave: compiling
+    another program takes longer than hundreds of iterations of a small problem.
+    """
     wanted = count + count // 64
-    step = max(32, 1 << (wanted.bit_length() - 5))
-    return -(-wanted // step) * step
+    step = 64 if wanted <= 256 else max(32, 1 << (wanted.bit_length() - 5))
+    return max(-(-wanted // step) * step, 128)
 
 
 def padded(array: np.ndarray, size: int, fill: float | None = None) -> np.ndarray:

@@ -91,15 +91,17 @@ class NewtonDescent(SubspaceDescent):
             ridge=self.ridge,
             reuse=self.reuse,
             corrections=options.corrections,
+            projects_first=options.hessian == "projected",
+            attempts=2 if options.hessian == "adaptive" else 1,
         )
 
     def advance(self, may_refine: bool) -> Advance:
         """One compiled call; with nothing left it still evaluates the energies."""
-        watch, hessian = Stopwatch(), self.inputs.options.hessian
+        watch = Stopwatch()
         if self.factor is None:
             self.factor, self.reuse = _no_factor(len(self.problem.unknowns.free)), False
         settings = self.settings(may_refine)
-        state = step.run(self.problem, self.coefficients, self.factor, settings, hessian=hessian)
+        state = step.run(self.problem, self.coefficients, self.factor, settings)
         int(state.outcome)  # waits for the device
         self.factor = state.factor
         return self.take(state, watch.seconds)

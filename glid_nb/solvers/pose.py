@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import real_array
+from glid_nb._arguments import number_pairs, read_only
 from glid_nb._errors import InputError
 from glid_nb.geometry import Domain, place
 
@@ -114,14 +114,7 @@ def _first_outside(domain: Domain, handles: bytes) -> int | None:
 
 
 def _checked_points(points: Any, name: str) -> Array:
-    try:
-        array = real_array(points)
-    except (TypeError, ValueError) as error:
-        raise PoseError(f"{name} must be a list of [x, y] pairs of numbers") from error
-    if array.shape == (0,):
-        array = array.reshape(0, 2)
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise PoseError(f"{name} must be a list of [x, y] pairs; the shape is {array.shape}")
+    array = number_pairs(points, f"{name} must be a list of [x, y] pairs", PoseError)
     for bad, why in (
         (~np.isfinite(array), "coordinates must be finite numbers"),
         (
@@ -133,8 +126,7 @@ def _checked_points(points: Any, name: str) -> Array:
         rows = np.flatnonzero(bad.any(axis=1))
         if rows.size:
             raise PoseError(f"{name}[{rows[0]}] is {place(array[rows[0]])}; {why}")
-    array.flags.writeable = False
-    return array
+    return read_only(array)
 
 
 def _counted(count: int, noun: str) -> str:

@@ -17,7 +17,7 @@ from glid_nb.solvers.hessian import (
     local_hessian,
     positive_part,
 )
-from glid_nb.solvers.options import MOST_PER_CALL, HessianKind
+from glid_nb.solvers.options import MOST_PER_CALL
 from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.status import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.unknowns import expand, restrict_gradient, restrict_hessian
@@ -52,6 +52,10 @@ class Settings(NamedTuple):
     """Whether the first iteration takes the factor that it is given instead of a new one."""
     corrections: Int[AnyArray, ""] | int
     """Most corrections of one iteration."""
+    projects_first: Bool[AnyArray, ""] | bool
+    """Whether to project the Hessian before its first factorisation."""
+    attempts: Int[AnyArray, ""] | int
+    """Factorisations of one iteration; the second is of the projected Hessian."""
 
 
 class Record(NamedTuple):
@@ -90,7 +94,6 @@ class _Call(NamedTuple):
 
     problem: Problem
     settings: Settings
-    hessian: HessianKind
     p2p_hessian: Float[Array, "4u 4u"]
     """Of the positional energy, in whitened coordinates."""
 
@@ -100,15 +103,13 @@ def iterations(
     coefficients: Float[Array, " 4c"],
     factor: Float[Array, "4u 4u"],
     settings: Settings,
-    *,
-    hessian: HessianKind,
 ) -> State:
-    """Up to ``settings.iterations`` Newton iterations, to be compiled for a kind of Hessian."""
+    """Up to ``settings.iterations`` (at most `MOST_PER_CALL`) Newton iterations, to be compiled."""
     positional = problem.positional
     rows = whitening.pulled_back(positional.matrix, problem.matrices.whitening)
     p2p_hessian = rows.T @ (positional.weights[:, None] * rows)
     p2p_hessian = restrict_hessian(p2p_hessian, problem.unknowns)
-    call = _Call(problem, settings, hessian, p2p_hessian)
+    call = _Call(problem, settings, p2p_hessian)
 
     def goes_on(state: State) -> Bool[Array, ""]:
         return (state.outcome == RUNNING) & (state.iteration < settings.iterations)
@@ -202,7 +203,7 @@ def _factorised(call: _Call, state: State) -> tuple[Float[Array, "4u 4u"], Bool[
     The factor that the call was given, where its first iteration is to take that. A loop, for its
     turns write into the same memory.
     """
-    problem, settings, kind = call.problem, call.settings, call.hessian
+    problem, settings = call.problem, call.settings
     matrices, energy = problem.matrices, problem.energy
     wanted = jnp.logical_not(settings.reuse) | (state.iteration > 0)
     nodes = state.point.samples.nodes[:, matrices.hessian_index]
@@ -226,8 +227,7 @@ def _factorised(call: _Call, state: State) -> tuple[Float[Array, "4u 4u"], Bool[
         block = assemble_across_f(matrices.whitened, weights, f, across)
         return h.at[: block.shape[0], : block.shape[0]].add(block)
 
-    first = projected if kind == "projected" else local
-    most = 2 if kind == "adaptive" else 1
+    first = _where(settings.projects_first, projected, local)
 
     def attempt(carry: tuple) -> tuple:
         _, h, count = carry
@@ -237,12 +237,12 @@ def _factorised(call: _Call, state: State) -> tuple[Float[Array, "4u 4u"], Bool[
 
     def goes_on(carry: tuple) -> Bool[Array, ""]:
         factor, _, count = carry
-        again = (count < most) & ~jnp.isfinite(factor[-1, -1])
+        again = (count < settings.attempts) & ~jnp.isfinite(factor[-1, -1])
         return wanted & ((count == 0) | again)
 
     blank = jnp.zeros(state.factor.shape, dtype)
     factor, _, count = lax.while_loop(goes_on, attempt, (state.factor, blank, jnp.array(0)))
-    return factor, wanted & ((count == 2) | (kind == "projected"))
+    return factor, wanted & ((count == 2) | settings.projects_first)
 
 
 def _newton_line(call: _Call, point: Point, factor: Float[Array, "4u 4u"]) -> Line:
@@ -311,13 +311,12 @@ def _corrected(
     )
 
 
-def _where(condition: Bool[Array, ""], one: Any, other: Any) -> Any:
+def _where(condition: Bool[AnyArray, ""] | bool, one: Any, other: Any) -> Any:
     return jax.tree.map(lambda a, b: jnp.where(condition, a, b), one, other)
 
 
 run = jit(
     iterations,
-    static_argnames=("hessian",),
     donate_argnames=("factor",),
     compiler_options=COMPILER_OPTIONS,
 )

@@ -134,5 +134,5 @@ def aligned(map: HarmonicMap, pose: Pose, images: NDArray[Any] | None = None) ->
     known = map(pose.handles) if images is None else images
     turn, middle, aim = rigid_motion(as_complex(known), as_complex(pose.targets))
     phi, psi = map.phi * turn, map.psi * np.conj(turn)
-    phi[: len(map.domain.offset_loops_complex[0])] += aim - turn * middle
+    phi[: len(map.domain.offset_cage.loops_complex[0])] += aim - turn * middle
     return HarmonicMap(map.domain, phi, psi)

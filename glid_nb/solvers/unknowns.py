@@ -115,7 +115,7 @@ def canonical(map: HarmonicMap) -> HarmonicMap:
     moves from ``psi`` to ``phi`` so that the exterior's first ``psi`` is zero.
     """
     phi, psi = map.phi.copy(), map.psi.copy()
-    loops = map.domain.offset_loops_complex
+    loops = map.domain.offset_cage.loops_complex
     first = len(loops[0])
     phi[:first] += np.conj(psi[0])
     psi[:first] -= psi[0]

@@ -1,9 +1,9 @@
 """The notebook's user interface: thin views over plain models; the browser is known only here."""
 
 from glid_nb.widgets.canvas import DeformCanvas
+from glid_nb.widgets.controls import PoseList
 from glid_nb.widgets.editor import Editor
 from glid_nb.widgets.monitor import SolverMonitor
-from glid_nb.widgets.pose_list import PoseList
 from glid_nb.widgets.solver_panel import SolverPanel
 from glid_nb.widgets.tracer import CageTracer
 

@@ -1,38 +1,40 @@
-"""The deformation canvas: a picture that follows its handles."""
+"""The deformation canvas: a picture that follows its handles; and the buttons above it."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import ipywidgets
-import numpy as np
 import traitlets
-from numpy.typing import NDArray
 
 from glid_nb._arguments import check_count
-from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.geometry import Domain
-from glid_nb.geometry.panels import Panels
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.live_solver import Frame
-from glid_nb.session.moment import Moment
-from glid_nb.widgets.arguments import LEAST_CANVAS, check_keywords, check_vertices
+from glid_nb.session.document import certificate_of
+from glid_nb.session.edit_state import Moment
+from glid_nb.widgets.closing import ClosingWidget
+from glid_nb.widgets.controls import button
 from glid_nb.widgets.gestures import Event, PinGestures
 from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import OVERLAYS
 from glid_nb.widgets.pane import Pane
 from glid_nb.widgets.scene import Drawing, Range
 
-Array = NDArray[Any]
-
 _PANELS_INTERVAL = 0.2  # least seconds between two updates of panels and ranges
+_TOGGLES = (
+    ("show_cage", "Cage", "Draw the cage"),
+    ("show_offset_cage", "Offset", "Draw the offset cage, which carries the basis"),
+    ("show_panels", "Certificate", "Colour the boundary by its certified margin"),
+    ("show_source", "Source", "Show the undeformed shape beside the result"),
+)
 _SOURCE_SHARE = 0.4  # of the width
+_LEAST_SIZE = 100  # CSS pixels
 
 
-class DeformCanvas(ipywidgets.HBox):
+class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     """A picture that follows its handles.
 
     A click on the shape adds a handle, a drag moves its target (cyan); the handle (black) follows
@@ -67,20 +69,14 @@ class DeformCanvas(ipywidgets.HBox):
 
     overlay = traitlets.Enum(tuple(OVERLAYS), "texture")
     """What the shape shows: "texture", "mesh" (with a grid), "sigma1", "sigma2", "k", "energy"."""
-
     show_cage = traitlets.Bool(False)
     """Whether the cage is drawn."""
-
     show_offset_cage = traitlets.Bool(False)
     """Whether the offset cage is drawn."""
-
     show_panels = traitlets.Bool(False)
     """Whether the boundary's panels are drawn, darker the smaller their certified sigma_2."""
-
     show_source = traitlets.Bool(False)
     """Whether the undeformed shape with the handles is drawn beside the result."""
-
-    _complete = False  # ipywidgets also closes a widget whose constructor raised
 
     def __init__(
         self,
@@ -93,28 +89,20 @@ class DeformCanvas(ipywidgets.HBox):
         evaluated_in: EvaluatedIn | None = None,
         **kwargs: Any,
     ) -> None:
-        check_keywords(type(self), kwargs)
-        size = (
-            check_count("width", width, LEAST_CANVAS, "pixels"),
-            check_count("height", height, LEAST_CANVAS, "pixels"),
-        )
-        self._n_vertices = check_vertices(n_vertices)
+        size = check_size(_LEAST_SIZE, n_vertices, width=width, height=height)
         self.image = read_image(image)
         """The picture, (h, w, 4) uint8."""
-        self._owns_model = isinstance(deformation, Domain)
-        self.deformation = (
-            Deformation(deformation) if isinstance(deformation, Domain) else deformation
-        )
+        owned = isinstance(deformation, Domain)
+        self.deformation = model = Deformation(deformation) if owned else deformation
         """The model that this is a view of."""
-        self._evaluated_in: EvaluatedIn | None = evaluated_in
+        self._mesh: dict[str, Any] = {"n_vertices": n_vertices, "evaluated_in": evaluated_in}
         self.pane = self._pane(size, interactive=True)
         self.source: Pane | None = None
-        self.gestures = PinGestures(self.deformation, self.fit)
+        self.gestures = PinGestures(model, self.fit)
         self._closed = False  # a frame may arrive while the canvas closes
-        self._when_drawn: list[Callable[[], None]] = []
         self._panels_at = self._range_at = 0.0
-        # The drawn panels, after what they were taken from.
-        self._panels: tuple[PanelCertificate | Frame, tuple[Panels, Array]] | None = None
+        # The drawn panels and their bounds, after the domain if a solve goes on.
+        self._panels: tuple[Any, ...] = (None, None, None)
         super().__init__([self.pane], **kwargs)
         # A box that may scroll would shrink to nothing inside another.
         self.layout.overflow, self.layout.flex = "visible", "0 0 auto"
@@ -123,54 +111,33 @@ class DeformCanvas(ipywidgets.HBox):
         self.pane.stage.observe(self._resize, ["height"])
         # Frames come from the solver's thread, events from the page's; both hold the model's lock.
         # While the solver works, its next frame acknowledges events, so it sets the pace.
-        model = self.deformation
         with model.locked():
-            self.pane.stage.serve(model, self, busy=lambda: model.busy)
-            self._stop = model.observe(self._on_model)
-            self._draw(model.moment)
-            if len(model.pose):
+            self.pane.stage.serve(model, self.handle, busy=lambda: model.busy)
+            stop = model.observe(self._on_model)
+            self._draw("state")
+            if len(model.state.pose):
                 self.fit()
-            self._complete = True
+            self._endings = (stop, self._end, *((model.close,) if owned else ()))
             self._show_source()
-            self._draw(model.moment, place_legend=True)
-        self.pane.stage.observe(self._on_drawn, ["drawn"])
-        self.observe(lambda _: self._redraw(), ["show_cage", "show_offset_cage"])
-        self.observe(lambda _: self._redraw(place_legend=True), ["overlay", "show_panels"])
+            self._draw("legend")
+        self.pane.stage.observe(lambda _: model.begin(), ["drawn"])
+        self.observe(lambda _: self._draw("cages"), ["show_cage", "show_offset_cage"])
+        self.observe(lambda _: self._draw("legend"), ["overlay", "show_panels"])
         self.observe(self._show_source, ["show_source"])
 
     def fit(self) -> None:
         """Make the whole shape and all targets visible."""
-        self.pane.fit(self.deformation.shown, self.deformation.pose.targets)
+        moment = self.deformation.moment
+        self.pane.fit(moment.shown, moment.state.pose.targets)
 
-    def when_drawn(self, callback: Callable[[], None]) -> None:
-        """Call ``callback`` once, when the page has drawn the canvas."""
-        self._when_drawn.append(callback)
-
-    def close(self) -> None:
-        """Remove the canvas, free its renderers, and close the model if the canvas made it."""
-        if not self._complete:
-            return
-        self._stop()
+    def _end(self) -> None:
         with self.deformation.locked():
             self._closed = True
-            for pane in (self.pane, self.source):
-                if pane is not None:
-                    pane.close()
-        if self._owns_model:
-            self.deformation.close()
-        self.layout.close()
-        super().close()
 
     def _pane(self, size: tuple[int, int], interactive: bool) -> Pane:
         state = self.deformation.state
-        pane = Pane(
-            self.image,
-            state.map if interactive else state.identity,
-            size,
-            interactive=interactive,
-            n_vertices=self._n_vertices,
-            evaluated_in=self._evaluated_in,
-        )
+        map_ = state.map if interactive else state.identity
+        pane = Pane(self.image, map_, size, interactive=interactive, **self._mesh)
         pane.stage.observe(lambda _: self._adapt(pane), ["uniform_vectors", "drawing_time"])
         return pane
 
@@ -182,48 +149,39 @@ class DeformCanvas(ipywidgets.HBox):
     def _resize(self, _: Any = None) -> None:
         self.layout.height = f"{self.pane.stage.height}px"
 
-    # Drawing; the model is locked
+    # Drawing
 
     def _on_model(self, what: str) -> None:
+        if what in ("state", "frame", "selection"):
+            self._draw(what)
+        if what in ("frame", "status"):
+            self.pane.stage.acknowledge()
+
+    def _draw(self, what: str) -> None:
+        """Draw the model after a change of ``what``; legends move only where they do not jump."""
         with self.deformation.locked():
             if self._closed:
                 return
-            if what in ("state", "frame", "selection"):
-                moment = self.deformation.moment
-                self._draw(moment, place_legend=what == "frame" and moment.solved)
-            if what in ("frame", "status"):
-                self.pane.stage.acknowledge()
-
-    def _redraw(self, *, place_legend: bool = False) -> None:
-        with self.deformation.locked():
-            if not self._closed:
-                self._draw(self.deformation.moment, place_legend=place_legend)
-
-    def _draw(self, moment: Moment, *, place_legend: bool = False) -> None:
-        state, pose = moment.state, moment.state.pose
-        images = moment.shown(pose.handles) if len(pose) else pose.handles
-        cage, offset_cage = self.show_cage, self.show_offset_cage
-        drawing = Drawing(
-            moment.map,
-            moment.comparison,
-            pose.targets,
-            images,
-            moment.selection,
-            self.overlay,
-            state.current.energy,
-            self._color_range(moment),
-            cage,
-            offset_cage,
-            self._panels_of(moment) if self.show_panels else None,
-        )
-        self.pane.show(drawing)
-        if self.source is not None:
-            at_rest = Drawing(
-                state.identity, images=pose.handles, cage=cage, offset_cage=offset_cage
+            moment = self.deformation.moment
+            state, pose = moment.state, moment.state.pose
+            cages: dict[str, Any] = {"cage": self.show_cage, "offset_cage": self.show_offset_cage}
+            drawing = Drawing(
+                moment.map,
+                moment.comparison,
+                pose.targets,
+                moment.shown(pose.handles) if len(pose) else (),
+                moment.selection,
+                self.overlay,
+                state.current.energy,
+                self._color_range(moment),
+                panels=self._panels_of(moment) if self.show_panels else None,
+                **cages,
             )
-            self.source.show(at_rest)
-        if place_legend and not moment.dragged:  # where it would jump
-            self.pane.place_legend()
+            self.pane.show(drawing)
+            if self.source is not None:
+                self.source.show(Drawing(state.identity, images=pose.handles, **cages))
+            if (what == "legend" or (what == "frame" and moment.solved)) and not moment.dragged:
+                self.pane.place_legend()
 
     def _color_range(self, moment: Moment) -> Range:
         """During a drag the range only grows, so that colours stay comparable."""
@@ -233,23 +191,20 @@ class DeformCanvas(ipywidgets.HBox):
         self._range_at = now
         return "widen" if (moment.dragged if moment.solved else moving) else "fit"
 
-    def _panels_of(self, moment: Moment) -> tuple[Panels, Array]:
+    def _panels_of(self, moment: Moment) -> tuple[Any, ...]:
         """The boundary's panels; while the solver works at most `_PANELS_INTERVAL` old."""
-        frame, now = moment.frame, time.monotonic()
+        frame, now, domain = moment.frame, time.monotonic(), moment.state.domain
         if frame is None or frame.panels is None or not len(frame.sigma2_lower):
-            proof = self.deformation.certificate_of(moment.map).panels
-            if self._panels is None or self._panels[0] is not proof:
-                self._panels = (proof, (_as_panels(proof), proof.sigma2_lower))
+            proof = certificate_of(moment.map).panels
+            self._panels = (None, proof, proof.sigma2_lower)
         elif (
-            self._panels is None
-            or not isinstance(before := self._panels[0], Frame)
-            or before.map.domain is not frame.map.domain
+            self._panels[0] is not domain
             or frame.solution is not None
             or now - self._panels_at > _PANELS_INTERVAL
         ):
             self._panels_at = now
-            self._panels = (frame, (frame.panels, frame.sigma2_lower))
-        return self._panels[1]
+            self._panels = (domain, frame.panels, frame.sigma2_lower)
+        return self._panels[1:]
 
     # From the page
 
@@ -264,12 +219,6 @@ class DeformCanvas(ipywidgets.HBox):
             raise
         return stage.notice or None
 
-    def _on_drawn(self, _: Any) -> None:
-        self.deformation.begin()
-        waiting, self._when_drawn = self._when_drawn, []
-        for callback in waiting:
-            callback()
-
     def _show_source(self, _: Any = None) -> None:
         with self.deformation.locked():
             stage, old = self.pane.stage, self.source
@@ -280,7 +229,7 @@ class DeformCanvas(ipywidgets.HBox):
                 stage.width -= width
                 self.source = self._pane((width, stage.height), interactive=False)
                 self.children = [self.source, self.pane]
-                self._draw(self.deformation.moment)
+                self._draw("state")
             else:
                 self.source = None
                 self.children = [self.pane]
@@ -289,6 +238,42 @@ class DeformCanvas(ipywidgets.HBox):
             self.fit()
 
 
-def _as_panels(proof: PanelCertificate) -> Panels:
-    start, end = (points @ np.array([1, 1j]) for points in (proof.start, proof.end))
-    return Panels(start, end, proof.loop, proof.depth, np.empty(0, dtype=int))
+class Toolbar(ClosingWidget, ipywidgets.HBox):
+    """Undo, redo, reset, fit, and what the canvas shows."""
+
+    def __init__(self, canvas: DeformCanvas, **kwargs: Any) -> None:
+        self.deformation = model = canvas.deformation
+        self.undo = button("", "undo", "Undo (Ctrl+Z)", model.undo, "38px")
+        self.redo = button("", "repeat", "Redo (Ctrl+Shift+Z)", model.redo, "38px")
+        self.reset = button("", "home", "The undeformed shape (0)", model.reset, "38px")
+        self.fit = button("", "expand", "Make everything visible (F)", canvas.fit, "38px")
+        self.overlay = ipywidgets.Dropdown(
+            options=[(overlay.label, name) for name, overlay in OVERLAYS.items()],
+            tooltip="What the shape shows",
+            layout={"width": "136px"},
+        )
+        self.toggles: dict[str, ipywidgets.ToggleButton] = {}
+        ipywidgets.link((canvas, "overlay"), (self.overlay, "value"))
+        for name, label, tooltip in _TOGGLES:
+            self.toggles[name] = toggle = ipywidgets.ToggleButton(
+                description=label, tooltip=tooltip, layout={"width": "auto"}
+            )
+            ipywidgets.link((canvas, name), (toggle, "value"))
+        buttons = self.undo, self.redo, self.reset, self.fit
+        super().__init__([*buttons, self.overlay, *self.toggles.values()], **kwargs)
+        self.add_class("glid-tools")
+        self._show("state")
+        self._endings = (model.observe(self._show),)
+
+    def _show(self, what: str) -> None:
+        if what == "state":
+            model = self.deformation
+            self.undo.disabled, self.redo.disabled = not model.can_undo, not model.can_redo
+
+
+def check_size(least: int, n_vertices: Any, **sides: Any) -> tuple[int, int]:
+    """Width and height of a canvas; raises, as `check_count`, for them and so many vertices."""
+    if n_vertices is not None:
+        check_count("n_vertices", n_vertices, 3, "vertices")
+    width, height = (check_count(name, side, least, "pixels") for name, side in sides.items())
+    return width, height

@@ -1,15 +1,50 @@
-"""Closing widgets: with all that they hold, and when the cell that made them runs again."""
+"""The base of our widgets, and closing them: with all they hold, and when their cell runs again."""
 
 from __future__ import annotations
 
+import inspect
 import sys
 import weakref
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import ipywidgets
 
-_made: dict[str, tuple[str, list[weakref.ref[Any]]]] = {}  # by cell: its last run, what that made
+from glid_nb._arguments import check_keywords
+
+_made: dict[str, tuple[str, weakref.WeakSet[Any]]] = {}  # by cell: its last run, what that made
+
+
+class ClosingWidget(ipywidgets.Widget):
+    """Refuses keywords that neither it nor ipywidgets has, and closes with all that it holds.
+
+    The first of a widget's bases.
+    """
+
+    _endings: tuple[Callable[[], Any], ...] = ()
+    """What closing ends."""
+
+    def __new__(cls, *args: Any, **kwargs: Any) -> Any:
+        """Check the keywords, before anything is made."""
+        own = [name for name in inspect.signature(cls.__init__).parameters if name != "self"]
+        traits = [name for name in cls.class_trait_names() if not name.startswith("_")]
+        check_keywords(cls.__name__, kwargs, [*own, *traits])
+        return super().__new__(cls, *args, **kwargs)
+
+    def close(self) -> None:
+        """Remove this and its parts from the page, end its threads and free its renderers.
+
+        A model that it was given lives on.
+        """
+        if self.comm is None:  # closed before, or its constructor raised
+            return
+        endings, self._endings = self._endings, ()
+        for end in endings:
+            end()
+        _, *parts = _with_parts(self)
+        super().close()
+        for part in parts:
+            part.close()
 
 
 def close_with_parts(*widgets: ipywidgets.Widget) -> None:
@@ -18,6 +53,11 @@ def close_with_parts(*widgets: ipywidgets.Widget) -> None:
     ipywidgets closes only the widget itself; the others stay registered in the kernel and the
     page. Parts must not be shared with a widget that stays open.
     """
+    for widget in _with_parts(*widgets):
+        widget.close()
+
+
+def _with_parts(*widgets: ipywidgets.Widget) -> list[ipywidgets.Widget]:
     found: dict[int, ipywidgets.Widget] = {}
     waiting = list(widgets)
     while waiting:
@@ -26,8 +66,7 @@ def close_with_parts(*widgets: ipywidgets.Widget) -> None:
             found[id(widget)] = widget
             for name in widget.traits(sync=True):
                 waiting += _widgets_in(getattr(widget, name))
-    for widget in found.values():
-        widget.close()
+    return list(found.values())
 
 
 def _widgets_in(value: Any) -> Iterator[ipywidgets.Widget]:
@@ -43,18 +82,14 @@ def close_on_rerun(made: Any) -> bool:
 
     Outside a notebook nothing happens. Returns whether something was closed.
     """
-    here = _running_cell()
-    if here is None:
+    if (here := _running_cell()) is None:
         return False
     cell, run = here
-    last_run, earlier = _made.get(cell, (run, []))
-    closed = []
-    if last_run != run:
-        closed = [old for reference in earlier if (old := reference()) is not None]
-        for old in closed:
-            old.close()
-        earlier = []
-    _made[cell] = (run, [*earlier, weakref.ref(made)])
+    last_run, earlier = _made.get(cell, (run, weakref.WeakSet()))
+    closed = [] if last_run == run else list(earlier)
+    for old in closed:
+        old.close()
+    _made[cell] = run, weakref.WeakSet([made, *(earlier if last_run == run else ())])
     return bool(closed)
 
 

@@ -3,44 +3,37 @@
 from __future__ import annotations
 
 import html
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import ipywidgets
 import numpy as np
 from numpy.typing import ArrayLike
 
-from glid_nb._arguments import check_count
 from glid_nb._jax import once_loaded
 from glid_nb._runtime import enable_compilation_cache
 from glid_nb.certificate import Certificate
-from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.imaging.render import View
-from glid_nb.session import Document
+from glid_nb.session import Document, NamedPose
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.edit_state import EditedPose, EditError
+from glid_nb.session.edit_state import EditError
 from glid_nb.session.editor_model import Application, EditorModel, find_document
-from glid_nb.session.status_line import StatusLine
 from glid_nb.session.tracing import TracingProblem
 from glid_nb.solvers import Method, Pose
-from glid_nb.widgets.arguments import check_keywords, check_vertices
-from glid_nb.widgets.canvas import DeformCanvas
-from glid_nb.widgets.closing import close_on_rerun, close_with_parts
+from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
+from glid_nb.widgets.closing import ClosingWidget, close_on_rerun, close_with_parts
+from glid_nb.widgets.controls import PoseList
+from glid_nb.widgets.exporting import export
+from glid_nb.widgets.file_panel import FilePanel, OpenPanel
 from glid_nb.widgets.monitor import SolverMonitor
-from glid_nb.widgets.open_panel import OpenPanel
-from glid_nb.widgets.pose_list import PoseList
 from glid_nb.widgets.solver_panel import SolverPanel
-from glid_nb.widgets.toolbar import Toolbar
 from glid_nb.widgets.tracer import CageTracer
-
-if TYPE_CHECKING:
-    from glid_nb.widgets.file_panel import FilePanel
 
 _TRACE, _DEFORM = 0, 1
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
-_SOLVER = 1  # among the tabs beside the canvas
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
 
@@ -60,7 +53,7 @@ _NOT_SAVED = (
 )
 
 
-class Editor(ipywidgets.VBox):
+class Editor(ClosingWidget, ipywidgets.VBox):
     """Trace a picture, pin points of it, drag them: it follows and never folds over.
 
     The Trace tab finds the cage, the Deform tab moves it. All of it can be done in code: `trace`,
@@ -104,7 +97,6 @@ class Editor(ipywidgets.VBox):
     >>> editor.close()
     """
 
-    _complete = False  # ipywidgets also closes a widget whose constructor raised
     _closed = False
     _told_path: Path | None = None
 
@@ -118,12 +110,8 @@ class Editor(ipywidgets.VBox):
         n_vertices: int | None = None,
         **kwargs: Any,
     ) -> None:
-        check_keywords(type(self), kwargs)
-        self._size = (
-            check_count("width", width, _LEAST_SIZE, "pixels"),
-            check_count("height", height, _LEAST_SIZE, "pixels"),
-        )
-        self._n_vertices = check_vertices(n_vertices)
+        self._size = check_size(_LEAST_SIZE, n_vertices, width=width, height=height)
+        self._n_vertices = n_vertices
         once_loaded(enable_compilation_cache)
         document = None if path is None else find_document(path)
         if (
@@ -139,9 +127,7 @@ class Editor(ipywidgets.VBox):
         """The editor without its widgets."""
         self.canvas: DeformCanvas | None = None
         """The canvas of the Deform tab; None while nothing is traced."""
-        self._parts: list[Any] = []
-        self._tracer: CageTracer | None = None
-        self._panels: tuple[SolverPanel, FilePanel] | None = None
+        self._parts: dict[str, Any] = {}
         # These boxes stay: if the tabs' children changed, the page would select another tab.
         self._trace_box, self._deform_box = ipywidgets.VBox(), ipywidgets.VBox()
         self.tabs = ipywidgets.Tab(
@@ -158,7 +144,7 @@ class Editor(ipywidgets.VBox):
         self._build()
         self.model.observe(self._on_model)
         self.tabs.observe(self._on_tab, ["selected_index"])
-        self._complete = True
+        self._endings = (self._end, self.model.close)
         if close_on_rerun(self):
             self.model.take_over_file()
 
@@ -176,23 +162,17 @@ class Editor(ipywidgets.VBox):
     @property
     def tracer(self) -> CageTracer:
         """The Trace tab."""
-        with self.model.locked():
-            if self._tracer is None:
-                self._check_open()
-                self._tracer = CageTracer(model=self.model.tracing, height=self._size[1])
-                self._parts.append(self._tracer)
-                self._trace_box.children = [self._tracer]
-            return self._tracer
+        return self._part("tracer")
 
     @property
     def solver_panel(self) -> SolverPanel:
         """The Solver tab beside the canvas."""
-        return self._made_panels()[0]
+        return self._part("solver")
 
     @property
     def files(self) -> FilePanel:
         """The Files tab beside the canvas."""
-        return self._made_panels()[1]
+        return self._part("files")
 
     # From code
 
@@ -204,12 +184,7 @@ class Editor(ipywidgets.VBox):
     @property
     def map(self) -> HarmonicMap:
         """The certified map."""
-        return self.deformation.map
-
-    @property
-    def comparison(self) -> MeshMap | None:
-        """What a method on a mesh has come to, uncertified; None for other methods."""
-        return self.deformation.comparison
+        return self.deformation.state.map
 
     @property
     def certificate(self) -> Certificate:
@@ -219,17 +194,12 @@ class Editor(ipywidgets.VBox):
     @property
     def pose(self) -> Pose:
         """Handles and targets of the pose that is edited."""
-        return self.deformation.pose
+        return self.deformation.state.pose
 
     @property
-    def poses(self) -> tuple[EditedPose, ...]:
+    def poses(self) -> tuple[NamedPose, ...]:
         """All poses."""
-        return self.deformation.poses
-
-    @property
-    def status(self) -> StatusLine:
-        """What is going on, in words."""
-        return self.deformation.status
+        return self.deformation.state.poses
 
     @property
     def document(self) -> Document:
@@ -286,8 +256,6 @@ class Editor(ipywidgets.VBox):
         ExportError
             For another suffix, or if a file that comes with ``path`` would replace another.
         """
-        from glid_nb.widgets.exporting import export  # noqa: PLC0415 - not for the first canvas
-
         return export(self.model, path, size, view)
 
     def save(self, path: str | Path) -> None:
@@ -298,17 +266,6 @@ class Editor(ipywidgets.VBox):
         """Go on with a session file."""
         self.model.load(path)
 
-    def close(self) -> None:
-        """Take the editor from the page, end its threads and free its renderers."""
-        if not self._complete:
-            return
-        with self.model.locked():
-            self._closed = True
-        self._take_down()
-        self.model.close()
-        close_with_parts(self.unsaved, self.tabs, self.layout)
-        super().close()
-
     # The widgets
 
     def _on_model(self, what: str) -> None:
@@ -318,7 +275,8 @@ class Editor(ipywidgets.VBox):
         """Make new views of new models."""
         with self.model.locked():
             self._take_down()
-            self._tracer = self._panels = self.canvas = None
+            self._parts, self.canvas = {}, None
+            self._boxes = {"tracer": self._trace_box}
             if self.model.has_shape:
                 self._deform_box.children = [self._deform_tab()]
             else:
@@ -327,65 +285,68 @@ class Editor(ipywidgets.VBox):
             if self.canvas is None:
                 self._fill()
             else:
-                self.canvas.when_drawn(self._fill)
+                self.canvas.pane.stage.observe(self._fill, ["drawn"])
 
     def _fill(self, _: Any = None) -> None:
         """Make the parts behind other tabs that are still missing."""
         with self.model.locked():
-            if self._closed:
-                return
-            self.tracer  # noqa: B018 - made by asking
-            if self.canvas is not None:
-                self._made_panels()
+            if not self._closed:
+                for name in self._boxes:
+                    self._part(name)
 
-    def _check_open(self) -> None:
-        if self._closed:
-            raise RuntimeError("the editor is closed; this part of it was never made")
-
-    def _made_panels(self) -> tuple[SolverPanel, FilePanel]:
+    def _part(self, name: str) -> Any:
+        """One of these parts, in its box."""
+        makers: dict[str, Callable[[], ipywidgets.Widget]] = {
+            "tracer": lambda: CageTracer(model=self.model.tracing, height=self._size[1]),
+            "solver": lambda: SolverPanel(self.deformation),
+            "files": lambda: FilePanel(self.model),
+        }
         with self.model.locked():
-            if self._panels is None:
-                self._check_open()
-                from glid_nb.widgets.file_panel import FilePanel  # noqa: PLC0415 - as above
-
-                self._panels = SolverPanel(self.deformation), FilePanel(self.model)
-                self._parts += self._panels
-                for box, panel in zip(self._side.children[_SOLVER:], self._panels, strict=True):
-                    box.children = [panel]
-            return self._panels
+            if name not in self._parts:
+                if self._closed:
+                    raise RuntimeError("the editor is closed; this part of it was never made")
+                self._parts[name] = part = makers[name]()
+                self._boxes[name].children = [part]
+            return self._parts[name]
 
     def _deform_tab(self) -> ipywidgets.Widget:
         model, image = self.model.deformation, self.model.image
         assert image is not None
-        canvas = DeformCanvas(image, model, *self._size, n_vertices=self._n_vertices)
-        toolbar = Toolbar(canvas)
-        monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
-        poses = PoseList(model)
-        self.canvas, self.toolbar, self.monitor, self.pose_list = canvas, toolbar, monitor, poses
-        self._parts += [toolbar, canvas, monitor, poses]
+        self.canvas = DeformCanvas(image, model, *self._size, n_vertices=self._n_vertices)
+        self.toolbar = Toolbar(self.canvas)
+        self.monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
+        self.pose_list = PoseList(model)
+        # Boxes to be filled: if the children changed, the page would select another tab.
+        self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}
         self._side = ipywidgets.Tab(
-            # Boxes to be filled: if the children changed, the page would select another tab.
-            [monitor.image, ipywidgets.VBox(), ipywidgets.VBox()],
+            [self.monitor.image, self._boxes["solver"], self._boxes["files"]],
             titles=("Monitor", "Solver", "Files"),
             layout={"min_height": f"{_PLOTS_HEIGHT + 64}px"},
         )
         self._side.observe(self._fill, ["selected_index"])
         fixed = {"flex": "0 0 auto", "overflow": "visible"}
         side = ipywidgets.VBox(
-            [self._side, poses], layout={**fixed, "width": f"{_SIDE_WIDTH + 34}px"}
+            [self._side, self.pose_list], layout={**fixed, "width": f"{_SIDE_WIDTH + 34}px"}
         )
         left = ipywidgets.VBox(
-            [toolbar, canvas, monitor.line], layout={**fixed, "margin": "0 14px 0 0"}
+            [self.toolbar, self.canvas, self.monitor.line],
+            layout={**fixed, "margin": "0 14px 0 0"},
         )
         wrapped = {"align_items": "flex-start", "flex_flow": "row wrap", "overflow": "visible"}
         return ipywidgets.HBox([left, side], layout=wrapped)
 
     def _take_down(self) -> None:
         with self.model.locked():
-            parts, self._parts = self._parts, []
             shown = (*self._trace_box.children, *self._deform_box.children)
+            if self.canvas is not None:
+                shown += (self.monitor,)
             self._trace_box.children = self._deform_box.children = ()
-        close_with_parts(*parts, *shown)
+        close_with_parts(*shown)
+
+    def _end(self) -> None:
+        with self.model.locked():
+            self._closed = True
+        self._take_down()
 
     def _show_saving(self) -> None:
         error, left, path = self.model.save_error, self.model.left_path, self.model.autosave_path
@@ -402,8 +363,8 @@ class Editor(ipywidgets.VBox):
         self._told_path = path
         if self.canvas is not None:
             self.canvas.pane.stage.notice = _LEFT.format(left=left.name, path=path.name)
-        if self._panels is not None:
-            self._panels[1].follow_autosave()
+        if "files" in self._parts:
+            self.files.follow_autosave()
 
     def _on_tab(self, change: Any) -> None:
         """Deform what was traced when the Deform tab is opened."""

@@ -7,15 +7,6 @@ from pathlib import Path
 
 from glid_nb._errors import InputError
 from glid_nb._files import write_bytes_atomically
-from glid_nb.export import (
-    cage_svg,
-    mesh_glb,
-    mesh_obj,
-    page_html,
-    picture_png,
-    textured_mesh,
-)
-from glid_nb.export.picture import png
 from glid_nb.imaging.render import View
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
@@ -39,29 +30,38 @@ class ExportError(InputError):
 
 
 class OccupiedError(ExportError):
-    """Files that the editor did not write would be replaced."""
+    """Files that the editor did not write would be replaced; ``plain`` asks whether to."""
 
     def __init__(self, paths: Sequence[Path]) -> None:
-        self.paths = tuple(paths)
-        """The files that are there."""
         names = ", ".join(str(path.absolute()) for path in paths)
         super().__init__(f"{names}: there already; choose another name, or move it away")
+        verb = "is" if len(paths) == 1 else "are"
+        self.plain = (
+            f"{names_of(paths)} {verb} in {paths[0].absolute().parent} already, not written by "
+            "this editor. Click again to replace, or choose another name."
+        )
+
+
+def names_of(paths: Sequence[Path]) -> str:
+    """The names of files, as a list in words."""
+    *others, last = (path.name for path in paths)
+    return f"{', '.join(others)} and {last}" if others else last
 
 
 def files_of(path: Path) -> tuple[Path, ...]:
-    """The files that `export` writes for this name: itself, then those that come with it.
-
-    Raises
-    ------
-    ExportError
-        For a suffix that is none of `FORMATS`.
-    """
+    """The files that `export` writes for this name: itself, then those that come with it."""
     suffix = path.suffix.lower()
     if suffix not in FORMATS:
         raise ExportError(
             f"{str(path)!r} cannot be exported: its name must end in {', '.join(FORMATS)}"
         )
     return (path, *(path.with_name(path.stem + rest) for rest in _BESIDE.get(suffix, ())))
+
+
+def check_free(model: EditorModel, paths: Sequence[Path], owner: Path) -> None:
+    """Raise `OccupiedError` if files are there that the editor did not write for ``owner``."""
+    if strangers := model.own_files.strangers(paths, owner):
+        raise OccupiedError(strangers)
 
 
 def export(
@@ -76,19 +76,8 @@ def export(
 
     A file of the given name is replaced. The files that come with it, ``.mtl`` and ``-texture.png``
     of an OBJ mesh or the ``-source.png`` that a script reads, replace only those of an earlier
-    export under this name.
-
-    Parameters
-    ----------
-    model : EditorModel
-    path : path
-        Ends in one of `FORMATS`.
-    size : (w, h), optional
-        Pixels of a picture; by default the original's.
-    view : "source" or "fit"
-        Whether a picture shows what the original showed, or all of the shape.
-    replace : bool
-        Whether the files that come with it replace any others.
+    export under this name, unless ``replace`` says so. ``size`` in pixels and ``view`` of a picture
+    are as in `glid_nb.render`.
 
     Raises
     ------
@@ -106,53 +95,49 @@ def export(
     return files
 
 
-def export_source(model: EditorModel, script: Path, *, replace: bool = False) -> Path:
+def export_source(model: EditorModel, script: Path, *, replace: bool = False) -> None:
     """Write the picture that a script of this name reads, where it is not there yet.
 
-    Raises
-    ------
-    OccupiedError
-        Another file is there, and ``replace`` is false.
-    OSError
-        When it cannot be written.
+    Raises as `export` when another file is there.
     """
-    _, path = files_of(script)
-    picture = png(model.document.image)
+    from glid_nb.export.picture import png  # noqa: PLC0415 - the first canvas does not need it
+
+    picture, path = png(model.document.image), files_of(script)[1]
     if not _holds(path, picture):
         _write(model, script, {path: picture}, replace)
-    return path
 
 
 def _contents(
     model: EditorModel, path: Path, size: tuple[int, int] | None, view: View
 ) -> list[bytes]:
     """The contents of `files_of` the path, in that order."""
-    document, deformation = model.document, model.deformation
-    image, map_ = document.image, deformation.map
+    from glid_nb import export as to  # noqa: PLC0415 - the first canvas does not need it
+    from glid_nb.export.picture import png  # noqa: PLC0415
+
+    document, state = model.document, model.deformation.state
+    image, map_ = document.image, state.map
     match path.suffix.lower():
         case ".png":
-            return [picture_png(image, map_, size, view)]
+            return [to.picture_png(image, map_, size, view)]
         case ".obj":
-            files = mesh_obj(textured_mesh(image, map_), path.stem)
+            files = to.mesh_obj(to.textured_mesh(image, map_), path.stem)
             return [files[path.stem + rest] for rest in (".obj", *_BESIDE[".obj"])]
         case ".glb":
-            return [mesh_glb(textured_mesh(image, map_))]
+            return [to.mesh_glb(to.textured_mesh(image, map_))]
         case ".svg":
             height, width = image.shape[:2]
-            return [cage_svg(map_, (width, height), source=True, pose=deformation.pose).encode()]
+            return [to.cage_svg(map_, (width, height), source=True, pose=state.pose).encode()]
         case ".html":
-            return [page_html(image, map_, deformation.certificate, path.stem).encode()]
+            return [to.page_html(image, map_, model.deformation.certificate, path.stem).encode()]
         case _:
-            _, picture = files_of(path)
-            return [python_code(document, picture.name).encode(), png(image)]
+            return [python_code(document, files_of(path)[1].name).encode(), png(image)]
 
 
 def _write(model: EditorModel, owner: Path, contents: Mapping[Path, bytes], replace: bool) -> None:
     """Write files that belong to ``owner``."""
-    strangers = model.own_files.strangers(contents, owner)
-    occupied = [path for path in strangers if not _holds(path, contents[path])]
-    if occupied and not replace:
-        raise OccupiedError(occupied)
+    if not replace:
+        new = [path for path, data in contents.items() if not _holds(path, data)]
+        check_free(model, new, owner)
     for path, data in contents.items():
         write_bytes_atomically(path, data)
     model.own_files.note(contents, owner)

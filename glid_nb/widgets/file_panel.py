@@ -2,23 +2,33 @@
 
 from __future__ import annotations
 
-import html
-from collections.abc import Callable, Sequence
+import time
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import anywidget
 import ipywidgets
 
+from glid_nb._errors import InputError
 from glid_nb.imaging.read import MAX_SIDE
-from glid_nb.imaging.render import View
+from glid_nb.session.document import DocumentError
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
-from glid_nb.widgets.asking_button import AskingButton
 from glid_nb.widgets.bundle import bundle
-from glid_nb.widgets.exporting import FORMATS, OccupiedError, export, export_source, files_of
-from glid_nb.widgets.open_panel import existing_path, session_path
+from glid_nb.widgets.controls import REFUSED, button, paragraph
+from glid_nb.widgets.exporting import (
+    FORMATS,
+    OccupiedError,
+    check_free,
+    export,
+    export_source,
+    files_of,
+    names_of,
+)
 
+_SUFFIX = ".glid"
+_DOUBLE_CLICK = 0.5  # seconds
 _LABEL = {"width": "58px", "flex": "0 0 auto"}
 _WIDE = {"width": "auto", "min_width": "0", "flex": "1 1 auto"}
 _VIEWS = (("Whole shape", "fit"), ("Original frame", "source"))
@@ -27,11 +37,54 @@ _UNSAVED = (
     "This session is in no file yet. Click again to open the other one without saving, or save it "
     "under another name first."
 )
-_REFUSED = "#d55e00"
 
 
-class _UnsavedError(Exception):
-    """A question: opening a session would discard what is in no file."""
+class _UnsavedError(InputError):
+    """Opening a session would discard what is in no file."""
+
+    plain = _UNSAVED
+
+
+def session_path(text: str) -> Path:
+    """The session file that somebody named, with its suffix; DocumentError for no such name."""
+    name = text.strip()
+    path = Path(name).expanduser()
+    if not path.name or name.endswith(("/", "\\")):
+        raise DocumentError("Give the session file a name, such as session.glid")
+    if not path.suffix:
+        return path.with_suffix(_SUFFIX)
+    if path.suffix.lower() != _SUFFIX:
+        raise DocumentError(
+            f"{path.name} cannot be a session file: its name must end in {_SUFFIX}, as in "
+            f"{path.stem}{_SUFFIX}"
+        )
+    return path
+
+
+def existing_path(text: str) -> Path:
+    """The file that somebody wants to open: any that is there, else as in `session_path`."""
+    path = Path(text.strip()).expanduser()
+    return path if path.is_file() else session_path(text)
+
+
+class OpenPanel(ipywidgets.VBox):
+    """Opens a session file by its name, before there is a picture."""
+
+    def __init__(self, model: EditorModel) -> None:
+        self.model = model
+        self.path = ipywidgets.Text(placeholder="session.glid", layout={"width": "280px"})
+        """The file, relative to the notebook."""
+        tooltip = "Go on with a session file"
+        self.button = button("Open session", "folder-open", tooltip, self._open)
+        self.message = ipywidgets.HTML()
+        row = ipywidgets.HBox([self.path, self.button])
+        super().__init__([row, self.message], layout={"padding": "0 0 2em 2em"})
+
+    def _open(self) -> None:
+        try:
+            self.model.load(existing_path(self.path.value))
+        except (OSError, ValueError) as error:  # refusals for the user; anything else is a bug
+            self.message.value = paragraph(str(error))
 
 
 class Clipboard(anywidget.AnyWidget):
@@ -42,8 +95,8 @@ class Clipboard(anywidget.AnyWidget):
 
     _esm = bundle("clipboard/main.js")
 
-    def __init__(self, **kwargs: Any) -> None:
-        super().__init__(layout=ipywidgets.Layout(display="none"), **kwargs)
+    def __init__(self) -> None:
+        super().__init__(layout={"display": "none"})
         self._number = 0
         self._done: Callable[[bool], None] | None = None
         self.on_msg(self._receive)
@@ -59,11 +112,9 @@ class Clipboard(anywidget.AnyWidget):
         self.send({"number": self._number, "text": text})
 
     def _receive(self, _: Any, message: dict[str, Any], _buffers: Any) -> None:
-        done = self._done
-        if done is None or message.get("number") != self._number:
+        if (done := self._done) is None or message.get("number") != self._number:
             return
-        copied = bool(message.get("copied"))
-        if copied:
+        if copied := bool(message.get("copied")):
             self._done = None  # other pages that show this may have refused
         done(copied)
 
@@ -75,27 +126,15 @@ class FilePanel(ipywidgets.VBox):
     and waits for a second click.
     """
 
-    def __init__(self, model: EditorModel, **kwargs: Any) -> None:
+    def __init__(self, model: EditorModel) -> None:
         self.model = model
-        """The model that is saved and replaced."""
         session = model.own_files.session or Path("session.glid")
         self.path = ipywidgets.Text(str(session), placeholder="Name.glid", layout=_WIDE)
         """Where to save, and what to open; relative to the notebook."""
-        self.save_button = AskingButton("Save", "save", "Write the session file", self._save)
-        self.open_button = AskingButton(
-            "Open", "folder-open", "Go on with the session file", self._open, "Discard?"
-        )
         self.autosave = ipywidgets.HTML()
         """Where changes are saved automatically."""
-        self.format = ipywidgets.Dropdown(
-            options=[(label, suffix) for suffix, label in FORMATS.items()],
-            tooltip="What to export",
-            layout=_WIDE,
-        )
-        """What to export, by suffix."""
-        self.export_button = AskingButton(
-            "Export", "download", "Write it beside the session file", self._export
-        )
+        formats = [(label, suffix) for suffix, label in FORMATS.items()]
+        self.format = ipywidgets.Dropdown(options=formats, tooltip="What to export", layout=_WIDE)
         height, width = model.document.image.shape[:2]
         self._aspect = height / width
         self.width = ipywidgets.BoundedIntText(
@@ -103,27 +142,31 @@ class FilePanel(ipywidgets.VBox):
             min=1,
             max=MAX_SIDE * width // max(width, height),
             tooltip="Width of the picture in pixels",
-            layout=ipywidgets.Layout(width="76px", flex="0 0 auto"),
+            layout={"width": "76px", "flex": "0 0 auto"},
         )
         """Width of an exported picture in pixels, at first the original's."""
-        self._height = ipywidgets.Label(layout=ipywidgets.Layout(flex="0 0 auto"))
-        self.view = ipywidgets.Dropdown(
-            options=_VIEWS, tooltip="What the picture shows", layout=_WIDE
-        )
+        self._height = ipywidgets.Label(layout={"flex": "0 0 auto"})
+        tooltip = "What the picture shows"
+        self.view = ipywidgets.Dropdown(options=_VIEWS, tooltip=tooltip, layout=_WIDE)
         """What an exported picture shows, as in `glid_nb.render`."""
-        self.code_button = AskingButton(
-            "Copy as Python", "code", "Copy the lines that make this map", self._copy
-        )
-        self.code = ipywidgets.Textarea(
-            rows=9, layout=ipywidgets.Layout(width="auto", display="none")
-        )
+        self._picture = _row("Picture", self.width, self._height, self.view)
+        self.code = ipywidgets.Textarea(rows=9, layout={"width": "auto", "display": "none"})
         """The lines of "Copy as Python"."""
         self.clipboard = Clipboard()
-        """Where they are copied to."""
         self.message = ipywidgets.HTML()
         """What was done, or why it was not."""
-        self._buttons = (self.save_button, self.open_button, self.export_button, self.code_button)
-        self._picture = _row("Picture", self.width, self._height, self.view)
+        self._asked: tuple[ipywidgets.Button | None, float] = (None, 0.0)
+        self._labels: dict[ipywidgets.Button, str] = {}
+        self.save_button = self._button("Save", "save", "Write the session file", self._save)
+        self.open_button = self._button(
+            "Open", "folder-open", "Go on with the session file", self._open, "Discard?"
+        )
+        self.export_button = self._button(
+            "Export", "download", "Write it beside the session file", self._export
+        )
+        self.code_button = self._button(
+            "Copy as Python", "code", "Copy the lines that make this map", self._copy
+        )
         super().__init__(
             [
                 _row("Session", self.path, self.save_button, self.open_button),
@@ -133,17 +176,44 @@ class FilePanel(ipywidgets.VBox):
                 _row("", self.code_button, self.clipboard),
                 self.message,
                 self.code,
-            ],
-            **kwargs,
+            ]
         )
         self.add_class("glid-files")
-        for button in self._buttons:
-            button.on_click(self._on_click)
-        for control in (self.path, self.format):
-            control.observe(self._forget_question, ["value"])
-        for control in (self.format, self.width):
+        for control in (self.path, self.format, self.width):
             control.observe(self._show, ["value"])
         self._show()
+
+    def _button(
+        self,
+        label: str,
+        icon: str,
+        tooltip: str,
+        action: Callable[[bool], str],
+        question: str = "Replace?",
+    ) -> ipywidgets.Button:
+        """A button that may ask a question, which a second click answers with yes.
+
+        ``action`` gets whether the answer was yes, and returns what was done.
+        """
+
+        def click() -> None:
+            asked, at = self._asked
+            # The second half of a double click is no answer.
+            sure = asked is made and time.monotonic() - at >= _DOUBLE_CLICK
+            self._show()
+            try:
+                self._say(action(sure))
+            except (OccupiedError, _UnsavedError) as error:
+                self._asked = made, time.monotonic()
+                made.description, made.button_style = question, "warning"
+                self._say(error.plain, REFUSED)
+            except (OSError, ValueError) as error:  # refusals for the user; others are bugs
+                self._say(str(error), REFUSED)
+
+        made = button(label, icon, tooltip, click)
+        made.layout.flex = "0 0 auto"
+        self._labels[made] = label
+        return made
 
     @property
     def size(self) -> tuple[int, int]:
@@ -157,9 +227,8 @@ class FilePanel(ipywidgets.VBox):
 
     def _save(self, sure: bool) -> str:
         path = session_path(self.path.value)
-        strangers = self.model.own_files.strangers([path], path)
-        if strangers and not sure:
-            raise OccupiedError(strangers)
+        if not sure:
+            check_free(self.model, [path], path)
         self.model.save(path)
         self.path.value = str(path)
         return f"Saved {path.absolute()}"
@@ -167,86 +236,52 @@ class FilePanel(ipywidgets.VBox):
     def _open(self, sure: bool) -> str:
         path = existing_path(self.path.value)
         if self.model.unsaved and not sure:
-            raise _UnsavedError(_UNSAVED)
+            raise _UnsavedError
         self.model.load(path)
         return f"Opened {path.absolute()}"
 
     def _export(self, sure: bool) -> str:
         path = session_path(self.path.value).with_suffix(str(self.format.value))
-        strangers = self.model.own_files.strangers(files_of(path), path)
-        if strangers and not sure:
-            raise OccupiedError(strangers)
-        view = cast(View, self.view.value)
+        if not sure:
+            check_free(self.model, files_of(path), path)
+        view: Any = self.view.value
         files = export(self.model, path, self.size, view, replace=True)
-        return f"Wrote {_listed([file.name for file in files])} to {path.absolute().parent}"
+        return f"Wrote {names_of(files)} to {path.absolute().parent}"
 
     def _copy(self, sure: bool) -> str:
         script = session_path(self.path.value).with_suffix(".py")
         picture = files_of(script)[1]
         lines = python_code(self.model.document, str(picture))
-        reads = "glid.read_image" in lines  # not where the cage was edited by hand
-        if reads:
+        needed = ""
+        if "glid.read_image" in lines:  # not where the cage was edited by hand
             export_source(self.model, script, replace=sure)
+            needed = f" They read {picture}, which was written for them."
         self.code.value = lines
         self.code.layout.display = "flex"
-        needed = f" They read {picture}, which was written for them." if reads else ""
 
         def done(copied: bool) -> None:
             if copied:
                 self._say("The lines are in the clipboard." + needed)
             else:
-                self._say("The browser did not allow copying: select the lines." + needed, _REFUSED)
+                self._say("The browser did not allow copying: select the lines." + needed, REFUSED)
 
         self.clipboard.copy(lines, done)
         return "These lines make the map." + needed
 
-    def _on_click(self, button: AskingButton) -> None:
-        sure = button.answered
-        self._forget_question()
-        try:
-            self._say(button.action(sure))
-        except OccupiedError as question:
-            button.ask()
-            names = _listed([path.name for path in question.paths])
-            verb = "is" if len(question.paths) == 1 else "are"
-            folder = question.paths[0].absolute().parent
-            self._say(
-                f"{names} {verb} in {folder} already, not written by this editor. "
-                "Click again to replace, or choose another name.",
-                _REFUSED,
-            )
-        except _UnsavedError as question:
-            button.ask()
-            self._say(str(question), _REFUSED)
-        except (OSError, ValueError) as error:  # refusals for the user; anything else is a bug
-            self._say(str(error), _REFUSED)
-        self._show()
-
-    def _forget_question(self, _: Any = None) -> None:
-        for button in self._buttons:
-            button.ask(False)
-
-    def _say(self, text: str, color: str = "inherit") -> None:
-        self.message.value = (
-            f"<div style='line-height:1.4;overflow-wrap:anywhere;color:{color}'>"
-            f"{html.escape(text)}</div>"
-        )
+    def _say(self, text: str, style: str = "") -> None:
+        self.message.value = paragraph(text, style)
 
     def _show(self, _: Any = None) -> None:
-        """Update what depends on the model and on other controls."""
+        """Update what depends on the model and on other controls, and ask nothing any more."""
+        self._asked = (None, 0.0)
+        for asking, label in self._labels.items():
+            asking.description, asking.button_style = label, ""
         self._picture.layout.display = "flex" if self.format.value == ".png" else "none"
         self._height.value = f"× {self.size[1]} px"
         path = self.model.autosave_path
         text = _NO_AUTOSAVE if path is None else f"Saved by itself to {path.absolute()}"
-        self.autosave.value = (
-            "<div style='line-height:1.4;overflow-wrap:anywhere;"
-            f"color:var(--jp-ui-font-color2,inherit)'>{html.escape(text)}</div>"
-        )
+        self.autosave.value = paragraph(text, "color:var(--jp-ui-font-color2,inherit)")
 
 
 def _row(label: str, *controls: ipywidgets.Widget) -> ipywidgets.HBox:
     return ipywidgets.HBox([ipywidgets.Label(label, layout=_LABEL), *controls])
-
-
-def _listed(names: Sequence[str]) -> str:
-    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)

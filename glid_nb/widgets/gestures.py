@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from glid_nb._errors import InputError
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
-from glid_nb.session.observed import Observed
+from glid_nb.session.model import Observed
 
 Array = NDArray[Any]
 Event = Mapping[str, Any]
@@ -21,7 +21,7 @@ LEFT, RIGHT = 0, 2
 _SLOP, _SLOP_ON_SHAPE = 2.0, 5.0  # pixels that a pressed pointer may move without dragging
 _NUDGE, _NUDGE_SHIFT = 0.1, 0.5  # world units
 _CURSOR, _CURSOR_SHIFT = 6.0, 30.0  # pixels
-_ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowDown": (0, -1)}
+ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowDown": (0, -1)}
 
 
 class Gestures:
@@ -34,6 +34,8 @@ class Gestures:
 
     takes: ClassVar[frozenset[str]] = frozenset({"down", "move", "up", "cancel", "key"})
     """The types of events that are handled."""
+    asks: ClassVar[dict[str, tuple[str, ...]]] = {}
+    """Further types: actions of the model by name, with the items of the event that they take."""
 
     def __init__(self, model: Observed) -> None:
         self._model = model
@@ -45,10 +47,13 @@ class Gestures:
         with self._model.locked():  # one change, drawn once
             for event in events:
                 kind = event["type"]
-                if kind not in self.takes:
+                if kind not in self.takes and kind not in self.asks:
                     return f"the page asked for {kind!r}, which this canvas cannot do"
                 try:
-                    getattr(self, f"_{kind}")(event)
+                    if kind in self.asks:
+                        getattr(self._model, kind)(*(event[item] for item in self.asks[kind]))
+                    else:
+                        getattr(self, f"_{kind}")(event)
                     if kind not in ("move", "up", "cancel"):
                         refusal = None
                 except InputError as error:
@@ -85,7 +90,7 @@ class PinGestures(Gestures):
         pose = self.deformation.pose
         if not len(pose):
             return None
-        for places in (pose.targets, self.deformation.shown(pose.handles)):
+        for places in (pose.targets, self.deformation.moment.shown(pose.handles)):
             gap = np.linalg.norm(places - point, axis=1)
             nearest = int(np.argmin(gap))
             if gap[nearest] <= reach:
@@ -169,7 +174,7 @@ class PinGestures(Gestures):
 
     def _key(self, event: Event) -> None:
         key, model = event["key"], self.deformation
-        if key in _ARROWS:
+        if key in ARROWS:
             self._arrow(event)
         elif key == "Enter":
             self._enter(event)
@@ -194,7 +199,7 @@ class PinGestures(Gestures):
             model.select(range(len(model.pose)))
 
     def _arrow(self, event: Event) -> None:
-        direction, model = np.array(_ARROWS[event["key"]], dtype=float), self.deformation
+        direction, model = np.array(ARROWS[event["key"]], dtype=float), self.deformation
         if model.selection and self.cursor is None:
             model.nudge(model.selection, direction * (_NUDGE_SHIFT if event["shift"] else _NUDGE))
             return

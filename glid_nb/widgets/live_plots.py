@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Collection, Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
-from PIL import Image
 
 from glid_nb.certificate import Certificate
-from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot, TimePlot
+from glid_nb.export.picture import png
+from glid_nb.figures.plots import CertificatePlot, EnergyPlot, Plot, StepPlot, TimePlot
 from glid_nb.geometry import Cage
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Iteration
-from glid_nb.widgets.plots_frame import plot_boxes
 
-Array = NDArray[Any]
-
-_DPI = 100
+_DPI, _SCALE = 100, 1.5  # pixels of the picture for each of CSS
+# CSS pixels. A plot's legend is above it; ticks and the axis's name are below.
+_LEFT, _RIGHT, _ABOVE, _BELOW = 44, 8, 31, 32
+_BETWEEN_COLUMNS, _BETWEEN_ROWS, _ABOVE_TIMES = 46, 52, 17
+_ROWS, _STEPS_AND_TIMES = (0.56, 0.44), (0.68, 0.32)  # shares of the height
 
 
 class LivePlots:
@@ -30,36 +28,36 @@ class LivePlots:
 
     Artists are drawn onto a stored background, which is redrawn only when an axis changes: a few
     milliseconds instead of a hundred. Not for several threads at once. The picture has ``width``
-    times ``height`` CSS pixels, with ``scale`` pixels for each.
+    times ``height`` CSS pixels.
     """
 
-    def __init__(self, cage: Cage, width: int, height: int, scale: float = 1.5) -> None:
+    def __init__(self, cage: Cage, width: int, height: int) -> None:
         self.cage = cage
-        figure = Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI * scale)
+        figure = Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI * _SCALE)
         self._canvas = FigureCanvasAgg(figure)
-        energy, steps, times, certificate = (
-            figure.add_axes(
-                (
-                    box.x / width,
-                    1 - (box.y + box.height) / height,
-                    box.width / width,
-                    box.height / height,
-                )
-            )
-            for box in plot_boxes(width, height)
+        room = height - _ABOVE - _BELOW - _BETWEEN_ROWS
+        rows = figure.add_gridspec(2, 1, height_ratios=_ROWS, hspace=2 * _BETWEEN_ROWS / room)
+        rows.update(
+            left=_LEFT / width,
+            right=1 - _RIGHT / width,
+            bottom=_BELOW / height,
+            top=1 - _ABOVE / height,
         )
-        self._energy = EnergyPlot(energy, animated=True)
-        self._step = StepPlot(steps, animated=True)
-        # They share the axis below them.
-        steps.set_xlabel("")
-        steps.tick_params(labelbottom=False)
-        self._time = TimePlot(times, animated=True)
-        self._certificate = CertificatePlot(certificate, cage, animated=True)
+        column = (width - _LEFT - _RIGHT - _BETWEEN_COLUMNS) / 2
+        columns = rows[0].subgridspec(1, 2, wspace=_BETWEEN_COLUMNS / column)
+        upper = _ROWS[0] * room - _ABOVE_TIMES
+        right = columns[1].subgridspec(
+            2, 1, height_ratios=_STEPS_AND_TIMES, hspace=2 * _ABOVE_TIMES / upper
+        )
+        self._energy = EnergyPlot(figure.add_subplot(columns[0]), animated=True)
+        self._step = StepPlot(figure.add_subplot(right[0]), animated=True)
+        self._time = TimePlot(figure.add_subplot(right[1]), animated=True)
+        self._certificate = CertificatePlot(figure.add_subplot(rows[1]), cage, animated=True)
+        self._plots: tuple[Plot, ...] = self._energy, self._step, self._time, self._certificate
+        # Steps and times share the axis below them.
+        self._step.axes.set_xlabel("")
+        self._step.axes.tick_params(labelbottom=False)
         self._background: Any = None
-
-    @property
-    def _plots(self) -> tuple[Any, ...]:
-        return self._energy, self._step, self._time, self._certificate
 
     def draw(
         self,
@@ -78,21 +76,14 @@ class LivePlots:
             self._energy.update(history, starts=starts, solving=solving),
             self._step.update(history, starts, solving),
             self._time.update(history),
+            self._certificate.update(certificate, map),
         ]
-        if certificate is None:
-            self._certificate.clear()
-        else:
-            changed.append(self._certificate.update(certificate, map))
         if self._background is None or any(changed):
             self._canvas.draw()
             self._background = self._canvas.copy_from_bbox(self._canvas.figure.bbox)
         else:
             self._canvas.restore_region(self._background)
         for plot in self._plots:
-            axes: Axes = plot.axes
             for artist in plot.artists:
-                axes.draw_artist(artist)
-        pixels = np.asarray(self._canvas.buffer_rgba())
-        buffer = io.BytesIO()
-        Image.fromarray(pixels).convert("RGB").save(buffer, format="PNG", compress_level=1)
-        return buffer.getvalue()
+                plot.axes.draw_artist(artist)
+        return png(np.asarray(self._canvas.buffer_rgba())[..., :3], compress_level=1)

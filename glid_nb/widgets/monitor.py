@@ -12,32 +12,30 @@ import numpy as np
 
 from glid_nb.certificate import Certificate
 from glid_nb.certificate.certify import PanelCertificate
+from glid_nb.figures.style import BLUE, FAINT, GREEN, GREY, ORANGE, VERMILION
 from glid_nb.geometry.panels import Panels
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.live_solver import Frame
-from glid_nb.session.moment import Moment
+from glid_nb.session.document import certificate_of
+from glid_nb.session.edit_state import Frame, Moment
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins, weakly
-from glid_nb.widgets.arguments import check_keywords
-from glid_nb.widgets.plots_frame import placeholder
+from glid_nb.widgets.closing import ClosingWidget
 
 if TYPE_CHECKING:
     from glid_nb.widgets.live_plots import LivePlots
 
-INTERVAL = 0.1
-"""Least number of seconds between two drawings of the plots."""
-
-_TONES = {
-    "idle": "#7f7f7f",
-    "working": "#0072b2",
-    "good": "#009e73",
-    "blocked": "#e69f00",
-    "error": "#d55e00",
-}
+_INTERVAL = 0.1  # least number of seconds between two drawings of the plots
+_COLORS = (GREY, BLUE, GREEN, ORANGE, VERMILION)
+_TONES = dict(zip(("idle", "working", "good", "blocked", "error"), _COLORS, strict=True))
 _RATE_WINDOW = 1.0  # seconds over which frames are counted
+# The placeholder's axes: name, left, top, width and height in percent.
+_AXES = (
+    *(("energy", 10, 9, 39, 42), ("steps", 59, 9, 39, 25), ("time per iteration", 59, 39, 39, 12)),
+    ("certificate", 10, 65, 88, 26),
+)
 
 
-class SolverMonitor(ipywidgets.VBox):
+class SolverMonitor(ClosingWidget, ipywidgets.VBox):
     """A status line, and plots of the energy, the iterations and the certificate.
 
     Parameters
@@ -50,8 +48,6 @@ class SolverMonitor(ipywidgets.VBox):
         Whether there are plots.
     """
 
-    _complete = False  # ipywidgets also closes a widget whose constructor raised
-
     def __init__(
         self,
         deformation: Deformation,
@@ -60,49 +56,37 @@ class SolverMonitor(ipywidgets.VBox):
         plots: bool = True,
         **kwargs: Any,
     ) -> None:
-        check_keywords(type(self), kwargs)
         self.deformation = deformation
         """The model that this is a view of."""
         self.line = ipywidgets.HTML()
         """The status line."""
         self.image = ipywidgets.Image(
-            value=placeholder(width, height), format="svg+xml", width=width, height=height
+            value=_placeholder(width, height), format="svg+xml", width=width, height=height
         )
         """The plots; empty axes until the solver has begun."""
         self._size = (width, height)
         self._plots: LivePlots | None = None
         self._frames: deque[float] = deque()
         self._worker: LatestWins[None] = LatestWins(
-            weakly(self._update), self, "monitor", interval=INTERVAL
+            weakly(self._update), self, "monitor", interval=_INTERVAL
         )
         self._drawn: Any = None
-        self._with_plots = plots
         super().__init__([self.line, self.image] if plots else [self.line], **kwargs)
         self.add_class("glid-monitor")
         self.image.add_class("glid-plots")
         self.image.layout.width, self.image.layout.height = f"{width}px", f"{height}px"
-        self._stop = deformation.observe(self._on_model)
-        self._complete = True
+        self._endings = (deformation.observe(self._on_model), self._worker.close)
         self._worker.submit(None)
 
     @property
     def text(self) -> str:
         """The status line as plain text."""
-        moment = self.deformation.moment
-        return self._words(moment, self._status(moment))
+        return self._status(self.deformation.moment).text
 
     def refresh(self, timeout: float | None = None) -> bool:
         """Draw what has changed; whether that was done within ``timeout`` seconds."""
         self._worker.submit(None)
         return self._worker.wait(timeout)
-
-    def close(self) -> None:
-        """Stop watching; the model lives on."""
-        if not self._complete:
-            return
-        self._stop()
-        self._worker.close()
-        super().close()
 
     def _on_model(self, what: str) -> None:
         if what == "frame":
@@ -117,29 +101,25 @@ class SolverMonitor(ipywidgets.VBox):
             f'<div style="display:flex;align-items:center;gap:8px;line-height:1.4">'
             f'<span style="flex:none;width:10px;height:10px;border-radius:5px;'
             f'background:{_TONES[status.level]}"></span>'
-            f"<span>{html.escape(self._words(moment, status))}</span></div>"
+            f"<span>{html.escape(status.text)}</span></div>"
         )
         # The solver comes to rest after its last frame was announced.
         if moment.busy:
             self._worker.submit(None)
         # The first canvas does not wait for matplotlib.
-        if self._with_plots and self.deformation.begun:
+        if self.image in self.children and self.deformation.begun:
             self._draw(moment)
 
-    def _words(self, moment: Moment, status: StatusLine) -> str:
-        solution = moment.solution
-        solved = solution is not None and solution.ended
-        rate = self._rate() if moment.busy and not solved else 0
-        return status.text + (f" · {rate} {'frame' if rate == 1 else 'frames'}/s" if rate else "")
-
     def _status(self, moment: Moment) -> StatusLine:
-        return describe(moment, self.deformation.certificate_of)
-
-    def _rate(self) -> int:
-        now = time.monotonic()
-        while self._frames and self._frames[0] < now - _RATE_WINDOW:
+        """The model's status; during a solve with the number of frames per second."""
+        status = describe(moment)
+        while self._frames and self._frames[0] < time.monotonic() - _RATE_WINDOW:
             self._frames.popleft()
-        return len(self._frames)
+        rate = len(self._frames)
+        if not rate or not moment.busy or moment.solved:
+            return status
+        rated = f"{status.text} · {rate} {'frame' if rate == 1 else 'frames'}/s"
+        return StatusLine(status.level, rated)
 
     def _draw(self, moment: Moment) -> None:
         frame, solution = moment.frame, moment.solution
@@ -158,7 +138,7 @@ class SolverMonitor(ipywidgets.VBox):
         elif moment.busy and frame and frame.panels is not None and len(frame.sigma2_lower):
             proof, map_ = _live_certificate(frame, frame.panels), None
         else:
-            proof, map_ = self.deformation.certificate_of(moment.map), moment.map
+            proof, map_ = certificate_of(moment.map), moment.map
         picture = self._plots.draw(history, proof, map_, starts, moment.busy)
         with self.image.hold_sync():  # format and value in one message
             self.image.format, self.image.value = "png", picture
@@ -167,12 +147,24 @@ class SolverMonitor(ipywidgets.VBox):
 
 def _live_certificate(frame: Frame, panels: Panels) -> Certificate:
     """What the solver has proved of a frame, for the plots."""
-    unknown = np.full(len(panels), np.nan)
-    start, end = (np.stack([np.real(z), np.imag(z)], axis=1) for z in (panels.start, panels.end))
-    proof = PanelCertificate(
-        start, end, panels.loop, panels.depth, frame.sigma2_lower, unknown, unknown
-    )
+    bounds = dict.fromkeys(("sigma1_upper", "k_upper"), np.full(len(panels), np.nan))
+    proof = PanelCertificate(**vars(panels), sigma2_lower=frame.sigma2_lower, **bounds)
     least = float(frame.sigma2_lower.min())
     return Certificate(
         True, least, np.nan, np.nan, (), proof, "hermite", "Certified step by step by the solver."
     )
+
+
+def _placeholder(width: int, height: int) -> bytes:
+    """Empty axes with their names, as an SVG of this size in CSS pixels."""
+    axes = "".join(
+        f'<svg x="{left}%" y="{top}%" width="{wide}%" height="{high}%" stroke="{FAINT}">'
+        '<line y2="100%"/><line y1="100%" x2="100%" y2="100%"/>'
+        f'<text x="50%" y="50%" dy="4" fill="{GREY}" stroke="none">{name}</text></svg>'
+        for name, left, top, wide, high in _AXES
+    )
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
+        'font-family="sans-serif" font-size="11" text-anchor="middle">'
+        f'<rect width="100%" height="100%" fill="#fff"/>{axes}</svg>'
+    ).encode()

@@ -15,21 +15,31 @@ from glid_nb.solvers.restarts import isometry_energy
 
 Array = NDArray[Any]
 
-# Ten evenly spaced colours of `figures.style.distortion_colors`, without importing matplotlib.
-_COLORS = (
+COLORS = (
     *("#fcf4b6", "#fecc8f", "#fea16e", "#f8765c", "#e75263"),
     *("#c43c75", "#a02f7f", "#7b2382", "#57157e", "#331067"),
 )
-# The certificate's: green, orange, vermilion, visible on white, on black and beside those above.
-_MARGIN_COLORS = (
+"""From isometric to distorted: as `figures.style.distortion_colors`, which needs matplotlib."""
+
+# Green, orange, vermilion: visible on white, on black and beside those above.
+MARGIN_COLORS = (
     *("#009e73", "#339e59", "#669e40", "#999f26", "#cc9f0d"),
     *("#e49800", "#e08a00", "#dd7b00", "#d96c00", "#d55e00"),
 )
-N_COLORS = len(_COLORS)
+"""The certificate's, from a wide margin to none."""
+
+N_COLORS = len(COLORS)
 """Stops of the colour map in the shader."""
 
 FULL_MARGIN = 0.5
 """Panels with at least this certified sigma_2 have the best colour."""
+
+PANEL_LEGEND = {
+    "title": "Certified σ₂ on the boundary",
+    "colors": list(MARGIN_COLORS),
+    "ticks": [f"≥ {FULL_MARGIN:g}", f"{FULL_MARGIN / 2:g}", "0"],
+}
+"""The colour bar of the boundary's panels, for the page."""
 
 _SHARE = 0.98  # of the boundary, where distortion is largest, lies within a colour map's range
 
@@ -102,16 +112,6 @@ def color_range(
     return start, next((end for end in ends if abs(end - start) >= wanted - 1e-9), ends[-1])
 
 
-def color_stops() -> NDArray[np.float64]:
-    """(n, 3) colours, evenly spaced, from isometric to distorted."""
-    return rgb(_COLORS)
-
-
-def margin_stops() -> NDArray[np.float64]:
-    """(n, 3) colours of the certificate, evenly spaced, from a wide margin to none."""
-    return rgb(_MARGIN_COLORS)
-
-
 def rgb(colors: Sequence[str]) -> NDArray[np.float64]:
     """(n, 3) colours of ``#rrggbb`` texts."""
     return np.array([[int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)] for color in colors])
@@ -125,15 +125,6 @@ def legend(name: str, energy: Energy, range_: tuple[float, float]) -> dict[str, 
     ticks = np.linspace(low, high, 5 if name == "energy" else 3)
     return {
         "title": OVERLAYS[name].label,
-        "colors": list(_COLORS),
+        "colors": list(COLORS),
         "ticks": [f"{value:.3g}" for value in ticks],
-    }
-
-
-def panel_legend() -> dict[str, Any]:
-    """The colour bar of the boundary's panels."""
-    return {
-        "title": "Certified σ₂ on the boundary",
-        "colors": list(_MARGIN_COLORS),
-        "ticks": [f"≥ {FULL_MARGIN:g}", f"{FULL_MARGIN / 2:g}", "0"],
     }

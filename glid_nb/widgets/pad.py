@@ -3,24 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, Protocol
+from typing import Any
 
 import anywidget
 import ipywidgets
 
-from glid_nb.session.observed import Observed
-
-Event = dict[str, Any]
-
-
-class Hand(Protocol):
-    """Acts on events."""
-
-    def handle(self, events: Sequence[Event]) -> str | None:
-        """Act on events in order; returns why something was refused, or None."""
+from glid_nb.session.model import Observed
+from glid_nb.widgets.closing import ClosingWidget
 
 
-class Pad(anywidget.AnyWidget):
+class Pad(ClosingWidget, anywidget.AnyWidget):
     """A picture on the page that takes pointers and keys: the base of the two canvases.
 
     The page (``js/pad``) sends ``{"view": v, "events": [...]}``, one batch at a time, and waits for
@@ -30,12 +22,17 @@ class Pad(anywidget.AnyWidget):
     ``buffered``, its ``data``.
     """
 
-    def serve(self, model: Observed, hand: Hand, busy: Callable[[], bool] = lambda: False) -> None:
-        """Have ``hand`` act on what the page sends, while ``model`` is locked.
+    def serve(
+        self,
+        model: Observed,
+        handle: Callable[[Sequence[dict[str, Any]]], str | None],
+        busy: Callable[[], bool] = lambda: False,
+    ) -> None:
+        """Have ``handle`` act on events in order; it returns why something was refused, or None.
 
-        Where ``busy()`` is true after events were handled, the caller acknowledges them later.
+        Where ``busy()`` is true after that, the caller acknowledges the events later.
         """
-        self._model, self._hand, self._busy = model, hand, busy
+        self._model, self._handle, self._busy = model, handle, busy
         self._waiting: dict[str, tuple[int, str | None]] = {}
         answer_during_cells(self)
         self.on_msg(self._receive)
@@ -54,7 +51,7 @@ class Pad(anywidget.AnyWidget):
             if event.get("buffered"):
                 event["data"] = next(rest)
         try:
-            refusal = self._hand.handle(events)
+            refusal = self._handle(events)
         except Exception as error:
             refusal = f"{type(error).__name__}: {error}"  # shown, and logged by the kernel
             raise
@@ -76,8 +73,4 @@ def answer_during_cells(widget: ipywidgets.Widget) -> None:
     """
     comm: Any = widget.comm
     if hasattr(comm, "_reply_subshell_for"):
-        comm._reply_subshell_for = _as_addressed
-
-
-def _as_addressed(_data: Any, addressed: str | None) -> str | None:
-    return addressed
+        comm._reply_subshell_for = lambda _data, addressed: addressed

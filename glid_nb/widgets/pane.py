@@ -6,19 +6,25 @@ from typing import Any
 
 import ipywidgets
 import numpy as np
+import traitlets
 from numpy.typing import NDArray
 
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import DeformationMap
-from glid_nb.widgets.closing import close_with_parts
+from glid_nb.widgets.bundle import bundle, stylesheet
+from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.layers import EvaluatedIn
-from glid_nb.widgets.overlays import legend, panel_legend
+from glid_nb.widgets.overlays import PANEL_LEGEND, legend
+from glid_nb.widgets.pad import Pad
 from glid_nb.widgets.scene import N_VERTICES, Drawing, Scene, renderer
 from glid_nb.widgets.shader import UNIFORM_VECTORS
-from glid_nb.widgets.stage import Stage, emptiest_corner, marks_of
 
 Array = NDArray[Any]
 
+CORNERS = ("bottom right", "bottom left", "top right", "top left")  # the usual place first
+
+_LEGEND_SIZE = (222, 75)  # CSS pixels, with its distance to the border
+_REFERENCE: dict[str, Any] = ipywidgets.widget_serialization
 _SHARES = (0.0, 0.25, 0.5, 0.75)  # of an edge
 _ROOM = 1.12  # what is fitted leaves a border
 # Without a graphics processor a vertex costs tens of microseconds, so the mesh gets coarser; with
@@ -26,14 +32,58 @@ _ROOM = 1.12  # what is fitted leaves a border
 _DRAWING_TIME, _FEWEST_VERTICES = 40.0, 1500  # ms, vertices
 
 
-class Pane(ipywidgets.GridBox):
+class Stage(Pad):
+    """Lies over a pythreejs renderer.
+
+    It draws handles and targets, sends pointers and keys to the kernel in world coordinates, pans
+    and zooms without the kernel, and puts a map's coefficients into the renderer's materials.
+    """
+
+    _esm = bundle("canvas/main.js")
+    _css = stylesheet("canvas/canvas.css")
+
+    width = traitlets.Int(600).tag(sync=True)
+    """Width in CSS pixels; the page changes it when the corner is dragged."""
+    height = traitlets.Int(500).tag(sync=True)
+    """Height in CSS pixels."""
+    view = traitlets.List(traitlets.Float(), [0.0, 0.0, 0.04]).tag(sync=True)
+    """Centre (x, y) in world units, and the world units of one CSS pixel."""
+    coefficients = traitlets.Bytes(b"").tag(sync=True)
+    """The map, as ``ShaderMap.wire`` writes it; empty where the kernel evaluates."""
+    marks = traitlets.Dict({"targets": [], "images": [], "selected": []}).tag(sync=True)
+    """Targets and images of the handles, lists of [x, y], and indices of those selected."""
+    cursor = traitlets.List(default_value=None, allow_none=True).tag(sync=True)
+    """Where the keyboard's cursor is, [x, y]; None while it is not used."""
+    legend = traitlets.Dict({}).tag(sync=True)
+    """The overlay's colour bar: ``title``, ``colors`` and ``ticks``; empty for none."""
+    panel_legend = traitlets.Dict({}).tag(sync=True)
+    """The certificate's colour bar, below the overlay's."""
+    legend_corner = traitlets.Enum(CORNERS, CORNERS[0]).tag(sync=True)
+    """Where the colour bars are."""
+    notice = traitlets.Unicode("").tag(sync=True)
+    """Why the last action was refused; empty for nothing."""
+    interactive = traitlets.Bool(True).tag(sync=True)
+    """Whether the pad takes pointers and keys."""
+    uniform_vectors = traitlets.Int(0).tag(sync=True)
+    """How many vectors of uniforms the page's shaders hold; 0 while unknown."""
+    drawing_time = traitlets.Float(0.0).tag(sync=True)
+    """Milliseconds that the page needs to draw the renderer once; 0 while unknown."""
+    drawn = traitlets.Bool(False).tag(sync=True)
+    """Whether a page has drawn it."""
+    renderer = traitlets.Instance(ipywidgets.Widget).tag(sync=True, **_REFERENCE)
+    """The pythreejs renderer below."""
+    camera = traitlets.Instance(ipywidgets.Widget).tag(sync=True, **_REFERENCE)
+    """Its camera."""
+    materials = traitlets.List([]).tag(sync=True, **_REFERENCE)
+    """The materials that take the coefficients."""
+
+
+class Pane(ClosingWidget, ipywidgets.GridBox):
     """A picture (h, w, 4) under a map, with marks over it; renderer and pad share one grid cell.
 
     ``size`` is in CSS pixels; ``n_vertices`` of the mesh are by default as many as the page draws
     quickly, ``evaluated_in`` is as in `DeformCanvas`.
     """
-
-    _complete = False  # ipywidgets also closes a widget whose constructor raised
 
     def __init__(
         self,
@@ -71,7 +121,7 @@ class Pane(ipywidgets.GridBox):
         self._resize()
         self.stage.observe(self._resize, ["width", "height"])
         self.fit(map, ())
-        self._complete = True
+        self._endings = (lambda: self.scene.close(),)
 
     def show(self, drawing: Drawing) -> None:
         """Draw this, in one message if only the map and the marks have changed."""
@@ -110,8 +160,7 @@ class Pane(ipywidgets.GridBox):
             stage.coefficients = self._wire()
             stage.marks = marks_of(drawing.targets, drawing.images, drawing.selected)
             stage.legend = legend(drawing.overlay, drawing.energy, scene.color_range)
-            stage.panel_legend = panel_legend() if panels else {}
-        scene.close_replaced()
+            stage.panel_legend = PANEL_LEGEND if panels else {}
         if old is not scene:
             old.close()
 
@@ -123,10 +172,10 @@ class Pane(ipywidgets.GridBox):
         loops = self.scene.domain.cage.loops
         # Edges may be longer than the bar.
         between = [loop + t * (np.roll(loop, -1, axis=0) - loop) for loop in loops for t in _SHARES]
-        outline = self._drawing.shown(np.concatenate(between))
+        outline = (self._drawing.comparison or self._drawing.map)(np.concatenate(between))
         x, y, unit = self.stage.view
         width, height = self.stage.width, self.stage.height
-        seen = np.concatenate([outline, self._drawing.targets])
+        seen = np.concatenate([outline, np.reshape(self._drawing.targets, (-1, 2))])
         pixels = (seen - [x, y]) / unit + [width / 2, height / 2]
         self.stage.legend_corner = emptiest_corner(pixels, width, height, n_bars)
 
@@ -139,14 +188,6 @@ class Pane(ipywidgets.GridBox):
         width, height = self.stage.width, self.stage.height
         unit = _ROOM * max((high[0] - low[0]) / width, (high[1] - low[1]) / height, 1e-6)
         self.stage.view = [float(x), float(y), float(unit)]
-
-    def close(self) -> None:
-        """Free the renderer: a page has only eight."""
-        if not self._complete:
-            return
-        self.scene.close()
-        close_with_parts(self.stage, self._renderer, self.layout)
-        super().close()
 
     def _new_scene(self, uniform_vectors: int) -> Scene:
         vectors = uniform_vectors or UNIFORM_VECTORS  # 0 while no page has said
@@ -173,3 +214,24 @@ def _images(map: DeformationMap, points: Array) -> Array:
         if np.array_equal(map.phi, identity.phi) and np.array_equal(map.psi, identity.psi):
             return points
     return map(points)
+
+
+def emptiest_corner(points: Any, width: int, height: int, bars: int = 1) -> str:
+    """The corner of :data:`CORNERS` where colour bars hide the fewest points.
+
+    ``points`` are (k, 2), in CSS pixels from the lower left of a pad of this size.
+    """
+    x, y = np.asarray(points, dtype=float).T
+
+    def hidden(corner: str) -> int:
+        across = x if "left" in corner else width - x
+        up = y if "bottom" in corner else height - y
+        return int(((across < _LEGEND_SIZE[0]) & (up < bars * _LEGEND_SIZE[1])).sum())
+
+    return min(CORNERS, key=hidden)  # the first of equals
+
+
+def marks_of(targets: Any, images: Any, selected: Any) -> dict[str, Any]:
+    """The trait ``marks``: points rounded to what a screen can show."""
+    rounded = {"targets": np.round(targets, 5), "images": np.round(images, 5)}
+    return {**{k: points.tolist() for k, points in rounded.items()}, "selected": list(selected)}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import shapely
@@ -17,62 +17,35 @@ Array = NDArray[Any]
 
 _PIECES_PER_SIDE = 80
 _PANEL_PIECES = 2
+PANEL_VERTICES = 4 * _PANEL_PIECES
 _INSIDE = 0.15  # of its distance to the cage, by which the offset cage is drawn inside the domain
 
 
-class Ribbon(NamedTuple):
-    """Pieces of curves, four vertices each."""
-
-    points: Array
-    """(4 s, 2) where the vertices are on the curve."""
-    ribbon: Array
-    """(4 s, 3) float32: the curve's unit direction, and the side, -1 or 1."""
-    triangles: Array
-    """(2 s, 3) uint32"""
-
-
-def ribbon(start: Array, end: Array) -> Ribbon:
-    """Ribbons along straight pieces from ``start`` to ``end``, (s,) complex."""
-    count = len(start)
-    direction = (end - start) / np.maximum(np.abs(end - start), 1e-300)
-    points = np.stack([start, start, end, end], axis=1).ravel()
-    along = np.repeat(direction, 4)
-    side = np.tile([-1.0, 1.0, -1.0, 1.0], count)
-    corner = 4 * np.arange(count)[:, None, None]
-    triangles = corner + np.array([[0, 1, 2], [2, 1, 3]])
-    return Ribbon(
-        np.stack([np.real(points), np.imag(points)], axis=1),
-        np.stack([along.real, along.imag, side], axis=1).astype(np.float32),
-        triangles.reshape(-1, 3).astype(np.uint32),
-    )
+Ribbon = tuple[Array, Array, Array]
+"""Four vertices for each piece of a curve: (v, 2) points, (t, 3) triangles, and (v, 3) the curve's
+unit direction and the side, -1 or 1."""
 
 
 def cage_ribbon(domain: Domain) -> Ribbon:
     """The cage's loops."""
-    return _loops_ribbon(domain.cage_loops_complex, domain.cage.longer_side)
+    return _loops_ribbon(domain.cage.loops_complex, domain.cage.longer_side)
 
 
 def offset_ribbon(domain: Domain) -> Ribbon:
     """The offset cage's loops, moved slightly towards the cage."""
-    rings = [shapely.LinearRing(loop) for loop in domain.offset_cage.loops]
-    outline = shapely.MultiLineString([np.vstack([p, p[:1]]) for p in domain.cage.loops])
-    gap = min(float(shapely.distance(ring, outline)) for ring in rings)
-    polygon = shapely.Polygon(domain.offset_cage.exterior, domain.offset_cage.holes)
-    inner = shapely.buffer(polygon, -_INSIDE * gap, join_style="mitre")
+    cages = domain.offset_cage, domain.cage
+    offset, shape = (shapely.Polygon(cage.exterior, cage.holes) for cage in cages)
+    gap = float(shapely.distance(offset.boundary, shape.boundary))
+    inner = shapely.buffer(offset, -_INSIDE * gap, join_style="mitre")
     loops = [shapely.get_coordinates(ring)[:-1] for ring in shapely.get_rings(inner)]
     return _loops_ribbon([p[:, 0] + 1j * p[:, 1] for p in loops], domain.cage.longer_side)
 
 
 def panel_ribbon(panels: Panels) -> Ribbon:
-    """The boundary's panels."""
+    """The boundary's panels, each with `PANEL_VERTICES`."""
     t = np.linspace(0.0, 1.0, _PANEL_PIECES + 1)
     points = panels.start[:, None] + (panels.end - panels.start)[:, None] * t
-    return ribbon(points[:, :-1].ravel(), points[:, 1:].ravel())
-
-
-def panel_values(values: Array) -> Array:
-    """A value per panel, repeated for every vertex of `panel_ribbon`."""
-    return np.repeat(values, 4 * _PANEL_PIECES)
+    return _ribbon(points[:, :-1].ravel(), points[:, 1:].ravel())
 
 
 def _loops_ribbon(loops: Sequence[Array], side: float) -> Ribbon:
@@ -83,4 +56,20 @@ def _loops_ribbon(loops: Sequence[Array], side: float) -> Ribbon:
         points = subdivided(loop, pieces)
         starts.append(points)
         ends.append(np.roll(points, -1))
-    return ribbon(np.concatenate(starts), np.concatenate(ends))
+    return _ribbon(np.concatenate(starts), np.concatenate(ends))
+
+
+def _ribbon(start: Array, end: Array) -> Ribbon:
+    """Along straight pieces from ``start`` to ``end``, (s,) complex."""
+    count = len(start)
+    direction = (end - start) / np.maximum(np.abs(end - start), 1e-300)
+    points = np.stack([start, start, end, end], axis=1).ravel()
+    along = np.repeat(direction, 4)
+    side = np.tile([-1.0, 1.0, -1.0, 1.0], count)
+    corner = 4 * np.arange(count)[:, None, None]
+    triangles = corner + np.array([[0, 1, 2], [2, 1, 3]])
+    return (
+        np.stack([np.real(points), np.imag(points)], axis=1),
+        triangles.reshape(-1, 3),
+        np.stack([along.real, along.imag, side], axis=1).astype(np.float32),
+    )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -14,32 +13,11 @@ from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.figures.style import BLUE, GREY
 from glid_nb.geometry import MeshMap, Triangulation, triangulate, uniform_panels
 from glid_nb.geometry.panels import Panels
-from glid_nb.harmonic import HarmonicMap
+from glid_nb.harmonic import FixedPoints, HarmonicMap
 from glid_nb.imaging import PixelFrame
-from glid_nb.solvers import DeformationMap
-from glid_nb.widgets.layers import (
-    ComparisonLayer,
-    EvaluatedIn,
-    Layer,
-    MapLayer,
-    attribute,
-    picture_texture,
-)
-from glid_nb.widgets.overlays import (
-    FULL_MARGIN,
-    OVERLAYS,
-    color_range,
-    color_stops,
-    margin_stops,
-    rgb,
-)
-from glid_nb.widgets.ribbons import (
-    Ribbon,
-    cage_ribbon,
-    offset_ribbon,
-    panel_ribbon,
-    panel_values,
-)
+from glid_nb.widgets.layers import EvaluatedIn, Layer, Uniforms, comparison_layer, picture_texture
+from glid_nb.widgets.overlays import COLORS, FULL_MARGIN, MARGIN_COLORS, OVERLAYS, color_range, rgb
+from glid_nb.widgets.ribbons import PANEL_VERTICES, cage_ribbon, offset_ribbon, panel_ribbon
 from glid_nb.widgets.shader import UNIFORM_VECTORS, ShaderMap, energy_uniform
 
 Array = NDArray[Any]
@@ -51,10 +29,12 @@ N_VERTICES = 10_000
 _RANGE_SAMPLES = 256  # of the boundary, where distortion is largest
 _GRID_LINES = 40  # along the longer side
 _COLUMN = 8.0  # width of a column of triangles in drawing order, in heights of a row
-_CAGE_WIDTH, _OFFSET_WIDTH, _PANEL_WIDTH = 0.9, 0.6, 2.8  # half, in pixels
-
-
-_NO_POINTS = np.empty((0, 2))
+# Lines along the boundary, the lowest first: shape, colour, opacity, half the width in pixels.
+_LINES = {
+    "cage": (cage_ribbon, BLUE, 0.9, 0.9),
+    "offset_cage": (offset_ribbon, GREY, 0.9, 0.6),
+    "panels": (panel_ribbon, GREY, 1.0, 2.8),
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,29 +44,22 @@ class Drawing:
     map: HarmonicMap
     comparison: MeshMap | None = None
     """A map of a mesh, drawn in place of the harmonic one."""
-    targets: Array = field(default_factory=lambda: _NO_POINTS)
+    targets: Any = ()
     """(h, 2) where the handles should go."""
-    images: Array = field(default_factory=lambda: _NO_POINTS)
+    images: Any = ()
     """(h, 2) where they are."""
     selected: tuple[int, ...] = ()
     """Indices of selected handles."""
     overlay: str = "texture"
-    """One of :data:`~glid_nb.widgets.overlays.OVERLAYS`."""
+    """One of `glid_nb.widgets.overlays.OVERLAYS`."""
     energy: Energy = field(default_factory=SymmetricDirichlet)
     """Whose density the overlay "energy" shows."""
     color_range: Range = "fit"
     """Whether the range of the overlay's colour map is kept, only widened, or fitted."""
     cage: bool = False
-    """Whether the cage is drawn."""
     offset_cage: bool = False
-    """Whether the offset cage is drawn."""
     panels: tuple[Panels, Array] | None = None
     """The boundary's panels and the certified sigma_2 on each, where they are drawn."""
-
-    @property
-    def shown(self) -> DeformationMap:
-        """What moves the picture."""
-        return self.map if self.comparison is None else self.comparison
 
 
 class Scene:
@@ -107,32 +80,27 @@ class Scene:
         self.domain = map.domain
         self.map = map
         self.shader_map = ShaderMap(self.domain)
-        if evaluated_in is None:
-            evaluated_in = "shader" if self.shader_map.fits(uniform_vectors) else "kernel"
-        self.evaluated_in: EvaluatedIn = evaluated_in
-        self._overlay, self._energy = "texture", Drawing(map).energy
-        self.color_range = color_range(self._overlay, self._energy)
+        fits = self.shader_map.fits(uniform_vectors)
+        self.evaluated_in: EvaluatedIn = evaluated_in or ("shader" if fits else "kernel")
+        self._shown = Drawing(map)
+        self.color_range = color_range(self._shown.overlay, self._shown.energy)
         """The values at the ends of the overlay's colour map."""
         height, width = image.shape[:2]
         self.frame = PixelFrame(width, height)
         self._texture = picture_texture(image)
         mesh = triangulate(self.domain.cage, n_vertices)
-        self.picture = self._layer(
-            mesh.vertices, drawing_order(mesh), {}, "picture", self._textured_uniforms()
-        )
-        self.cage: MapLayer | None = None
-        """The cage's line, once it has been shown."""
-        self.offset_cage: MapLayer | None = None
-        self.panels: MapLayer | None = None
-        self._panels: Panels | None = None
-        self.comparison: ComparisonLayer | None = None
+        textured = self._textured_uniforms()
+        self.picture = self._layer("picture", textured, mesh.vertices, drawing_order(mesh))
+        self.lines: dict[str, Layer] = {}
+        """Those that have been shown, of "cage", "offset_cage" and "panels"."""
+        self.comparison: Layer | None = None
+        self._sources: dict[str, Any] = {}  # what lines and comparison were made of
         self._replaced: list[Layer] = []
 
     @property
-    def layers(self) -> tuple[MapLayer, ...]:
+    def layers(self) -> tuple[Layer, ...]:
         """All layers that the map moves, the lowest first."""
-        lines = (self.cage, self.offset_cage, self.panels)
-        return (self.picture, *(line for line in lines if line is not None))
+        return (self.picture, *(self.lines[name] for name in _LINES if name in self.lines))
 
     @property
     def drawn(self) -> tuple[Layer, ...]:
@@ -150,143 +118,113 @@ class Scene:
         return [material for layer in self.drawn for material in layer.materials]
 
     def show(self, drawing: Drawing) -> None:
-        """Draw this; the map must be of the scene's domain. See also :meth:`close_replaced`."""
+        """Draw this; the map must be of the scene's domain."""
+        while self._replaced:  # by the drawing before: the page draws others by now
+            self._replaced.pop().close()
         self.map = drawing.map
         self._show_comparison(drawing.comparison)
         self._show_overlay(drawing)
-        for name, visible, ribbon, color, width in (
-            ("cage", drawing.cage, cage_ribbon, BLUE, _CAGE_WIDTH),
-            ("offset_cage", drawing.offset_cage, offset_ribbon, GREY, _OFFSET_WIDTH),
-        ):
-            if visible and getattr(self, name) is None:
-                setattr(self, name, self._line(ribbon(self.domain), color, 0.9, width))
-            _set_visible(getattr(self, name), visible)
-        self._show_panels(drawing.panels)
+        self._show_line("cage", self.domain if drawing.cage else None)
+        self._show_line("offset_cage", self.domain if drawing.offset_cage else None)
+        panels = margins = None
+        if drawing.panels is not None:
+            panels, sigma2_lower = drawing.panels
+            margin = np.clip(np.nan_to_num(sigma2_lower) / FULL_MARGIN, 0.0, 1.0)
+            margins = np.repeat(np.rint(255 * (1 - margin)).astype(np.uint8), PANEL_VERTICES)
+        self._show_line("panels", panels, margins)
         for layer in self.layers:
-            layer.show_map(drawing.map)
-
-    def close_replaced(self) -> None:
-        """Free layers that are no longer drawn, once the page has the new ones."""
-        while self._replaced:
-            self._replaced.pop().close()
+            layer.show(drawing.map)
 
     def close(self) -> None:
         """Free what the page holds."""
-        self.close_replaced()
-        for layer in {*self.layers, *self.drawn}:
+        for layer in {*self.layers, *self.drawn, *self._replaced}:
             layer.close()
         self._texture.close()
 
     def _show_comparison(self, map: MeshMap | None) -> None:
-        shown = self.comparison
-        if map is not None and shown is not None and shown.triangulation is map.triangulation:
-            shown.show(map)
-            return
-        if shown is not None:
-            self._replaced.append(shown)
-        self.comparison = None if map is None else ComparisonLayer(map, self._textured_uniforms())
+        layer, source = self.comparison, None if map is None else map.triangulation
+        if layer is not None and self._sources["comparison"] is not source:
+            self._replaced.append(layer)
+            layer = None
+        if layer is None and map is not None:
+            layer = comparison_layer(map, self._textured_uniforms())
+        self.comparison, self._sources["comparison"] = layer, source
+        if layer is not None:
+            layer.show(map)
 
     def _show_overlay(self, drawing: Drawing) -> None:
-        name, energy = drawing.overlay, drawing.energy
-        least = None
-        if (name, energy) == (self._overlay, self._energy):
-            if drawing.color_range == "keep" or OVERLAYS[name].number < 2:
-                return
-            least = self.color_range if drawing.color_range == "widen" else None
-        before = (self._overlay, self._energy, self.color_range)
-        self._overlay, self._energy = name, energy
-        self.color_range = self._fitted_range(least)
-        if before != (name, energy, self.color_range):
-            changes = {k: u["value"] for k, u in self._picture_uniforms().items()}
+        name, energy, shown = drawing.overlay, drawing.energy, self._shown
+        same, measured = (name, energy) == (shown.overlay, shown.energy), OVERLAYS[name].number >= 2
+        self._shown, before = drawing, self.color_range
+        if same and (drawing.color_range == "keep" or not measured):
+            return
+        least = before if same and drawing.color_range == "widen" else None
+        boundary = uniform_panels(self.domain.cage, _RANGE_SAMPLES).start
+        derivatives = self.map.wirtinger(boundary) if measured else (None, None)
+        self.color_range = color_range(name, energy, *derivatives, least)
+        if not same or before != self.color_range:
             for layer in {self.picture, self.drawn[0]}:
-                layer.set_uniforms(changes)
+                layer.set_uniforms(self._picture_uniforms())
 
-    def _fitted_range(self, least: tuple[float, float] | None) -> tuple[float, float]:
-        if OVERLAYS[self._overlay].number < 2:
-            return color_range(self._overlay, self._energy)
-        fz, fzb = self.map.wirtinger(self._range_points)
-        return color_range(self._overlay, self._energy, fz, fzb, least)
+    def _show_line(self, name: str, source: Any, margins: Array | None = None) -> None:
+        """Show the line of this name, made of ``source``; hide it for None.
 
-    @functools.cached_property
-    def _range_points(self) -> NDArray[Any]:
-        return uniform_panels(self.domain.cage, _RANGE_SAMPLES).start
+        With margins, a byte per vertex, it is coloured by them between borders of its own colour.
+        """
+        line = self.lines.get(name)
+        if source is not None and source is not self._sources.get(name):
+            if line is not None:
+                self._replaced.append(line)
+            line = self.lines[name] = self._line(name, source, margins)
+            self._sources[name] = source
+        elif line is not None and margins is not None:
+            line.set_attribute("margin", margins)
+        if line is not None and line.mesh.visible != (source is not None):
+            line.mesh.visible = source is not None
 
-    def _show_panels(self, shown: tuple[Panels, Array] | None) -> None:
-        if shown is None:
-            _set_visible(self.panels, False)
-            return
-        panels, sigma2_lower = shown
-        margin = np.clip(np.nan_to_num(sigma2_lower) / FULL_MARGIN, 0.0, 1.0)
-        values = panel_values(np.rint(255 * (1 - margin)).astype(np.uint8))
-        if panels is self._panels and self.panels is not None:
-            if not np.array_equal(self.panels.attributes["margin"].array, values):
-                self.panels.attributes["margin"].array = values
-            _set_visible(self.panels, True)
-            return
-        if self.panels is not None:
-            self._replaced.append(self.panels)
-        self.panels = self._line(panel_ribbon(panels), GREY, 1.0, _PANEL_WIDTH, values)
-        self._panels = panels
+    def _line(self, name: str, source: Any, margins: Array | None) -> Layer:
+        ribbon_of, color, opacity, half_width = _LINES[name]
+        points, triangles, ribbon = ribbon_of(source)
+        plain = np.zeros(len(points), dtype=np.uint8)
+        uniforms = _uniforms(
+            pixel=0.02,
+            half_width=half_width,
+            line_color=[*rgb([color])[0], opacity],
+            by_margin=0.0 if margins is None else 1.0,
+            colors=rgb(MARGIN_COLORS).ravel().tolist(),
+        )
+        margin = plain if margins is None else margins
+        return self._layer("ribbon", uniforms, points, triangles, ribbon=ribbon, margin=margin)
 
     def _layer(
-        self,
-        points: Array,
-        triangles: Array,
-        attributes: dict[str, Any],
-        shader: str,
-        uniforms: dict[str, dict[str, Any]],
-    ) -> MapLayer:
-        shaders = (f"{shader}.vert", f"{shader}.frag")
-        domain = (self.shader_map, self.map, self.evaluated_in)
-        return MapLayer(points, triangles, attributes, shaders, uniforms, *domain)
+        self, shader: str, uniforms: Uniforms, points: Array, triangles: Array, **more: Array
+    ) -> Layer:
+        mover = self.shader_map
+        if self.evaluated_in == "kernel":
+            mover = FixedPoints(self.domain, points)
+        return Layer(shader, uniforms, mover, self.map, points, triangles, **more)
 
-    def _line(
-        self,
-        line: Ribbon,
-        color: str,
-        opacity: float,
-        half_width: float,
-        margins: Array | None = None,
-    ) -> MapLayer:
-        """A line in one colour; with margins coloured by them between borders of that colour."""
-        by_margin = 0.0 if margins is None else 1.0
-        if margins is None:
-            margins = np.zeros(len(line.points), dtype=np.uint8)
-        attributes = {
-            "ribbon": attribute(line.ribbon),
-            "margin": attribute(margins, normalized=True),
-        }
-        uniforms = {
-            "pixel": {"value": 0.02},
-            "half_width": {"value": half_width},
-            "line_color": {"value": [*rgb([color])[0], opacity]},
-            "by_margin": {"value": by_margin},
-            "colors": {"value": margin_stops().ravel().tolist()},
-        }
-        return self._layer(line.points, line.triangles, attributes, "ribbon", uniforms)
-
-    def _textured_uniforms(self) -> dict[str, dict[str, Any]]:
+    def _textured_uniforms(self) -> Uniforms:
         return {**self._picture_uniforms(), "map": {"value": self._texture}}
 
-    def _picture_uniforms(self) -> dict[str, dict[str, Any]]:
+    def _picture_uniforms(self) -> Uniforms:
         xmin, ymin, xmax, ymax = self.frame.bounds
+        overlay, energy = self._shown.overlay, self._shown.energy
         # A user's own energy has no shader expression; the picture is shown instead.
-        unknown = self._overlay == "energy" and self._energy.shader is None
-        number = 0 if unknown else OVERLAYS[self._overlay].number
-        return {
-            "frame": {"value": [xmin, ymin, xmax - xmin, ymax - ymin]},
-            "overlay": {"value": float(number)},
-            "energy": {"value": energy_uniform(self._energy)},
-            "color_range": {"value": list(self.color_range)},
-            "colors": {"value": color_stops().ravel().tolist()},
-            "pixel": {"value": 0.02},
-            "grid_spacing": {"value": self.domain.cage.longer_side / _GRID_LINES},
-        }
+        unknown = overlay == "energy" and energy.shader is None
+        return _uniforms(
+            frame=[xmin, ymin, xmax - xmin, ymax - ymin],
+            overlay=0.0 if unknown else float(OVERLAYS[overlay].number),
+            energy=energy_uniform(energy),
+            color_range=list(self.color_range),
+            colors=rgb(COLORS).ravel().tolist(),
+            pixel=0.02,
+            grid_spacing=self.domain.cage.longer_side / _GRID_LINES,
+        )
 
 
-def _set_visible(layer: Layer | None, visible: bool) -> None:
-    if layer is not None and layer.mesh.visible != visible:
-        layer.mesh.visible = visible
+def _uniforms(**values: Any) -> Uniforms:
+    return {name: {"value": value} for name, value in values.items()}
 
 
 def drawing_order(mesh: Triangulation) -> Array:

@@ -17,9 +17,7 @@ Array = NDArray[Any]
 UNIFORM_VECTORS = 1024
 """Vectors of uniforms that a vertex shader is assumed to hold until the page says otherwise."""
 
-# Matrices, ranges, colours and the like, beside the arrays counted below.
-_OTHER_VECTORS = 48
-
+_OTHER_VECTORS = 48  # matrices, ranges, colours and the like, beside the arrays counted below
 _GLSL = Path(__file__).parent / "glsl"
 
 
@@ -28,7 +26,7 @@ class ShaderMap:
 
     def __init__(self, domain: Domain) -> None:
         self.domain = domain
-        loops = domain.offset_loops_complex
+        loops = domain.offset_cage.loops_complex
         starts = np.cumsum([0, *map(len, loops)])
         # Each loop as a chain that begins with its last vertex.
         sizes = zip(starts, map(len, loops), strict=False)
@@ -39,14 +37,11 @@ class ShaderMap:
         chain = _vectors(vertices, np.concatenate(inverse_edges))
         self.cage = _padded(chain, [*vertices[-1:].view(float), 0, 0])
         """(c, 4) float32: a vertex, and 1 over the edge that leads to it; 0 where none does."""
+        self.n_chain = len(self.cage)
+        """Vertices of the chain."""
         self._far = [1e3 * float(np.abs(vertices).max()), 0, 0, 0]
         self.n_holes = len(_padded(np.zeros((domain.n_holes, 4)), self._far))
         """Holes of the shader, also unused ones."""
-
-    @property
-    def n_chain(self) -> int:
-        """Vertices of the chain."""
-        return len(self.cage)
 
     def fits(self, vectors: int) -> bool:
         """Whether a vertex shader with so many vectors of uniforms can hold the domain."""
@@ -71,17 +66,8 @@ class ShaderMap:
     def uniforms(self, map: HarmonicMap) -> dict[str, dict[str, Any]]:
         """The uniforms of ``harmonic.glsl``."""
         coefficients, holes = self.coefficients(map)
-        return {
-            "cage": {"value": self.cage.ravel().tolist()},
-            "coefficients": {"value": coefficients.ravel().tolist()},
-            "holes": {"value": holes.ravel().tolist()},
-        }
-
-
-def fragment_shader(name: str) -> str:
-    """The text of a fragment shader; ``picture.frag`` begins with the energies' densities."""
-    energies = energy_defines() + glsl("energy.glsl") if name == "picture.frag" else ""
-    return energies + glsl(name)
+        values = {"cage": self.cage, "coefficients": coefficients, "holes": holes}
+        return {name: {"value": value.ravel().tolist()} for name, value in values.items()}
 
 
 def energy_defines() -> str:

@@ -2,23 +2,40 @@
 
 from __future__ import annotations
 
-import html
+import dataclasses
 from collections.abc import Callable, Mapping
 from typing import Any, Literal, get_args, get_origin
 
 import ipywidgets
 
+from glid_nb._arguments import field_kinds
 from glid_nb.energies import ENERGIES, CustomEnergy, Energy, energy_by_name
 from glid_nb.methods import METHODS
 from glid_nb.session.deformation import Deformation
 from glid_nb.solvers import Method, Options
-from glid_nb.widgets.arguments import check_keywords
-from glid_nb.widgets.asking_button import button
-from glid_nb.widgets.edit_controls import EditControls
+from glid_nb.widgets.controls import EditControls, button, paragraph
 
 _WORKS_ON = {"harmonic": "", "mesh": " · mesh", "linear": " · linear"}
+_UNCERTIFIED = (
+    " Shown for comparison, without a proof; saved and exported is the last certified map."
+)
 _CUSTOM = CustomEnergy.label, CustomEnergy.name
 _FULL = {"width": "auto"}
+_OPTIONS = (
+    *("p2p_weight", "sampling", "certificate", "hessian"),
+    *("iterations_per_call", "conformal"),
+)
+_LATE = {"continuous_update": False}
+_CONTROLS: dict[type, tuple[Any, dict[str, Any]]] = {
+    bool: (ipywidgets.Checkbox, {"indent": False}),
+    int: (ipywidgets.IntText, _LATE),
+    float: (ipywidgets.FloatText, _LATE),
+}
+_WEIGHTS = {"min": 0, "max": 8, "step": 0.25, "readout_format": ".0e"}
+_SLIDERS: dict[str, tuple[Any, dict[str, Any]]] = {
+    "p2p_weight": (ipywidgets.FloatLogSlider, {**_WEIGHTS, **_LATE}),
+    "iterations_per_call": (ipywidgets.IntSlider, {"min": 1, "max": 7, **_LATE}),
+}
 
 
 class FieldRows(ipywidgets.GridBox):
@@ -62,72 +79,67 @@ class SolverPanel(EditControls):
     """
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
-        check_keywords(type(self), kwargs)
-        method = FieldRows(self._set_method)
+        act, model = self._act, deformation
+
+        def set_setting(name: str, value: Any) -> None:
+            method = model.state.current.method
+            act(lambda: model.set_method(method.name, **{**method.settings, name: value}))
+
+        method = FieldRows(lambda _, name: act(lambda: model.set_method(name)))
         self.method = _menu(_methods(), "What solves: ours, or another to compare with")
         method.build({"name": ("Method", self.method)})
         self.about = ipywidgets.HTML()
         """What the method does."""
-        self.settings = FieldRows(self._set_setting)
+        self.settings = FieldRows(set_setting)
         """The method's own settings."""
         self._shown: type[Method] | None = None
-        self._energy = FieldRows(self._set_energy)
-        self.energy = _menu([(e.label, name) for name, e in ENERGIES.items()], "What is minimised")
+        energy = FieldRows(self._set_energy)
+        self.energy = _menu({name: e.label for name, e in ENERGIES.items()}, "What is minimised")
         self.s = ipywidgets.BoundedFloatText(
             1.0, min=1e-3, max=100.0, step=0.1, layout=_FULL, tooltip="The energy's parameter s"
         )
-        self._energy.build({"name": ("Energy", self.energy), "s": ("s", self.s)})
-        self.options = FieldRows(self._set_option)
+        energy.build({"name": ("Energy", self.energy), "s": ("s", self.s)})
+        self.options = FieldRows(
+            lambda name, value: act(lambda: model.set_options(**{name: value}))
+        )
         """The options, by their names."""
         self.options.build(_option_controls(deformation.state.current.options))
-        (
-            self.weight,
-            self.sampling,
-            self.certificate,
-            self.hessian,
-            self.iterations,
-            self.conformal,
-        ) = self.options.controls.values()
+        controls = self.options.controls.values()
+        self.weight, self.sampling, self.certificate, self.hessian, *others = controls
+        self.iterations, self.conformal = others
         self.pause = ipywidgets.ToggleButton(
             description="Pause", icon="pause", tooltip="Let the solver wait", layout=_FULL
         )
+        self.pause.observe(
+            lambda change: act(lambda: setattr(model, "paused", change["new"])), ["value"]
+        )
         self.step = button("Step", "step-forward", "One frame's iterations", deformation.step)
         self.reset = button("Reset", "refresh", "The undeformed shape (0)", deformation.reset)
-        self.clear = button(
-            "Clear handles", "eraser", "Let go of all handles", deformation.clear_handles
-        )
+        free = deformation.clear_handles
+        self.clear = button("Clear handles", "eraser", "Let go of all handles", free)
         buttons = ipywidgets.HBox(
             [self.pause, self.step, self.reset, self.clear], layout={"flex_flow": "row wrap"}
         )
-        parts = [method, self.about, self.settings, self._energy, self.options, buttons]
+        parts = [method, self.about, self.settings, energy, self.options, buttons]
         super().__init__(deformation, parts, **kwargs)
         self.add_class("glid-solver-panel")
-        self.method.add_class("glid-method")
-        self.energy.add_class("glid-energy")
-        self._show()
-        self.pause.observe(self._set_paused, ["value"])
-        self._watch()
+        method.add_class("glid-method")
+        energy.add_class("glid-energy")
 
     def _show(self) -> None:
         current = self.deformation.state.current
-        with self._while_showing():
-            self._show_method(current.method)
-            self._show_energy(current.energy)
-            self.options.show(current.options)
-            for name, control in self.options.controls.items():
-                control.disabled = name not in current.method.options
-            self.pause.value = self.deformation.paused
-            self.step.disabled = not self.deformation.paused
+        self._show_method(current.method)
+        self._show_energy(current.energy)
+        self.options.show(current.options)
+        for name, control in self.options.controls.items():
+            control.disabled = name not in current.method.options
+        self.pause.value = self.deformation.paused
+        self.step.disabled = not self.deformation.paused
 
     def _show_method(self, method: Method) -> None:
         self.method.value = method.name
-        text = method.summary
-        if not method.certified:
-            text += (
-                " Shown for comparison, without a proof; saved and exported is the last certified "
-                "map."
-            )
-        self.about.value = f"<div style='line-height:1.3;opacity:0.75'>{html.escape(text)}</div>"
+        text = method.summary + ("" if method.certified else _UNCERTIFIED)
+        self.about.value = paragraph(text, "opacity:0.75")
         if type(method) is not self._shown:
             self._shown = type(method)
             made = ((k, _control_of(method.kinds()[k], v)) for k, v in method.defaults().items())
@@ -142,101 +154,42 @@ class SolverPanel(EditControls):
         if not self.s.disabled:
             self.s.value = float(getattr(energy, "s", 1.0))
 
-    def _set_method(self, _: str, name: str) -> None:
-        if not self._showing:
-            self._act(lambda: self.deformation.set_method(name))
-
-    def _set_setting(self, name: str, value: Any) -> None:
-        method = self.deformation.state.current.method
-        settings = {**method.settings, name: value}
-        if not self._showing:
-            self._act(lambda: self.deformation.set_method(method.name, **settings))
-
     def _set_energy(self, *_: Any) -> None:
         name, s = self.energy.value, self.s.value
-        if not self._showing and name in ENERGIES:
+        if name in ENERGIES:
             self._act(lambda: self.deformation.set_energy(energy_by_name(name, s)))
 
-    def _set_option(self, name: str, value: Any) -> None:
-        if not self._showing:
-            self._act(lambda: self.deformation.set_options(**{name: value}))
 
-    def _set_paused(self, change: Any) -> None:
-        if not self._showing:
-            self.deformation.paused = change["new"]
-
-
-def _methods() -> list[tuple[str, str]]:
-    """Labels and names of all methods, ours first."""
-    return [
-        (
-            method.label
-            + _WORKS_ON[method.family]
-            + ("" if method.available() else " (not installed)"),
-            name,
-        )
-        for name, method in METHODS.items()
-    ]
-
-
-def _option_controls(options: Options) -> dict[str, tuple[str, Any]]:
-    weight = ipywidgets.FloatLogSlider(
-        options.p2p_weight,
-        min=0,
-        max=8,
-        step=0.25,
-        readout_format=".0e",
-        continuous_update=False,
-        layout=_FULL,
-        tooltip="How strongly handles are drawn to their targets",
-    )
-    sampling = _menu(
-        [("Graded panels", "graded"), ("Uniform (paper)", "uniform")],
-        "Where the energy is integrated",
-    )
-    certificate = _menu(
-        [
-            ("Hermite–Bernstein", "hermite"),
-            ("Lipschitz (paper)", "lipschitz"),
-            ("Lipschitz (BDHM)", "bdhm"),
-        ],
-        "How local injectivity is proved",
-    )
-    hessian = _menu(
-        [("Adaptive", "adaptive"), ("Projected (paper)", "projected"), ("Exact", "exact")],
-        "The matrix of Newton's method",
-    )
-    iterations = ipywidgets.IntSlider(
-        options.iterations_per_call,
-        min=1,
-        max=7,
-        continuous_update=False,
-        layout=_FULL,
-        tooltip="Newton iterations between two frames",
-    )
-    conformal = ipywidgets.Checkbox(indent=False, layout=_FULL, tooltip="No shear anywhere")
+def _methods() -> dict[str, str]:
+    """Labels of all methods by their names, ours first."""
+    missing = {True: "", False: " (not installed)"}
     return {
-        "p2p_weight": ("Weight λ", weight),
-        "sampling": ("Sampling", sampling),
-        "certificate": ("Certificate", certificate),
-        "hessian": ("Hessian", hessian),
-        "iterations_per_call": ("Iterations / frame", iterations),
-        "conformal": ("Conformal maps only", conformal),
+        name: method.label + _WORKS_ON[method.family] + missing[method.available()]
+        for name, method in METHODS.items()
     }
 
 
-def _control_of(kind: Any, default: Any) -> Any:
+def _option_controls(options: Options) -> dict[str, tuple[str, Any]]:
+    kinds, controls = field_kinds(Options), {}
+    about = {field.name: field.metadata for field in dataclasses.fields(options)}
+    for name in _OPTIONS:
+        control = _control_of(kinds[name], getattr(options, name), about[name]["choices"], name)
+        control.tooltip = about[name]["help"]
+        controls[name] = about[name]["label"], control
+    return controls
+
+
+def _control_of(
+    kind: Any, value: Any, labels: Mapping[str, str] | None = None, name: str = ""
+) -> Any:
     """A control for values of an annotated kind, or None."""
     if get_origin(kind) is Literal:
-        return ipywidgets.Dropdown(options=get_args(kind), value=default, layout=_FULL)
-    if kind is bool:
-        return ipywidgets.Checkbox(default, indent=False, layout=_FULL)
-    if kind is int:
-        return ipywidgets.IntText(default, continuous_update=False, layout=_FULL)
-    if kind is float:
-        return ipywidgets.FloatText(default, continuous_update=False, layout=_FULL)
-    return None
+        return _menu(labels or {choice: choice for choice in get_args(kind)}, value=value)
+    control, look = _SLIDERS.get(name) or _CONTROLS.get(kind) or (None, {})
+    return None if control is None else control(value=value, layout=_FULL, **look)
 
 
-def _menu(options: Any, tooltip: str) -> ipywidgets.Dropdown:
-    return ipywidgets.Dropdown(options=options, layout=_FULL, tooltip=tooltip)
+def _menu(labels: Mapping[Any, str], tooltip: str = "", **value: Any) -> ipywidgets.Dropdown:
+    """A menu of these values, shown by their labels."""
+    options = [(str(label), value) for value, label in labels.items()]
+    return ipywidgets.Dropdown(options=options, layout=_FULL, tooltip=tooltip, **value)

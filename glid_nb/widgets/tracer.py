@@ -2,23 +2,32 @@
 
 from __future__ import annotations
 
+import functools
+import io
+import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
+import shapely
 import traitlets
 from numpy.typing import NDArray
+from PIL import Image
 
 from glid_nb.geometry import Cage, Domain
-from glid_nb.imaging import TraceOptions, Tracing
+from glid_nb.imaging import Hole, TraceOptions, Tracing
 from glid_nb.imaging.read import ImageSource
 from glid_nb.session import TracingModel
-from glid_nb.widgets.arguments import check_keywords
 from glid_nb.widgets.bundle import bundle, stylesheet
 from glid_nb.widgets.gestures import Event
 from glid_nb.widgets.pad import Pad
 from glid_nb.widgets.tracer_gestures import TraceGestures
-from glid_nb.widgets.tracer_view import described, displayed
+
+_LONGEST_SIDE = 1600  # of the picture that the page draws; the cage is traced on the original
+_LISTED_HOLES = 40
+_BRUSHES = ("foreground", "background")
+_MOST_POINTS = 200  # of a hole's outline
+_AUTOMATIC = ("method", "threshold", "offset", "simplify")  # what a tracing chooses by itself
 
 
 class CageTracer(Pad):
@@ -58,13 +67,10 @@ class CageTracer(Pad):
     """The picture that the page draws, PNG or JPEG, at most 1,600 pixels wide or high."""
 
     shown = traitlets.Dict().tag(sync=True)
-    """The state that the page shows; see `glid_nb.widgets.tracer_view.described`."""
+    """The state that the page shows; see `described`."""
 
     height = traitlets.Int(460, min=240).tag(sync=True)
     """Height of the picture's area in CSS pixels, at least 240."""
-
-    # ipywidgets also closes a widget whose constructor raised.
-    _stop: Callable[[], None] | None = None
 
     def __init__(
         self,
@@ -75,7 +81,6 @@ class CageTracer(Pad):
         height: int = 460,
         **kwargs: Any,
     ) -> None:
-        check_keywords(type(self), kwargs)
         if model is not None and (image is not None or options is not None):
             raise ValueError("give a model, or a picture and options, not both")
         self.tracing_model = model if model is not None else TracingModel(image, options)
@@ -85,8 +90,8 @@ class CageTracer(Pad):
         self._pushed_image: NDArray[np.uint8] | None = None
         super().__init__(height=height, **kwargs)
         self._push()
-        self.serve(self.tracing_model, self)
-        self._stop = self.tracing_model.on_change(self._push)
+        self.serve(self.tracing_model, self.handle)
+        self._endings = (self.on_change(self._push),)
 
     @property
     def image(self) -> NDArray[np.uint8] | None:
@@ -101,7 +106,7 @@ class CageTracer(Pad):
     @property
     def tracing(self) -> Tracing | None:
         """The automatic part of the tracing; None when it fails."""
-        return self.tracing_model.tracing
+        return self.tracing_model.outcome.tracing
 
     @property
     def cage(self) -> Cage | None:
@@ -115,13 +120,7 @@ class CageTracer(Pad):
 
     def on_change(self, callback: Callable[[], None]) -> Callable[[], None]:
         """Call ``callback`` after every change, by hand or by code; the result ends that."""
-        return self.tracing_model.on_change(callback)
-
-    def close(self) -> None:
-        """Remove the widget from the page; the model lives on."""
-        if self._stop is not None:
-            self._stop()
-        super().close()
+        return self.tracing_model.observe(lambda _: callback())
 
     def handle(self, events: Sequence[Event]) -> str | None:
         """Act on pointers and keys."""
@@ -139,3 +138,73 @@ class CageTracer(Pad):
                 self._pushed_image = self.tracing_model.image
                 self.picture = displayed(self._pushed_image)
             self.shown = described(self.gestures)
+
+
+def described(gestures: TraceGestures) -> dict[str, Any]:
+    """The state of a tracing and its tools; points in pixels, rounded to hundredths."""
+    model = gestures.model
+    frame, outcome, scribbles = model.frame, model.outcome, model.state.scribbles
+    options = {k: v for k, v in vars(model.options).items() if k != "scribbles"}
+    if options["max_edge"] == math.inf:
+        options["max_edge"] = "never"
+    traced: dict[str, Any] = {"automatic": None, "notes": []}
+    traced |= dict.fromkeys(("component", "n_components", "component_area"), 0)
+    if (tracing := outcome.tracing) is not None:
+        traced = {
+            "automatic": {name: getattr(tracing, name) for name in _AUTOMATIC},
+            "component": tracing.component.rank,
+            "n_components": tracing.n_components,
+            "component_area": tracing.component.area,
+            "notes": list(tracing.notes),
+        }
+    return {
+        **traced,
+        "size": None if frame is None else [frame.width, frame.height],
+        "loops": [_rounded(loop) for loop in model.loops],
+        "problems": [
+            {"message": p.plain, "point": None if p.point is None else _rounded(p.point)}
+            for p in outcome.problems
+        ],
+        "options": options,
+        "holes": [_hole(hole) for hole in model.holes[:_LISTED_HOLES]],
+        "n_holes": len(model.holes),
+        "strokes": {brush: _strokes(getattr(scribbles, brush, None)) for brush in _BRUSHES},
+        "can_undo": model.can_undo,
+        "can_redo": model.can_redo,
+        "edited": model.edited,
+        "discarded": model.has_discarded_edits,
+        "tool": gestures.tool,
+        "selected": [list(vertex) for vertex in gestures.selected],
+    }
+
+
+def displayed(image: NDArray[np.uint8] | None) -> bytes:
+    """A picture for the page: PNG, or JPEG when nothing is transparent; empty without one."""
+    if image is None:
+        return b""
+    picture, buffer = Image.fromarray(image), io.BytesIO()
+    picture.thumbnail((_LONGEST_SIDE, _LONGEST_SIDE), Image.Resampling.LANCZOS)
+    if image[..., 3].min() == 255:
+        picture.convert("RGB").save(buffer, format="JPEG", quality=92)
+    else:
+        picture.save(buffer, format="PNG", compress_level=3)
+    return buffer.getvalue()
+
+
+@functools.lru_cache(maxsize=256)  # by identity; most changes leave the holes as they are
+def _hole(hole: Hole) -> dict[str, Any]:
+    loop = shapely.get_coordinates(shapely.LinearRing(hole.loop).simplify(0.5))[:-1]
+    loop = _rounded(loop[:: math.ceil(len(loop) / _MOST_POINTS)])
+    area = round(hole.area, 1)
+    return {"loop": loop, "area": area, "kept": hole.kept, "by_offset": hole.by_offset}
+
+
+def _strokes(strokes: Any) -> list[Any]:
+    """The strokes of a brush; none for a mask."""
+    if strokes is None or isinstance(strokes, np.ndarray):
+        return []
+    return [_rounded(stroke) for stroke in strokes]
+
+
+def _rounded(points: Any) -> Any:
+    return np.round(points, 2).tolist()

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 
 from glid_nb.imaging import TraceError, read_image
 from glid_nb.session import loop_edits
 from glid_nb.session.tracing import TracingModel
-from glid_nb.widgets.gestures import LEFT, RIGHT, Array, Event, Gestures, place
+from glid_nb.widgets.gestures import ARROWS, LEFT, RIGHT, Array, Event, Gestures, place
 
 Vertex = tuple[int, int]
 """Which loop, and which of its vertices."""
@@ -19,7 +20,6 @@ _DOUBLE, _DOUBLE_SLACK = 380.0, 12.0  # ms between two clicks, CSS pixels
 _BURST = 900.0  # ms without a key that end a burst of nudges
 _NUDGE, _NUDGE_SHIFT = 1.0, 10.0  # pixels of the picture
 _IN_HOLE, _EDGE = 0.6, 0.8  # of the reach
-_ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, -1), "ArrowDown": (0, 1)}
 _TOOLS = {"v": "edit", "b": "foreground", "n": "background", "i": "color", "c": "component"}
 _LARGEST_UPLOAD = 64 << 20
 
@@ -48,9 +48,10 @@ class _Press:
 class TraceGestures(Gestures):
     """Edits and paints a tracing, also for the panel; places are in pixels of the picture."""
 
-    takes = Gestures.takes | {
-        *("tool", "upload", "set_options", "toggle_hole"),
-        *("clear_scribbles", "discard_edits", "undo", "redo"),
+    takes = Gestures.takes | {"tool", "upload", "set_options", "undo"}
+    asks: ClassVar = {
+        "toggle_hole": ("number",),
+        **dict.fromkeys(("clear_scribbles", "discard_edits", "redo"), ()),
     }
 
     def __init__(self, model: TracingModel) -> None:
@@ -63,7 +64,7 @@ class TraceGestures(Gestures):
         self._last_click = (-np.inf, np.zeros(2))
         self._last_nudge = -np.inf
         self._burst: object = None
-        self._incoming = _Upload()
+        self._incoming = "", bytearray()
 
     @property
     def selected(self) -> tuple[Vertex, ...]:
@@ -164,12 +165,14 @@ class TraceGestures(Gestures):
                 self._selected = ()
         elif key in ("Delete", "Backspace"):
             self._delete(*self.selected)
-        elif key in _ARROWS:
+        elif key in ARROWS:
             self._nudge(event)
         elif key in ("[", "]"):
             self._select_next(1 if key == "]" else -1)
-        elif key in ("undo", "redo"):
-            getattr(self, f"_{key}")(event)
+        elif key == "undo":
+            self._undo(event)
+        elif key == "redo":
+            self.model.redo()
         elif key.lower() in _TOOLS:
             self.tool = _TOOLS[key.lower()]
 
@@ -181,7 +184,8 @@ class TraceGestures(Gestures):
             self._burst = object()
         self._last_nudge = event["time"]
         ((loop, index),) = self.selected
-        step = np.array(_ARROWS[event["key"]]) * (_NUDGE_SHIFT if event["shift"] else _NUDGE)
+        right, up = ARROWS[event["key"]]
+        step = np.array([right, -up]) * (_NUDGE_SHIFT if event["shift"] else _NUDGE)
         self.model.move_vertex(loop, index, self.model.loops[loop][index] + step, self._burst)
 
     def _select_next(self, step: int) -> None:
@@ -200,15 +204,6 @@ class TraceGestures(Gestures):
     def _set_options(self, event: Event) -> None:
         self.model.set_options(event.get("gesture"), **event["changes"])
 
-    def _toggle_hole(self, event: Event) -> None:
-        self.model.toggle_hole(event["number"])
-
-    def _clear_scribbles(self, _: Event) -> None:
-        self.model.clear_scribbles()
-
-    def _discard_edits(self, _: Event) -> None:
-        self.model.discard_edits()
-
     def _undo(self, event: Event) -> None:
         """Undo one step; during a drag, the drag."""
         if self._press is not None:
@@ -216,35 +211,19 @@ class TraceGestures(Gestures):
         else:
             self.model.undo()
 
-    def _redo(self, _: Event) -> None:
-        self.model.redo()
-
     def _upload(self, event: Event) -> None:
-        data = self._incoming.add(event)
-        if data is not None:
-            self.model.open(read_image(data, event["name"]))
-
-
-class _Upload:
-    """A file that arrives in parts, since a websocket message has a largest size."""
-
-    def __init__(self) -> None:
-        self._name: str | None = None
-        self._data = bytearray()
-
-    def add(self, part: Event) -> bytes | None:
-        """Add the part that begins at ``part["start"]``; the file when it is complete."""
-        name, size = part["name"], part["size"]
-        if part["start"] == 0:
-            self._name, self._data = name, bytearray()
-        if name != self._name or part["start"] != len(self._data):
+        """Take a part of a file: a websocket message has a largest size."""
+        name, size, start = event["name"], event["size"], event["start"]
+        if start == 0:
+            self._incoming = name, bytearray()
+        known, data = self._incoming
+        if (name, start) != (known, len(data)):
             raise TraceError(f"{name}: the upload was interrupted; try again")
         if size > _LARGEST_UPLOAD:
             raise TraceError(
                 f"{name} has {size:,} bytes; at most {_LARGEST_UPLOAD:,} can be uploaded"
             )
-        self._data += bytes(part["data"])
-        if len(self._data) < size:
-            return None
-        data, self._data = bytes(self._data), bytearray()
-        return data
+        data += bytes(event["data"])
+        if len(data) >= size:
+            self._incoming = "", bytearray()
+            self.model.open(read_image(bytes(data), name))

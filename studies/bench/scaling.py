@@ -39,6 +39,7 @@ SERIES = {
 }
 """What grows in each series, all else being equal."""
 
+_SHAPE = ("domain", "contains")
 _QUICK = Size(50)
 # What the exponents are of.
 _AGAINST = {"holes": "unknowns"}
@@ -93,19 +94,24 @@ def _tasks(plan: Plan) -> list[Task]:
 def measure_here(given: dict[str, Any]) -> dict[str, Any]:
     """``step`` and ``before``: one iteration, and a call that takes none; ``memory`` in bytes.
 
+    ``domain`` checks and offsets the cage, ``contains`` asks it for a million points.
+
     The iterations are those without corrections, which are equal work: one Hessian each.
     """
     domain, pose = flower(given["vertices"], given["holes"]), ring_of_handles(given["handles"])
     first = solve(domain, pose, None, _OPTIONS)  # compiles, and splits panels
     options = replace(_OPTIONS, corrections=0)
     results = [solve(domain, pose, None, options) for _ in range(1 + _REPEATS)][1:]
-    nothing = replace(_OPTIONS, max_iterations=0)
+    nothing, repeats = replace(_OPTIONS, max_iterations=0), given["repeats"]
+    points = np.random.default_rng(0).uniform(-9, 9, (1_000_000, 2))
     return {
         "unknowns": first.n_unknowns,
         "panels": first.n_panels,
         "step": summary([entry.time for result in results for entry in result.history]),
-        "before": timed(lambda: solve(domain, pose, None, nothing), given["repeats"], 1, _BUDGET),
+        "before": timed(lambda: solve(domain, pose, None, nothing), repeats, 1, _BUDGET),
         "memory": peak_memory(),
+        "domain": timed(lambda: flower(given["vertices"], given["holes"]), repeats, 1, _BUDGET),
+        "contains": timed(lambda: domain.cage.contains(points), repeats, 1, _BUDGET),
     }
 
 
@@ -132,6 +138,7 @@ def tables(found: list[Measurement]) -> dict[str, list[Row]]:
                 "exponent": "" if np.isnan(power) else f"{power:.1f}",
                 "call, ms": 1e3 * row["before"]["median"],
                 "memory, GB": f"{row['memory'] / 1e9:.2f}",
+                **{f"{kind}, ms": 1e3 * row[kind]["median"] for kind in _SHAPE if kind in row},
             }
             for row, power in zip(rows, [np.nan, *local_exponents(x, y)], strict=True)
         ]

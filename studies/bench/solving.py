@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from glid_nb.figures.style import BLUE, INK, SKY, SMALL
-from glid_nb.harmonic.basis import build_basis
+from glid_nb.harmonic.basis import basis_of
 from glid_nb.samples import names
 from glid_nb.solvers import Options, Pose, Result, solve
 from glid_nb.solvers.discretisation import discretise
@@ -89,7 +89,7 @@ def _about(case: Case, mode: str, whole: Result, count: int, repeats: int) -> di
     assert certificate is not None
 
     def make() -> None:
-        build_basis(domain)
+        basis_of.__wrapped__(domain)
         discretise.__wrapped__(domain, options.sampling, options.certificate)
 
     return {

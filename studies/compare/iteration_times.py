@@ -59,11 +59,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
             start = float(np.median([times[0] for times in steps]))
         if len(steps[0]) > 1:
             seconds[method] = float(np.median([np.mean(times[1:]) for times in steps]))
-    return {
-        "unknowns": unknowns,
-        "seconds": seconds,
-        "aqp_start": start,
-    }
+    return {"unknowns": unknowns, "seconds": seconds, "aqp_start": start}
 
 
 def tables(found: list[Measurement]) -> dict[str, list[Row]]:

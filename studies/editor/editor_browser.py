@@ -159,7 +159,7 @@ def dragged(browser: Browser, server: JupyterServer, setup: str, n_moves: int) -
 def spiral(hand: Hand, count: int) -> tuple[np.ndarray, float]:
     """Drag the last handle; returns where its target was, and the seconds that the drag took."""
     start = np.array(hand.targets[-1])
-    side = hand.book.value("float(canvas.deformation.domain.cage.longer_side)")
+    side = hand.book.value("float(canvas.deformation.state.domain.cage.longer_side)")
     turns = np.arange(1, count + 1) / RATE
     # A spiral, so that no two targets are the same.
     radius = 0.08 * side * (0.5 + 0.5 * turns / turns[-1])

@@ -58,7 +58,7 @@ class FrameLog:
         return [str(pane.stage.model_id), *map(str, attributes)]
 
     def _note(self, what: str) -> None:
-        frame = self.canvas.deformation.frame
+        frame = self.canvas.deformation.moment.frame
         if what != "frame" or frame is None:
             return
         pane = self.canvas.pane

@@ -18,8 +18,8 @@ import numpy as np
 from PIL import Image
 
 import glid_nb
+from glid_nb.widgets.tracer import described
 from glid_nb.widgets.tracer_gestures import TraceGestures
-from glid_nb.widgets.tracer_view import described
 
 
 def main() -> None:

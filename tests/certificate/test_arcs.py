@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from glid_nb._runtime import double_precision
-from glid_nb.certificate.arcs import Arcs, JetEvaluator, Jets
+from glid_nb.certificate.arcs import Arcs, Jets, jets_of
 from glid_nb.geometry import Cage, Domain, Panels, graded_panels
 from glid_nb.harmonic import HarmonicMap
 
@@ -30,7 +31,7 @@ def _random_map(seed: int, roughness: float) -> HarmonicMap:
 @double_precision
 def _jets(map: HarmonicMap) -> tuple[Panels, Jets]:
     panels = graded_panels(DOMAIN, RATIO)
-    return panels, JetEvaluator(map)(panels.start, panels.end)
+    return panels, jets_of(map, panels.start, panels.end)
 
 
 def _arcs(map: HarmonicMap) -> Arcs:
@@ -38,6 +39,7 @@ def _arcs(map: HarmonicMap) -> Arcs:
     return Arcs.between(panels.start, panels.end, jets, jets.at(panels.next))
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(st.integers(0, 2**32), st.sampled_from([0.0, 0.01, 0.3]))
 def test_an_arc_stays_close_to_its_chord_and_its_tangents(seed: int, roughness: float) -> None:
@@ -66,7 +68,7 @@ def test_rounding_stays_within_its_bound() -> None:
     f = np.zeros(len(z), dtype=extended)
     fz = np.zeros(len(z), dtype=extended)
     offset = 0
-    for loop in DOMAIN.offset_loops_complex:
+    for loop in DOMAIN.offset_cage.loops_complex:
         vertices = loop.astype(extended)
         phi, psi = (c[offset : offset + len(loop)].astype(extended) for c in (map.phi, map.psi))
         offset += len(loop)
@@ -85,6 +87,7 @@ def test_rounding_stays_within_its_bound() -> None:
     assert jets.f_error.max() < 1e-7
 
 
+@pytest.mark.slow
 def test_jets_are_those_of_the_map() -> None:
     map = _random_map(2, 0.1)
     panels, jets = _jets(map)

@@ -48,6 +48,7 @@ def check_sound(c: Certificate, truth: Measured) -> None:
     assert c.certified == c.reason.startswith("Proved locally injective")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @given(name=st.sampled_from(CERTIFIED), size=sizes, seed=st.integers(0, 10**6))
 @settings(max_examples=20)
@@ -63,6 +64,7 @@ def test_certificates_are_true(kind: Any, name: str, size: float, seed: int) -> 
         assert "not locally injective" in c.reason
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @given(name=st.sampled_from(CERTIFIED), size=sizes, seed=st.integers(0, 10**6))
 @settings(max_examples=10)
@@ -70,7 +72,7 @@ def test_every_panel_is_true(kind: Any, name: str, size: float, seed: int) -> No
     map = random_map(name, size, seed)
     c = certify(map, kind)
     panels = c.panels
-    start, end = panels.start @ [1, 1j], panels.end @ [1, 1j]
+    start, end = panels.start, panels.end
     t = np.linspace(0, 1, 9)
     z = (start[:, None] + (end - start)[:, None] * t).ravel()
     yardstick = reference(map)
@@ -85,6 +87,7 @@ def test_every_panel_is_true(kind: Any, name: str, size: float, seed: int) -> No
     assert c.k_upper == panels.k_upper.max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", CERTIFIED)
 @pytest.mark.parametrize("tightness", [0.02, 0.002])
@@ -110,8 +113,7 @@ def test_panels_are_the_boundary_in_order() -> None:
         of_loop = panels.loop == i
         start, end = panels.start[of_loop], panels.end[of_loop]
         np.testing.assert_array_equal(np.roll(start, -1, axis=0), end)
-        vertices = {tuple(v) for v in loop.tolist()}
-        assert vertices <= {tuple(v) for v in start.tolist()}
+        assert {complex(*v) for v in loop.tolist()} <= set(start.tolist())
         edges = np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1)
         assert panels.length[of_loop].sum() == pytest.approx(edges.sum(), rel=1e-12)
 
@@ -138,7 +140,7 @@ def test_the_identity() -> None:
 def holomorphic(name: str, function: Any, antiholomorphic: Any = lambda z: 0 * z) -> HarmonicMap:
     """The map that interpolates functions at all offset vertices (their Cauchy transform)."""
     d = domain(name)
-    vertices = np.concatenate(d.offset_loops_complex)
+    vertices = np.concatenate(d.offset_cage.loops_complex)
     no_logarithms = np.zeros(d.n_holes)
     return HarmonicMap(
         d,
@@ -152,6 +154,7 @@ def annulus_check() -> DenseCheck:
     return dense_check("annulus", 10_000)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_knot_is_certified(kind: Any) -> None:
     """Figure 3: f_z turns once around on the exterior loop and back on the interior one."""
@@ -249,7 +252,7 @@ def test_without_refinement_the_given_panels_are_all_there_is(kind: Any) -> None
     map, truth = measured("ring", 0.02, 3)
     c = certify(map, kind, panels, refine=False)
     assert len(c.panels) == len(panels) >= 1000
-    np.testing.assert_array_equal(c.panels.start @ [1, 1j], panels.start)
+    np.testing.assert_array_equal(c.panels.start, panels.start)
     check_sound(c, truth)
     assert c.certified
     # Few and long panels prove nothing, and say so.
@@ -291,6 +294,7 @@ def test_bad_arguments_are_refused(arguments: dict[str, Any], message: str) -> N
         certify(HarmonicMap.identity(domain("ell")), **arguments)
 
 
+@pytest.mark.slow
 def test_a_collapsed_map_is_not_certified() -> None:
     """A constant, a projection to a line, and a mirror image."""
     d = domain("ring")
@@ -316,10 +320,10 @@ def test_a_long_thin_domain_with_small_features() -> None:
     loop = [[0, 0], [10, 0], [10, 0.1], [5.05, 0.1], [5, 0.02], [4.95, 0.1], [0, 0.1], [0, 0]][:-1]
     d = Domain.from_cage(Cage(loop), 0.002)
     rng = np.random.default_rng(0)
-    z = np.array(d.offset_loops_complex[0])
+    z = np.array(d.offset_cage.loops_complex[0])
     phi = z * np.exp(0.05j * z.real) + 1e-4 * (
         rng.normal(size=len(z)) + 1j * rng.normal(size=len(z))
     )
-    check = DenseCheck.on(d.cage_loops_complex, [z], np.empty(0), 20_000)
+    check = DenseCheck.on(d.cage.loops_complex, [z], np.empty(0), 20_000)
     truth = check.measure(phi, 0.01 * z)
     check_sound(certify(HarmonicMap(d, phi, 0.01 * z)), truth)

@@ -31,6 +31,7 @@ def bounds(f: np.ndarray, g: np.ndarray, e_f: Any, e_g: Any) -> PanelBounds:
         return PanelBounds(*map(np.asarray, got))
 
 
+@pytest.mark.slow
 @given(drawn=seeds, errors=st.tuples(*[st.one_of(st.just(0.0), st.floats(1e-6, 0.3))] * 2))
 @settings(max_examples=50)
 def test_bounds_hold_for_everything_within_the_remainder(
@@ -165,6 +166,7 @@ def panel_remainders(name: str, size: float, seed: int) -> tuple[np.ndarray, ...
     return np.stack(errors, axis=1), remainder
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "size"), [("ell", 0.5), ("ring", 0.2), ("twin", 0.05)])
 def test_the_interpolants_lie_within_the_remainder(name: str, size: float) -> None:
     errors, remainder = panel_remainders(name, size, 9)
@@ -187,6 +189,7 @@ def singularities(vertices: Any, rho: Any) -> Singularities:
 FAR = [1e6, 1e6j, -1e6]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", [2, 4])
 @pytest.mark.parametrize(
     ("vertices", "rho", "coefficients", "gap"),
@@ -217,6 +220,7 @@ def test_the_bound_on_derivatives_is_attained(
     assert true >= bound[0] * 0.95
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", [2, 4])
 def test_the_bound_on_derivatives_holds_along_whole_panels(order: int) -> None:
     map = random_map("twin", 0.3, 2)

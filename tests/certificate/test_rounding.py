@@ -22,13 +22,13 @@ panel_scale = jax.jit(rounding.panel_scale)
 
 def translated(map: HarmonicMap, shift: complex) -> HarmonicMap:
     phi = map.phi.copy()
-    phi[: len(map.domain.offset_loops_complex[0])] += shift
+    phi[: len(map.domain.offset_cage.loops_complex[0])] += shift
     return HarmonicMap(map.domain, phi, map.psi)
 
 
 def extended(name: str) -> tuple[list[np.ndarray], np.ndarray]:
     d = domain(name)
-    loops = [loop.astype(np.clongdouble) for loop in d.offset_loops_complex]
+    loops = [loop.astype(np.clongdouble) for loop in d.offset_cage.loops_complex]
     rho = (d.hole_points @ np.array([1, 1j])).astype(np.clongdouble)
     return loops, rho
 
@@ -41,11 +41,12 @@ def test_the_scale_bounds_the_sum_of_all_terms(name: str) -> None:
         first, second = map(np.asarray, scale_of(z, basis_of(d).singularities))
     rho = d.hole_points @ np.array([1, 1j])
     for scale, matrix in ((first, cauchy_first), (second, cauchy_second)):
-        terms = np.abs(matrix(z, d.offset_loops_complex, rho)).sum(axis=1)
+        terms = np.abs(matrix(z, d.offset_cage.loops_complex, rho)).sum(axis=1)
         assert (terms <= scale * (1 + 1e-12)).all()
         assert (scale <= 100 * terms).all()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(
     np.finfo(np.longdouble).nmant <= 52, reason="extended precision is no wider than double here"
 )

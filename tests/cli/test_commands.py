@@ -80,6 +80,7 @@ def test_trace_takes_scribbles(run, picture: Path, tmp_path: Path) -> None:
     assert glid_nb.Cage.from_dict(read(out)).contains([[-5.0, 0.0]]).all()
 
 
+@pytest.mark.slow
 def test_solve_writes_a_map_and_a_report(run, problem: Path, tmp_path: Path) -> None:
     out, report_path = tmp_path / "map.json", tmp_path / "report.json"
     outcome = run("solve", problem, "--out", out, "--report", report_path)
@@ -115,6 +116,7 @@ def test_solve_writes_a_map_and_a_report(run, problem: Path, tmp_path: Path) -> 
     assert harmonic_map.k(points).max() <= report["k_upper"]
 
 
+@pytest.mark.slow
 def test_solve_takes_its_options(run, problem: Path, tmp_path: Path) -> None:
     report_path = tmp_path / "report.json"
     words = ("--energy", "amips", "--s", 0.5, "--p2p-weight", 10, "--max-iterations", 1)
@@ -132,6 +134,7 @@ def test_solve_takes_its_options(run, problem: Path, tmp_path: Path) -> None:
     assert summary["files"] == {"report.json": str(report_path)}
 
 
+@pytest.mark.slow
 def test_conformal_maps_have_no_dilatation(run, problem: Path, tmp_path: Path) -> None:
     out = tmp_path / "map.json"
     assert run("solve", problem, "--out", out, "--conformal").code == 0
@@ -155,6 +158,7 @@ def solved(run, problem: Path, tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_render_warps_the_picture(run, picture: Path, solved: Path, tmp_path: Path) -> None:
     out = tmp_path / "warped.png"
     assert run("render", picture, solved, "--out", out).code == 0
@@ -235,7 +239,7 @@ def test_ctrl_c_keeps_the_last_certified_map(
     run, problem: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The first one only asks: what was reached so far is written, and the exit code tells."""
-    solve = glid_nb.solve
+    solve, before = glid_nb.solve, signal.getsignal(signal.SIGINT)
 
     def interrupted(*args, callback, **keywords):
         def press(state: glid_nb.Progress) -> bool | None:
@@ -251,7 +255,7 @@ def test_ctrl_c_keeps_the_last_certified_map(
     assert "interrupted" in outcome.err
     assert read(report)["status"] == "stopped"
     assert glid_nb.certify(glid_nb.HarmonicMap.load(out)).certified
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    assert signal.getsignal(signal.SIGINT) is before
 
 
 def test_flags_of_the_start(run, problem: Path, tmp_path: Path) -> None:

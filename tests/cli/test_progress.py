@@ -7,7 +7,7 @@ import threading
 
 import pytest
 
-from glid_nb.cli.progress import Progress
+from glid_nb.cli.progress import step
 
 
 class Terminal(io.StringIO):
@@ -30,14 +30,14 @@ class Recorder(io.StringIO):
 
 def test_a_short_step_is_silent() -> None:
     stream = io.StringIO()
-    with Progress(stream, patience=60).step("tracing"):
+    with step("tracing", stream, patience=60):
         pass
     assert stream.getvalue() == ""
 
 
 def test_a_long_step_is_announced_while_it_runs_and_summed_up_after() -> None:
     stream = Recorder()
-    with Progress(stream, patience=0).step("solving") as detail:
+    with step("solving", stream, patience=0) as detail:
         assert stream.written.wait(10)
         assert stream.getvalue() == "glid-nb: solving ...\n"
         detail("iteration 7")
@@ -48,7 +48,7 @@ def test_a_long_step_is_announced_while_it_runs_and_summed_up_after() -> None:
 
 def test_a_failing_step_ends_its_line() -> None:
     stream = Terminal()
-    with pytest.raises(RuntimeError), Progress(stream, patience=60).step("solving"):
+    with pytest.raises(RuntimeError), step("solving", stream, patience=60):
         raise RuntimeError
     assert stream.getvalue() == ""
 
@@ -63,7 +63,7 @@ def test_a_terminal_line_is_rewritten_and_erased() -> None:
             return super().write(text)
 
     stream = RecordingTerminal()
-    with Progress(stream, patience=0).step("solving") as detail:
+    with step("solving", stream, patience=0) as detail:
         detail("iteration 7")
         assert stream.shown.wait(10)
     text = stream.getvalue()

@@ -43,6 +43,7 @@ def test_every_command_explains_itself(run, command: str) -> None:
     assert max(map(len, outcome.out.splitlines())) <= 110
 
 
+@pytest.mark.slow
 def test_the_version_is_printed_without_loading_jax() -> None:
     source = (
         "import sys\n"

@@ -116,6 +116,7 @@ def test_no_two_energies_are_one_to_a_compiled_program() -> None:
     assert jax.tree.structure(AMIPS(1.0)) == jax.tree.structure(AMIPS(0.25))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("energy", [e for e, _ in CLOSED], ids=IDS)
 @given(drawn=samples)
 @settings(max_examples=15)
@@ -168,6 +169,7 @@ FORMULAS: list[tuple[Energy, Callable[[Any, Any], Any]]] = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("energy", "formula"), FORMULAS, ids=[e.name for e, _ in FORMULAS])
 def test_a_custom_energy_of_the_same_formula_is_the_same(
     energy: Energy, formula: Callable[[Any, Any], Any]

@@ -32,6 +32,7 @@ def frames(data: bytes) -> tuple[Image.Image, list[np.ndarray]]:
     return read, [np.asarray(f.convert("RGB")).astype(int) for f in ImageSequence.Iterator(read)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("format", "name"), [("gif", "GIF"), ("apng", "PNG")])
 def test_every_map_is_a_frame(format: Any, name: str) -> None:
     maps, poses = drag()
@@ -50,6 +51,7 @@ def test_every_map_is_a_frame(format: Any, name: str) -> None:
     assert np.abs(shown[0] - shown[-1]).mean() > max(changes)
 
 
+@pytest.mark.slow
 def test_all_frames_show_the_same_part_of_the_plane() -> None:
     """A map that does not change gives frames that do not, though others widen the view."""
     maps, _ = drag(2)
@@ -57,6 +59,7 @@ def test_all_frames_show_the_same_part_of_the_plane() -> None:
     np.testing.assert_array_equal(shown[0], shown[2])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("color", [(255, 255, 255), (250, 240, 9), (0, 0, 0)])
 def test_a_gif_keeps_the_background_as_it_is(color: tuple[int, int, int]) -> None:
     data = animation_bytes(picture(), drag(2)[0], size=120, background=color)
@@ -66,6 +69,7 @@ def test_a_gif_keeps_the_background_as_it_is(color: tuple[int, int, int]) -> Non
         assert (shown.std(axis=(0, 1)) > 10).all()  # the shape is there too
 
 
+@pytest.mark.slow
 def test_there_and_back_has_no_jump() -> None:
     maps, _ = drag(4)
     data = animation_bytes(picture(), maps, size=60, there_and_back=True, format="apng")
@@ -75,6 +79,7 @@ def test_there_and_back_has_no_jump() -> None:
     np.testing.assert_array_equal(shown[2], shown[4])
 
 
+@pytest.mark.slow
 def test_the_marks_are_drawn() -> None:
     maps, (there,) = drag(1)
     poses = [there.with_targets(there.targets + np.array([0.0, 1.5]))]

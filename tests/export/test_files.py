@@ -16,10 +16,10 @@ from trimesh.visual import TextureVisuals
 
 from glid_nb.certificate import certify
 from glid_nb.export import cage_svg, mesh_glb, mesh_obj, picture_png, textured_mesh
-from glid_nb.export.cage_svg import deformed_loops
 from glid_nb.geometry import GeometryError
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
+from glid_nb.imaging.mesh import deformed_loops
 from glid_nb.imaging.render import render
 
 from .shapes import SIZE, bent, domain, picture, pose
@@ -32,6 +32,7 @@ def test_the_map_of_these_tests_is_one() -> None:
 
 
 class TestPicture:
+    @pytest.mark.slow
     @pytest.mark.parametrize("size", [None, (64, 40), (500, 500)])
     @pytest.mark.parametrize("view", ["source", "fit"])
     def test_the_file_holds_the_rendering(self, size: tuple[int, int] | None, view: str) -> None:
@@ -91,6 +92,7 @@ class TestMesh:
         assert (areas > 0).all()
         assert areas.sum() == pytest.approx(area, rel=0.01)
 
+    @pytest.mark.slow
     def test_obj(self, tmp_path: Path) -> None:
         files = mesh_obj(textured_mesh(picture(), bent(), 800), "frog")
         assert sorted(files) == ["frog-texture.png", "frog.mtl", "frog.obj"]
@@ -104,6 +106,7 @@ class TestMesh:
         texture = np.asarray(material_of(read).image.convert("RGBA"))
         np.testing.assert_array_equal(texture, picture())
 
+    @pytest.mark.slow
     def test_glb(self) -> None:
         data = mesh_glb(textured_mesh(picture(), bent(), 800))
         assert data[:4] == b"glTF"
@@ -152,6 +155,7 @@ class TestSvg:
         assert root.tag == f"{SVG}svg"
         return {e.attrib["id"]: e for e in root.iter() if "id" in e.attrib}
 
+    @pytest.mark.slow
     def test_the_curves_are_the_images_of_the_cage(self) -> None:
         parts = self.parse(cage_svg(bent(), SIZE))
         assert list(parts) == ["cage"]

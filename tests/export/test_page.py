@@ -8,6 +8,7 @@ import re
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from glid_nb.certificate import certify
 from glid_nb.export import page_html
@@ -45,17 +46,20 @@ def test_a_title_cannot_break_out() -> None:
     assert page.count('"deformed"') == 1
 
 
+@pytest.mark.slow
 def test_bounds_are_stated_only_if_they_are_proved() -> None:
     assert "Proved not to fold" in page_html(picture(), bent(), certify(bent()))
     assert "Proved" not in page_html(picture(), bent())
 
 
+@pytest.mark.slow
 def test_stated_bounds_are_bounds() -> None:
     proof = replace(certify(bent()), sigma2_lower=0.4567, sigma1_upper=1.2341, k_upper=1.12e-10)
     page = page_html(picture(), bent(), proof)
     assert "σ₂ ≥ 0.456, σ₁ ≤ 1.24, k ≤ 0.001" in page
 
 
+@pytest.mark.slow
 def test_an_overlap_is_told_of() -> None:
     start = HarmonicMap.identity(domain())
     # (z + 1)^2 on a ring about -1 goes around twice.

@@ -47,8 +47,8 @@ def test_sizes_and_complex_views() -> None:
     assert domain.n_coefficients == 12 + 2
     assert domain.hole_points_complex.tolist() == [3 + 3j, 7 + 7j]
     for loops, cage in (
-        (domain.cage_loops_complex, CAGE),
-        (domain.offset_loops_complex, AROUND),
+        (domain.cage.loops_complex, CAGE),
+        (domain.offset_cage.loops_complex, AROUND),
     ):
         assert isinstance(loops, tuple)
         for z, loop in zip(loops, cage.loops, strict=True):
@@ -67,6 +67,7 @@ def test_a_domain_cannot_be_changed_and_keys_a_cache() -> None:
     assert domain != Domain(CAGE, AROUND, POINTS)
 
 
+@pytest.mark.slow
 @given(cages())
 @settings(max_examples=30)
 def test_any_cage_makes_a_domain_that_survives_json(cage: Cage) -> None:

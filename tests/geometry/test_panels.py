@@ -20,7 +20,7 @@ def test_pairs_are_halves_of_one_straight_piece_far_enough_away(name: str, ratio
     assert not np.intersect1d(first, second).size
     chords = panels.end - panels.start
     np.testing.assert_allclose(chords[first], chords[second], rtol=1e-8)
-    singular = np.concatenate([*d.offset_loops_complex, d.hole_points @ [1, 1j]])
+    singular = np.concatenate([*d.offset_cage.loops_complex, d.hole_points @ [1, 1j]])
     nearest = point_distance(singular, panels.start[first][:, None], panels.end[second][:, None])
     whole = np.abs(panels.end[second] - panels.start[first])
     assert (whole <= ratio * nearest.min(axis=1, initial=np.inf)).all()

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from glid_nb.geometry import Cage, Domain
-from glid_nb.harmonic import basis_of, build_basis, cauchy
+from glid_nb.harmonic import basis_of, cauchy
 
 from ..domains import NAMES, circle, domain
 
@@ -34,8 +34,8 @@ def test_which_coefficients_are_fixed(name: str) -> None:
     d = domain(name)
     basis = basis_of(d)
     phi, psi = basis.phi_free[basis.columns], basis.psi_free[basis.columns]
-    first, fixed = len(d.offset_loops_complex[0]), []
-    for loop in d.offset_loops_complex[1:]:
+    first, fixed = len(d.offset_cage.loops_complex[0]), []
+    for loop in d.offset_cage.loops_complex[1:]:
         fixed += [first, first + 1]
         first += len(loop)
     holes = list(range(first, d.n_coefficients))
@@ -51,8 +51,8 @@ def test_which_coefficients_are_fixed(name: str) -> None:
 )
 def test_sizes_fall_into_buckets(n_exterior: int, n_holes: int) -> None:
     d = many_holes(n_exterior, n_holes)
-    basis = build_basis(d)
-    m = sum(len(loop) for loop in d.offset_loops_complex)
+    basis = basis_of(d)
+    m = sum(len(loop) for loop in d.offset_cage.loops_complex)
     vertices, following, preceding, rho = basis.singularities
     assert basis.n_columns % 8 == 0
     assert m <= len(vertices) <= m + 10
@@ -76,14 +76,14 @@ def test_sizes_fall_into_buckets(n_exterior: int, n_holes: int) -> None:
 @settings(max_examples=10)
 def test_pad_puts_every_coefficient_in_its_column(n_exterior: int, n_holes: int) -> None:
     d = many_holes(n_exterior, n_holes)
-    basis = build_basis(d)
+    basis = basis_of(d)
     coefficients = 1 + np.arange(d.n_coefficients) * (1 + 2j)
     padded = basis.pad(coefficients)
     assert padded.shape == (basis.n_columns,)
     np.testing.assert_array_equal(padded[basis.columns], coefficients)
     assert np.count_nonzero(padded) == d.n_coefficients
     singular = np.concatenate([basis.singularities.vertices, basis.singularities.hole_points])
-    expected = np.concatenate([*d.offset_loops_complex, d.hole_points @ np.array([1, 1j])])
+    expected = np.concatenate([*d.offset_cage.loops_complex, d.hole_points @ np.array([1, 1j])])
     np.testing.assert_array_equal(singular[basis.columns], expected)
 
 
@@ -91,7 +91,7 @@ def test_padding_columns_are_finite_everywhere_in_the_domain() -> None:
     """Zero times infinity would spoil a map: a padding column must never be infinite or NaN."""
     d = domain("triple")
     basis = basis_of(d)
-    z = np.concatenate([*d.cage_loops_complex, [1e-3j]])
+    z = np.concatenate([*d.cage.loops_complex, [1e-3j]])
     with jax.enable_x64(True):
         for kernel in (
             cauchy.cauchy_coordinates,

@@ -33,10 +33,10 @@ COUNT = 50
 def parts(name: str) -> tuple[Any, Any, Array]:
     """Offset loops, hole points and points of the domain, those near its boundary included."""
     d = domain(name)
-    inside = points_inside(d.cage_loops_complex, COUNT, seed=1)
-    corners = np.concatenate([loop[:4] for loop in d.cage_loops_complex])[:8]
+    inside = points_inside(d.cage.loops_complex, COUNT, seed=1)
+    corners = np.concatenate([loop[:4] for loop in d.cage.loops_complex])[:8]
     z = np.concatenate([inside, corners, inside])[:COUNT]
-    return d.offset_loops_complex, d.hole_points @ np.array([1, 1j]), z
+    return d.offset_cage.loops_complex, d.hole_points @ np.array([1, 1j]), z
 
 
 def own_columns(kernel: Any, name: str, z: Array) -> Array:
@@ -46,6 +46,7 @@ def own_columns(kernel: Any, name: str, z: Array) -> Array:
         return np.asarray(jax.jit(kernel)(z, basis.singularities))[:, basis.columns]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ell", "triple"])
 def test_the_yardstick_is_cauchys_integral(name: str) -> None:
     """(D.1) against Gauss-Legendre quadrature of the hat functions over the polygon."""
@@ -108,6 +109,7 @@ def test_first_and_second_derivatives_are_those_of_the_paper(name: str) -> None:
     np.testing.assert_allclose(second, cauchy_second(z, loops, rho), rtol=1e-12, atol=1e-13)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ell", "twin"])
 def test_derivatives_are_those_of_the_coordinates(name: str) -> None:
     loops, rho, z = parts(name)

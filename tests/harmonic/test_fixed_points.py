@@ -28,7 +28,7 @@ def test_images_and_derivatives_are_the_maps(
     monkeypatch.setattr(fixed_points, "_CHUNK", chunk)
     monkeypatch.setattr(fixed_points, "_MOST_KEPT", kept)
     d = domain(name)
-    points = np.concatenate([real(points_inside(d.cage_loops_complex, 40)), *d.cage.loops])
+    points = np.concatenate([real(points_inside(d.cage.loops_complex, 40)), *d.cage.loops])
     evaluate = FixedPoints(d, points)
     for map in (HarmonicMap.identity(d), random_map(name, 0.5, 1), random_map(name, 2.0, 2)):
         assert_same(evaluate(map), map, points)

@@ -19,11 +19,12 @@ from ..domains import NAMES, domain, random_map, real, reference
 from ..reference_map import points_inside
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [*NAMES, "annulus"])
 def test_the_identity_is_the_identity(name: str) -> None:
     d = domain(name)
     map = HarmonicMap.identity(d)
-    points = np.concatenate([real(points_inside(d.cage_loops_complex, 40)), *d.cage.loops])[:64]
+    points = np.concatenate([real(points_inside(d.cage.loops_complex, 40)), *d.cage.loops])[:64]
     np.testing.assert_allclose(map(points), points, atol=1e-12)
     fz, fzbar = map.wirtinger(points)
     np.testing.assert_allclose(fz, 1, atol=1e-12)
@@ -40,7 +41,7 @@ def test_the_identity_is_the_identity(name: str) -> None:
 def test_a_map_is_that_of_the_paper(name: str, size: float, seed: int) -> None:
     map = random_map(name, size, seed)
     yardstick = reference(map)
-    z = points_inside(map.domain.cage_loops_complex, 50, seed)
+    z = points_inside(map.domain.cage.loops_complex, 50, seed)
     f, (fz, fzbar) = map(real(z)) @ [1, 1j], map.wirtinger(real(z))
     np.testing.assert_allclose(f, yardstick.f(z), rtol=1e-11, atol=1e-11)
     np.testing.assert_allclose(fz, yardstick.fz(z), rtol=1e-10, atol=1e-10)
@@ -55,7 +56,7 @@ def test_a_map_is_that_of_the_paper(name: str, size: float, seed: int) -> None:
 def test_wirtinger_derivatives_are_those_of_the_map(name: str) -> None:
     """Fourth-order differences in x and y of the values, singular values of that Jacobian."""
     map = random_map(name, 0.3, 5)
-    z = points_inside(map.domain.cage_loops_complex, 15, 2)
+    z = points_inside(map.domain.cage.loops_complex, 15, 2)
     h = 1e-3
     offsets = np.array([-2, -1, 1, 2])
     weights = np.array([1, -8, 8, -1]) / (12 * h)
@@ -77,7 +78,7 @@ def test_wirtinger_derivatives_are_those_of_the_map(name: str) -> None:
 
 def test_derivatives_of_the_wirtinger_derivatives() -> None:
     map = random_map("ring", 0.3, 6)
-    z = points_inside(map.domain.cage_loops_complex, 20, 3)
+    z = points_inside(map.domain.cage.loops_complex, 20, 3)
     h = 1e-4
     ahead, behind = map.wirtinger(z + h), map.wirtinger(z - h)
     first = map.wirtinger_derivatives(z, 1)
@@ -91,10 +92,11 @@ def test_derivatives_of_the_wirtinger_derivatives() -> None:
         map.wirtinger_derivatives(z, 0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [0, 1, 2, 63, 64, 65, 100_000])
 def test_chunks_do_not_show(count: int) -> None:
     map = random_map("ring", 0.2, 7)
-    pool = points_inside(map.domain.cage_loops_complex, 97)
+    pool = points_inside(map.domain.cage.loops_complex, 97)
     z = np.resize(pool, count)
     expected = np.resize(reference(map).f(pool), count)
     image = map(real(z))
@@ -159,11 +161,12 @@ def test_a_map_is_immutable() -> None:
         map.phi = phi  # type: ignore[misc]
 
 
+@pytest.mark.slow
 def test_distance_is_the_largest_one_on_the_boundary() -> None:
     map = random_map("ring", 0.2, 8)
     moved = HarmonicMap(map.domain, map.phi.copy(), map.psi)
     shifted = moved.phi.copy()
-    shifted[: len(map.domain.offset_loops_complex[0])] += 3 - 4j
+    shifted[: len(map.domain.offset_cage.loops_complex[0])] += 3 - 4j
     assert map.distance(HarmonicMap(map.domain, shifted, map.psi)) == pytest.approx(5)
     d = domain("ring")
     grown = HarmonicMap(d, 1.5 * HarmonicMap.identity(d).phi, np.zeros(d.n_coefficients))

@@ -9,8 +9,7 @@ from skimage import data
 
 from glid_nb.imaging import Scribbles, TraceError, TraceOptions, as_rgba
 from glid_nb.imaging.foreground import Foreground, find_foreground, smoothed
-from glid_nb.imaging.foreground.border import border_color
-from glid_nb.imaging.foreground.levels import histogram, otsu
+from glid_nb.imaging.foreground.measure import border_color, histogram, otsu
 from glid_nb.imaging.options import Method
 
 SIZE = 80

@@ -33,6 +33,7 @@ def test_the_centre_of_a_pixel():
     assert PixelFrame(2, 2).to_world([1.5, 0.5]).tolist() == [5, 5]
 
 
+@pytest.mark.slow
 @given(sides, sides, st.lists(st.tuples(coordinates, coordinates), max_size=5))
 def test_there_and_back(width, height, points):
     frame = PixelFrame(width, height)

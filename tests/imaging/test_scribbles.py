@@ -55,6 +55,7 @@ def test_no_contrast_hinders_nowhere():
     np.testing.assert_allclose(score, score[::-1, ::-1], atol=1e-4)
 
 
+@pytest.mark.slow
 def test_a_picture_is_prepared_once_for_all_scribbles(monkeypatch: pytest.MonkeyPatch):
     prepared = []
     module = importlib.import_module("glid_nb.imaging.trace")  # the name is the function's too

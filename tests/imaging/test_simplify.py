@@ -56,6 +56,7 @@ class TestSignificance:
             False,
         ]
 
+    @pytest.mark.slow
     def test_thresholding_is_the_algorithm_itself(self):
         from skimage.measure import approximate_polygon
 
@@ -144,6 +145,7 @@ class TestRepair:
         Cage(result.exterior, result.holes)
         assert distance(result.exterior, circle(100)) < 4
 
+    @pytest.mark.slow
     @settings(max_examples=40)
     @given(
         st.integers(0, 10**6),

@@ -190,6 +190,7 @@ class TestAwkwardPictures:
             assert tracing.n_components == 1
             assert contained(tracing) > 0.95
 
+    @pytest.mark.slow
     @pytest.mark.parametrize("seed", range(6))
     def test_noise(self, seed):
         rng = np.random.default_rng(seed)
@@ -231,6 +232,7 @@ class TestAwkwardPictures:
         else:
             assert trace(with_alpha(picture)).cage.n_vertices >= 3
 
+    @pytest.mark.slow
     @settings(max_examples=60)
     @given(
         st.integers(0, 10**6),
@@ -299,6 +301,7 @@ class TestPictures:
         for x, y in [(60, 60), (450, 200), (400, 400)]:
             assert not region.contains(shapely.Point(x, y)), (x, y)
 
+    @pytest.mark.slow
     @pytest.mark.parametrize("name", ["astronaut", "chelsea", "rocket", "coffee", "page", "text"])
     def test_photographs_and_print_do_not_crash(self, name):
         tracing = trace(getattr(data, name)())

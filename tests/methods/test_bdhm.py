@@ -34,10 +34,13 @@ def run(name: str, bounds: tuple[float, float, float]) -> Result:
 def measured(map: HarmonicMap) -> Measured:
     domain = map.domain
     rho = domain.hole_points @ np.array([1, 1j])
-    loops = domain.cage_loops_complex
-    return DenseCheck.on(loops, domain.offset_loops_complex, rho, 100_000).measure(map.phi, map.psi)
+    loops = domain.cage.loops_complex
+    return DenseCheck.on(loops, domain.offset_cage.loops_complex, rho, 100_000).measure(
+        map.phi, map.psi
+    )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("bounds", [LOOSE, TIGHT], ids=["loose", "tight"])
 @pytest.mark.parametrize("name", ["ell", "ring", "bent"])
 def test_the_bounds_hold_densely_and_are_certified(
@@ -56,6 +59,7 @@ def test_the_bounds_hold_densely_and_are_certified(
     assert sum(dense.windings) == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ell", "ring"])
 def test_bounds_that_do_not_bind_leave_the_arap_minimum(name: str) -> None:
     """Within wide bounds the alternation of frames and programs is ARAP's local/global method."""
@@ -74,6 +78,7 @@ def test_bounds_that_bind_cost_energy() -> None:
     assert tight.energy > loose.energy
 
 
+@pytest.mark.slow
 def test_every_iterate_keeps_the_bounds() -> None:
     domain, pose = problem("ring")
     seen = []
@@ -143,7 +148,7 @@ def penalised(start: HarmonicMap, share: float, weight: float = 1e4, count: int 
     problem_ = BoundedProblem(domain, pose, 1e5)
     k, sigma1, sigma2 = TIGHT
     along = (np.arange(count) + 0.5) / count
-    loops = domain.cage_loops_complex
+    loops = domain.cage.loops_complex
     edges = np.concatenate([np.stack([loop, np.roll(loop, -1)], axis=1) for loop in loops])
     points = (edges[:, :1] + (edges[:, 1:] - edges[:, :1]) * along).ravel()
     samples = problem_.samples_at(points)
@@ -189,6 +194,7 @@ def test_an_unmoved_pose_is_stationary_at_once() -> None:
     assert result.iterations == 0
 
 
+@pytest.mark.slow
 def test_a_map_that_has_used_up_the_margin_goes_on() -> None:
     """sigma_1 binds along a whole side here, and no program that admits the map proves a step."""
     domain = Domain.from_cage(Cage([[0, 0], [4, 0], [4, 2], [0, 2]]))

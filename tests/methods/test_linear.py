@@ -96,7 +96,7 @@ def test_cauchy_coordinates_solve_a_least_squares_problem_by_quadrature(weight: 
     panels = graded_panels(shape)
     share = np.sqrt(panels.length / panels.length.sum())
     stiff = np.sqrt(weight / 2)
-    loop = shape.offset_loops_complex[0]
+    loop = shape.offset_cage.loops_complex[0]
     rows = [
         share[:, None] * hats_by_quadrature(loop, panels.middle, 2),
         stiff * hats_by_quadrature(loop, as_complex(pose.handles), 0),

@@ -58,6 +58,7 @@ def independent_energy(map: MeshMap, energy: str) -> float:
     return float((area * density).sum() / area.sum())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ell", "ring", "bent"])
 def test_stiff_soft_constraints_and_hard_ones_have_one_minimum(name: str) -> None:
     soft = run("slim", name, p2p_weight=1e9, tolerance=1e-10)
@@ -71,6 +72,7 @@ def test_stiff_soft_constraints_and_hard_ones_have_one_minimum(name: str) -> Non
     np.testing.assert_allclose(hard.map(hard.pose.handles), hard.pose.targets, atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "energy"),
     [
@@ -138,6 +140,7 @@ def unbalance(result: Result, energy: Energy, weight: float) -> float:
     return float(np.abs(iso + pull).max() / np.abs(pull).max())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("weight", [1.0, 100.0])
 @pytest.mark.parametrize("name", ["ell", "ring"])
 @pytest.mark.parametrize(
@@ -169,6 +172,7 @@ def test_arap_goes_down_with_hard_constraints() -> None:
         assert result.energy == pytest.approx(independent_energy(result.map, "arap"), rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ell", "ring", "bent"])
 def test_arap_ends_where_a_general_optimiser_ends(name: str) -> None:
     """SciPy's L-BFGS-B from the same start, on the energy by singular values; "bent" folds."""

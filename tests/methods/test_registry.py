@@ -131,6 +131,7 @@ def test_a_start_from_another_domain_is_refused(name: str) -> None:
         run_method(name, shape, pose, start=HarmonicMap.identity(domain("ring")))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["newton", "lbfgs"])
 def test_a_start_that_folds_is_refused(name: str) -> None:
     shape, pose = problem("ell")
@@ -182,6 +183,7 @@ def test_a_broken_package_names_the_extra_and_the_cause(
         assert isinstance(caught.value.__cause__, ImportError)
 
 
+@pytest.mark.slow
 def test_an_energy_may_be_a_name() -> None:
     shape, pose = problem("ell")
     by_name = run_method("newton", shape, pose, "arap", max_iterations=1)

@@ -214,7 +214,7 @@ def test_bdhm_constants_bound_the_derivative_and_are_looser() -> None:
     assert len(theirs.panels) > len(ours.panels)
     domain = map.domain
     rho = domain.hole_points @ np.array([1, 1j])
-    dense = DenseCheck.on(domain.cage_loops_complex, domain.offset_loops_complex, rho, 100_000)
+    dense = DenseCheck.on(domain.cage.loops_complex, domain.offset_cage.loops_complex, rho, 100_000)
     measured = dense.measure(map.phi, map.psi)
     assert measured.sigma2 >= theirs.sigma2_lower > 0
     assert measured.sigma1 <= theirs.sigma1_upper

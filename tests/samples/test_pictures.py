@@ -61,6 +61,7 @@ def test_size_and_file(name: str) -> None:
         assert 1000 <= max(picture.size) <= 2000
 
 
+@pytest.mark.slow
 def test_image_is_the_file(name: str) -> None:
     image = samples.image(name)
     assert image.dtype == np.uint8
@@ -68,17 +69,20 @@ def test_image_is_the_file(name: str) -> None:
         assert np.array_equal(image, np.asarray(picture))
 
 
+@pytest.mark.slow
 def test_one_piece_with_the_holes_it_promises(name: str, silhouette: Silhouette) -> None:
     assert components(silhouette.shape, 2).max() == 1
     assert silhouette.n_holes == HOLES[name]
 
 
+@pytest.mark.slow
 def test_holes_are_open_and_wide(silhouette: Silhouette) -> None:
     room = distance_inside(~silhouette.shape)
     for hole in range(1, silhouette.n_holes + 1):
         assert 2 * room[silhouette.holes == hole].max() >= 0.04 * silhouette.width
 
 
+@pytest.mark.slow
 def test_parts_are_thick(silhouette: Silhouette) -> None:
     """All that a disc of 3 % of the width cannot reach are the round ends of limbs."""
     radius = 0.015 * silhouette.width
@@ -88,6 +92,7 @@ def test_parts_are_thick(silhouette: Silhouette) -> None:
     assert components(core, 2).max() == 1
 
 
+@pytest.mark.slow
 def test_limbs_keep_their_distance(silhouette: Silhouette) -> None:
     """No limb touches another when everything grows by 1.25 % of the width."""
     reach = 0.0125 * silhouette.width
@@ -96,6 +101,7 @@ def test_limbs_keep_their_distance(silhouette: Silhouette) -> None:
     assert bays == 1 + silhouette.n_holes
 
 
+@pytest.mark.slow
 def test_margins_leave_room_to_move(name: str) -> None:
     rows, columns = np.nonzero(samples.image(name)[..., 3])
     height, width = samples.image(name).shape[:2]
@@ -103,6 +109,7 @@ def test_margins_leave_room_to_move(name: str) -> None:
     assert room >= 0.115 * max(width, height)
 
 
+@pytest.mark.slow
 def test_edges_are_anti_aliased_and_dark(name: str) -> None:
     rgba = samples.image(name)
     alpha = rgba[..., 3]

@@ -29,6 +29,7 @@ def test_four_to_nine_handles_and_as_many_targets(name: str, kind: samples.PoseK
     assert len(data["description"]) > 20
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "kind"), POSES)
 def test_handles_lie_well_inside_the_body(name: str, kind: samples.PoseKind) -> None:
     alpha = samples.image(name)[..., 3]

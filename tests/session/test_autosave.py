@@ -27,9 +27,9 @@ def test_the_first_save_is_immediate_and_the_latest_wins(tmp_path: Path) -> None
     assert load_document(path).active == 0
     for active in (1, 0, 1, 0, 1):
         autosave.submit(replace(base, active=active))
-    assert autosave.n_saved == 1  # the interval is not over
+    assert autosave.file.n_saved == 1  # the interval is not over
     assert autosave.flush(timeout=60)
-    assert autosave.n_saved == 2
+    assert autosave.file.n_saved == 2
     assert load_document(path).active == 1
     autosave.close()
 
@@ -41,10 +41,10 @@ def test_the_interval_is_kept(tmp_path: Path) -> None:
     while time.monotonic() < end:
         autosave.submit(base)
         threading.Event().wait(0.01)
-    assert autosave.n_saved <= 3
+    assert autosave.file.n_saved <= 3
     autosave.close()
-    assert 2 <= autosave.n_saved <= 4
-    assert autosave.error is None
+    assert 2 <= autosave.file.n_saved <= 4
+    assert autosave.file.error is None
 
 
 def test_closing_saves_what_is_pending_and_ends_the_thread(tmp_path: Path) -> None:
@@ -82,17 +82,18 @@ def test_a_failure_is_reported_and_the_next_save_tries_again(tmp_path: Path) -> 
     autosave = Autosave(folder / "a.glid", interval=0, on_done=seen.append)
     autosave.submit(document())
     assert autosave.flush(timeout=60)
-    assert isinstance(autosave.error, FileNotFoundError)
-    assert seen == [autosave.error]
+    assert isinstance(autosave.file.error, FileNotFoundError)
+    assert seen == [autosave.file.error]
     folder.mkdir()
     autosave.submit(document())
     assert autosave.flush(timeout=60)
-    assert autosave.error is None
+    assert autosave.file.error is None
     assert seen[1:] == [None]
     assert load_document(folder / "a.glid").active == 1
     autosave.close()
 
 
+@pytest.mark.slow
 def test_the_end_of_the_process_saves_too(tmp_path: Path) -> None:
     path = tmp_path / "a.glid"
     source = f"""
@@ -121,10 +122,10 @@ def test_a_file_that_somebody_else_changed_is_left_to_them(tmp_path: Path) -> No
     for _ in range(2):  # and from then on
         autosave.submit(replace(base, active=0))
         assert autosave.flush(timeout=60)
-        assert (autosave.error, autosave.left) == (None, path)
-        assert autosave.path == tmp_path / "a-3.glid"
+        assert (autosave.file.error, autosave.file.left) == (None, path)
+        assert autosave.file.path == tmp_path / "a-3.glid"
     assert load_document(path).active == 1
-    assert load_document(autosave.path).active == 0
+    assert load_document(autosave.file.path).active == 0
     assert (tmp_path / "a-2.glid").read_bytes() == b"also somebody's"
     autosave.close()
 
@@ -135,12 +136,12 @@ def test_a_change_that_was_accepted_is_written_over(tmp_path: Path, accept: bool
     autosave = Autosave(path, interval=0)
     save_document(replace(base, active=1), path)
     if accept:
-        autosave.take_over()
+        autosave.file.own.note([path], path)
     else:
         autosave.write(replace(base, active=1))
     autosave.submit(replace(base, active=0))
     assert autosave.flush(timeout=60)
-    assert (autosave.left, load_document(path).active) == (None, 0)
+    assert (autosave.file.left, load_document(path).active) == (None, 0)
     autosave.close()
 
 
@@ -151,7 +152,7 @@ def test_a_file_that_was_deleted_is_written_anew(tmp_path: Path) -> None:
     path.unlink()
     autosave.submit(document())
     assert autosave.flush(timeout=60)
-    assert (autosave.left, path.exists()) == (None, True)
+    assert (autosave.file.left, path.exists()) == (None, True)
     autosave.close()
 
 
@@ -163,7 +164,7 @@ def test_what_is_pending_is_not_written_after_a_later_one(tmp_path: Path) -> Non
     autosave.submit(replace(base, active=0))
     autosave.write(replace(base, active=1))
     autosave.close()
-    assert (autosave.n_saved, load_document(path).active) == (1, 1)
+    assert (autosave.file.n_saved, load_document(path).active) == (1, 1)
 
 
 def test_a_negative_interval_is_refused(tmp_path: Path) -> None:

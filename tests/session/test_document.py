@@ -431,6 +431,7 @@ def test_a_missing_member_is_named(tmp_path: Path, valid: dict[str, bytes], name
     refuse(tmp_path, zipped(rest), f"{name} is missing")
 
 
+@pytest.mark.slow
 def test_a_zip_bomb_is_refused_unopened(tmp_path: Path, valid: dict[str, bytes]) -> None:
     bomb = b" " * (100 << 20)
     data = zipped({**valid, "document.json": bomb})
@@ -438,6 +439,7 @@ def test_a_zip_bomb_is_refused_unopened(tmp_path: Path, valid: dict[str, bytes])
     refuse(tmp_path, data, "document.json unpacks to 104,857,600 bytes")
 
 
+@pytest.mark.slow
 def test_a_member_that_lies_about_its_size_is_refused(
     tmp_path: Path, valid: dict[str, bytes]
 ) -> None:
@@ -447,6 +449,7 @@ def test_a_member_that_lies_about_its_size_is_refused(
     refuse(tmp_path, data.replace(honest, lie), "zip file")
 
 
+@pytest.mark.slow
 def test_a_picture_bomb_is_refused_before_it_is_decoded(
     tmp_path: Path, valid: dict[str, bytes]
 ) -> None:

@@ -45,12 +45,13 @@ def _pin(model: EditorModel, *points: tuple[float, float]) -> None:
 
 def _move_corner(model: EditorModel, to: tuple[float, float], gesture: str | None = None) -> None:
     """Drag what was the outline's upper left vertex."""
-    frame, loops = model.tracing.frame, model.deformation.domain.cage.loops
+    frame, loops = model.tracing.frame, model.deformation.state.domain.cage.loops
     assert frame is not None
     corner = int(np.argmin(np.hypot(*(loops[0] - [-8, 4]).T)))
     model.tracing.move_vertex(0, corner, frame.to_pixel(to), gesture)
 
 
+@pytest.mark.slow
 def test_a_picture_that_is_open_but_not_traced_is_not_saved(model: EditorModel) -> None:
     _pin(model, (-6, 0))
     before = model.document
@@ -95,6 +96,7 @@ def test_another_picture_is_another_session(model: EditorModel, tmp_path: Path) 
     assert (tmp_path / "a-2.glid").read_bytes() == b"somebody's"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kept", [True, False], ids=["with a file", "without"])
 def test_undo_brings_a_picture_back_with_its_poses(tmp_path: Path, kept: bool) -> None:
     path = tmp_path / "a.glid" if kept else None
@@ -129,9 +131,9 @@ def test_undo_of_the_deformation_takes_the_tracing_along(model: EditorModel) -> 
     for _ in range(2):
         model.tracing.toggle_hole(0)
         assert model.apply_tracing() == Application()
-        assert model.deformation.domain.cage.n_holes == 0
+        assert model.deformation.state.domain.cage.n_holes == 0
         model.deformation.undo()
-        assert model.deformation.domain is model.tracing.domain is traced
+        assert model.deformation.state.domain is model.tracing.domain is traced
         assert not model.tracing.options.drop_holes
         assert model.document.trace_options == model.tracing.options
         model.deformation.redo()
@@ -146,13 +148,14 @@ def test_a_hole_dropped_in_the_deformation_is_dropped_in_the_tracing(model: Edit
     model.deformation.paused = True
     model.deformation.drop_hole(0)
     assert model.tracing.cage is not None
-    assert model.tracing.cage.equals(model.deformation.domain.cage)
+    assert model.tracing.cage.equals(model.deformation.state.domain.cage)
     assert model.apply_tracing() == Application()
     model.deformation.undo()
     assert model.tracing.cage.n_holes == 1
     assert not model.tracing.edited
 
 
+@pytest.mark.slow
 def test_what_is_in_no_file_is_unsaved(tmp_path: Path) -> None:
     model = EditorModel(picture())
     assert not model.unsaved
@@ -197,12 +200,19 @@ def test_handles_outside_a_new_outline_come_back_with_the_old_one(model: EditorM
 
 def test_what_was_valid_for_a_moment_of_a_drag_is_not_deformed(model: EditorModel) -> None:
     _pin(model, (-6, 0))
-    domain = model.deformation.domain
+    domain = model.deformation.state.domain
     for point in ((-6.5, 2.5), (-6, 2.4), (20, -1)):  # valid, then across the opposite side
         _move_corner(model, point, gesture="drag")
     assert model.tracing.problems
     assert model.apply_tracing() == Application()
-    assert model.deformation.domain is domain
+    assert model.deformation.state.domain is domain
+
+
+def test_scribbles_that_are_not_painted_yet_can_be_saved(model: EditorModel) -> None:
+    _pin(model, (-6, 0))
+    model.tracing.set_options(method="scribbles")
+    assert model.tracing.problems
+    assert model.document.trace_options.method == "scribbles"
 
 
 @pytest.mark.parametrize(("place", "reason"), [(".", "is a folder"), ("no/a.glid", "not exist")])

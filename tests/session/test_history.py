@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from glid_nb.session.history import MOST_STEPS, History
+from glid_nb.session.model import MOST_STEPS, History
 
 
 def test_undo_and_redo_walk_back_and_forth() -> None:

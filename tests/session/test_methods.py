@@ -16,7 +16,6 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import METHODS
 from glid_nb.session import live_solver
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.edit_state import MOST_ITERATIONS, EditState
 from glid_nb.solvers import MethodError, Status
 
 from ..domains import domain
@@ -52,12 +51,12 @@ def test_a_method_in_the_subspace_moves_the_certified_map(ring: Deformation, nam
     choose(ring, name)
     ring.drag(0, to=(2.4, 0.3))
     assert ring.solve(TIMEOUT)
-    assert ring.comparison is None
-    assert ring.shown is ring.map
-    assert ring.solved, ring.status.text
-    solution = ring.solution
+    assert ring.moment.comparison is None
+    assert ring.moment.shown is ring.map
+    assert ring.moment.solved, ring.status.text
+    solution = ring.moment.solution
     assert solution is not None
-    assert 1 <= len(solution.history) <= MOST_ITERATIONS
+    assert 1 <= len(solution.history) <= live_solver.MOST_ITERATIONS
     assert np.diff([step.iteration for step in solution.history]).tolist() == [1] * (
         len(solution.history) - 1
     )
@@ -74,10 +73,10 @@ def test_a_method_on_a_mesh_stands_beside_the_certified_map(ring: Deformation, n
     certified = ring.map
     ring.drag(0, to=(2.4, 0.3))
     assert ring.solve(TIMEOUT)
-    assert ring.solved, ring.status.text
-    mesh = ring.comparison
+    assert ring.moment.solved, ring.status.text
+    mesh = ring.moment.comparison
     assert isinstance(mesh, MeshMap)
-    assert ring.shown is mesh
+    assert ring.moment.shown is mesh
     assert ring.map is certified
     np.testing.assert_allclose(mesh([[2, 0]]), [[2.4, 0.3]], atol=0.02)
     assert "certified" in ring.status.text
@@ -87,16 +86,17 @@ def test_a_method_on_a_mesh_stands_beside_the_certified_map(ring: Deformation, n
     assert found is not None
     np.testing.assert_allclose(found, [2, 0], atol=0.02)
     ring.set_method("newton")
-    assert ring.comparison is None
+    assert ring.moment.comparison is None
     assert ring.solve(TIMEOUT)
     np.testing.assert_allclose(ring.map([[2, 0]]), [[2.4, 0.3]], atol=1e-3)
 
 
+@pytest.mark.slow
 def test_turned_over_triangles_are_said_in_words(ring: Deformation) -> None:
     ring.set_method("mls")
     ring.drag(0, to=(-6, 0))
     assert ring.solve(TIMEOUT)
-    mesh = ring.comparison
+    mesh = ring.moment.comparison
     assert mesh is not None
     count = int(mesh.flipped.sum())
     assert count > 1
@@ -104,6 +104,7 @@ def test_turned_over_triangles_are_said_in_words(ring: Deformation) -> None:
     assert certify(ring.map).certified
 
 
+@pytest.mark.slow
 def test_undo_solves_a_mesh_again(ring: Deformation) -> None:
     ring.set_method("mls")
     assert ring.solve(TIMEOUT)
@@ -114,11 +115,11 @@ def test_undo_solves_a_mesh_again(ring: Deformation) -> None:
     assert ring.state is before
     assert ring.solve(TIMEOUT)
     assert ring.state is before
-    mesh = ring.comparison
+    mesh = ring.moment.comparison
     assert mesh is not None
     np.testing.assert_allclose(mesh([[2, 0]]), [[2, 0]], atol=1e-6)
     ring.undo()
-    assert ring.comparison is None
+    assert ring.moment.comparison is None
     assert ring.state.current.method.name == "newton"
 
 
@@ -141,12 +142,13 @@ def test_a_step_is_one_iteration(ring: Deformation) -> None:
     ring.drag(0, to=(3, 1))
     ring.step()
     assert ring.solve(TIMEOUT)
-    solution = ring.solution
+    solution = ring.moment.solution
     assert solution is not None
     assert solution.status is Status.STOPPED
     assert len(solution.history) == 1
 
 
+@pytest.mark.slow
 def test_a_method_refuses_what_it_cannot_do(ring: Deformation) -> None:
     state = ring.state
     for refused in (
@@ -181,20 +183,21 @@ def test_a_missing_package_names_the_extra(
 def test_too_few_handles_are_said_in_words(ring: Deformation) -> None:
     ring.set_method("mean-value")
     assert ring.solve(TIMEOUT)
-    assert ring.comparison is not None
+    assert ring.moment.comparison is not None
     ring.remove_handles(0)
     assert ring.solve(TIMEOUT)
     assert "need at least 3" in ring.status.text
-    assert ring.comparison is None
-    assert not ring.solved
+    assert ring.moment.comparison is None
+    assert not ring.moment.solved
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", METHODS)
 def test_without_handles_nothing_breaks(name: str) -> None:
     if importlib.util.find_spec(METHODS[name].package or "numpy") is None:
         pytest.skip("its package is not installed")
     energy = ARAP() if "arap" in (METHODS[name].energies or ()) else SymmetricDirichlet()
-    with Deformation.from_state(EditState.initial(domain("ring"), energy=energy)) as model:
+    with Deformation(domain("ring"), energy=energy) as model:
         model.set_method(name)
         assert model.solve(TIMEOUT)
         assert model.status.level in ("idle", "blocked"), model.status.text
@@ -219,8 +222,8 @@ def test_a_call_without_an_iteration_is_no_frame(
     frames: list[int] = []
 
     def count(what: str) -> None:
-        if what == "frame" and ring.frame is not None and ring.frame.solution is None:
-            frames.append(len(ring.frame.history))
+        if what == "frame" and ring.moment.frame is not None and ring.moment.frame.solution is None:
+            frames.append(len(ring.moment.frame.history))
 
     ring.observe(count)
     monkeypatch.setattr(live_solver, "FRAME_INTERVAL", 0.0)

@@ -39,7 +39,9 @@ def document_of(model: TracingModel, **changes: Any) -> Document:
     domain = changes.pop("domain", model.domain)
     map = changes.pop("map", None) or solve(domain, pose, energy, options).map
     named = NamedPose("wave", pose, energy, options, map)
-    return Document(model.image, domain.cage, domain, model.options, model.scribbles, (named,), 0)
+    return Document(
+        model.image, domain.cage, domain, model.options, model.state.scribbles, (named,), 0
+    )
 
 
 @pytest.fixture(scope="module")

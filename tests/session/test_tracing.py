@@ -176,8 +176,8 @@ class TestOptions:
     def test_picking(self, model: TracingModel) -> None:
         model.pick_component(IN_SMALL_DISC)
         assert cage_of(model).n_holes == 0
-        assert model.tracing is not None
-        assert model.tracing.component.rank == 1
+        assert model.outcome.tracing is not None
+        assert model.outcome.tracing.component.rank == 1
         model.pick_background((2.0, 2.0))
         assert model.options.method == "color"
         assert model.options.background_at == (2.0, 2.0)
@@ -191,13 +191,13 @@ class TestScribbles:
         assert model.options.method == "scribbles"
         assert model.problems == ()
         model.paint("background", [(5, 5), (5, 115), (155, 115), (155, 5)])
-        assert model.scribbles is not None
-        assert len(model.scribbles.background) == 1
-        first, second = cage_of(model), model.scribbles
+        assert model.state.scribbles is not None
+        assert len(model.state.scribbles.background) == 1
+        first, second = cage_of(model), model.state.scribbles
         model.undo()
-        assert model.scribbles is not second
+        assert model.state.scribbles is not second
         model.redo()
-        assert model.scribbles is second
+        assert model.state.scribbles is second
         assert_same_loops(model.outcome, first.loops)
 
     def test_choosing_the_method_first_asks_for_strokes(self, model: TracingModel) -> None:
@@ -210,14 +210,14 @@ class TestScribbles:
 
     def test_strokes_survive_another_method(self, model: TracingModel) -> None:
         model.paint("foreground", [(60, 20), (60, 100)])
-        painted = model.scribbles
+        painted = model.state.scribbles
         model.set_options(method="color")
         assert model.options.scribbles is None
-        assert model.scribbles is painted
+        assert model.state.scribbles is painted
         model.set_options(method="scribbles")
         assert model.options.scribbles is painted
         model.clear_scribbles()
-        assert model.scribbles is None
+        assert model.state.scribbles is None
 
     @pytest.mark.parametrize("stroke", [[], [1, 2], [[1, 2, 3]], [[float("nan"), 1]], "line", None])
     def test_a_wrong_stroke_changes_nothing(self, model: TracingModel, stroke: object) -> None:
@@ -387,7 +387,7 @@ class TestVertices:
 
 def test_changes_are_announced(model: TracingModel) -> None:
     seen: list[str] = []
-    stop = model.on_change(lambda: seen.append("change"))
+    stop = model.observe(lambda _: seen.append("change"))
     model.set_options(offset=3)
     model.toggle_hole(0)
     model.undo()
@@ -410,7 +410,7 @@ def test_a_document_brings_the_model_back(tmp_path: Path, edited: bool) -> None:
     assert model.image is not None
     assert model.domain is not None
     document = Document(
-        model.image, model.domain.cage, model.domain, model.options, model.scribbles, (), 0
+        model.image, model.domain.cage, model.domain, model.options, model.state.scribbles, (), 0
     )
     save_document(document, tmp_path / "a.glid")
     loaded = load_document(tmp_path / "a.glid")
@@ -419,7 +419,7 @@ def test_a_document_brings_the_model_back(tmp_path: Path, edited: bool) -> None:
     assert again.edited == edited
     assert_same_loops(again.outcome, model.outcome.loops)
     assert again.holes[1].kept is False
-    assert again.scribbles is loaded.scribbles
+    assert again.state.scribbles is loaded.scribbles
     assert replace(again.options, scribbles=None) == replace(model.options, scribbles=None)
 
 

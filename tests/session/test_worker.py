@@ -99,9 +99,10 @@ def test_closing_finishes_or_forgets(finish: bool, done: list[int]) -> None:
     slow.worker.submit(3)
     assert slow.done[: len(done)] == done
     assert 3 not in slow.done
-    assert not slow.worker.alive
+    assert not slow.worker.thread.is_alive()
 
 
+@pytest.mark.slow
 def test_work_is_rare_but_always_done() -> None:
     class Counter:
         def __init__(self) -> None:

@@ -16,8 +16,8 @@ from ..reference_map import DenseCheck, Measured
 @functools.lru_cache(maxsize=4)
 def _points(domain: Domain, count: int) -> DenseCheck:
     return DenseCheck.on(
-        domain.cage_loops_complex,
-        domain.offset_loops_complex,
+        domain.cage.loops_complex,
+        domain.offset_cage.loops_complex,
         domain.hole_points @ np.array([1, 1j]),
         count,
     )

@@ -18,7 +18,7 @@ def dense_expansion(domain: Domain, conformal: bool = False) -> NDArray[Any]:
     holes' psi, which are conj(phi).
     """
     n = domain.n_coefficients
-    sizes = [len(loop) for loop in domain.offset_loops_complex]
+    sizes = [len(loop) for loop in domain.offset_cage.loops_complex]
     m = sum(sizes)
     fixed = {first + k for first in np.cumsum(sizes)[:-1] for k in (0, 1)}
     phi = [j for j in range(m) if j not in fixed] + ([] if conformal else list(range(m, n)))

@@ -33,6 +33,7 @@ def test_every_map_of_a_collapse_far_away_is_proved_anew() -> None:
     assert result.n_panels < 200
 
 
+@pytest.mark.slow
 def test_one_handle_takes_the_shape_along_however_far() -> None:
     ring = domain("ring")
     start = HarmonicMap.identity(ring)

@@ -39,6 +39,7 @@ def test_this_jax_calls_lapack_as_we_do() -> None:
     assert cholesky._understood()
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("way")
 @pytest.mark.parametrize("size", [1, 2, 37, 130])
 @double_precision
@@ -51,6 +52,7 @@ def test_factor_and_solution(size: int) -> None:
     np.testing.assert_allclose(x, np.linalg.solve(h, b), rtol=1e-8)
 
 
+@pytest.mark.slow
 @given(st.integers(2, 20), st.integers(0, 2**32 - 1))
 @settings(max_examples=15, deadline=None)
 @double_precision

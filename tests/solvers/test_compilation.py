@@ -32,11 +32,13 @@ def first() -> Result:
     return solve(domain("ell"), bent(0.12), None, OPTIONS, result)
 
 
+@pytest.mark.slow
 def test_moved_targets_compile_nothing(first: Result) -> None:
     assert compiled_by(lambda: solve(domain("ell"), bent(0.2), None, OPTIONS)) == 0
     assert compiled_by(lambda: solve(domain("ell"), bent(0.14), None, OPTIONS, first)) == 0
 
 
+@pytest.mark.slow
 def test_panels_split_within_a_bucket_compile_nothing(first: Result) -> None:
     def split(place: int) -> Result:
         disc = first.discretisation

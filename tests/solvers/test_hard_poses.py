@@ -43,6 +43,7 @@ def absurd_targets(handles: np.ndarray, kind: str, rng: np.random.Generator) -> 
 KINDS = ["random", "far away", "one far away", "swapped", "all equal", "mirrored", "turned"]
 
 
+@pytest.mark.slow
 @given(st.sampled_from(NAMES), st.sampled_from(KINDS), st.integers(0, 2**32 - 1))
 @settings(max_examples=12)
 def test_absurd_targets_end_certified(name: str, kind: str, seed: int) -> None:
@@ -73,6 +74,7 @@ def bar() -> Domain:
     return Domain.from_cage(Cage(np.vstack([lower, upper])))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("per_call", [1, 4, 7])
 def test_a_bar_tied_into_a_loop_splits_panels_and_meets_its_targets(per_call: int) -> None:
     """The ends change places: far from the identity, yet a certified map exists.
@@ -90,6 +92,7 @@ def test_a_bar_tied_into_a_loop_splits_panels_and_meets_its_targets(per_call: in
     np.testing.assert_allclose(result.map(handles), targets, atol=1e-3)
 
 
+@pytest.mark.slow
 def test_a_coarse_certificate_does_not_end_a_solve() -> None:
     """Panels that refuse a step are split, and the solve goes on to its minimum."""
     handles = np.array(INSIDE["ell"])
@@ -120,6 +123,7 @@ def test_restarts_keep_the_best_attempt() -> None:
     check_certified(several)
 
 
+@pytest.mark.slow
 def test_the_paper_settings_never_return_an_uncertified_map() -> None:
     handles = np.array(INSIDE["ring"])
     pose = Pose(handles, handles[[1, 0, 3, 2]])
@@ -137,6 +141,7 @@ def test_values_are_immutable() -> None:
     assert isinstance(result.map, HarmonicMap)
 
 
+@pytest.mark.slow
 def test_arap_meets_its_targets_where_the_direct_way_is_blocked() -> None:
     """No barrier keeps ARAP's Newton steps from the limit of injectivity; a detour does."""
     pose = Pose([[-7.5, 0], [-3, 0], [3, 0], [7.5, 0]], [[2, 0], [-3, 0], [3, 0], [-2, 0]])

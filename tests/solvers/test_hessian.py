@@ -147,6 +147,7 @@ def compiled_differentials() -> Any:
     return jax.jit(lambda energy, x, y: energy.differentials(x, y))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("energy", ENERGIES, ids=IDS)
 @given(drawn=states)
 @settings(max_examples=25)
@@ -166,6 +167,7 @@ def test_the_projection_is_that_of_the_eigenvalues(
     check_projection(Differentials(*map(np.asarray, d)), fz, fzb_conj)
 
 
+@pytest.mark.slow
 @given(
     drawn=states,
     scalars=st.lists(
@@ -278,7 +280,7 @@ def discretised() -> tuple[Domain, Matrices, Array, Array, Array]:
     p = len(matrices.real)
     z = np.concatenate([panels.start, panels.middle])
     rows = np.concatenate([np.arange(len(panels)), p + np.arange(len(panels))])
-    dense = cauchy_first(z, d.offset_loops_complex, d.hole_points @ np.array([1, 1j]))
+    dense = cauchy_first(z, d.offset_cage.loops_complex, d.hole_points @ np.array([1, 1j]))
     map = random_map("ring", 0.05, 4)
     y = np.concatenate([map.phi.real, map.phi.imag, map.psi.real, map.psi.imag])
     return d, matrices, rows, dense, y
@@ -305,6 +307,7 @@ def automatic(kind: str) -> Any:
     return jax.jit(lambda *args: derivative(energy_of)(jnp.zeros(t.shape[1]), *args))
 
 
+@pytest.mark.slow
 def test_a_large_basis_is_assembled_in_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
     matrices = discretise(domain("ring")).matrices
     y = np.random.default_rng(5).normal(size=2 * len(matrices.nodes))
@@ -323,6 +326,7 @@ def test_a_large_basis_is_assembled_in_pieces(monkeypatch: pytest.MonkeyPatch) -
 CUSTOM = CustomEnergy(lambda x, y: (x - 1) ** 2 - 3 * y + x * y**2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("energy", [ENERGIES[0], CUSTOM], ids=lambda e: e.name)
 def test_gradient_and_hessian_are_those_of_the_discretised_energy(energy: Energy) -> None:
     d, _, rows, dense, y = discretised()
@@ -391,6 +395,7 @@ def test_the_hessian_is_integrated_in_the_middle_of_panels_and_of_pairs() -> Non
     assert (nodes >= size).any()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "energy", [e for e in ENERGIES if e.indefinite_across_f_only], ids=lambda e: e.name
 )
@@ -424,7 +429,7 @@ def test_quadrature_weights_integrate_over_the_boundary() -> None:
     assert np.asarray(matrices.hessian_weights).sum() == pytest.approx(1, rel=1e-13)
     edges = [
         (a, b)
-        for loop in d.cage_loops_complex
+        for loop in d.cage.loops_complex
         for a, b in zip(loop, np.roll(loop, -1), strict=True)
     ]
     nodes, gauss = np.polynomial.legendre.leggauss(20)

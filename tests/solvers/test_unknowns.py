@@ -33,6 +33,7 @@ def padded_expansion(name: str, conformal: bool) -> np.ndarray:
     return padded
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("conformal", [False, True])
 def test_restriction_and_expansion_are_those_of_the_dense_matrix(
@@ -81,12 +82,13 @@ def test_the_reduced_unknowns_are_all_unknowns(name: str, conformal: bool) -> No
     np.testing.assert_array_equal(own, np.where(basis.phi_free[expected], expected, -1))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_the_unknowns_span_all_maps_once(name: str) -> None:
     """T has full rank as maps: no unknown is redundant, and none is missing."""
     d = domain(name)
-    z = points_inside(d.cage_loops_complex, 150)
-    c = cauchy(z, d.offset_loops_complex, d.hole_points @ np.array([1, 1j]))
+    z = points_inside(d.cage.loops_complex, 150)
+    c = cauchy(z, d.offset_cage.loops_complex, d.hole_points @ np.array([1, 1j]))
     # f is real linear in the coefficients.
     f = np.concatenate([c, 1j * c, c.conj(), -1j * c.conj()], axis=1)
     everything = np.concatenate([f.real, f.imag])
@@ -109,7 +111,7 @@ def test_canonical_is_the_same_map(name: str, size: float, seed: int) -> None:
     map = random_map(name, size, seed)
     same = canonical(map)
     assert same.domain is map.domain
-    z = points_inside(map.domain.cage_loops_complex, 40)
+    z = points_inside(map.domain.cage.loops_complex, 40)
     np.testing.assert_allclose(
         reference(same).f(z), reference(map).f(z), rtol=1e-10, atol=1e-10 * (1 + size)
     )
@@ -118,9 +120,9 @@ def test_canonical_is_the_same_map(name: str, size: float, seed: int) -> None:
     y = np.concatenate([same.phi.real, same.phi.imag, same.psi.real, same.psi.imag])
     u = np.linalg.lstsq(t, y, rcond=None)[0]
     np.testing.assert_allclose(t @ u, y, atol=1e-12 * (1 + size))
-    first = len(map.domain.offset_loops_complex[0])
+    first = len(map.domain.offset_cage.loops_complex[0])
     assert same.psi[0] == 0
-    for loop in map.domain.offset_loops_complex[1:]:
+    for loop in map.domain.offset_cage.loops_complex[1:]:
         for values in (same.phi, same.psi):
             np.testing.assert_array_equal(values[first : first + 2], 0)
         first += len(loop)

@@ -25,6 +25,7 @@ def test_flowers_hold_their_handles(vertices: int, holes: int) -> None:
         assert domain.cage.contains(ring_of_handles(64).handles).all()
 
 
+@pytest.mark.slow
 def test_iterations_to_a_gap_are_counted_from_the_history() -> None:
     domain = flower(50, 0)
     result = glid_nb.solve(domain, ring_of_handles(4), options=glid_nb.Options(restarts=0))

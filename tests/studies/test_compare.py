@@ -38,7 +38,7 @@ def test_lipschitz_constants_bound_the_derivative() -> None:
     assert (theirs > 0).all()
     domain = map_.domain
     reference = ReferenceMap(
-        domain.offset_loops_complex, domain.hole_points_complex, map_.phi, map_.psi
+        domain.offset_cage.loops_complex, domain.hole_points_complex, map_.phi, map_.psi
     )
     samples = uniform_panels(domain.cage, 100)
     start, end = samples.start, samples.end

@@ -41,6 +41,7 @@ def test_the_mean_is_by_area() -> None:
     assert area_mean(x.mean(axis=1), mesh) == pytest.approx(centroid)
 
 
+@pytest.mark.slow
 def test_harmonic_maps_and_their_piecewise_linear_ones_compare() -> None:
     map_ = run_method("newton", DOMAIN, POSE).map
     assert isinstance(map_, HarmonicMap)

@@ -48,6 +48,7 @@ def total(map_: MeshMap, constraints: Constraints) -> float:
     return iso + (1e5 / 2 * float((miss**2).sum()) if constraints == "soft" else 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("method", "constraints"), [("slim", "soft"), ("aqp", "hard")])
 def test_a_method_that_goes_on_ends_at_the_minimum(method: str, constraints: Constraints) -> None:
     found = mesh_minimum(map_of(method, 3), POSE, SymmetricDirichlet(), constraints)

@@ -38,6 +38,7 @@ def progress(iteration: int, shift: float) -> Progress:
     )
 
 
+@pytest.mark.slow
 def test_iterates_are_thinned_and_the_method_stopped_in_time() -> None:
     watcher = Watcher(MESH.vertices, seconds=999.5)
     stopped = [watcher(progress(i, 0.5 * i)) for i in range(1_000)]

@@ -91,7 +91,7 @@ class Hand:
 
     def settle(self) -> None:
         """Wait for the solver."""
-        self.book.wait_for(f"{self.model}.solved and not {self.model}.busy", 90)
+        self.book.wait_for(f"{self.model}.moment.solved and not {self.model}.busy", 90)
 
     def place(self, point: Sequence[float]) -> tuple[float, float]:
         """Where a point is in the page."""

@@ -91,10 +91,12 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     before = hand.targets
     method = page.locator(".glid-method select")
     method.select_option(label="Moving least squares · linear")
-    book.wait_for("model.comparison is not None and model.solved")
+    book.wait_for("model.moment.comparison is not None and model.moment.solved")
     hand.drag(line(before[1], [-6.5, 0.5], 5))
     hand.wait_for_target(1, [-6.5, 0.5])
-    book.wait_for("model.solved and not model.busy and model.comparison.flipped.any()")
+    book.wait_for(
+        "model.moment.solved and not model.busy and model.moment.comparison.flipped.any()"
+    )
     page.locator(".glid-editor").get_by_text("turned over").first.wait_for()
     hand.wait_until_drawn()
     book.screenshot("editor-comparison")
@@ -102,7 +104,7 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     page.keyboard.press("Control+z")
     hand.wait_for_target(1, before[1])
     method.select_option(label="Newton, ours")
-    book.wait_for("model.comparison is None")
+    book.wait_for("model.moment.comparison is None")
     hand.settle()
 
     overlay = page.locator(".glid-tools select")
@@ -115,9 +117,7 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     assert max(abs(a - b) for a, b in zip(colored, plain, strict=True)) > 20
     for label in ("Cage", "Offset", "Certificate"):
         page.locator(".glid-tools button", has_text=label).click()
-    book.wait_for(
-        "canvas.show_panels and canvas.show_cage and canvas.pane.scene.panels is not None"
-    )
+    book.wait_for("canvas.show_panels and canvas.show_cage and 'panels' in canvas.pane.scene.lines")
     page.wait_for_timeout(500)
     book.screenshot("editor-overlays")
     overlay.select_option(label="Picture")

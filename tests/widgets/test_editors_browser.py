@@ -56,7 +56,7 @@ def test_two_editors_at_once_and_a_rerun(open_notebook: OpenNotebook) -> None:
         book.value("None", setup="old = two")
         book.run_cell(2)
         two = Hand(book, 1, "two.canvas")
-        assert book.value("old is not two and not old.deformation.alive")
+        assert book.value("old is not two and not old.deformation._worker.thread.is_alive()")
         book.page.wait_for_function("document.querySelectorAll('.glid-pad').length === 2")
     book.wait_for(f"{threads} <= {before[1]}")
     assert book.value(widgets) <= before[0]
@@ -75,7 +75,7 @@ def test_two_editors_at_once_and_a_rerun(open_notebook: OpenNotebook) -> None:
 def test_two_views_and_a_reload(open_notebook: OpenNotebook) -> None:
     book = open_notebook([SETUP, EDITOR, "canvas"])
     hand, other = Hand(book), Hand(book, pad=1)
-    book.wait_for("model.solved")  # the solver begins by itself, once the canvas is drawn
+    book.wait_for("model.moment.solved")  # the solver begins by itself, once the canvas is drawn
     hand.click((-6.0, 0.0))
     book.wait_for("len(model.pose) == 1")
     hand.settle()

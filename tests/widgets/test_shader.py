@@ -123,7 +123,7 @@ def test_the_shader_agrees_with_numpy(page: Page, name: str) -> None:
 
 def test_the_chain_holds_every_loop_closed() -> None:
     shader = ShaderMap(domain("twin"))
-    loops = domain("twin").offset_loops_complex
+    loops = domain("twin").offset_cage.loops_complex
     assert shader.n_chain == sum(map(len, loops)) + len(loops)
     starts = np.flatnonzero(~shader.cage[:, 2:].any(axis=1))
     assert len(starts) == len(loops)

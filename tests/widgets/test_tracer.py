@@ -223,6 +223,7 @@ def _coincide_at_the_end(model: TracingModel) -> None:
     model.move_vertex(0, len(model.loops[0]) - 1, tuple(model.loops[0][0]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("alpha", "act", "words"),
     [

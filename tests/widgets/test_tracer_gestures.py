@@ -159,19 +159,19 @@ def test_tools_by_keys(hand: Hand) -> None:
     assert hand.gestures.tool == "component"
     hand.click(*IN_SMALL_DISC)
     assert hand.gestures.tool == "edit"
-    assert hand.model.tracing is not None
-    assert hand.model.tracing.component.rank == 1
+    assert hand.model.outcome.tracing is not None
+    assert hand.model.outcome.tracing.component.rank == 1
     hand.model.undo()
     hand.key("B")
     hand.send("down", 60, 20)
     hand.send("up", 60, 100, path=[[60, 20], [60, 60], [60, 100]])
-    scribbles = hand.model.scribbles
+    scribbles = hand.model.state.scribbles
     assert scribbles is not None
     assert len(scribbles.foreground[0]) == 3
     hand.send("down", 60, 20)
     hand.key("Escape")  # the stroke, and not the tool
     hand.send("up", 60, 100, path=[[60, 20], [60, 100]])
-    assert hand.model.scribbles is scribbles
+    assert hand.model.state.scribbles is scribbles
     assert hand.gestures.tool == "foreground"
     hand.key("Escape")
     assert hand.gestures.tool == "edit"

@@ -7,17 +7,29 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._arguments import read_only
 from glid_nb.imaging.errors import TraceError
-from glid_nb.imaging.foreground import fields
-from glid_nb.imaging.foreground.border import border_color, border_is_bright
-from glid_nb.imaging.foreground.levels import color_threshold, histogram, otsu
+from glid_nb.imaging.foreground.measure import (
+    RGBA,
+    border_color,
+    border_is_bright,
+    brightness,
+    color_distance,
+    color_threshold,
+    full,
+    histogram,
+    otsu,
+)
 from glid_nb.imaging.foreground.score import Foreground
+from glid_nb.imaging.foreground.scribbles import scaled_picture, scribble_score
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.options import Method, Point, Scribbles
 
+_LEAST_SHARE = 0.001  # of transparent or opaque pixels; fewer are a speck
+
 
 def find_foreground(
-    image: NDArray[np.unsignedinteger],
+    image: RGBA,
     method: Method = "auto",
     invert: bool | None = None,
     background: tuple[float, float, float] | None = None,
@@ -36,62 +48,68 @@ def find_foreground(
         The image has one colour only, or nothing that the method could use.
     """
     _check_not_uniform(image)
-    notes: list[str] = []
+    notes: tuple[str, ...] = ()
+    more: tuple[str, ...] = ()
     if method == "auto":
         method, why = _choose_method(image, background, background_at, scribbles)
-        notes.append(f"foreground by {why}")
+        notes = (f"foreground by {why}",)
     inverted, threshold, spread = bool(invert), 0.5, 0.0
+    alpha = image[..., 3] * np.float32(1 / full(image))
     if method == "alpha":
-        fields.check_alpha(image)
-        score = fields.alpha(image)
+        _check_alpha(alpha)
+        score = alpha
     elif method == "scribbles":
         if scribbles is None:
             raise TraceError("the method 'scribbles' needs scribbles")
-        # scikit-image's segmentation is slow to import.
-        from glid_nb.imaging.foreground.scribbles import scribble_score  # noqa: PLC0415
-
-        small = fields.scaled_picture(image) if scaled is None else scaled()
+        small = scaled_picture(image) if scaled is None else scaled()
         score, more = scribble_score(small, scribbles, (image.shape[0], image.shape[1]))
-        notes += more
     elif method == "threshold":
-        score = fields.brightness(image)
-        visible = score if fields.is_opaque(image) else score[image[..., 3] > 0][np.newaxis]
-        threshold = otsu(histogram(visible))
+        score = brightness(image)
+        threshold = otsu(histogram(score if alpha.all() else score[alpha > 0][np.newaxis]))
         if invert is None:
             inverted = border_is_bright(image, score, threshold)
             side = "darker" if inverted else "brighter"
-            notes.append(f"everything {side} than the border counts as foreground")
+            more = (f"everything {side} than the border counts as foreground",)
     else:
         color, spread, more = _background(image, background, background_at)
-        notes += more
-        score = fields.color_distance(image, color)
+        score = color_distance(image, color)
     if inverted:
         score = 1 - score
-    if method in ("threshold", "color") and not fields.is_opaque(image):
-        score = score * fields.alpha(image)  # transparent pixels are background in any case
+    if method in ("threshold", "color") and alpha.min() < 1:
+        score = score * alpha  # transparent pixels are background in any case
     if method == "color":
         # Inverted, the colour is the shape's, so the spread of the border's colours is irrelevant.
         threshold = otsu(histogram(1 - score)) if inverted else color_threshold(score, spread)
-    score = score.view()
-    score.setflags(write=False)
-    return Foreground(score, method, threshold, inverted, tuple(notes))
+    return Foreground(read_only(score.view()), method, threshold, inverted, (*notes, *more))
 
 
-def _check_not_uniform(image: NDArray[np.unsignedinteger]) -> None:
+def _check_not_uniform(image: RGBA) -> None:
     first = image[0, 0]
     # A coarse sample suffices for nearly every picture.
     if (image[::37, ::37] != first).any() or (image != first).any():
         return
-    scale = 255 / np.iinfo(image.dtype).max
-    red, green, blue, opacity = (f"{value * scale:.4g}" for value in first)
+    red, green, blue, opacity = (f"{value * (255 / full(image)):.4g}" for value in first)
     raise TraceError(
         f"the image has one colour only: red {red}, green {green}, blue {blue}, alpha {opacity} "
         "(of 255) everywhere; there is nothing to trace"
     )
 
 
+def _check_alpha(alpha: NDArray[np.float32]) -> None:
+    low, high = alpha.min(), alpha.max()
+    if low == high == 0:
+        raise TraceError("the image has no foreground: it is fully transparent")
+    if low == high:
+        raise TraceError(
+            f"the foreground covers the whole image: its alpha channel is {low:.3g} everywhere; "
+            "use method='color', 'threshold' or 'scribbles'",
+            "The picture is equally transparent everywhere; choose Colour or Brightness, or paint "
+            "over the shape with Scribbles",
+        )
+
+
 def _choose_method(
-    image: NDArray[np.unsignedinteger],
+    image: RGBA,
     background: tuple[float, float, float] | None,
     background_at: Point | None,
     scribbles: Scribbles | None,
@@ -101,7 +119,7 @@ def _choose_method(
         return "scribbles", "scribbles, which were given"
     if background is not None or background_at is not None:
         return "color", "colour distance, as a background colour was given"
-    if fields.alpha_is_informative(image):
+    if _LEAST_SHARE < np.mean(image[..., 3] < full(image) / 2) < 1 - _LEAST_SHARE:
         return "alpha", "alpha, as part of the image is transparent"
     border = border_color(image)
     if border is not None and border.is_uniform:
@@ -113,18 +131,16 @@ def _choose_method(
 
 
 def _background(
-    image: NDArray[np.unsignedinteger],
-    background: tuple[float, float, float] | None,
-    background_at: Point | None,
-) -> tuple[tuple[float, float, float], float, list[str]]:
+    image: RGBA, background: tuple[float, float, float] | None, background_at: Point | None
+) -> tuple[tuple[float, float, float], float, tuple[str, ...]]:
     """The background's colour, the spread of the border's colours about it, and notes."""
     if background is not None:
-        return background, 0.03, []
+        return background, 0.03, ()
     if background_at is not None:
         frame = PixelFrame(width=image.shape[1], height=image.shape[0])
-        row, column = frame.index_at(background_at, "background_at")
-        red, green, blue = image[row, column, :3] / np.iinfo(image.dtype).max
-        return (float(red), float(green), float(blue)), 0.03, []
+        pixel = image[frame.index_at(background_at, "background_at")]
+        red, green, blue = map(float, pixel[:3] / full(image))
+        return (red, green, blue), 0.03, ()
     border = border_color(image)
     if border is None:
         raise TraceError(
@@ -137,4 +153,4 @@ def _background(
     note = f"background colour estimated from the border: red {red}, green {green}, blue {blue}"
     if not border.is_uniform:
         note += f", though only {border.share:.0%} of the border has it"
-    return border.color, border.spread, [note]
+    return border.color, border.spread, (note,)

@@ -3,63 +3,49 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
+from glid_nb._arguments import read_only
 from glid_nb.imaging.errors import TraceError
 
 _SMOOTHING = 0.001  # of the longer side
 _LEAST_SMOOTHING = 0.5  # pixels; less is not worth the time
 
-
-class _Words(NamedTuple):
-    """A method in messages, in terms of options and, ``plain``, of the editor's controls."""
-
-    measure: str
-    control: str
-    if_empty: str
-    if_empty_plain: str
-    if_full: str
-    if_full_plain: str
-
-
-_OR_PAINT = "change the Threshold, or paint over the shape with Scribbles"
-_LOWER_OR_PAINT = "lower the Threshold, or paint over the shape with Scribbles"
+# By method: its name in messages, in terms of options and as the editor's control, and what helps
+# against an empty and against a full foreground, in both terms.
+_OR = "or paint over the shape with Scribbles"
+_TRY_INVERT = "change the threshold, or set invert", f"change the Threshold, {_OR}"
 _WORDS = {
-    "alpha": _Words(
-        "alpha",
-        "Alpha",
-        "lower the threshold, or use another method",
-        _LOWER_OR_PAINT,
-        "use method='color', 'threshold' or 'scribbles'",
-        "choose Colour or Brightness, or paint over the shape with Scribbles",
+    "alpha": (
+        ("alpha", "Alpha"),
+        ("lower the threshold, or use another method", f"lower the Threshold, {_OR}"),
+        (
+            "use method='color', 'threshold' or 'scribbles'",
+            f"choose Colour or Brightness, {_OR}",
+        ),
     ),
-    "threshold": _Words(
-        "brightness",
-        "Brightness",
-        "change the threshold, or set invert",
-        _OR_PAINT,
-        "change the threshold, or set invert",
-        _OR_PAINT,
+    "threshold": (("brightness", "Brightness"), _TRY_INVERT, _TRY_INVERT),
+    "color": (
+        ("colour distance", "Colour"),
+        (
+            "lower the threshold, or pick another background colour",
+            f"lower the Threshold, {_OR}",
+        ),
+        (
+            "raise the threshold, or pick another background colour",
+            f"raise the Threshold, {_OR}",
+        ),
     ),
-    "color": _Words(
-        "colour distance",
-        "Colour",
-        "lower the threshold, or pick another background colour",
-        _LOWER_OR_PAINT,
-        "raise the threshold, or pick another background colour",
-        "raise the Threshold, or paint over the shape with Scribbles",
-    ),
-    "scribbles": _Words(
-        "scribbles",
-        "Scribbles",
-        "draw foreground strokes over more of the shape",
-        "paint over more of the shape",
-        "draw background strokes around the shape",
-        "paint over the background around the shape",
+    "scribbles": (
+        ("scribbles", "Scribbles"),
+        ("draw foreground strokes over more of the shape", "paint over more of the shape"),
+        (
+            "draw background strokes around the shape",
+            "paint over the background around the shape",
+        ),
     ),
 }
 
@@ -89,18 +75,18 @@ class Foreground:
     def mask(self, threshold: float | None = None) -> NDArray[np.bool_]:
         """(h, w) mask of the foreground; a TraceError if it would be empty or full."""
         mask = self.score > self.level(threshold)
-        words, value = _WORDS[self.method], self.threshold(threshold)
+        (measure, control), if_empty, if_full = _WORDS[self.method]
+        value = f"passes the threshold {self.threshold(threshold):.3g}"
         if not mask.any():
             raise TraceError(
-                f"the image has no foreground by {words.measure}: no pixel passes the threshold "
-                f"{value:.3g}; {words.if_empty}",
-                f"{words.control} finds no shape in the picture; {words.if_empty_plain}",
+                f"the image has no foreground by {measure}: no pixel {value}; {if_empty[0]}",
+                f"{control} finds no shape in the picture; {if_empty[1]}",
             )
         if mask.all():
             raise TraceError(
-                f"the foreground covers the whole image by {words.measure}: every pixel passes "
-                f"the threshold {value:.3g}; {words.if_full}",
-                f"{words.control} takes the whole picture for the shape; {words.if_full_plain}",
+                f"the foreground covers the whole image by {measure}: every pixel {value}; "
+                f"{if_full[0]}",
+                f"{control} takes the whole picture for the shape; {if_full[1]}",
             )
         return mask
 
@@ -117,5 +103,4 @@ def smoothed(foreground: Foreground, sigma: float | None) -> Foreground:
     if sigma == 0:
         return foreground
     score = np.asarray(gaussian_filter(score, sigma, mode="nearest", truncate=3.0), np.float32)
-    score.setflags(write=False)
-    return replace(foreground, score=score)
+    return replace(foreground, score=read_only(score))

@@ -10,15 +10,32 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
-from skimage.segmentation import random_walker
 
 from glid_nb.imaging.errors import TraceError
 from glid_nb.imaging.options import Scribbles
+from glid_nb.imaging.read import as_rgba8
 
+_WALKED_PIXELS = 40_000
 _FOREGROUND, _BACKGROUND = 1, 2
 # How much an edge in the picture hinders the walker. With scikit-image's default of 130, meant for
 # noisy pictures, the outline of a photograph runs midway between the strokes, not along edges.
 _BETA = 1000.0
+
+
+def scaled_picture(image: NDArray[np.unsignedinteger]) -> NDArray[np.float64]:
+    """The picture scaled down to 40,000 pixels.
+
+    (h, w, 3) in [0, 1]; (h, w, 4) with premultiplied colours where alpha varies.
+    """
+    small = Image.fromarray(as_rgba8(image))
+    scale = np.sqrt(_WALKED_PIXELS / (small.width * small.height))
+    if scale < 1:
+        size = max(1, round(small.width * scale)), max(1, round(small.height * scale))
+        small = small.resize(size, Image.Resampling.BOX)
+    data = np.asarray(small, dtype=np.float64) / 255
+    data[..., :3] *= data[..., 3:]
+    # A constant channel would weaken the contrast of the colours.
+    return data if np.ptp(data[..., 3]) else data[..., :3]
 
 
 def scribble_score(
@@ -44,6 +61,8 @@ def _probability(scaled: NDArray[np.float64], labels: NDArray[np.int32]) -> NDAr
     if np.ptp(scaled) == 0:  # scikit-image divides by the contrast
         scaled = scaled.copy()
         scaled[0, 0] += 1e-9
+    from skimage.segmentation import random_walker  # noqa: PLC0415  (slow to import)
+
     probability = random_walker(
         scaled, labels, beta=_BETA, mode="bf", channel_axis=-1, return_full_prob=True
     )

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._arguments import read_only
 from glid_nb.geometry._loops import signed_area
 from glid_nb.imaging.simplify.conflicts import repair
-from glid_nb.imaging.simplify.edges import divide_long_edges, merge_short_edges
-from glid_nb.imaging.simplify.enclose import enclosing
+from glid_nb.imaging.simplify.edges import divide_long_edges, enclosing, merge_short_edges
 from glid_nb.imaging.simplify.loops import Loops, Points, significance
 
 # Numbers of vertices for the automatic tolerance: about _VERTICES while it is below the offset, not
@@ -65,23 +65,34 @@ def simplify(
     max_vertices, min_edge, max_edge
         As in `TraceOptions`.
     """
-    ranked = _Ranked(loops)
-    areas = np.array([abs(signed_area(loop)) for loop in loops])
-    if tolerance is None:
-        tolerance = ranked.automatic_tolerance(float(areas[0]), offset)
-        limits = np.minimum(tolerance, _LOOP_SHARE * np.sqrt(areas))
-    else:
-        limits = np.full(len(loops), tolerance)
+    whole = Loops(np.concatenate(loops), np.repeat(np.arange(len(loops)), list(map(len, loops))))
+    by_loop = [significance(loop) for loop in loops]
+    importance = np.concatenate(by_loop)
+    # Three vertices of each loop are always kept.
+    ranks = [np.argsort(np.argsort(-values, kind="stable")) for values in by_loop]
+    fixed, fewest = np.concatenate(ranks) < 3, 3 * len(loops)
     gap = max(_GAP * room, _LEAST_GAP)
 
-    kept, notes = ranked.choose(limits, min_edge, gap)
+    def choose(limits: float | NDArray[np.float64]) -> tuple[NDArray[np.bool_], list[str]]:
+        """(n,) mask of the vertices kept with these tolerances, and notes."""
+        kept = (importance > limits) | fixed
+        notes = repair(whole, importance, kept, gap)
+        merge_short_edges(whole, kept, min_edge, gap)
+        return kept, notes
+
+    if tolerance is None:
+        areas = np.array([abs(signed_area(loop)) for loop in loops])
+        tolerance = _automatic_tolerance(importance, len(loops) - 1, float(areas[0]), offset)
+        kept, notes = choose(np.minimum(tolerance, _LOOP_SHARE * np.sqrt(areas))[whole.number])
+    else:
+        kept, notes = choose(tolerance)
     if max_vertices is not None and kept.sum() > max_vertices:
-        fewest = 3 * len(loops)
-        aim, excess = max(max_vertices, fewest), 0
+        rest = np.sort(importance[~fixed])[::-1]
+        aim, excess = max_vertices, 0
         while True:
             aim = max(aim - excess, fewest)  # repairs put some vertices back
-            tolerance = ranked.tolerance_for_count(aim)
-            kept, notes = ranked.choose(np.full(len(loops), tolerance), min_edge, gap)
+            tolerance = float(rest[min(aim - fewest, len(rest) - 1)]) if len(rest) else 0.0
+            kept, notes = choose(tolerance)
             excess = int(kept.sum()) - max_vertices
             if excess <= 0 or aim == fewest:
                 break
@@ -89,47 +100,22 @@ def simplify(
             notes.append(
                 f"max_vertices={max_vertices} is too few: the loops need {kept.sum()} to stay apart"
             )
-    moved = enclosing(ranked.loops, kept, _MARGIN * offset, gap)
+    moved = enclosing(whole, kept, _MARGIN * offset, gap)
     divided = divide_long_edges(moved, max_edge, max_vertices)
-    divided.points.setflags(write=False)
-    exterior, *holes = divided.split(divided.points)
+    exterior, *holes = divided.split(read_only(divided.points))
     return Simplified(exterior, tuple(holes), float(tolerance), tuple(notes))
 
 
-class _Ranked:
-    """Loops with the importance of each vertex, and the three of each loop that are always kept."""
+def _automatic_tolerance(
+    importance: NDArray[np.float64], n_holes: int, area: float, offset: float
+) -> float:
+    ranked = np.sort(importance)[::-1]
 
-    def __init__(self, loops: tuple[Points, ...]) -> None:
-        number = np.repeat(np.arange(len(loops)), [len(loop) for loop in loops])
-        self.loops = Loops(np.concatenate(loops), number)
-        by_loop = [significance(loop) for loop in loops]
-        self.importance = np.concatenate(by_loop)
-        ranks = [np.argsort(np.argsort(-values, kind="stable")) for values in by_loop]
-        self.fixed = np.concatenate(ranks) < 3
+    def for_count(count: int) -> float:
+        index = count + _VERTICES_PER_HOLE * n_holes
+        return float(ranked[index]) if index < len(ranked) else 0.0
 
-    def choose(
-        self, limits: NDArray[np.float64], min_edge: float | None, gap: float
-    ) -> tuple[NDArray[np.bool_], list[str]]:
-        """(n,) mask of the vertices kept with a tolerance per loop, and notes."""
-        kept = (self.importance > limits[self.loops.number]) | self.fixed
-        notes = repair(self.loops, self.importance, kept, gap)
-        merge_short_edges(self.loops, kept, min_edge, gap)
-        return kept, notes
-
-    def automatic_tolerance(self, area: float, offset: float) -> float:
-        ranked = np.sort(self.importance)[::-1]
-        extra = _VERTICES_PER_HOLE * int(self.loops.number[-1])
-
-        def for_count(count: int) -> float:
-            return float(ranked[count + extra]) if count + extra < len(ranked) else 0.0
-
-        near = max(offset, _SHARE * float(np.sqrt(area)), _LEAST_TOLERANCE)
-        tolerance = min(max(for_count(_VERTICES), _LEAST_TOLERANCE), near)
-        tolerance = max(tolerance, min(for_count(_MANY), _FAR * near))
-        return max(tolerance, for_count(_MOST))
-
-    def tolerance_for_count(self, count: int) -> float:
-        """The least tolerance that keeps `count` vertices, or three per loop."""
-        rest = np.sort(self.importance[~self.fixed])[::-1]
-        room = min(max(count - int(self.fixed.sum()), 0), len(rest) - 1)
-        return float(rest[room]) if len(rest) else 0.0
+    near = max(offset, _SHARE * float(np.sqrt(area)), _LEAST_TOLERANCE)
+    tolerance = min(max(for_count(_VERTICES), _LEAST_TOLERANCE), near)
+    tolerance = max(tolerance, min(for_count(_MANY), _FAR * near))
+    return max(tolerance, for_count(_MOST))

@@ -44,6 +44,11 @@ class Loops:
         return after
 
     @cached_property
+    def before(self) -> NDArray[np.intp]:
+        """(n,) index of the previous vertex of the loop."""
+        return np.argsort(self.after)
+
+    @cached_property
     def edges(self) -> Points:
         """(n, 2) vectors."""
         return self.points[self.after] - self.points

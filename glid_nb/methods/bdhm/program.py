@@ -122,8 +122,8 @@ class ActiveSet:
         used = self.bounds.used(panels.k_upper, panels.sigma1_upper, panels.sigma2_lower)
         failed = (used > 1) & _peaks(used)
         at = np.flatnonzero(failed.any(axis=0))
-        ends = (panels.start[at] @ np.array([1, 1j]), panels.end[at] @ np.array([1, 1j]))
-        more = self.problem.samples_at(np.concatenate([*ends, (ends[0] + ends[1]) / 2]))
+        places = np.concatenate([panels.start[at], panels.end[at], panels.middle[at]])
+        more = self.problem.samples_at(places)
         return replace(
             self,
             samples=Samples(

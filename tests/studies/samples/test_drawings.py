@@ -21,6 +21,7 @@ def test_drawn_anew_the_picture_is_the_same(name: str) -> None:
     assert np.mean(difference > 24) < 1e-3, "other versions of the rasteriser move edges only"
 
 
+@pytest.mark.slow
 def test_the_command_writes_the_same_file_twice(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from glid_nb._bounds import rounded_down, rounded_up
+from glid_nb.certificate.rounding import rounded_down, rounded_up
 
 POSITIVE = st.floats(1e-300, 1e300)
 

@@ -1,10 +1,69 @@
-"""The base class of the editor's models: a lock, and observers of changes."""
+"""What the editor's models have in common: undo, a lock, and observers of changes."""
 
 from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from typing import Any, Generic, TypeVar
+
+S = TypeVar("S")
+
+MOST_STEPS = 500
+"""Most steps that undo goes back."""
+
+
+@dataclass(frozen=True, eq=False)
+class History(Generic[S]):
+    """The past, present and undone states; immutable like them.
+
+    Consecutive steps of the same gesture, such as the moves of one drag, are one step for undo.
+    """
+
+    present: S
+    past: tuple[S, ...] = ()
+    future: tuple[S, ...] = ()
+    """The states that redo restores, the next one first."""
+    gesture: Any = None
+    """The gesture that made the present and may go on; None for a complete step."""
+    origin: History[S] | None = None
+    """The history before the gesture."""
+
+    def step(self, state: S, gesture: Any = None) -> History[S]:
+        """Add ``state``, or replace the present within the same gesture; redo is cleared."""
+        if gesture is not None and gesture == self.gesture:
+            return self.refined(state)
+        origin = None if gesture is None else self.ended()
+        past = (*self.past, self.present)[-MOST_STEPS:]
+        return History(state, past, gesture=gesture, origin=origin)
+
+    def refined(self, state: S) -> History[S]:
+        """Replace the present without a step for undo."""
+        return replace(self, present=state)
+
+    def ended(self) -> History[S]:
+        """End the gesture: the next state is another step."""
+        return self if self.gesture is None else replace(self, gesture=None, origin=None)
+
+    def cancelled(self) -> History[S]:
+        """The history before the gesture; itself without one."""
+        return self if self.origin is None else self.origin
+
+    def undone(self) -> History[S]:
+        """The history one step back; itself at the beginning."""
+        if not self.past:
+            return self
+        *past, present = self.past
+        return History(present, tuple(past), (self.present, *self.future))
+
+    def redone(self) -> History[S]:
+        """The history one step forward; itself at the end."""
+        if not self.future:
+            return self
+        present, *future = self.future
+        return History(present, (*self.past, self.present), tuple(future))
+
 
 Observer = Callable[[str], None]
 

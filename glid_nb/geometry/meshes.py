@@ -1,8 +1,9 @@
-"""Even triangulations of a cage, for display."""
+"""Triangle meshes of a cage, and the piecewise linear maps on them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import pythoncdt
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import read_only
 from glid_nb.geometry._loops import (
     GeometryError,
     as_points,
@@ -19,6 +21,8 @@ from glid_nb.geometry._loops import (
     subdivided,
 )
 from glid_nb.geometry.cage import Cage
+
+Array = NDArray[Any]
 
 # Least distance of lattice points from the boundary, in spacings: closer ones make flat triangles;
 _MARGIN = 0.55
@@ -31,25 +35,89 @@ _ROW = np.sqrt(3.0) / 2.0  # height of a lattice row, in spacings
 
 @dataclass(frozen=True, eq=False)
 class Triangulation:
-    """A triangle mesh of a cage.
-
-    Attributes
-    ----------
-    vertices
-        (v, 2) positions; the first `n_boundary` lie on the cage, loop after loop in order.
-    triangles
-        (t, 3) int32 vertex indices, counter-clockwise.
-    n_boundary
-        Number of vertices on the boundary.
-    """
+    """A triangle mesh of a cage."""
 
     vertices: NDArray[np.float64]
+    """(v, 2) positions; the first `n_boundary` lie on the cage, loop after loop in order."""
     triangles: NDArray[np.int32]
+    """(t, 3) int32 vertex indices, counter-clockwise."""
     n_boundary: int
 
     def __post_init__(self) -> None:
-        self.vertices.setflags(write=False)
-        self.triangles.setflags(write=False)
+        read_only(self.vertices)
+        read_only(self.triangles)
+
+    @cached_property
+    def find(self) -> Any:
+        """A function of x and y: the triangle of each point, -1 for none."""
+        from matplotlib.tri import Triangulation as Planar  # noqa: PLC0415 - slow to import
+
+        x, y = self.vertices.T
+        return Planar(x, y, self.triangles).get_trifinder()
+
+
+@dataclass(frozen=True, eq=False)
+class MeshMap:
+    """A triangle mesh and the images of its vertices.
+
+    The (v, 2) images are in world coordinates.
+    """
+
+    triangulation: Triangulation
+    images: Array
+
+    def __post_init__(self) -> None:
+        images = read_only(np.array(self.images, dtype=float))
+        if images.shape != self.triangulation.vertices.shape:
+            raise ValueError(
+                f"there are images of shape {images.shape} for vertices of shape "
+                f"{self.triangulation.vertices.shape}; give one image per vertex"
+            )
+        object.__setattr__(self, "images", images)
+
+    def __call__(self, points: ArrayLike) -> Array:
+        """Images of (k, 2) points; one off the mesh moves with a triangle at the nearest vertex."""
+        xy = np.atleast_2d(np.asarray(points, dtype=float))
+        if xy.ndim != 2 or xy.shape[1] != 2:
+            raise ValueError(f"points have shape {xy.shape}; expected (k, 2)")
+        mesh = self.triangulation
+        triangle = mesh.find(xy[:, 0], xy[:, 1])
+        beside = triangle < 0
+        if beside.any():
+            from scipy.spatial import KDTree  # noqa: PLC0415 - only for points off the mesh
+
+            nearest = KDTree(mesh.vertices).query(xy[beside])[1]
+            of_vertex = np.zeros(len(mesh.vertices), dtype=int)
+            of_vertex[mesh.triangles.ravel()] = np.repeat(np.arange(len(mesh.triangles)), 3)
+            triangle[beside] = of_vertex[nearest]
+        corners = mesh.triangles[triangle]
+        a, b, c = (mesh.vertices[corners[:, i]] for i in range(3))
+        matrix = np.stack([b - a, c - a], axis=-1)
+        weights = np.linalg.solve(matrix, (xy - a)[..., None])[..., 0]
+        weights = np.column_stack([1 - weights.sum(axis=1), weights])
+        return np.einsum("ki,kid->kd", weights, self.images[corners])
+
+    @property
+    def areas(self) -> Array:
+        """(t,) signed areas of the image triangles."""
+        a, b, c = (self.images[self.triangulation.triangles[:, i]] for i in range(3))
+        u, v = b - a, c - a
+        return 0.5 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+
+    @property
+    def flipped(self) -> Array:
+        """(t,) bool: image triangles that are turned over or flat."""
+        return ~(self.areas > 0)
+
+    @property
+    def layered(self) -> Array:
+        """(t, 3) triangles from the left of the undeformed shape to its right.
+
+        Drawn in this order, overlapping sheets stay apart.
+        """
+        mesh = self.triangulation
+        middle = mesh.vertices[mesh.triangles, 0].mean(axis=1)
+        return mesh.triangles[np.argsort(middle, kind="stable")]
 
 
 def triangulate(
@@ -61,19 +129,7 @@ def triangulate(
     the same spacing, chosen to give about `n_vertices` vertices. All vertices of the cage are
     vertices of the mesh, so there are more where the cage has more.
 
-    Parameters
-    ----------
-    cage
-        The polygon to fill; holes stay empty.
-    n_vertices
-        Wanted number of vertices, at least 3.
-    points
-        (k, 2) points inside the cage that become vertices, such as handles.
-
-    Raises
-    ------
-    GeometryError
-        `n_vertices` is less than 3, or a point does not lie inside the cage.
+    The (k, 2) points, such as handles, become vertices too; a GeometryError names one outside.
     """
     if n_vertices < 3:
         raise GeometryError(f"a triangulation needs at least 3 vertices, not {n_vertices}")
@@ -82,7 +138,14 @@ def triangulate(
         subdivided(loop, _parts(edge_lengths(corners), spacing))
         for loop, corners in zip(cage.loops_complex, cage.loops, strict=True)
     ]
-    wanted = _checked_points(cage, points)
+    wanted = np.asarray([] if points is None else points, dtype=float).reshape(-1, 2)
+    outside = np.flatnonzero(~cage.contains(wanted))
+    if outside.size:
+        raise GeometryError(
+            f"point {outside[0]} at {place(wanted[outside[0]])} is to be a vertex of the "
+            "triangulation but does not lie inside the cage; move it inside or leave it out"
+        )
+    wanted = np.unique(wanted, axis=0)
     loops = [_with_points(loop, wanted, _SAME * cage.longer_side) for loop in loops]
     boundary = np.concatenate(loops)
     inside = _lattice(cage, spacing)
@@ -97,34 +160,18 @@ def triangulate(
     return Triangulation(vertices, _constrained_delaunay(vertices, loops), len(boundary))
 
 
-def _checked_points(cage: Cage, points: ArrayLike | None) -> NDArray[np.float64]:
-    wanted = np.asarray([] if points is None else points, dtype=float).reshape(-1, 2)
-    outside = np.flatnonzero(~cage.contains(wanted)) if len(wanted) else np.empty(0, dtype=int)
-    if outside.size:
-        i = int(outside[0])
-        raise GeometryError(
-            f"point {i} at {place(wanted[i])} is to be a vertex of the triangulation but does not "
-            "lie inside the cage; move it inside or leave it out"
-        )
-    return np.unique(wanted, axis=0)
-
-
 def _with_points(
     loop: NDArray[np.complex128], points: NDArray[np.float64], tolerance: float
 ) -> NDArray[np.complex128]:
     """The loop with the points that lie on it inserted in order."""
-    z = np.asarray(points @ np.array([1, 1j]), dtype=np.complex128)
-    along = np.roll(loop, -1) - loop
-    position = np.real((z[:, None] - loop) * along.conj()) / np.abs(along) ** 2
-    position = np.clip(position, 0, 1)
-    gap = np.abs(z[:, None] - loop - position * along)
-    edge = gap.argmin(axis=1) if len(z) else np.empty(0, dtype=int)
-    which = np.arange(len(z))
-    on = gap[which, edge] <= tolerance
-    ends = np.stack([loop[edge], np.roll(loop, -1)[edge]])
-    on &= (np.abs(z - ends) > tolerance).all(axis=0)
-    order = np.concatenate([np.arange(len(loop)), (edge + position[which, edge])[on]])
-    return np.concatenate([loop, z[on]])[np.argsort(order, kind="stable")]
+    z, places = points @ np.array([1, 1j]), np.asarray(shapely.points(points))
+    ring = shapely.LinearRing(as_points(loop))
+    on = shapely.distance(ring, places) <= tolerance
+    on &= (np.abs(z[:, None] - loop) > tolerance).all(axis=1)
+    lengths = np.abs(np.roll(loop, -1) - loop)
+    starts, between = np.cumsum(lengths) - lengths, shapely.line_locate_point(ring, places[on])
+    order = np.argsort(np.concatenate([starts, between]), kind="stable")
+    return np.concatenate([loop, z[on]], dtype=np.complex128)[order]
 
 
 def _parts(lengths: NDArray[np.float64], spacing: float) -> NDArray[np.int64]:
