@@ -139,5 +139,5 @@ def _checked_parameter(energy: str, name: str, value: Any) -> Any:
     if type(value) is object or isinstance(value, jax.Array | jax.ShapeDtypeStruct):
         return value
     raise EnergyError(
-        f"{name} of the energy {energy!r} must be a positive finite number, got {value!r:.60}"
+        f"{name} of the energy {energy!r} must be positive and finite, got {value!r:.60}"
     )

@@ -94,7 +94,7 @@ def _bounds(points: NDArray[np.float64]) -> list[float]:
     return [*points.min(axis=0).tolist(), *points.max(axis=0).tolist()]
 
 
-def _base64(data: bytes | NDArray[Any]) -> str:
+def _base64(data: Any) -> str:
     return base64.b64encode(data).decode("ascii")
 
 

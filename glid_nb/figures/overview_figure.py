@@ -14,6 +14,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
+from matplotlib.tri import Triangulation
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
@@ -51,7 +52,7 @@ _NAMES = ("Source", "Deformation", "Distortion", "Energy", "Newton steps", "Cert
 _SHRINK = 1.7  # a common scale may make a picture smaller by this factor
 _DPI = 300
 _OVERSAMPLING = 2  # of the deformed picture
-_TICKS = (1, 1.1, 1.2, 1.5, 2, 3, 5, 10, 20, 50, 100, 1000, 10_000)
+_TICKS = (1.1, 1.2, 1.5, 2, 3, 5, 10, 20, 50, 100, 1000, 10_000)
 _MISS = 0.004  # handles farther from their target, relative to the shape's size, get a line
 
 Floats = NDArray[np.float64]
@@ -149,12 +150,10 @@ def _box(points: Floats) -> Floats:
 
 def _enlarged(box: Floats, points: Floats) -> Floats:
     """The box enlarged to hold the points, by at most a quarter of its size on each side."""
-    if not len(points):
-        return box
     size = np.ptp(box, axis=0).max()
-    low, high = points.min(axis=0) - 0.03 * size, points.max(axis=0) + 0.03 * size
-    low, high = low.clip(box[0] - 0.25 * size, box[0]), high.clip(box[1], box[1] + 0.25 * size)
-    return np.stack([low, high])
+    held = points.clip(box[0] - 0.22 * size, box[1] + 0.22 * size)
+    corners = np.concatenate([box, held - 0.03 * size, held + 0.03 * size])
+    return np.stack([corners.min(axis=0), corners.max(axis=0)])
 
 
 def _common_scale(*boxes: Floats) -> Floats:
@@ -222,9 +221,12 @@ def _draw_distortion(axes: Axes, map: HarmonicMap, mesh: DeformedMesh) -> None:
     area = shapely.area(shapely.polygons(mesh.vertices[mesh.triangles]))
     most = np.quantile(values, 0.995, weights=area, method="inverted_cdf")
     highest = max(1.25, min(float(most), 1e4))
+    ticks = [1.0]
+    for tick in _TICKS:  # at least a tenth of the colour bar apart
+        if tick <= highest * 1.001 and np.log(tick / ticks[-1]) > 0.1 * np.log(highest):
+            ticks.append(tick)
     colors = axes.tripcolor(
-        *mesh.images.T,
-        mesh.triangles,
+        Triangulation(*mesh.images.T, triangles=mesh.triangles),
         np.clip(distortion, 1.0, highest),
         shading="gouraud",
         norm=LogNorm(1.0, highest),
@@ -241,7 +243,7 @@ def _draw_distortion(axes: Axes, map: HarmonicMap, mesh: DeformedMesh) -> None:
         pad=0.02,
         extend="max" if float(distortion.max()) > 1.02 * highest else "neither",
         extendfrac=0.04,
-        ticks=FixedLocator(_spaced([tick for tick in _TICKS if tick <= highest * 1.001], highest)),
+        ticks=FixedLocator(ticks),
         format="{x:g}",
         panchor=False,
     )
@@ -249,15 +251,6 @@ def _draw_distortion(axes: Axes, map: HarmonicMap, mesh: DeformedMesh) -> None:
     scale.ax.xaxis.set_minor_locator(NullLocator())
     scale.ax.tick_params(labelsize=SMALL, length=2, width=HAIRLINE, pad=1.5, colors=INK)
     scale.outline.set(linewidth=HAIRLINE, edgecolor=INK)  # type: ignore[operator]
-
-
-def _spaced(ticks: list[float], highest: float) -> list[float]:
-    """The first tick, and those at least a tenth of the colour bar after the one before."""
-    kept: list[float] = []
-    for tick in ticks:
-        if not kept or np.log(tick / kept[-1]) > 0.1 * np.log(highest):
-            kept.append(tick)
-    return kept
 
 
 def _draw_loops(axes: Axes, loops: Iterable[Floats], label: str = "", **style: Any) -> None:
@@ -271,17 +264,9 @@ def _draw_loops(axes: Axes, loops: Iterable[Floats], label: str = "", **style: A
 def _draw_dots(
     axes: Axes, points: Floats, color: str, size: float, edge: float, label: str
 ) -> None:
-    axes.plot(
-        *points.T,
-        linestyle="none",
-        marker="o",
-        color=color,
-        markersize=size,
-        markeredgecolor="white" if color != CYAN else INK,
-        markeredgewidth=edge,
-        zorder=4,
-        label=label,
-    )
+    line = "white" if color != CYAN else INK
+    style: dict[str, Any] = {"markersize": size, "markeredgewidth": edge, "markeredgecolor": line}
+    axes.plot(*points.T, "o", color=color, zorder=4, label=label, **style)
 
 
 def _add_legend(axes: Axes) -> None:

@@ -174,7 +174,9 @@ def sheet_heights(cage: Cage, vertices: Floats, triangles: Ints) -> Floats:
     return np.nan_to_num(inner + 0.35 * along, posinf=0.0) + 0.35 * vertices[:, 0]
 
 
-def unique_edges(triangles: Ints) -> tuple[Ints, Ints]:
+def unique_edges(
+    triangles: NDArray[np.integer],
+) -> tuple[NDArray[np.integer], Ints]:
     """Unique edges (e, 2), and the edge of each side of each triangle (t, 3).
 
     Side k lies opposite vertex k.

@@ -167,7 +167,7 @@ class TraceOptions:
 
 
 def _number(value: Any, name: str, low: float = 0, high: float = math.inf) -> float:
-    if isinstance(value, bool) or not isinstance(value, Real):
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.number)):
         raise TraceError(f"{name} must be a number, not {value!r}")
     if not low <= value <= high or (value == math.inf and name != "max_edge"):
         span = f"in [{low}, {high}]" if high < math.inf else f"at least {low}, and finite"

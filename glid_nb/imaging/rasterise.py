@@ -68,12 +68,11 @@ def render_mesh(
     triangles, corners = triangles[visible], corners[visible]
     if not len(triangles):
         return picture
-    levels = np.zeros(len(positions)) if heights is None else heights
-    sheets = _Sheets(
-        ScanConverter(corners),
-        Sampler(Texture.from_image(texture), corners, places[triangles]),
-        *_planes(corners, levels[triangles]),
-    )
+    levels = (np.zeros(len(positions)) if heights is None else heights)[triangles]
+    slope = gradients(corners, levels[:, :, None])[:, 0]
+    level = levels[:, 0] - (slope * corners[:, 0]).sum(axis=1)
+    sampler = Sampler(Texture.from_image(texture), corners, places[triangles])
+    sheets = _Sheets(ScanConverter(corners), sampler, level, slope)
     rows = max(1, _BAND // width)
     for top in range(0, height, rows):
         band = picture[top : top + rows]
@@ -149,7 +148,7 @@ class ScanConverter:
 
 
 class _Sheets(NamedTuple):
-    """Triangles with a texture, and the planes that their heights lie on."""
+    """Triangles with a texture and heights: ``level`` + ``slope`` (x, y)."""
 
     scan: ScanConverter
     sampler: Sampler
@@ -211,12 +210,6 @@ def _strips(segments: Floats) -> Floats:
     start, end = segments[:, :1] - along, segments[:, 1:] + along
     corners = np.concatenate([start - across, start + across, end + across, end - across], axis=1)
     return corners[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3, 2)
-
-
-def _planes(corners: Floats, heights: Floats) -> tuple[Floats, Floats]:
-    """Planes through heights (t, 3) at corners (t, 3, 2): heights at the origin, slopes (t, 2)."""
-    slope = gradients(corners, heights[:, :, None])[:, 0]
-    return heights[:, 0] - (slope * corners[:, 0]).sum(axis=1), slope
 
 
 def _runs(first: Ints, count: Ints) -> Ints:

@@ -12,6 +12,8 @@ from PIL import Image
 
 import glid_nb
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 ROWS = (
     "picture",
     "cage",
@@ -80,7 +82,6 @@ def test_trace_takes_scribbles(run, picture: Path, tmp_path: Path) -> None:
     assert glid_nb.Cage.from_dict(read(out)).contains([[-5.0, 0.0]]).all()
 
 
-@pytest.mark.slow
 def test_solve_writes_a_map_and_a_report(run, problem: Path, tmp_path: Path) -> None:
     out, report_path = tmp_path / "map.json", tmp_path / "report.json"
     outcome = run("solve", problem, "--out", out, "--report", report_path)
@@ -116,7 +117,6 @@ def test_solve_writes_a_map_and_a_report(run, problem: Path, tmp_path: Path) -> 
     assert harmonic_map.k(points).max() <= report["k_upper"]
 
 
-@pytest.mark.slow
 def test_solve_takes_its_options(run, problem: Path, tmp_path: Path) -> None:
     report_path = tmp_path / "report.json"
     words = ("--energy", "amips", "--s", 0.5, "--p2p-weight", 10, "--max-iterations", 1)
@@ -134,7 +134,6 @@ def test_solve_takes_its_options(run, problem: Path, tmp_path: Path) -> None:
     assert summary["files"] == {"report.json": str(report_path)}
 
 
-@pytest.mark.slow
 def test_conformal_maps_have_no_dilatation(run, problem: Path, tmp_path: Path) -> None:
     out = tmp_path / "map.json"
     assert run("solve", problem, "--out", out, "--conformal").code == 0
@@ -158,7 +157,6 @@ def solved(run, problem: Path, tmp_path: Path) -> Path:
     return path
 
 
-@pytest.mark.slow
 def test_render_warps_the_picture(run, picture: Path, solved: Path, tmp_path: Path) -> None:
     out = tmp_path / "warped.png"
     assert run("render", picture, solved, "--out", out).code == 0
@@ -182,7 +180,6 @@ def test_render_takes_a_size_and_a_view(run, picture: Path, solved: Path, tmp_pa
     assert right - left > 170 or bottom - top > 75
 
 
-@pytest.mark.slow
 def test_demo_on_ones_own_picture(run, picture: Path, tmp_path: Path) -> None:
     out = tmp_path / "a" / "b"
     outcome = run("demo", picture, "--out", out)
@@ -201,7 +198,6 @@ def test_demo_on_ones_own_picture(run, picture: Path, tmp_path: Path) -> None:
     assert "chosen automatically" in outcome.out
 
 
-@pytest.mark.slow
 def test_demo_with_a_pose_of_ones_own(run, picture: Path, tmp_path: Path) -> None:
     pose = tmp_path / "pose.json"
     pose.write_text(json.dumps({"handles": [[-7, 0], [7, 0]], "targets": [[-7, 0], [6, 3]]}))
@@ -216,7 +212,6 @@ def test_demo_with_a_pose_of_ones_own(run, picture: Path, tmp_path: Path) -> Non
     np.testing.assert_allclose(harmonic_map([[7.0, 0.0]]), [[6.0, 3.0]], atol=1e-2)
 
 
-@pytest.mark.slow
 def test_demo_without_anything_uses_a_sample(run, tmp_path: Path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
     outcome = run("demo")
@@ -282,7 +277,6 @@ def bar_with_a_turned_end() -> dict:
     return {"cage": cage, "handles": left + right, "targets": left + right[::-1]}
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "words",
     [

@@ -28,6 +28,8 @@ from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Pose
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 
 @dataclass(frozen=True)
 class Record:
@@ -108,7 +110,6 @@ def pixel_at(figure: Figure, index: int, point: NDArray[np.float64]) -> NDArray[
     return picture[len(picture) - 1 - int(y), int(x)]
 
 
-@pytest.mark.slow
 def test_the_figure_is_private_and_leaves_matplotlib_alone(image: NDArray[np.uint8], result: Any):
     before, open_before = dict(mpl.rcParams), plt.get_fignums()
     figure = overview(image, result)
@@ -117,7 +118,6 @@ def test_the_figure_is_private_and_leaves_matplotlib_alone(image: NDArray[np.uin
     assert plt.get_fignums() == open_before
 
 
-@pytest.mark.slow
 def test_the_figure_has_six_lettered_panels_and_a_colour_bar(figure: Figure):
     assert len(figure.axes) == 7
     texts = [text.get_text() for axes in figure.axes for text in axes.texts]
@@ -128,7 +128,6 @@ def test_the_figure_has_six_lettered_panels_and_a_colour_bar(figure: Figure):
     assert legends == {"cage", "offset cage", "handles", "targets", "handles' images"}
 
 
-@pytest.mark.slow
 def test_the_png_has_the_figures_size_and_stays_on_the_page(figure: Figure):
     picture = pixels(figure)
     width, height = figure.get_size_inches() * 300
@@ -167,7 +166,6 @@ def test_targets_are_cyan_and_joined_to_handles_that_miss_them(
     np.testing.assert_allclose(segments, [[bent(pose.handles[2:])[0], pose.targets[2]]])
 
 
-@pytest.mark.slow
 def test_distortion_is_pale_where_there_is_none(image: NDArray[np.uint8], result: Any):
     still = HarmonicMap.identity(result.map.domain)
     calm: Any = SimpleNamespace(**(vars(result) | {"map": still, "certificate": certify(still)}))
@@ -185,7 +183,6 @@ def test_distortion_is_dark_where_the_map_stretches_most(figure: Figure, bent: H
     assert max(shades) - min(shades) > 150
 
 
-@pytest.mark.slow
 def test_a_solve_without_iterations_or_handles(image: NDArray[np.uint8], result: Any):
     empty = Pose(np.zeros((0, 2)), np.zeros((0, 2)))
     bare: Any = SimpleNamespace(**(vars(result) | {"history": (), "pose": empty}))
@@ -197,7 +194,6 @@ def test_a_figure_that_is_too_narrow(image: NDArray[np.uint8], result: Any):
         overview(image, result, width=2)
 
 
-@pytest.mark.slow
 def test_far_targets_do_not_shrink_the_pictures(image: NDArray[np.uint8], result: Any, pose: Pose):
     figure = overview(image, result, Pose(pose.handles, pose.targets + 500))
     assert np.ptp(figure.axes[1].get_xlim()) < 2 * 14 * 1.3
@@ -238,7 +234,6 @@ def test_updates_tell_whether_the_limits_changed(kind: Any):
     plot.update(())  # a new solve starts
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", [EnergyPlot, StepPlot, TimePlot])
 def test_limits_seldom_change_while_iterations_come(kind: Any):
     rng = np.random.default_rng(0)

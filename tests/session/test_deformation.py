@@ -19,6 +19,8 @@ from glid_nb.solvers import Pose, Status
 
 from ..domains import domain
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 TIMEOUT = 120.0
 
 
@@ -31,7 +33,6 @@ def ring() -> Iterator[Deformation]:
         yield deformation
 
 
-@pytest.mark.slow
 def test_a_drag_is_solved_to_its_end(ring: Deformation) -> None:
     ring.drag(0, to=(3, 0.5))
     assert ring.solve(TIMEOUT)
@@ -41,7 +42,6 @@ def test_a_drag_is_solved_to_its_end(ring: Deformation) -> None:
     assert "Converged" in ring.status.text
 
 
-@pytest.mark.slow
 def test_the_solver_can_be_told_when_to_begin() -> None:
     with Deformation(domain("ring"), begin=False) as deformation:
         assert deformation._worker.thread is None
@@ -122,7 +122,6 @@ def test_another_action_splits_a_drag(ring: Deformation) -> None:
     np.testing.assert_allclose(ring.pose.targets[0], [-2.4, 0])
 
 
-@pytest.mark.slow
 def test_every_frame_is_certified(ring: Deformation) -> None:
     maps = []
     ring.observe(lambda name: maps.append(ring.map) if name == "frame" else None)
@@ -136,7 +135,6 @@ def test_every_frame_is_certified(ring: Deformation) -> None:
         assert certify(map_).certified
 
 
-@pytest.mark.slow
 def test_an_unreachable_target_is_followed_as_far_as_it_goes(ring: Deformation) -> None:
     ring.add_handle((0, 2))
     # Three pinned points cannot change their orientation without a fold.
@@ -167,7 +165,6 @@ def test_solver_errors_reach_the_status(ring: Deformation, monkeypatch: pytest.M
     assert ring.status.level == "good"
 
 
-@pytest.mark.slow
 def test_changing_the_energy_while_solving(ring: Deformation) -> None:
     ring.begin_drag([0])
     ring.drag_to([(3, 1)])
@@ -180,7 +177,6 @@ def test_changing_the_energy_while_solving(ring: Deformation) -> None:
     assert certify(ring.map).certified
 
 
-@pytest.mark.slow
 def test_conformal_maps_begin_at_one(ring: Deformation) -> None:
     ring.drag(0, to=(2.5, 0.5))
     ring.solve(TIMEOUT)
@@ -192,7 +188,6 @@ def test_conformal_maps_begin_at_one(ring: Deformation) -> None:
     assert not ring.state.current.options.conformal
 
 
-@pytest.mark.slow
 def test_dropping_a_hole_with_handles_near_it(ring: Deformation) -> None:
     ring.add_handle((0, 1.3))
     ring.drag(2, to=(0, 1.0))

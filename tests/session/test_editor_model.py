@@ -19,6 +19,8 @@ from glid_nb.session.editor_model import (
     open_document,
 )
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 
 def picture(width: int = 80) -> np.ndarray:
     """An opaque box with a hole, 100 x 60 pixels."""
@@ -51,7 +53,6 @@ def _move_corner(model: EditorModel, to: tuple[float, float], gesture: str | Non
     model.tracing.move_vertex(0, corner, frame.to_pixel(to), gesture)
 
 
-@pytest.mark.slow
 def test_a_picture_that_is_open_but_not_traced_is_not_saved(model: EditorModel) -> None:
     _pin(model, (-6, 0))
     before = model.document
@@ -96,7 +97,6 @@ def test_another_picture_is_another_session(model: EditorModel, tmp_path: Path) 
     assert (tmp_path / "a-2.glid").read_bytes() == b"somebody's"
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kept", [True, False], ids=["with a file", "without"])
 def test_undo_brings_a_picture_back_with_its_poses(tmp_path: Path, kept: bool) -> None:
     path = tmp_path / "a.glid" if kept else None
@@ -155,7 +155,6 @@ def test_a_hole_dropped_in_the_deformation_is_dropped_in_the_tracing(model: Edit
     assert not model.tracing.edited
 
 
-@pytest.mark.slow
 def test_what_is_in_no_file_is_unsaved(tmp_path: Path) -> None:
     model = EditorModel(picture())
     assert not model.unsaved

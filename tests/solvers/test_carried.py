@@ -11,8 +11,9 @@ from glid_nb.solvers import Options, Pose, Progress, Status, solve
 
 from ..domains import domain
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
 
-@pytest.mark.slow
+
 def test_every_map_of_a_collapse_far_away_is_proved_anew() -> None:
     """ARAP has no barrier: handles pulled together far away crumple the shape to sigma_2 < 1e-6,
     while coefficients of several hundred leave rounding errors."""
@@ -33,7 +34,6 @@ def test_every_map_of_a_collapse_far_away_is_proved_anew() -> None:
     assert result.n_panels < 200
 
 
-@pytest.mark.slow
 def test_one_handle_takes_the_shape_along_however_far() -> None:
     ring = domain("ring")
     start = HarmonicMap.identity(ring)

@@ -20,6 +20,8 @@ from ..geometry.shapes import KINDS as CAGES
 from ..geometry.shapes import random_cage
 from .checks import check_certified
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 INSIDE = {
     "ell": [[-2.5, 2.5], [2.5, -2.5], [-2.0, -2.0], [-0.5, -0.5]],
     "ring": [[2.1, 0.1], [-2.1, 0.0], [0.0, 2.1], [0.1, -2.0]],
@@ -43,7 +45,6 @@ def absurd_targets(handles: np.ndarray, kind: str, rng: np.random.Generator) -> 
 KINDS = ["random", "far away", "one far away", "swapped", "all equal", "mirrored", "turned"]
 
 
-@pytest.mark.slow
 @given(st.sampled_from(NAMES), st.sampled_from(KINDS), st.integers(0, 2**32 - 1))
 @settings(max_examples=12)
 def test_absurd_targets_end_certified(name: str, kind: str, seed: int) -> None:
@@ -53,7 +54,6 @@ def test_absurd_targets_end_certified(name: str, kind: str, seed: int) -> None:
     check_certified(solve(domain(name), Pose(handles, targets), options=options))
 
 
-@pytest.mark.slow
 @given(st.sampled_from(CAGES), st.integers(0, 2**32 - 1), st.integers(0, 6), st.sampled_from(KINDS))
 @settings(max_examples=5)
 def test_tangled_domains_end_certified(cage_kind: str, seed: int, holes: int, kind: str) -> None:
@@ -74,7 +74,6 @@ def bar() -> Domain:
     return Domain.from_cage(Cage(np.vstack([lower, upper])))
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("per_call", [1, 4, 7])
 def test_a_bar_tied_into_a_loop_splits_panels_and_meets_its_targets(per_call: int) -> None:
     """The ends change places: far from the identity, yet a certified map exists.
@@ -92,7 +91,6 @@ def test_a_bar_tied_into_a_loop_splits_panels_and_meets_its_targets(per_call: in
     np.testing.assert_allclose(result.map(handles), targets, atol=1e-3)
 
 
-@pytest.mark.slow
 def test_a_coarse_certificate_does_not_end_a_solve() -> None:
     """Panels that refuse a step are split, and the solve goes on to its minimum."""
     handles = np.array(INSIDE["ell"])
@@ -123,7 +121,6 @@ def test_restarts_keep_the_best_attempt() -> None:
     check_certified(several)
 
 
-@pytest.mark.slow
 def test_the_paper_settings_never_return_an_uncertified_map() -> None:
     handles = np.array(INSIDE["ring"])
     pose = Pose(handles, handles[[1, 0, 3, 2]])
@@ -141,7 +138,6 @@ def test_values_are_immutable() -> None:
     assert isinstance(result.map, HarmonicMap)
 
 
-@pytest.mark.slow
 def test_arap_meets_its_targets_where_the_direct_way_is_blocked() -> None:
     """No barrier keeps ARAP's Newton steps from the limit of injectivity; a detour does."""
     pose = Pose([[-7.5, 0], [-3, 0], [3, 0], [7.5, 0]], [[2, 0], [-3, 0], [3, 0], [-2, 0]])

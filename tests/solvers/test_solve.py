@@ -40,6 +40,8 @@ from glid_nb.solvers import (
 from ..domains import domain
 from .checks import check_certified
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 ELL_HANDLES = np.array([[-2.5, 2.5], [2.5, -2.5], [-2.0, -2.0]])
 ELL_TARGETS = np.array([[-4.0, 1.5], [2.0, -0.5], [-2.0, -2.0]])
 RING_HANDLES = np.array([[2.2, 0.1], [-2.2, 0.0], [0.0, 2.1]])
@@ -85,7 +87,6 @@ def test_corrections_take_the_place_of_iterations() -> None:
     check_certified(with_)
 
 
-@pytest.mark.slow
 def test_paper_settings_find_the_same_minimum() -> None:
     result = ring(Options.paper())
     assert result.status.ok
@@ -95,7 +96,6 @@ def test_paper_settings_find_the_same_minimum() -> None:
     assert result.panels_split == 0
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("hessian", ["projected", "exact"])
 def test_other_hessians_find_the_same_minimum(hessian: str) -> None:
     result = ell(None, Options(hessian=hessian, max_iterations=400))  # type: ignore[arg-type]
@@ -103,7 +103,6 @@ def test_other_hessians_find_the_same_minimum(hessian: str) -> None:
     assert result.energy == pytest.approx(ell().energy, rel=1e-6)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "energy", [ExponentialSymmetricDirichlet(0.5), AMIPS(0.5)], ids=lambda e: e.name
 )
@@ -113,7 +112,6 @@ def test_other_energies_converge(energy: Energy) -> None:
     check_certified(result)
 
 
-@pytest.mark.slow
 def test_arap_stays_certified_though_it_is_no_barrier() -> None:
     collapse = Pose(ELL_HANDLES, np.zeros_like(ELL_HANDLES))
     result = solve(domain("ell"), collapse, ARAP(), Options(max_iterations=30, restarts=0))
@@ -121,7 +119,6 @@ def test_arap_stays_certified_though_it_is_no_barrier() -> None:
     assert result.energy < 1e5 / 2 * (ELL_HANDLES**2).sum()
 
 
-@pytest.mark.slow
 def test_custom_energy_is_the_closed_form() -> None:
     custom = CustomEnergy(lambda x, y: (x + y) * (1 + 1 / (x - y) ** 2))
     result = ell(custom)
@@ -137,7 +134,6 @@ def test_conformal_maps_have_no_antiholomorphic_part() -> None:
     check_certified(result)
 
 
-@pytest.mark.slow
 def test_the_optimum_is_stationary_for_an_independent_gradient() -> None:
     """Central differences of the energy, evaluated from the map alone, vanish at the result."""
     result = ell()
@@ -248,7 +244,6 @@ def test_iteration_limit_is_kept_and_said() -> None:
         check_certified(result)
 
 
-@pytest.mark.slow
 def test_callback_sees_certified_maps_and_stops_the_solve() -> None:
     seen: list[Progress] = []
 
@@ -271,7 +266,6 @@ def test_callback_sees_certified_maps_and_stops_the_solve() -> None:
     assert np.array_equal(seen[-1].map.phi, result.map.phi)
 
 
-@pytest.mark.slow
 def test_exact_hessian_halts_where_it_is_indefinite() -> None:
     far = Pose(ELL_HANDLES, ELL_HANDLES * [[1, -1]] * 1.5)
     result = solve(domain("ell"), far, options=Options(hessian="exact", align=False, restarts=0))
@@ -280,7 +274,6 @@ def test_exact_hessian_halts_where_it_is_indefinite() -> None:
     check_certified(result)
 
 
-@pytest.mark.slow
 def test_nothing_compiles_again_inside_a_bucket() -> None:
     """Targets, handles up to the bucket, parameters of energies and weights are only data."""
     shape = domain("ell")
@@ -323,7 +316,6 @@ def test_unknown_counts() -> None:
     assert ell().n_unknowns == 4 * domain("ell").n_coefficients - 2
 
 
-@pytest.mark.slow
 def test_narrow_bridge_and_many_holes() -> None:
     """A plate with five holes, its ends pulled and turned."""
     plate = np.array([[-6, -2], [6, -2], [6, 2], [-6, 2]], dtype=float)
@@ -368,7 +360,6 @@ def test_an_energy_may_be_named() -> None:
         solve(domain("ell"), pose, 3.0)  # pyright: ignore[reportArgumentType]
 
 
-@pytest.mark.slow
 def test_times_leave_compilation_out_and_the_start_is_known() -> None:
     # An energy of its own, so that this solve surely compiles.
     energy = CustomEnergy(lambda x, y: (x + y) * (1 + 1 / (x - y) ** 2) + 0.5 * y)

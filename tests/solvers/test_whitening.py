@@ -20,6 +20,8 @@ from glid_nb.solvers.whitening import coefficients, pulled_back, whitened
 
 from ..domains import domain
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 SHAPES = ("ell", "ring")
 
 
@@ -28,7 +30,6 @@ def _complex(rows: np.ndarray) -> np.ndarray:
     return (re - 1j * minus_im).T
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("sampling", ["graded", "uniform"])
 @pytest.mark.parametrize("name", SHAPES)
 def test_derivatives_of_the_new_basis_are_orthonormal(name: str, sampling: str) -> None:
@@ -55,7 +56,6 @@ def test_derivatives_of_the_new_basis_are_orthonormal(name: str, sampling: str) 
     np.testing.assert_allclose(d[:, 0], 0, atol=1e-9)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("sampling", ["graded", "uniform"])
 @pytest.mark.parametrize("name", SHAPES)
 def test_the_stored_basis_is_the_whitened_one_to_its_precision(name: str, sampling: str) -> None:
@@ -74,7 +74,6 @@ def test_the_stored_basis_is_the_whitened_one_to_its_precision(name: str, sampli
         assert full.hessian_index is m.hessian_index
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", SHAPES)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_a_gradient_pulls_back_as_coefficients_push_forward(name: str, seed: int) -> None:
@@ -87,7 +86,6 @@ def test_a_gradient_pulls_back_as_coefficients_push_forward(name: str, seed: int
     assert gradient @ pushed == pytest.approx(pulled @ x, abs=1e-12 * scale)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", SHAPES)
 def test_unknowns_stay_where_they_are(name: str) -> None:
     """Fixed coefficients stay zero, and logarithms stay tied, whatever the coordinates."""
@@ -128,7 +126,6 @@ def test_only_the_translation_moves_the_anchor(name: str, sampling: str) -> None
     assert np.abs(values[:, 1:]).max() <= 1.1 * disc.panels.length.sum()
 
 
-@pytest.mark.slow
 def test_a_fine_cage_keeps_the_hessian_definite_in_single_precision(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -17,6 +17,8 @@ from glid_nb.session.editor_model import EditorModel
 from glid_nb.widgets.exporting import FORMATS, ExportError, OccupiedError, export, files_of
 from glid_nb.widgets.file_panel import FilePanel
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 THEIRS = b"somebody else's"
 
 
@@ -45,7 +47,6 @@ def bytes_here() -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in Path().iterdir()}
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("suffixes", [list(FORMATS), list(FORMATS)[::-1]])
 def test_no_export_touches_the_files_of_another(model: EditorModel, suffixes: list[str]) -> None:
     seen: dict[str, bytes] = {}
@@ -63,7 +64,6 @@ def test_no_export_touches_the_files_of_another(model: EditorModel, suffixes: li
         np.testing.assert_array_equal(np.asarray(source), bar())
 
 
-@pytest.mark.slow
 def test_what_comes_with_an_export_replaces_only_its_own(model: EditorModel) -> None:
     for suffix, name in ((".obj", "e-texture.png"), (".obj", "e.mtl"), (".py", "e-source.png")):
         Path(name).write_bytes(THEIRS)
@@ -182,7 +182,6 @@ def test_opening_asks_before_it_discards(panel: FilePanel, tmp_path: Path) -> No
     assert len(panel.model.deformation.pose) == count - 1
 
 
-@pytest.mark.slow
 def test_an_export_asks_too(panel: FilePanel) -> None:
     for name in ("session.obj", "session.mtl", "session.png"):
         Path(name).write_bytes(THEIRS)
@@ -197,7 +196,6 @@ def test_an_export_asks_too(panel: FilePanel) -> None:
     assert Path("session.png").read_bytes() == THEIRS
 
 
-@pytest.mark.slow
 def test_a_picture_has_the_size_and_the_view_that_are_chosen(panel: FilePanel) -> None:
     model = panel.model
     model.deformation.paused = True
@@ -233,7 +231,6 @@ def test_it_says_where_changes_are_saved_by_themselves(model: EditorModel, tmp_p
     assert "Saved" in click(panel, panel.save_button)  # its own file
 
 
-@pytest.mark.slow
 def test_the_copied_lines_run(panel: FilePanel, sent: list[Any]) -> None:
     panel.path.value = "bent.glid"
     sent.clear()
@@ -265,7 +262,6 @@ def test_a_picture_of_others_is_not_replaced_by_copying(panel: FilePanel) -> Non
     assert panel.code_button.description == "Copy as Python"
 
 
-@pytest.mark.slow
 def test_lines_that_need_no_picture_write_none(panel: FilePanel) -> None:
     cage = panel.model.tracing.cage
     assert cage is not None

@@ -46,27 +46,21 @@ def scribble_score(
     Computed on ``scaled``, the picture's `scaled_picture`, and interpolated to the picture's
     ``shape`` (h, w).
     """
-    size = scaled.shape[0], scaled.shape[1]
-    labels, notes = _labels(scribbles, shape, size)
-    field = _probability(scaled, labels).astype(np.float32)
-    if shape != size:
-        large = Image.fromarray(field).resize((shape[1], shape[0]), Image.Resampling.BILINEAR)
-        field = np.array(large)
-    return field, notes
-
-
-def _probability(scaled: NDArray[np.float64], labels: NDArray[np.int32]) -> NDArray[np.float64]:
-    if labels.all():
-        return (labels == _FOREGROUND).astype(np.float64)
-    if np.ptp(scaled) == 0:  # scikit-image divides by the contrast
-        scaled = scaled.copy()
-        scaled[0, 0] += 1e-9
     from skimage.segmentation import random_walker  # noqa: PLC0415  (slow to import)
 
-    probability = random_walker(
-        scaled, labels, beta=_BETA, mode="bf", channel_axis=-1, return_full_prob=True
-    )
-    return np.clip(probability[0], 0, 1)
+    labels, notes = _labels(scribbles, shape, (scaled.shape[0], scaled.shape[1]))
+    if labels.all():
+        probability = (labels == _FOREGROUND).astype(np.float64)
+    else:
+        if np.ptp(scaled) == 0:  # scikit-image divides by the contrast
+            scaled = scaled.copy()
+            scaled[0, 0] += 1e-9
+        probability = random_walker(
+            scaled, labels, beta=_BETA, mode="bf", channel_axis=-1, return_full_prob=True
+        )[0].clip(0, 1)
+    field = Image.fromarray(probability.astype(np.float32))
+    size = shape[1], shape[0]
+    return np.array(field.resize(size, Image.Resampling.BILINEAR)), notes
 
 
 def _labels(

@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 
 from glid_nb._arguments import read_only
 from glid_nb.geometry._loops import signed_area
-from glid_nb.imaging.simplify.conflicts import repair
 from glid_nb.imaging.simplify.edges import divide_long_edges, enclosing, merge_short_edges
-from glid_nb.imaging.simplify.loops import Loops, Points, significance
+from glid_nb.imaging.simplify.loops import Loops, Points, repair, significance
 
 # Numbers of vertices for the automatic tolerance: about _VERTICES while it is below the offset, not
 # many more than _MANY while it is below a few times the offset, and never more than _MOST.

@@ -7,8 +7,7 @@ import shapely
 from numpy.typing import NDArray
 
 from glid_nb.geometry._loops import signed_area
-from glid_nb.imaging.simplify.conflicts import edges_in_conflict
-from glid_nb.imaging.simplify.loops import Loops, Points, passed_over
+from glid_nb.imaging.simplify.loops import Loops, Points, edges_in_conflict, passed_over
 
 _MIN_EDGE = 0.2  # of the mean edge
 _MAX_EDGE = 0.04  # of the perimeter
