@@ -20,9 +20,10 @@ from glid_nb.methods.linear.methods import (
 )
 from glid_nb.methods.mesh.aqp import AQP
 from glid_nb.methods.mesh.libigl import SLIM, ARAPLocalGlobal
-from glid_nb.methods.subspace.first_order import LBFGS, GradientDescent
-from glid_nb.methods.subspace.newton_variants import (
+from glid_nb.methods.subspace.methods import (
+    LBFGS,
     GaussNewton,
+    GradientDescent,
     LevenbergMarquardt,
     NewtonEigen,
     NewtonPaper,
@@ -32,29 +33,33 @@ from glid_nb.methods.subspace.newton_variants import (
 )
 from glid_nb.solvers import Method, MethodError, Newton
 
+__all__ = [
+    "Newton",
+    "NewtonPaper",
+    "NewtonStaged",
+    "NewtonUnmodified",
+    "NewtonEigen",
+    "NewtonShift",
+    "GaussNewton",
+    "LevenbergMarquardt",
+    "LBFGS",
+    "GradientDescent",
+    "BDHM",
+    "SLIM",
+    "AQP",
+    "ARAPLocalGlobal",
+    "MovingLeastSquares",
+    "BoundedBiharmonicWeights",
+    "HarmonicWeights",
+    "MeanValueCoordinates",
+    "CauchyCoordinates",
+    "METHODS",
+    "available",
+    "by_name",
+]
+
 METHODS: Mapping[str, type[Method]] = {
-    method.name: method
-    for method in (
-        Newton,
-        NewtonPaper,
-        NewtonStaged,
-        NewtonUnmodified,
-        NewtonEigen,
-        NewtonShift,
-        GaussNewton,
-        LevenbergMarquardt,
-        LBFGS,
-        GradientDescent,
-        BDHM,
-        SLIM,
-        AQP,
-        ARAPLocalGlobal,
-        MovingLeastSquares,
-        BoundedBiharmonicWeights,
-        HarmonicWeights,
-        MeanValueCoordinates,
-        CauchyCoordinates,
-    )
+    method.name: method for method in (globals()[name] for name in __all__[:-3])
 }
 """All methods by name, in the order in which a list of them should show them."""
 
@@ -81,29 +86,3 @@ def by_name(name: str, /, **settings: Any) -> Method:
             known = ", ".join(method.kinds()) or "none"
             raise MethodError(f"the method {name!r} has no setting {setting!r}; it has: {known}")
     return method(**settings)
-
-
-__all__ = [
-    "AQP",
-    "ARAPLocalGlobal",
-    "BDHM",
-    "BoundedBiharmonicWeights",
-    "CauchyCoordinates",
-    "GaussNewton",
-    "GradientDescent",
-    "HarmonicWeights",
-    "LBFGS",
-    "LevenbergMarquardt",
-    "METHODS",
-    "MeanValueCoordinates",
-    "MovingLeastSquares",
-    "Newton",
-    "NewtonEigen",
-    "NewtonPaper",
-    "NewtonShift",
-    "NewtonStaged",
-    "NewtonUnmodified",
-    "SLIM",
-    "available",
-    "by_name",
-]

@@ -7,8 +7,8 @@ from glid_nb.solvers.options import OptionError, Options
 from glid_nb.solvers.pose import Pose, PoseError
 from glid_nb.solvers.result import DeformationMap, Iteration, Progress, Result
 from glid_nb.solvers.solve import solve
-from glid_nb.solvers.start import StartError
 from glid_nb.solvers.status import Status
+from glid_nb.solvers.subspace import StartError
 
 __all__ = [
     "DeformationMap",

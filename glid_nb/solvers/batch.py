@@ -10,42 +10,28 @@ gets all results together, with the last.
 from __future__ import annotations
 
 import functools
-import time
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from glid_nb._arguments import check_type
 from glid_nb._jax import jax, jnp, lax
-from glid_nb._runtime import (
-    COMPILER_OPTIONS,
-    compilation_clock,
-    double_precision,
-    single_blas_thread,
-)
+from glid_nb._runtime import COMPILER_OPTIONS, double_precision, single_blas_thread
 from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Domain
-from glid_nb.solvers import outcome, step
-from glid_nb.solvers.loop import Ending, followed, result_of
+from glid_nb.solvers import step
+from glid_nb.solvers.loop import Advance, Stopwatch, followed
 from glid_nb.solvers.method import Inputs
-from glid_nb.solvers.newton import (
-    SLOW_ITERATIONS,
-    Newton,
-    NewtonDescent,
-    descend,
-    ridge_of,
-    settings_of,
-)
+from glid_nb.solvers.newton import SLOW_ITERATIONS, Newton, NewtonDescent, descend
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose, PoseError
 from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.restarts import improve
-from glid_nb.solvers.result import Iteration, Result
-from glid_nb.solvers.status import Status
-
-Array = NDArray[Any]
+from glid_nb.solvers.result import Result
+from glid_nb.solvers.status import RUNNING
+from glid_nb.solvers.subspace import Array
 
 # Poses per device and call; few sizes, for each compiles a program of its own.
 _SIZES = (1, 4, 16, 64)
@@ -104,11 +90,14 @@ def solve_batch(
         raise TypeError(
             f"devices must be one or more of jax.local_devices(), not {list(devices)!r}"
         )
-    inputs = [Inputs(domain=domain, pose=p, energy=energy, options=options) for p in poses]
-    batch = [_Pose(given) for given in inputs]
+    method = Newton()
+    batch = [
+        _Pose(method, Inputs(domain=domain, pose=pose, energy=energy, options=options))
+        for pose in poses
+    ]
     with single_blas_thread():
         compile_time = _run(batch, devices) / len(batch)
-    return tuple(pose.result(compile_time) for pose in batch)
+    return tuple(pose.finished(compile_time) for pose in batch)
 
 
 def _poses(handles: ArrayLike, targets: ArrayLike) -> list[Pose]:
@@ -127,46 +116,32 @@ def _poses(handles: ArrayLike, targets: ArrayLike) -> list[Pose]:
     return poses
 
 
-class _Pose:
-    """How far one pose has come."""
+class _Pose(NewtonDescent):
+    """One pose on its way, in the batch at first."""
 
-    def __init__(self, inputs: Inputs) -> None:
-        self.inputs, self.descent = inputs, NewtonDescent(Newton(), inputs)
-        self.history: list[Iteration] = []
-        self.ending: Ending | None = None
-        """None while it goes on, or where the batch cannot end it."""
-        self.time = 0.0
+    seconds = 0.0
+    """In the batch."""
+    done: Advance | None = None
+    """What its last call came to."""
 
-    def take(self, state: step.State, seconds: float, limit: int) -> bool:
-        """Note what a call did; True when the pose goes on in the batch."""
-        done = self.descent.take(state, len(self.history), seconds)
-        self.descent.factor = None  # it has not come back
-        self.history += done.iterations
-        self.time += seconds
-        if done.outcome == outcome.CONVERGED:
-            self.ending = Ending(Status.CONVERGED)
-        elif len(self.history) >= limit:
-            self.ending = Ending(Status.MAX_ITERATIONS)
-        goes_on = self.ending is None and done.outcome == outcome.RUNNING
-        return goes_on and len(self.history) < SLOW_ITERATIONS
+    @property
+    def goes_on(self) -> bool:
+        """Whether the batch runs it further."""
+        running = self.done is None or self.done.outcome == RUNNING
+        return running and self.left > 0 and len(self.history) < SLOW_ITERATIONS
 
-    def result(self, compile_time: float) -> Result:
+    def finished(self, compile_time: float) -> Result:
         """The result, by a loop of its own where the batch could not end it."""
-        ending, clock = self.ending, compilation_clock()
-        began, compiling = time.perf_counter(), clock.seconds
-        if ending is None:
-            with single_blas_thread():
-                self.history, ending = followed(self.descent, self.inputs, self.history)
-        compiling = clock.seconds - compiling
-        seconds = self.time + max(time.perf_counter() - began - compiling, 0.0)
-        times = compile_time + compiling, seconds
-        first = result_of(self.descent, self.inputs, self.history, ending, *times)
-        return improve(first, self.inputs, descend)
+        watch = Stopwatch()
+        with single_blas_thread():
+            ending = followed(self, self.done)
+        times = compile_time + watch.compiling, self.seconds + watch.seconds
+        return improve(self.result(ending, *times), self.inputs, descend)
 
 
 def _run(poses: list[_Pose], devices: tuple[Any, ...]) -> float:
-    """Bring every pose to its end, or to where it needs a loop of its own; seconds of compiling."""
-    unknowns = len(poses[0].descent.problem.unknowns.free)
+    """Run every pose until the batch can do no more for it; seconds of compiling."""
+    unknowns = len(poses[0].problem.unknowns.free)
     room = _MOST_BYTES // (_COPIES * 8 * unknowns**2)
     sizes = [n for n in _SIZES if n <= max(room, 1)]
     running, compile_time = poses, 0.0
@@ -174,52 +149,33 @@ def _run(poses: list[_Pose], devices: tuple[Any, ...]) -> float:
         each = -(-len(running) // len(devices))
         per_device = next((n for n in sizes if n >= each), sizes[-1])
         now = running[: per_device * len(devices)]
-        goes_on, compiling = _call(now, per_device, devices)
-        running = [*running[len(now) :], *goes_on]
-        compile_time += compiling
+        compile_time += _call(now, per_device, devices)
+        running = [*running[len(now) :], *(pose for pose in now if pose.goes_on)]
     return compile_time
 
 
-def _call(
-    chosen: list[_Pose], per_device: int, devices: tuple[Any, ...]
-) -> tuple[list[_Pose], float]:
-    """One call for the chosen poses; those that go on, and the seconds of compiling."""
-    inputs, descent = chosen[0].inputs, chosen[0].descent
-    options, limit = inputs.options, descent.method.limit(inputs.options)
-    size = per_device * len(devices)
+def _call(chosen: list[_Pose], per_device: int, devices: tuple[Any, ...]) -> float:
+    """One call for the chosen poses; the seconds of compiling."""
+    first, size = chosen[0], per_device * len(devices)
     rows = dealt(len(chosen), len(devices), per_device)
     # What only fills the batch up stays where it is.
-    filled, limits = [chosen[0]] * size, np.zeros(size, dtype=int)
+    filled, limits = [first] * size, np.zeros(size, dtype=int)
     for row, pose in zip(rows, chosen, strict=True):
-        filled[row] = pose
-        limits[row] = min(options.iterations_per_call, limit - len(pose.history))
-    settings = settings_of(
-        options,
-        iterations=0,
-        may_refine=descent.panels.can_refine,
-        ridge=ridge_of(inputs.pose),
-        reuse=False,
-    )
-    program, clock = _program(devices), compilation_clock()
-    began, compiling = time.perf_counter(), clock.seconds
-    targets = [pose.descent.problem.constraints.targets for pose in filled]
-    coefficients = [pose.descent.coefficients for pose in filled]
+        filled[row], limits[row] = pose, pose.settings().iterations
+    program, watch = _program(devices), Stopwatch()
     state = program(
-        descent.problem,
-        settings,
-        jnp.asarray(np.stack(targets)),
-        jnp.asarray(np.stack(coefficients)),
+        first.problem,
+        first.settings(),
+        jnp.asarray(np.stack([pose.problem.positional.aims for pose in filled])),
+        jnp.asarray(np.stack([pose.coefficients for pose in filled])),
         jnp.asarray(limits),
     )
     state = jax.tree.map(np.asarray, state)
-    compiling = clock.seconds - compiling
-    seconds = max(time.perf_counter() - began - compiling, 0.0) / len(chosen)
-    goes_on = [
-        pose
-        for row, pose in zip(rows, chosen, strict=True)
-        if pose.take(jax.tree.map(lambda a, row=row: a[row], state), seconds, limit)
-    ]
-    return goes_on, compiling
+    compiling, seconds = watch.compiling, watch.seconds / len(chosen)
+    for row, pose in zip(rows, chosen, strict=True):
+        pose.done = pose.take(jax.tree.map(lambda a, row=row: a[row], state), seconds)
+        pose.seconds += seconds
+    return compiling
 
 
 def dealt(count: int, devices: int, per_device: int) -> Array:
@@ -238,11 +194,11 @@ def _program(devices: tuple[Any, ...]) -> Any:
     each, shared = jax.P("poses"), jax.P()
 
     def together(
-        problem: Problem, settings: step.Settings, targets: Any, coefficients: Any, limits: Any
+        problem: Problem, settings: step.Settings, aims: Any, coefficients: Any, limits: Any
     ) -> step.State:
         def one(goals: Any, y: Any, limit: Any) -> step.State:
             state = step.iterations(
-                problem._replace(constraints=problem.constraints._replace(targets=goals)),
+                problem._replace(positional=problem.positional._replace(aims=goals)),
                 y,
                 jnp.zeros((len(problem.unknowns.free),) * 2),
                 settings._replace(iterations=limit),
@@ -251,8 +207,8 @@ def _program(devices: tuple[Any, ...]) -> Any:
             return state._replace(factor=jnp.zeros(()))
 
         if in_turn:
-            return lax.map(lambda pose: one(*pose), (targets, coefficients, limits))
-        return jax.vmap(one)(targets, coefficients, limits)
+            return lax.map(lambda pose: one(*pose), (aims, coefficients, limits))
+        return jax.vmap(one)(aims, coefficients, limits)
 
     sharded = jax.shard_map(
         together,

@@ -10,6 +10,7 @@ LAPACK otherwise, ``jax.lax.linalg`` does the work.
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,16 +35,18 @@ def factorise(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
 
     The last entry of its diagonal is NaN where the matrix is not positive definite.
     """
-    if not _understood():
-        return _portable_factor(h)
-    return lax.platform_dependent(h, cpu=_lapack_factor, default=_portable_factor)
+    return _by_platform(_lapack_factor, _portable_factor, h)
 
 
 def solve(factor: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
     """``H^-1 b`` by the factor of ``H``."""
+    return _by_platform(_lapack_solve, _portable_solve, factor, b)
+
+
+def _by_platform(lapack: Callable, portable: Callable, *arguments: Array) -> Array:
     if not _understood():
-        return _portable_solve(factor, b)
-    return lax.platform_dependent(factor, b, cpu=_lapack_solve, default=_portable_solve)
+        return portable(*arguments)
+    return lax.platform_dependent(*arguments, cpu=lapack, default=portable)
 
 
 def _portable_factor(h: Float[Array, "n n"]) -> Float[Array, "n n"]:

@@ -12,13 +12,15 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
-from glid_nb._jax import jax, jnp
+from glid_nb._jax import jax, jit, jnp
 from glid_nb._runtime import double_precision, in_chunks
 from glid_nb.certificate import PROOFS, CertificateKind, PanelProof, rounding
+from glid_nb.certificate.panels import split
 from glid_nb.geometry import Domain, graded_panels, uniform_panels
 from glid_nb.geometry.panels import Panels, paired
 from glid_nb.harmonic import basis_of, cauchy
 from glid_nb.harmonic.basis import Basis
+from glid_nb.harmonic.cauchy import Singularities
 from glid_nb.solvers.whitening import whitened, whitening
 
 if TYPE_CHECKING:
@@ -93,13 +95,15 @@ class Discretisation:
     """A domain's boundary cut into panels, with the basis evaluated on them."""
 
     domain: Domain
-    basis: Basis
     sampling: Sampling
     certificate: CertificateKind
     panels: Panels
     matrices: Matrices
-    whitening: Array
-    """``T`` of :mod:`glid_nb.solvers.whitening`, from the panels that a solve begins with."""
+
+    @property
+    def basis(self) -> Basis:
+        """The domain's."""
+        return basis_of(self.domain)
 
     @property
     @double_precision
@@ -110,13 +114,9 @@ class Discretisation:
         that of the discrete energy. The uniform sampling keeps its own (33).
         """
         m = self.matrices
-        if self.sampling == "uniform":
-            return m._replace(whitened=whitened(m.nodes[:, m.hessian_index], m.whitening))
-        return m._replace(
-            hessian_index=jnp.arange(len(m.weights)),
-            hessian_weights=m.weights,
-            whitened=whitened(m.nodes, m.whitening),
-        )
+        if self.sampling == "graded":
+            m = m._replace(hessian_index=jnp.arange(len(m.weights)), hessian_weights=m.weights)
+        return m._replace(whitened=whitened(m.nodes[:, m.hessian_index], m.whitening))
 
     @property
     def can_refine(self) -> bool:
@@ -136,35 +136,29 @@ class Discretisation:
     @double_precision
     def refined(self, chosen: np.ndarray) -> Discretisation:
         """The discretisation with the panels of ``chosen`` (p,) bool cut in half."""
-        if not self.can_refine:
-            raise ValueError("the uniform sampling of the paper is fixed; it cannot be refined")
-        chosen = chosen & self.panels.divisible
-        panels, parent = self.panels.split(chosen)
-        old = _rows_of(self.matrices, len(self.panels))
-        children = np.flatnonzero(chosen[parent])
-        second = children[1::2]
-
-        rows = jax.tree.map(lambda part: part[parent], old)
-        rows.ends[second] = old.middles[parent[second]]
-        rows.slopes[second] = basis_rows(
-            cauchy.second_derivatives, panels.start[second], self.basis
-        )
-        rows.middles[children] = basis_rows(
-            cauchy.first_derivatives, panels.middle[children], self.basis
-        )
-        fresh = _certificate_rows(
-            panels.start[children], panels.end[children], self.basis, self.certificate
-        )
-        for known, new in zip(jax.tree.leaves(rows[-2:]), jax.tree.leaves(fresh), strict=True):
-            known[children] = new
+        basis, evaluated = self.basis, functools.partial(_evaluated, self.basis, self.certificate)
+        panels, rows = split(self.panels, self._rows(), chosen, evaluated)
         size = len(self.matrices.real)
         if len(panels) > size:
             # Who splits once splits again: growing by more now saves compiling again and again,
             # unless the padding would cost more than that.
-            growth = _GROWTH if self.basis.n_columns <= _LARGE else _GROWTH_OF_LARGE
+            growth = _GROWTH if basis.n_columns <= _LARGE else _GROWTH_OF_LARGE
             size = bucket(int(growth * len(panels)))
-        return _graded(
-            self.domain, self.basis, self.certificate, panels, self.whitening, rows, size
+        return _assembled(
+            self.domain, "graded", self.certificate, panels, rows, size, self.matrices.whitening
+        )
+
+    def _rows(self) -> _Rows:
+        """The rows that the matrices of a graded sampling were made of."""
+        matrices, count = self.matrices, len(self.panels)
+        nodes = np.asarray(matrices.nodes)
+        p = nodes.shape[1] // 2
+        return _Rows(
+            nodes[:, :count].T,
+            np.asarray(matrices.slopes)[:, :count].T,
+            nodes[:, p : p + count].T,
+            jax.tree.map(lambda a: np.asarray(a)[..., :count].T, matrices.proof),
+            np.asarray(matrices.rounding)[:count],
         )
 
 
@@ -179,62 +173,70 @@ def discretise(
     rule on each, and the midpoint rule for the Hessian, on pairs of panels where they are small.
     ``uniform``: the paper's samples with the plain mean (31), the Hessian on every tenth (33).
     """
-    basis = basis_of(domain)
-    if sampling == "graded":
-        panels = graded_panels(domain)
-    else:
-        panels = uniform_panels(domain.cage, UNIFORM_SAMPLES)
-    ends = basis_rows(cauchy.first_derivatives, panels.start, basis)
-    graded = sampling == "graded"
-    rows = _Rows(
-        ends,
-        basis_rows(cauchy.second_derivatives, panels.start, basis),
-        basis_rows(cauchy.first_derivatives, panels.middle, basis) if graded else ends[:0],
-        *_certificate_rows(panels.start, panels.end, basis, certificate),
+    basis, graded = basis_of(domain), sampling == "graded"
+    panels = graded_panels(domain) if graded else uniform_panels(domain.cage, UNIFORM_SAMPLES)
+    rows = _evaluated(basis, certificate, panels.start, panels.end)
+    return _assembled(domain, sampling, certificate, panels, rows, bucket(len(panels)))
+
+
+def _evaluated(
+    basis: Basis, certificate: CertificateKind, start: np.ndarray, end: np.ndarray
+) -> _Rows:
+    return _Rows(
+        basis_rows(cauchy.first_derivatives, start, basis),
+        basis_rows(cauchy.second_derivatives, start, basis),
+        basis_rows(cauchy.first_derivatives, (start + end) / 2, basis),
+        *_proof_rows(start, end, basis, certificate),
     )
-    p = bucket(len(panels))
-    if sampling == "graded":
-        weights = panels.length / panels.length.sum()
-        t = _whitening(rows.middles, weights, panels, basis)
-        return _graded(domain, basis, certificate, panels, t, rows, p)
-    return _uniform(domain, basis, certificate, panels, rows, p)
 
 
-def _whitening(rows: np.ndarray, weights: np.ndarray, panels: Panels, basis: Basis) -> Array:
-    (anchor,) = basis_rows(cauchy.cauchy_coordinates, panels.start[:1], basis)
-    return jnp.asarray(whitening(rows, weights, anchor, basis))
-
-
-def _graded(
+def _assembled(
     domain: Domain,
-    basis: Basis,
+    sampling: Sampling,
     certificate: CertificateKind,
     panels: Panels,
-    t: Array,
     rows: _Rows,
     p: int,
+    t: Array | None = None,
 ) -> Discretisation:
-    # Simpson's rule shares the ends, which the certificate needs anyway, between neighbours.
-    length = panels.length / panels.length.sum()
-    ends = length / 6
-    np.add.at(ends, panels.next, length / 6)
-    weights = np.zeros(2 * p)
-    weights[: len(panels)] = ends
-    weights[p : p + len(panels)] = length * (4 / 6)
-    nodes = np.concatenate([padded(rows.ends, p), padded(rows.middles, p)])
-    index, share = _hessian_nodes(panels, domain, length, weights)
-    h = bucket(len(index))
-    index, share = padded(index, h), padded(share, h, 0.0)
+    """On ``p`` padded panels; ``t`` is the whitening of the panels that a solve began with."""
+    count, length = len(panels), panels.length / panels.length.sum()
+    if sampling == "graded":
+        # Simpson's rule shares the ends, which the certificate needs anyway, between neighbours.
+        ends = length / 6
+        np.add.at(ends, panels.next, length / 6)
+        weights = np.concatenate([padded(ends, p, 0.0), padded(length * (4 / 6), p, 0.0)])
+        nodes = np.concatenate([padded(rows.ends, p), padded(rows.middles, p)])
+        index, share = _hessian_nodes(panels, domain, length, weights)
+        h = bucket(len(index))
+        along = rows.middles, length
+    else:
+        weights = padded(np.full(count, 1 / count), p, 0.0)
+        nodes = padded(rows.ends, p)
+        index = np.arange(0, count, HESSIAN_STRIDE)
+        share = np.full(len(index), 1 / len(index))
+        h = -(-len(index) // 16) * 16
+        along = rows.ends[index], share
+    if t is None:
+        basis = basis_of(domain)
+        (anchor,) = basis_rows(cauchy.cauchy_coordinates, panels.start[:1], basis)
+        t = jnp.asarray(whitening(*along, anchor, basis))
+    index, chord = padded(index, h), panels.end - panels.start
     matrices = Matrices(
         nodes=_transposed(nodes),
-        weights=jnp.asarray(weights),
+        slopes=_transposed(padded(rows.slopes, p)),
         hessian_index=jnp.asarray(index),
-        hessian_weights=jnp.asarray(share),
         whitened=whitened(_transposed(nodes[index]), t).astype(jnp.float32),
         whitening=t,
-        **_panel_arrays(panels, rows, p),
+        weights=jnp.asarray(weights),
+        hessian_weights=jnp.asarray(padded(share, h, 0.0)),
+        proof=jax.tree.map(lambda part: _transposed(padded(part, p)), rows.proof),
+        rounding=jnp.asarray(padded(rows.rounding, p)),
+        chord=jnp.stack([padded(np.real(chord), p), padded(np.imag(chord), p)]),
+        next=jnp.asarray(padded(panels.next, p)),
+        real=jnp.asarray(np.arange(p) < count),
     )
-    return Discretisation(domain, basis, "graded", certificate, panels, matrices, t)
+    return Discretisation(domain, sampling, certificate, panels, matrices)
 
 
 def _hessian_nodes(
@@ -261,60 +263,8 @@ def _hessian_nodes(
     return every, weights[every]
 
 
-def _uniform(
-    domain: Domain,
-    basis: Basis,
-    certificate: CertificateKind,
-    panels: Panels,
-    rows: _Rows,
-    p: int,
-) -> Discretisation:
-    count = len(panels)
-    chosen = np.arange(0, count, HESSIAN_STRIDE)
-    h = -(-len(chosen) // 16) * 16
-    weights = np.full(len(chosen), 1 / len(chosen))
-    t = _whitening(rows.ends[chosen], weights, panels, basis)
-    index = jnp.asarray(padded(chosen, h))
-    nodes = _transposed(padded(rows.ends, p))
-    matrices = Matrices(
-        nodes=nodes,
-        weights=jnp.asarray(padded(np.full(count, 1 / count), p, 0.0)),
-        hessian_index=index,
-        hessian_weights=jnp.asarray(padded(weights, h, 0.0)),
-        whitened=whitened(nodes[:, index], t).astype(jnp.float32),
-        whitening=t,
-        **_panel_arrays(panels, rows, p),
-    )
-    return Discretisation(domain, basis, "uniform", certificate, panels, matrices, t)
-
-
-def _rows_of(matrices: Matrices, count: int) -> _Rows:
-    """The rows that the matrices of a graded sampling were made of."""
-    nodes = np.asarray(matrices.nodes)
-    p = nodes.shape[1] // 2
-    return _Rows(
-        nodes[:, :count].T,
-        np.asarray(matrices.slopes)[:, :count].T,
-        nodes[:, p : p + count].T,
-        jax.tree.map(lambda a: np.asarray(a)[..., :count].T, matrices.proof),
-        np.asarray(matrices.rounding)[:count],
-    )
-
-
 def _transposed(rows: np.ndarray) -> Array:
     return jnp.asarray(np.ascontiguousarray(rows.T))
-
-
-def _panel_arrays(panels: Panels, rows: _Rows, p: int) -> dict[str, Any]:
-    chord = panels.end - panels.start
-    return {
-        "slopes": _transposed(padded(rows.slopes, p)),
-        "proof": jax.tree.map(lambda part: _transposed(padded(part, p)), rows.proof),
-        "rounding": jnp.asarray(padded(rows.rounding, p)),
-        "chord": jnp.stack([padded(np.real(chord), p), padded(np.imag(chord), p)]),
-        "next": jnp.asarray(padded(panels.next, p)),
-        "real": jnp.asarray(np.arange(p) < len(panels)),
-    }
 
 
 def bucket(count: int) -> int:
@@ -335,42 +285,39 @@ def padded(array: np.ndarray, size: int, fill: float | None = None) -> np.ndarra
     return np.concatenate([array, np.repeat(value, extra, axis=0)])
 
 
-@functools.cache
-def _compiled_rows(kernel: Any) -> Any:
-    def rows(z: Any, singularities: Any) -> Any:
-        d = kernel(z, singularities)
-        return jnp.concatenate([jnp.real(d), -jnp.imag(d)], axis=1)
-
-    return jax.jit(rows)
-
-
-def basis_rows(kernel: Any, z: np.ndarray, basis: Basis) -> np.ndarray:
-    """``[Re D, -Im D]`` of one of the basis matrices at points ``z`` (k,)."""
-    return _in_chunks(_compiled_rows(kernel), (z,), basis)
-
-
 def complex_basis(kernel: Any, z: np.ndarray, basis: Basis) -> np.ndarray:
     """One of the basis matrices at points ``z`` (k,)."""
     rows = basis_rows(kernel, z, basis)
     return rows[:, : basis.n_columns] - 1j * rows[:, basis.n_columns :]
 
 
-@functools.cache
-def _compiled_certificate_rows(certificate: CertificateKind) -> Any:
-    def rows(start: Any, end: Any, singularities: Any) -> Any:
-        proof = PROOFS[certificate].on(start, end, singularities)
-        scale = rounding.panel_scale(start, end, singularities)
-        n_columns = len(singularities.vertices) + len(singularities.hole_points)
-        return jax.tree.map(jnp.transpose, proof), rounding.carried_slack_factor(n_columns) * scale
-
-    return jax.jit(rows)
+def basis_rows(kernel: Any, z: np.ndarray, basis: Basis) -> np.ndarray:
+    """``[Re D, -Im D]`` of one of the basis matrices at points ``z`` (k,)."""
+    return _in_chunks(functools.partial(_real_rows, kernel=kernel), (z,), basis)
 
 
-def _certificate_rows(
+@functools.partial(jit, static_argnames="kernel")
+def _real_rows(z: Any, singularities: Singularities, kernel: Any) -> Any:
+    d = kernel(z, singularities)
+    return jnp.concatenate([jnp.real(d), -jnp.imag(d)], axis=1)
+
+
+def _proof_rows(
     start: np.ndarray, end: np.ndarray, basis: Basis, certificate: CertificateKind
 ) -> tuple[PanelProof, np.ndarray]:
     """The proof's constants, the panels first, and the slack for rounding."""
-    return _in_chunks(_compiled_certificate_rows(certificate), (start, end), basis)
+    program = functools.partial(_compiled_proof_rows, certificate=certificate)
+    return _in_chunks(program, (start, end), basis)
+
+
+@functools.partial(jit, static_argnames="certificate")
+def _compiled_proof_rows(
+    start: Any, end: Any, singularities: Singularities, certificate: CertificateKind
+) -> Any:
+    proof = PROOFS[certificate].on(start, end, singularities)
+    scale = rounding.panel_scale(start, end, singularities)
+    n_columns = len(singularities.vertices) + len(singularities.hole_points)
+    return jax.tree.map(jnp.transpose, proof), rounding.carried_slack_factor(n_columns) * scale
 
 
 def _in_chunks(kernel: Any, points: tuple[np.ndarray, ...], basis: Basis) -> Any:

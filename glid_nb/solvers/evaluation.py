@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from glid_nb._jax import jnp, lax
 from glid_nb.certificate import EndValues, PanelBounds, fz_vanishes
+from glid_nb.certificate.paper import turning
 from glid_nb.energies import Differentials, Energy
 from glid_nb.solvers.discretisation import Matrices
-from glid_nb.solvers.problem import Positional, Problem
+from glid_nb.solvers.problem import Problem
 
 if TYPE_CHECKING:
     from jaxtyping import Array, Bool, Float
@@ -49,10 +50,9 @@ class Line(NamedTuple):
     """``-gradient . direction``."""
 
 
-def evaluated(problem: Problem, positional: Positional, y: Float[Array, " 4c"]) -> Point:
+def evaluated(problem: Problem, y: Float[Array, " 4c"]) -> Point:
     """The point with the coefficients ``y``, its samples computed anew."""
-    samples = products(problem.matrices, y)
-    return _point(problem, positional, y, samples, largest_modulus(y))
+    return _point(problem, y, products(problem.matrices, y), largest_modulus(y))
 
 
 def line_along(problem: Problem, direction: Float[Array, " 4c"], slope: Float[Array, ""]) -> Line:
@@ -60,25 +60,19 @@ def line_along(problem: Problem, direction: Float[Array, " 4c"], slope: Float[Ar
     return Line(direction, products(problem.matrices, direction), -slope)
 
 
-def moved(
-    problem: Problem, positional: Positional, point: Point, line: Line, step: Float[Array, ""]
-) -> Point:
+def moved(problem: Problem, point: Point, line: Line, step: Float[Array, ""]) -> Point:
     """The point ``step`` along a line; its samples are carried along (G.11)."""
     samples = Samples(*(a + step * b for a, b in zip(point.samples, line.change, strict=True)))
     y = point.coefficients + step * line.direction
     largest = jnp.maximum(point.largest, largest_modulus(y))
-    return _point(problem, positional, y, samples, largest)
+    return _point(problem, y, samples, largest)
 
 
 def _point(
-    problem: Problem,
-    positional: Positional,
-    y: Float[Array, " 4c"],
-    samples: Samples,
-    largest: Float[Array, ""],
+    problem: Problem, y: Float[Array, " 4c"], samples: Samples, largest: Float[Array, ""]
 ) -> Point:
     iso = isometric_energy(samples.nodes, problem.matrices.weights, problem.energy)
-    return Point(y, samples, iso, positional.energy(y), largest)
+    return Point(y, samples, iso, problem.positional.energy(y), largest)
 
 
 def isometric_energy(
@@ -92,12 +86,12 @@ def isometric_energy(
     return jnp.sum(jnp.where(weights > 0, weights * density, 0), axis=-1)
 
 
-def gradient(problem: Problem, positional: Positional, point: Point) -> Float[Array, " 4c"]:
+def gradient(problem: Problem, point: Point) -> Float[Array, " 4c"]:
     """The gradient of the total energy with respect to all coefficients."""
     nodes = point.samples.nodes
     d = problem.energy.differentials(*squares(nodes))
     isometric = energy_gradient(problem.matrices, nodes, d)
-    return isometric + positional.gradient(point.coefficients)
+    return isometric + problem.positional.gradient(point.coefficients)
 
 
 def energy_gradient(
@@ -143,12 +137,10 @@ def largest_modulus(coefficients: Float[Array, " 4c"]) -> Float[Array, ""]:
     return jnp.maximum(*(jnp.abs(part).max() for part in _complex_pair(coefficients)))
 
 
-def turning(matrices: Matrices, nodes: Float[Array, "4 s"]) -> Float[Array, " p"]:
-    """Principal ``Arg`` of the quotient of ``f_z`` at the ends of each panel."""
-    start = nodes[:2, : matrices.real.shape[0]]
-    end = start[:, matrices.next]
-    cross = start[0] * end[1] - start[1] * end[0]
-    return jnp.arctan2(cross, jnp.sum(start * end, axis=0))
+def fz_turning(matrices: Matrices, nodes: Float[Array, "4 s"]) -> Float[Array, " p"]:
+    """The change of ``arg f_z`` along each panel (29)."""
+    f, _ = _complex_rows(nodes[:, : matrices.real.shape[0]])
+    return turning(f, f[matrices.next])
 
 
 def products(matrices: Matrices, y: Float[Array, " 4c"]) -> Samples:

@@ -14,13 +14,13 @@ from glid_nb.solvers.evaluation import (
     Line,
     Point,
     bounds,
+    fz_turning,
     has_zeros,
     isometric_energy,
     moved,
-    turning,
 )
-from glid_nb.solvers.outcome import BLOCKED, NO_DECREASE, PENDING, REFUSED, RUNNING
-from glid_nb.solvers.problem import Positional, Problem
+from glid_nb.solvers.problem import Problem
+from glid_nb.solvers.status import BLOCKED, NO_DECREASE, PENDING, REFUSED, RUNNING
 
 if TYPE_CHECKING:
     from jaxtyping import Array, Bool, Float, Int
@@ -69,9 +69,9 @@ def _difference_of_squares(a: Float[Array, "4 s"], b: Float[Array, "4 s"]) -> Fl
     return a[0] * b[0] + a[1] * b[1] - a[2] * b[2] - a[3] * b[3]
 
 
-def search(problem: Problem, positional: Positional, point: Point, line: Line) -> Search:
+def search(problem: Problem, point: Point, line: Line) -> Search:
     """Energies along the line in batches of candidates, each batch shorter, until one decreases."""
-    nodes, change = point.samples.nodes, line.change.nodes
+    nodes, change, positional = point.samples.nodes, line.change.nodes, problem.positional
     residual = positional.residual(point.coefficients)
     residual_change = positional.matrix @ line.direction
     total = point.energy
@@ -115,12 +115,7 @@ class Backtracking(NamedTuple):
 
 
 def backtrack(
-    problem: Problem,
-    positional: Positional,
-    point: Point,
-    line: Line,
-    found: Search,
-    may_refine: Bool[AnyArray, ""],
+    problem: Problem, point: Point, line: Line, found: Search, may_refine: Bool[AnyArray, ""] | bool
 ) -> Backtracking:
     """Go from the best candidate to shorter ones until one is certified, or ask for finer panels.
 
@@ -128,7 +123,7 @@ def backtrack(
     a map with a zero on the boundary; the panels along which ``f_z`` turned most are where.
     """
     real, count = problem.matrices.real, found.steps.shape[0]
-    before = turning(problem.matrices, point.samples.nodes)
+    before = fz_turning(problem.matrices, point.samples.nodes)
 
     def refusing(panel: PanelBounds) -> Bool[Array, " p"]:
         refuses = real & ~panel.injective
@@ -139,18 +134,14 @@ def backtrack(
 
     def attempt(carry: tuple[Array, Array, PanelBounds, Array]) -> tuple:
         _, index, _, refused = carry
-        there = moved(problem, positional, point, line, found.steps[index])
+        there = moved(problem, point, line, found.steps[index])
         panel = bounds(problem, there)
         refuses = refusing(panel)
         fails = jnp.any(refuses)
         first = index == found.best
         refused = jnp.where(first, refuses, refused)
         shorter = jnp.argmax(found.acceptable & (jnp.arange(count) > index))
-        outcome = jnp.where(
-            ~fails,
-            RUNNING,
-            jnp.where(first & may_refine, REFUSED, BLOCKED),
-        )
+        outcome = jnp.where(~fails, RUNNING, jnp.where(first & may_refine, REFUSED, BLOCKED))
         # argmax gives 0 when there is no shorter acceptable candidate.
         ended = (outcome != BLOCKED) | (shorter == 0)
         return jnp.where(ended, outcome, PENDING), jnp.where(ended, index, shorter), panel, refused

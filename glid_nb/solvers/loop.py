@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator
 from contextlib import nullcontext
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -13,11 +13,10 @@ from numpy.typing import NDArray
 
 from glid_nb._runtime import compilation_clock, single_blas_thread
 from glid_nb.certificate import Certificate
-from glid_nb.solvers import outcome
 from glid_nb.solvers.discretisation import Discretisation
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.result import DeformationMap, Iteration, Progress, Result
-from glid_nb.solvers.status import Status
+from glid_nb.solvers.status import BLOCKED, REFUSED, RUNNING, Status
 
 Array = NDArray[Any]
 
@@ -25,6 +24,24 @@ Array = NDArray[Any]
 # solve that gets nowhere ends.
 _PATIENCE = 3
 _MOST_ROUNDS = 40
+
+
+class Stopwatch:
+    """Seconds since it was made, those of compiling apart."""
+
+    def __init__(self) -> None:
+        self._clock, self._began = compilation_clock(), time.perf_counter()
+        self._compiled = self._clock.seconds
+
+    @property
+    def compiling(self) -> float:
+        """Seconds of compiling."""
+        return self._clock.seconds - self._compiled
+
+    @property
+    def seconds(self) -> float:
+        """All other seconds."""
+        return max(time.perf_counter() - self._began - self.compiling, 0.0)
 
 
 class Ending(NamedTuple):
@@ -38,8 +55,8 @@ class Ending(NamedTuple):
 class Advance(NamedTuple):
     """What one advance came to."""
 
-    outcome: int = outcome.RUNNING
-    iterations: Sequence[Iteration] = ()
+    outcome: int = RUNNING
+    iterations: int = 0
     refused: Array | None = None
     """(p,) bool: panels that refused a step and may allow it once they are split."""
 
@@ -47,14 +64,13 @@ class Advance(NamedTuple):
 class Reached(NamedTuple):
     """Where a method is."""
 
-    energy_iso: float
-    energy_p2p: float
+    entry: Iteration
+    """Without its number and its time."""
     make_map: Callable[[], DeformationMap]
     sigma2_lower: Array | None = None
     """(p,) certified bound per panel."""
     proof: Certificate | None = None
     """Where the method has proved its map itself."""
-    factor: Any = None
 
 
 class Descent:
@@ -63,6 +79,9 @@ class Descent:
     Attributes
     ----------
     method : Method
+    inputs : Inputs
+    history : list of Iteration
+        All iterations so far.
     initial : Iteration
         The start; known at the latest after the first advance.
     shows_start : bool
@@ -71,16 +90,22 @@ class Descent:
         Whether XLA factorises for it, which several BLAS threads would slow down.
     discretisation : Discretisation or None
         The panels, which may be split.
+    factor : array or None
+        Cholesky factor of the last Hessian, for a solve that goes on from here.
     """
 
-    method: Method
     initial: Iteration
     shows_start = True
     uses_lapack = False
     discretisation: Discretisation | None = None
+    factor: Any = None
 
-    def advance(self, before: int, left: int, may_refine: bool) -> Advance:
-        """Go on by at most ``left`` iterations, 0 perhaps, after ``before`` that were made.
+    def __init__(self, method: Method, inputs: Inputs) -> None:
+        self.method, self.inputs = method, inputs
+        self.history: list[Iteration] = []
+
+    def advance(self, may_refine: bool) -> Advance:
+        """Go on by some iterations, at most those that are left, and extend the history.
 
         With ``may_refine`` it ends with the outcome REFUSED where a panel refuses a step, instead
         of trying a shorter one; without, with BLOCKED where no step is certified.
@@ -91,7 +116,7 @@ class Descent:
         """Where it is now."""
         raise NotImplementedError
 
-    def adapt(self, done: Advance, history: Sequence[Iteration]) -> Ending | None:
+    def adapt(self, done: Advance) -> Ending | None:
         """Change course after what an advance came to, or end."""
         raise NotImplementedError
 
@@ -99,146 +124,145 @@ class Descent:
         """Split panels that refused a step; how many were."""
         raise NotImplementedError
 
-    def progress(self, history: Sequence[Iteration]) -> Progress:
+    @property
+    def left(self) -> int:
+        """How many iterations it may still make."""
+        return self.method.limit(self.inputs.options) - len(self.history)
+
+    def record(self, entry: Iteration) -> None:
+        """Add an iteration to the history."""
+        self.history.append(replace(entry, iteration=len(self.history) + 1))
+
+    def progress(self) -> Progress:
         """What a callback sees."""
         now = self.reached()
         return Progress(
             method=self.method,
-            history=tuple(history),
+            history=tuple(self.history),
             initial=self.initial,
-            energy_iso=now.energy_iso,
-            energy_p2p=now.energy_p2p,
+            energy_iso=now.entry.energy_iso,
+            energy_p2p=now.entry.energy_p2p,
             make_map=now.make_map,
             sigma2_lower=now.sigma2_lower,
             discretisation=self.discretisation,
         )
 
+    def result(self, ending: Ending, compile_time: float, solve_time: float) -> Result:
+        """What a solve returns."""
+        now = self.reached()
+        return Result(
+            map=now.make_map(),
+            status=ending.status,
+            detail=ending.detail,
+            energy_iso=now.entry.energy_iso,
+            energy_p2p=now.entry.energy_p2p,
+            initial=self.initial,
+            history=tuple(self.history),
+            pose=self.inputs.pose,
+            options=self.inputs.options,
+            energy_measure=self.inputs.energy,
+            method=self.method,
+            compile_time=compile_time,
+            solve_time=solve_time,
+            discretisation=self.discretisation,
+            factor=self.factor if ending.status is Status.CONVERGED else None,
+            proof=now.proof,
+        )
 
-def follow(make: Callable[[], Descent], inputs: Inputs) -> Result:
+    def stagnation(self) -> Ending | None:
+        """The end, where the iterations of the method's window gain next to nothing."""
+        window, tolerance = self.method.window, self.method.tolerance
+        assert window is not None
+        energies = [entry.energy for entry in (self.initial, *self.history)][-1 - window :]
+        first, last = energies[0], energies[-1]
+        if len(energies) <= window or not abs(first - last) <= tolerance * abs(last):
+            return None
+        return Ending(
+            Status.CONVERGED,
+            f"The solver converged: {window} iterations together change the energy by less than "
+            f"{tolerance:g} of it.",
+        )
+
+
+def follow(make: Callable[[], Descent]) -> Result:
     """Follow a method to its end, to its most iterations or until the callback returns True."""
-    clock = compilation_clock()
-    compiling, began = clock.seconds, time.perf_counter()
+    watch = Stopwatch()
     descent = make()
     with single_blas_thread() if descent.uses_lapack else nullcontext():
-        history, ending = followed(descent, inputs, [])
-    compiling, elapsed = clock.seconds - compiling, time.perf_counter() - began
-    return result_of(descent, inputs, history, ending, compiling, max(elapsed - compiling, 0.0))
+        ending = followed(descent)
+    return descent.result(ending, watch.compiling, watch.seconds)
 
 
-def result_of(
-    descent: Descent,
-    inputs: Inputs,
-    history: list[Iteration],
-    ending: Ending,
-    compile_time: float,
-    solve_time: float,
-) -> Result:
-    """What a method returns."""
-    now = descent.reached()
-    return Result(
-        map=now.make_map(),
-        status=ending.status,
-        detail=ending.detail,
-        energy_iso=now.energy_iso,
-        energy_p2p=now.energy_p2p,
-        initial=descent.initial,
-        history=tuple(history),
-        pose=inputs.pose,
-        options=inputs.options,
-        energy_measure=inputs.energy,
-        method=descent.method,
-        compile_time=compile_time,
-        solve_time=solve_time,
-        discretisation=descent.discretisation,
-        factor=now.factor if ending.status is Status.CONVERGED else None,
-        proof=now.proof,
-    )
-
-
-def followed(
-    descent: Descent, inputs: Inputs, history: list[Iteration]
-) -> tuple[list[Iteration], Ending]:
-    """The loop: all iterations, those made before in ``history`` included, and the end."""
-    callback, limit = inputs.callback, descent.method.limit(inputs.options)
-    rounds = total_rounds = 0
+def followed(descent: Descent, done: Advance | None = None) -> Ending:
+    """The loop; ``done`` is an advance that was made before it."""
+    callback, rounds, total_rounds = descent.inputs.callback, 0, 0
 
     def stopped() -> bool:
-        return callback is not None and bool(callback(descent.progress(history)))
+        return callback is not None and bool(callback(descent.progress()))
 
     if descent.shows_start and stopped():
-        return history, Ending(Status.STOPPED)
+        return Ending(Status.STOPPED)
     while True:
-        done = descent.advance(len(history), limit - len(history), rounds < _PATIENCE)
-        history += done.iterations
-        refuses = done.outcome in (outcome.REFUSED, outcome.BLOCKED)
+        done = descent.advance(rounds < _PATIENCE) if done is None else done
+        refuses = done.outcome in (REFUSED, BLOCKED)
         if done.iterations:
             rounds = total_rounds = 0
         if (done.iterations or refuses) and stopped():
-            return history, Ending(Status.STOPPED)
-        ending = descent.adapt(done, history)
+            return Ending(Status.STOPPED)
+        ending = descent.adapt(done)
         if ending is not None:
-            return history, ending
-        if len(history) >= limit:
-            return history, Ending(Status.MAX_ITERATIONS)
+            return ending
+        if descent.left <= 0:
+            return Ending(Status.MAX_ITERATIONS)
         if refuses:
-            assert done.refused is not None
-            rounds, total_rounds = rounds + 1, total_rounds + 1
-            if done.outcome == outcome.BLOCKED:
-                rounds = 0
+            blocked = done.outcome == BLOCKED
+            rounds, total_rounds = 0 if blocked else rounds + 1, total_rounds + 1
             if total_rounds > _MOST_ROUNDS:
-                return history, Ending(Status.BLOCKED)
+                return Ending(Status.BLOCKED)
             if not descent.split(np.asarray(done.refused)):
-                if done.outcome == outcome.BLOCKED:
-                    return history, Ending(Status.BLOCKED)
+                if blocked:
+                    return Ending(Status.BLOCKED)
                 rounds = _PATIENCE  # a shorter step, then
+        done = None
 
 
-class Snapshot(NamedTuple):
-    """The state after a step of a method that is written as a generator."""
-
-    entry: Iteration
-    """Its number is given by the loop."""
-    make_map: Callable[[], DeformationMap]
-    proof: Certificate | None = None
-
-
-Steps = Generator[Snapshot, None, Ending]
-"""Yields a snapshot for the start and one after each step; returns how the method ended."""
+Steps = Generator[Callable[[], Reached], None, Ending]
+"""Yields, for the start and after each step, what tells where the method is, which is not timed;
+returns how the method ended."""
 
 
 class GeneratedDescent(Descent):
-    """A method that is written as a generator: one that is not asked for its next step has stopped.
+    """A method written as a generator; one that is not asked for its next step has stopped."""
 
-    Parameters
-    ----------
-    method : Method
-    steps : generator
-    """
-
-    def __init__(self, method: Method, steps: Steps) -> None:
-        self.method, self._steps = method, steps
-        self._now = next(steps)
+    def __init__(self, method: Method, inputs: Inputs, steps: Steps) -> None:
+        super().__init__(method, inputs)
+        self._steps = steps
         self._ending: Ending | None = None
-        self.initial = self._now.entry
+        self.initial = self._step()
 
-    def advance(self, before: int, left: int, may_refine: bool) -> Advance:  # noqa: ARG002
+    def _step(self) -> Iteration:
+        watch = Stopwatch()
+        now = next(self._steps)
+        seconds = watch.seconds
+        self._now = now()
+        return replace(self._now.entry, time=seconds)
+
+    def advance(self, may_refine: bool) -> Advance:  # noqa: ARG002
         """One step, or the end."""
-        if not left:
+        if not self.left:
             return Advance()
         try:
-            self._now = next(self._steps)
+            self.record(self._step())
         except StopIteration as stop:
             self._ending = stop.value
             return Advance()
-        return Advance(iterations=[replace(self._now.entry, iteration=before + 1)])
+        return Advance(iterations=1)
 
     def reached(self) -> Reached:
         """After the last step."""
-        entry = self._now.entry
-        return Reached(
-            entry.energy_iso, entry.energy_p2p, self._now.make_map, proof=self._now.proof
-        )
+        return self._now
 
-    def adapt(self, done: Advance, history: Sequence[Iteration]) -> Ending | None:  # noqa: ARG002
-        """The generator's end."""
-        return self._ending
+    def adapt(self, done: Advance) -> Ending | None:
+        """The generator's end, or that of steps that gain nothing."""
+        gains = self.method.window is not None and done.iterations
+        return self.stagnation() if gains else self._ending

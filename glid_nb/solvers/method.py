@@ -68,6 +68,10 @@ class Method:
     linear method is one on a mesh that solves once."""
     max_iterations: ClassVar[int] = 200
     """Unless the options say otherwise."""
+    window: ClassVar[int | None] = None
+    """It has converged where so many iterations together change the energy by no more than
+    ``tolerance`` of it; None for a method that ends otherwise."""
+    tolerance: ClassVar[float] = 0.0
     energies: ClassVar[tuple[str, ...] | None] = None
     """Names of the energies that it can minimise; None for any."""
     package: ClassVar[str | None] = None
@@ -79,13 +83,18 @@ class Method:
         cls.summary = " ".join((cls.__doc__ or "").split("\n\n")[0].split())
 
     def __post_init__(self) -> None:
-        for name, kind in self.kinds().items():
-            expected = unmet(kind, getattr(self, name))
+        kinds = self.kinds()
+        for known in fields(self):
+            name, value, least = known.name, getattr(self, known.name), known.metadata.get("least")
+            expected = unmet(kinds[name], value)
             if expected:
                 raise MethodError(
                     f"the setting {name!r} of the method {self.name!r} must be {expected}, "
-                    f"got {getattr(self, name)!r:.60}"
+                    f"got {value!r:.60}"
                 )
+            if least is not None and value < least:
+                why = known.metadata.get("why", "")
+                raise MethodError(f"{name} must be at least {least}{why}, got {value!r}")
 
     def run(self, inputs: Inputs) -> Result:
         """Deform; :func:`glid_nb.solve` has checked what it gives."""
@@ -124,7 +133,8 @@ class Method:
 
     def check(self, energy: Energy) -> None:
         """Raise :class:`MethodError` if it cannot run with this energy, saying what to do."""
-        self._import_package()
+        if self.package is not None:
+            self._import(self.package)
         self.check_energy(energy)
 
     def check_energy(self, energy: Energy) -> None:
@@ -135,18 +145,16 @@ class Method:
                 f"choose one of {', '.join(self.energies)}"
             )
 
-    def _import_package(self) -> None:
+    def _import(self, package: str) -> None:
         """Import the optional package, or say why not and what to do."""
-        if self.package is None:
-            return
-        distribution = _DISTRIBUTIONS.get(self.package, self.package)
+        distribution = _DISTRIBUTIONS.get(package, package)
         needs = f"the method {self.name!r} needs the package {distribution}"
         if not self.available():
             raise MethodError(
                 f"{needs}, which is not installed; install it with: pip install 'glid-nb[{_EXTRA}]'"
             )
         try:
-            importlib.import_module(self.package)
+            importlib.import_module(package)
         except ImportError as error:
             raise MethodError(
                 f"{needs}, which is installed but cannot be imported ({error}); install it again "

@@ -2,38 +2,21 @@
 
 from __future__ import annotations
 
-import functools
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from glid_nb._jax import jit, jnp
-from glid_nb._runtime import compilation_clock, double_precision
-from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import outcome, step
-from glid_nb.solvers.discretisation import Discretisation, discretise
-from glid_nb.solvers.loop import Advance, Descent, Ending, Reached, follow
+from glid_nb._runtime import double_precision
+from glid_nb.solvers import status, step
+from glid_nb.solvers.loop import Advance, Ending, Stopwatch, follow
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.options import Options
-from glid_nb.solvers.pose import Pose
-from glid_nb.solvers.problem import (
-    Problem,
-    constraints_of,
-    handle_images,
-    map_from,
-    real_coefficients,
-)
 from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Iteration, Result
-from glid_nb.solvers.start import aligned, check_conformal, check_proved
 from glid_nb.solvers.status import Status
-from glid_nb.solvers.unknowns import canonical, reduced_unknowns
-
-Array = NDArray[Any]
+from glid_nb.solvers.subspace import Array, SubspaceDescent
 
 # Without two handles a rotation costs nothing and the Hessian is singular (Appendix I).
 _RIDGE, _LARGEST_RIDGE = 1e-9, 1e-2
@@ -69,37 +52,18 @@ class Newton(Method):
 @double_precision
 def descend(inputs: Inputs, method: Method | None = None) -> Result:
     """One descent from one map to the local minimum that it leads to."""
-    method = Newton() if method is None else method
-    return follow(lambda: NewtonDescent(method, inputs), inputs)
+    return follow(lambda: NewtonDescent(method or Newton(), inputs))
 
 
-class NewtonDescent(Descent):
+class NewtonDescent(SubspaceDescent):
     """Newton's method at work."""
 
     shows_start = False
-    uses_lapack = True
 
     def __init__(self, method: Method, inputs: Inputs) -> None:
-        self.method, self.options, self.pose = method, inputs.options, inputs.pose
-        options, domain = inputs.options, inputs.domain
-        map_, self.discretisation = _starting_point(method, inputs)
-        basis = self.discretisation.basis
-        constraints = constraints_of(domain, inputs.pose, options.p2p_weight)
-        self.problem = Problem(
-            matrices=self.discretisation.matrices,
-            singularities=basis.singularities,
-            unknowns=reduced_unknowns(basis, options.conformal),
-            constraints=constraints,
-            energy=inputs.energy,
-        )
-        if options.align:
-            images = handle_images(constraints, basis, map_)[: len(inputs.pose)]
-            map_ = aligned(map_, inputs.pose, images)
-        self.coefficients: Any = real_coefficients(basis, map_)
-        self.ridge = ridge_of(inputs.pose)
-        self.just_split = 0
+        super().__init__(method, inputs, reduced=True)
+        self.ridge = self._least_ridge = _RIDGE if len(inputs.pose) < 2 else 0.0
         self.full_since: int | None = None
-        self.factor: Any = None
         if isinstance(inputs.start, Result) and self._continues(inputs.start):
             # The result keeps its own.
             self.factor = jnp.array(inputs.start.factor, copy=True)
@@ -107,113 +71,94 @@ class NewtonDescent(Descent):
 
     def _continues(self, start: Result) -> bool:
         """Whether the last Hessian of an earlier solve is one of this problem's."""
-        mine, theirs = self.options, start.options
+        mine, theirs = self.inputs.options, start.options
         return bool(
             mine.corrections
             and start.factor is not None
             and start.discretisation is self.discretisation
             and start.energy_measure == self.problem.energy
-            and np.array_equal(start.pose.handles, self.pose.handles)
+            and np.array_equal(start.pose.handles, self.inputs.pose.handles)
             and (theirs.p2p_weight, theirs.conformal) == (mine.p2p_weight, mine.conformal)
         )
 
-    def advance(self, before: int, left: int, may_refine: bool) -> Advance:
+    def settings(self, may_refine: bool = True) -> step.Settings:
+        """Those of the next call."""
+        options = self.inputs.options
+        return step.Settings(
+            tolerance=options.tolerance,
+            iterations=min(options.iterations_per_call, self.left),
+            may_refine=may_refine and self.discretisation.can_refine,
+            ridge=self.ridge,
+            reuse=self.reuse,
+            corrections=options.corrections,
+            projects_first=options.hessian == "projected",
+            attempts=2 if options.hessian == "adaptive" else 1,
+        )
+
+    def advance(self, may_refine: bool) -> Advance:
         """One compiled call; with nothing left it still evaluates the energies."""
-        options, clock = self.options, compilation_clock()
-        began, compiling = time.perf_counter(), clock.seconds
+        watch = Stopwatch()
         if self.factor is None:
             self.factor, self.reuse = _no_factor(len(self.problem.unknowns.free)), False
-        state = step.run(
-            self.problem,
-            self.coefficients,
-            self.factor,
-            settings_of(
-                options,
-                iterations=min(options.iterations_per_call, left),
-                may_refine=may_refine and self.panels.can_refine,
-                ridge=self.ridge,
-                reuse=self.reuse,
-            ),
-        )
+        settings = self.settings(may_refine)
+        state = step.run(self.problem, self.coefficients, self.factor, settings)
         int(state.outcome)  # waits for the device
-        seconds = time.perf_counter() - began - (clock.seconds - compiling)
         self.factor = state.factor
-        return self.take(state, before, max(seconds, 0.0))
+        return self.take(state, watch.seconds)
 
-    def take(self, state: step.State, before: int, seconds: float) -> Advance:
-        """Go to where a call of so many seconds has come, after ``before`` iterations."""
-        self.state, self.coefficients = state, state.point.coefficients
+    def take(self, state: step.State, seconds: float) -> Advance:
+        """Go to where a call of so many seconds has come."""
+        self.point, self.coefficients = state.point, state.point.coefficients
+        self.decrement = float(state.decrement)
         end, taken = int(state.outcome), int(state.iteration)
+        panels = len(self.discretisation.panels)
+        self.sigma2_lower = np.asarray(state.sigma2_lower)[:panels]
         if not hasattr(self, "initial"):
             iso, p2p = float(state.start_iso), float(state.start_p2p)
             self.initial = Iteration(iteration=0, energy_iso=iso, energy_p2p=p2p, time=0.0)
-        split, panels = self.just_split, len(self.panels.panels)
-        done = _entries(state.records, taken, before, panels, split, seconds)
-        if taken:
+        columns = {k: np.asarray(v)[:taken].tolist() for k, v in state.records._asdict().items()}
+        for values in zip(*columns.values(), strict=True):
+            known = dict(zip(columns, values, strict=True), panels_split=self.just_split)
+            self.record(Iteration(iteration=0, time=seconds / taken, panels=panels, **known))
             self.just_split = 0
         # After a split the map is still where its Hessian was taken.
-        self.reuse = end == outcome.REFUSED and bool(self.options.corrections)
-        return Advance(end, done, np.asarray(state.refused))
+        self.reuse = end == status.REFUSED and bool(self.inputs.options.corrections)
+        return Advance(end, taken, np.asarray(state.refused))
 
-    def reached(self) -> Reached:
-        """After the last call."""
-        point, disc, coefficients = self.state.point, self.panels, self.coefficients
-        bounds = np.asarray(self.state.sigma2_lower)[: len(disc.panels)]
-        return Reached(
-            float(point.energy_iso),
-            float(point.energy_p2p),
-            lambda: map_from(disc, coefficients),
-            bounds,
-            factor=self.factor,
-        )
-
-    def adapt(self, done: Advance, history: Sequence[Iteration]) -> Ending | None:
+    def adapt(self, done: Advance) -> Ending | None:
         """Take the full Hessian or another ridge where that may help; else end."""
-        if done.outcome == outcome.CONVERGED:
+        if done.outcome == status.CONVERGED:
             return Ending(Status.CONVERGED)
         if done.iterations:
             self._relax_ridge()
-            if self._has_coarse_hessian() and _is_slow(history):
-                self._take_full_hessian(history)
-        if done.outcome == outcome.INDEFINITE:
+            if self._has_coarse_hessian() and _is_slow(self.history):
+                self._take_full_hessian()
+        if done.outcome == status.INDEFINITE:
             # Rounding or the nodes may have made it so.
-            return None if self._take_full_hessian(history) else self._raise_ridge()
-        stalled = done.iterations and _has_stalled(history[self.full_since or 0 :])
-        if done.outcome == outcome.NO_DECREASE or stalled:
-            return None if self._take_full_hessian(history) else self._without_decrease()
+            return None if self._take_full_hessian() else self._raise_ridge()
+        stalled = done.iterations and _has_stalled(self.history[self.full_since or 0 :])
+        if done.outcome == status.NO_DECREASE or stalled:
+            return None if self._take_full_hessian() else self._without_decrease()
         return None
 
     def split(self, refused: Array) -> int:
-        """Split the panels that refused a step; 0 when none can be."""
-        wanted = self.panels.splittable(refused)
-        count = int(wanted.sum())
-        if count:
-            self.discretisation = self.panels.refined(wanted)
-            self._take_matrices()
-            self.just_split += count
+        """Split the panels that refused a step, and keep the full Hessian."""
+        count = super().split(refused)
+        if count and self.full_since is not None:
+            self.problem = self.problem._replace(matrices=self.discretisation.full_matrices)
         return count
 
-    @property
-    def panels(self) -> Discretisation:
-        """The discretisation, which a method in the subspace always has."""
-        assert self.discretisation is not None
-        return self.discretisation
-
-    def _take_matrices(self) -> None:
-        disc, full = self.panels, self.full_since is not None
-        self.problem = self.problem._replace(matrices=disc.full_matrices if full else disc.matrices)
-
-    def _take_full_hessian(self, history: Sequence[Iteration]) -> bool:
+    def _take_full_hessian(self) -> bool:
         """From now on the Hessian in double precision on all nodes; False when it is so already."""
         if self.full_since is not None:
             return False
-        self.full_since = len(history)
-        self._take_matrices()
+        self.full_since = len(self.history)
+        self.problem = self.problem._replace(matrices=self.discretisation.full_matrices)
         return True
 
     def _has_coarse_hessian(self) -> bool:
         """Whether other nodes may make fewer iterations: not those of K+, which are slow anyway."""
-        return self.panels.can_refine and self.options.hessian != "projected"
+        return self.discretisation.can_refine and self.inputs.options.hessian != "projected"
 
     def _relax_ridge(self) -> None:
         """Lower an epsilon that one place needed: close to the minimum it would make steps short.
@@ -221,18 +166,18 @@ class NewtonDescent(Descent):
         Where a bar is tied into a loop, 1e-9 outweighed the softest direction 200 times.
         """
         relaxed = self.ridge / _RIDGE_FACTOR
-        self.ridge = max(relaxed if relaxed >= _RIDGE else 0.0, ridge_of(self.pose))
+        self.ridge = max(relaxed if relaxed >= _RIDGE else 0.0, self._least_ridge)
 
     def _raise_ridge(self) -> Ending | None:
         """A larger epsilon where the Hessian is singular to rounding: two handles in one place."""
-        if self.options.hessian == "exact":
+        if self.inputs.options.hessian == "exact":
             return Ending(Status.INDEFINITE)
         self.ridge = max(_RIDGE_FACTOR * self.ridge, _RIDGE)
         return Ending(Status.BLOCKED) if self.ridge > _LARGEST_RIDGE else None
 
     def _without_decrease(self) -> Ending:
-        promised = float(self.state.decrement) ** 2 / 2
-        small = promised <= _ROUNDING * abs(float(self.state.point.energy))
+        promised = self.decrement**2 / 2
+        small = promised <= _ROUNDING * abs(float(self.point.energy))
         return Ending(Status.STATIONARY if small else Status.BLOCKED)
 
 
@@ -252,79 +197,5 @@ def _has_stalled(history: Sequence[Iteration]) -> bool:
     return len(recent) > _STALLED and recent[0] - recent[-1] <= _STALL_GAIN * abs(recent[-1])
 
 
-def _starting_point(method: Method, inputs: Inputs) -> tuple[HarmonicMap, Discretisation]:
-    """The map to start from, checked, and panels for it."""
-    domain, options, start = inputs.domain, inputs.options, inputs.start
-    fresh = functools.partial(discretise, domain, options.sampling, options.certificate)
-    map_ = method.harmonic_start(inputs)
-    if map_ is None:
-        return HarmonicMap.identity(domain), fresh()
-    if options.conformal:
-        check_conformal(map_)
-    if isinstance(start, Result):
-        disc = start.discretisation
-        same = disc is not None and (disc.sampling, disc.certificate) == (
-            options.sampling,
-            options.certificate,
-        )
-        return canonical(map_), disc if disc is not None and same else fresh()
-    check_proved(map_)
-    return canonical(HarmonicMap(domain, map_.phi, map_.psi)), fresh()
-
-
-def ridge_of(pose: Pose) -> float:
-    """The multiple of its mean that a Hessian's diagonal is raised by from the start."""
-    return _RIDGE if len(pose) < 2 else 0.0
-
-
-def settings_of(
-    options: Options, *, iterations: int, may_refine: bool, ridge: float, reuse: bool
-) -> step.Settings:
-    """The numbers of one call."""
-    return step.Settings(
-        tolerance=np.asarray(options.tolerance),
-        iterations=np.asarray(iterations),
-        may_refine=np.asarray(may_refine),
-        ridge=np.asarray(ridge),
-        reuse=np.asarray(reuse),
-        corrections=np.asarray(options.corrections),
-        projects_first=np.asarray(options.hessian == "projected"),
-        attempts=np.asarray(2 if options.hessian == "adaptive" else 1),
-    )
-
-
-def _entries(
-    records: step.Record, taken: int, before: int, panels: int, split: int, seconds: float
-) -> list[Iteration]:
-    """The ``taken`` iterations of one call.
-
-    Parameters
-    ----------
-    records : Record
-        Arrays of at least ``taken`` values.
-    taken, before : int
-        How many iterations the call made, and how many there were before it.
-    panels, split : int
-        Panels of the boundary, and how many of them stem from splits just before the call.
-    seconds : float
-        Of the whole call, compilation left out; shared evenly.
-    """
-    columns = {k: np.asarray(v)[:taken].tolist() for k, v in records._asdict().items()}
-    return [
-        Iteration(
-            iteration=before + i + 1,
-            time=seconds / taken,
-            panels=panels,
-            panels_split=0 if i else split,
-            **{name: values[i] for name, values in columns.items()},
-        )
-        for i in range(taken)
-    ]
-
-
-def _zeros(size: int) -> Any:
-    return jnp.zeros((size, size))
-
-
-_no_factor = jit(_zeros, static_argnames="size")
+_no_factor = jit(lambda size: jnp.zeros((size, size)), static_argnums=0)
 """What a call without a factor is given: compiled, for JAX's own zeros take four times as long."""

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._arguments import number_pairs, read_only
 from glid_nb._errors import InputError
-from glid_nb.geometry import Domain
+from glid_nb.geometry import Domain, place
 
 Array = NDArray[Any]
 
@@ -61,7 +61,7 @@ class Pose:
             j = int(repeated[0])
             i = int(first[inverse.ravel()[j]])
             raise PoseError(
-                f"handles {i} and {j} are the same point {_text(self.handles[j])}; remove one"
+                f"handles {i} and {j} are the same point {place(self.handles[j])}; remove one"
             )
 
     def __len__(self) -> int:
@@ -72,7 +72,7 @@ class Pose:
         i = _first_outside(domain, self.handles.tobytes())
         if i is not None:
             raise PoseError(
-                f"handle {i} at {_text(self.handles[i])} lies outside the domain; "
+                f"handle {i} at {place(self.handles[i])} lies outside the domain; "
                 "move it inside the cage and out of its holes, or remove it"
             )
 
@@ -95,6 +95,17 @@ class Pose:
         return cls(data["handles"], data["targets"])
 
 
+def rigid_motion(z: NDArray[Any], targets: NDArray[Any]) -> tuple[complex, complex, complex]:
+    """``z -> aim + turn (z - middle)`` that brings (h,) complex points closest to their targets.
+
+    Returns turn, middle and aim.
+    """
+    middle, aim = z.mean(), targets.mean()
+    correlation = np.vdot(z - middle, targets - aim)
+    turn = correlation / abs(correlation) if abs(correlation) > 0 else 1.0
+    return turn, middle, aim
+
+
 @functools.lru_cache(maxsize=32)
 def _first_outside(domain: Domain, handles: bytes) -> int | None:
     """The first handle outside the domain; kept, for a drag asks again for the same handles."""
@@ -104,23 +115,19 @@ def _first_outside(domain: Domain, handles: bytes) -> int | None:
 
 def _checked_points(points: Any, name: str) -> Array:
     array = number_pairs(points, f"{name} must be a list of [x, y] pairs", PoseError)
-    bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
-    if bad.size:
-        i = int(bad[0])
-        raise PoseError(f"{name}[{i}] is {_text(array[i])}; coordinates must be finite numbers")
-    far = np.flatnonzero((np.abs(array) > _FARTHEST).any(axis=1))
-    if far.size:
-        i = int(far[0])
-        raise PoseError(
-            f"{name}[{i}] is {_text(array[i])}; coordinates beyond {_FARTHEST:g} are out of scale "
-            "(a picture's longer side is 20 units)"
-        )
+    for bad, why in (
+        (~np.isfinite(array), "coordinates must be finite numbers"),
+        (
+            np.abs(array) > _FARTHEST,
+            f"coordinates beyond {_FARTHEST:g} are out of scale (a picture's longer side is 20 "
+            "units)",
+        ),
+    ):
+        rows = np.flatnonzero(bad.any(axis=1))
+        if rows.size:
+            raise PoseError(f"{name}[{rows[0]}] is {place(array[rows[0]])}; {why}")
     return read_only(array)
 
 
 def _counted(count: int, noun: str) -> str:
     return f"is 1 {noun}" if count == 1 else f"are {count} {noun}s"
-
-
-def _text(point: Array) -> str:
-    return f"({point[0]:.6g}, {point[1]:.6g})"

@@ -14,7 +14,7 @@ from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.harmonic.basis import Basis
 from glid_nb.harmonic.cauchy import Singularities
-from glid_nb.solvers.discretisation import Discretisation, Matrices, basis_rows, padded
+from glid_nb.solvers.discretisation import Matrices, basis_rows
 from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.unknowns import Unknowns
 
@@ -24,44 +24,26 @@ if TYPE_CHECKING:
 _HANDLE_BUCKET = 8
 
 
-class Constraints(NamedTuple):
-    """Handles and targets, padded to a bucket (paper Section 6.1, Appendix F)."""
-
-    handles: Float[AnyArray, "h 2c"]
-    """``C`` at the handles as ``[Re C, -Im C]``."""
-    targets: Float[AnyArray, "h 2"]
-    weights: Float[AnyArray, " h"]
-    """``lambda`` for a handle, 0 for padding."""
-
-
 class Problem(NamedTuple):
     """What is minimised, over which unknowns; a pytree, padded to buckets."""
 
     matrices: Matrices
     singularities: Singularities
     unknowns: Unknowns
-    constraints: Constraints
+    positional: Positional
     energy: Energy
 
 
 class Positional(NamedTuple):
     """The positional energy ``1/2 |A y - b|^2`` with weights (20), as (F.5) writes it."""
 
-    matrix: Float[Array, "2h 4c"]
+    matrix: Float[AnyArray, "2h 4c"]
     """First all rows for the real parts, then those for the imaginary."""
     aims: Float[AnyArray, " 2h"]
-    weights: Float[Array, " 2h"]
+    weights: Float[AnyArray, " 2h"]
+    """``lambda`` for a handle, 0 for padding."""
 
-    @classmethod
-    def of(cls, constraints: Constraints) -> Positional:
-        """The energy of some constraints."""
-        c = constraints.handles.shape[1] // 2
-        re, minus_im = constraints.handles[:, :c], constraints.handles[:, c:]
-        matrix = jnp.block([[re, minus_im, re, minus_im], [-minus_im, re, minus_im, -re]])
-        weights = jnp.concatenate([constraints.weights, constraints.weights])
-        return cls(matrix, constraints.targets.T.ravel(), weights)
-
-    def residual(self, y: Float[Array, " 4c"]) -> Float[Array, " 2h"]:
+    def residual(self, y: Float[Array, " 4c"]) -> Float[AnyArray, " 2h"]:
         """``A y - b``."""
         return self.matrix @ y - self.aims
 
@@ -69,38 +51,37 @@ class Positional(NamedTuple):
         """The energy at the coefficients ``y``."""
         return 0.5 * jnp.sum(self.weights * self.residual(y) ** 2)
 
-    def gradient(self, y: Float[Array, " 4c"]) -> Float[Array, " 4c"]:
+    def gradient(self, y: Float[Array, " 4c"]) -> Float[AnyArray, " 4c"]:
         """Its gradient."""
         return self.matrix.T @ (self.weights * self.residual(y))
 
 
-def constraints_of(domain: Domain, pose: Pose, weight: float) -> Constraints:
-    """The constraints of a pose, padded to a bucket of handles."""
+def positional_energy(domain: Domain, pose: Pose, weight: float) -> Positional:
+    """The positional energy of a pose, its handles padded to a bucket."""
     count = len(pose)
     size = _HANDLE_BUCKET * max(1, -(-count // _HANDLE_BUCKET))
-    if not count:
-        columns = 2 * basis_of(domain).n_columns
-        return Constraints(np.zeros((size, columns)), np.zeros((size, 2)), np.zeros(size))
-    points = pose.handles @ np.array([1, 1j])
-    return Constraints(
-        padded(_rows_at(domain, points.tobytes()), size),
-        padded(np.array(pose.targets), size),
-        padded(np.full(count, float(weight)), size, 0.0),
-    )
+    targets, weights = np.zeros((size, 2)), np.zeros(size)
+    targets[:count], weights[:count] = pose.targets, weight
+    matrix = _matrix_at(domain, pose.handles.tobytes(), size)
+    return Positional(matrix, targets.T.ravel(), np.concatenate([weights, weights]))
 
 
 @functools.lru_cache(maxsize=32)
-def _rows_at(domain: Domain, points: bytes) -> NDArray[Any]:
-    """``C`` at complex points, kept for the next targets of the same handles."""
-    return basis_rows(cauchy.cauchy_coordinates, np.frombuffer(points, complex), basis_of(domain))
+def _matrix_at(domain: Domain, handles: bytes, size: int) -> NDArray[Any]:
+    """``A``, kept for the next targets of the same handles."""
+    basis, points = basis_of(domain), np.frombuffer(handles).reshape(-1, 2) @ np.array([1, 1j])
+    rows = np.zeros((size, 2 * basis.n_columns))
+    rows[: len(points)] = basis_rows(cauchy.cauchy_coordinates, points, basis)
+    re, minus_im = np.split(rows, 2, axis=1)
+    return np.block([[re, minus_im, re, minus_im], [-minus_im, re, minus_im, -re]])
 
 
-def handle_images(constraints: Constraints, basis: Basis, map: HarmonicMap) -> NDArray[Any]:
-    """(h, 2) images of the padded handles."""
-    c = basis.n_columns
-    rows = constraints.handles[:, :c] - 1j * constraints.handles[:, c:]
-    images = rows @ basis.pad(map.phi) + np.conj(rows @ basis.pad(map.psi))
-    return np.stack([np.real(images), np.imag(images)], axis=1)
+def handle_images(positional: Positional, basis: Basis, map: HarmonicMap) -> NDArray[Any]:
+    """(h,) complex images of the padded handles."""
+    real_parts = np.asarray(positional.matrix[: len(positional.aims) // 2])
+    re, minus_im, *_ = np.split(real_parts, 4, axis=1)
+    rows = re - 1j * minus_im
+    return rows @ basis.pad(map.phi) + np.conj(rows @ basis.pad(map.psi))
 
 
 def real_coefficients(basis: Basis, map: HarmonicMap) -> NDArray[Any]:
@@ -109,8 +90,8 @@ def real_coefficients(basis: Basis, map: HarmonicMap) -> NDArray[Any]:
     return np.concatenate([np.real(phi), np.imag(phi), np.real(psi), np.imag(psi)])
 
 
-def map_from(discretisation: Discretisation, coefficients: Any) -> HarmonicMap:
+def map_from(domain: Domain, coefficients: Any) -> HarmonicMap:
     """The map of padded real coefficients ``[Re phi, Im phi, Re psi, Im psi]``."""
-    basis = discretisation.basis
-    re_phi, im_phi, re_psi, im_psi = np.asarray(coefficients).reshape(4, -1)[:, basis.columns]
-    return HarmonicMap(discretisation.domain, re_phi + 1j * im_phi, re_psi + 1j * im_psi)
+    columns = basis_of(domain).columns
+    re_phi, im_phi, re_psi, im_psi = np.asarray(coefficients).reshape(4, -1)[:, columns]
+    return HarmonicMap(domain, re_phi + 1j * im_phi, re_psi + 1j * im_psi)

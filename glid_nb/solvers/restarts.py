@@ -19,7 +19,7 @@ from glid_nb._jax import jnp
 from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.solvers.method import Inputs
-from glid_nb.solvers.result import Attempt, Iteration, Result
+from glid_nb.solvers.result import Attempt, Result
 from glid_nb.solvers.status import Status
 
 Descend = Callable[[Inputs], Result]
@@ -70,10 +70,7 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
         return first
     attempts = tuple(Attempt(name, r.status, r.energy, r.iterations) for name, r in tried)
     return replace(
-        best,
-        options=inputs.options,
-        attempts=attempts,
-        **_times([result for _, result in tried]),
+        best, options=inputs.options, attempts=attempts, **_times([result for _, result in tried])
     )
 
 
@@ -103,9 +100,8 @@ def _staged(inputs: Inputs, descend: Descend) -> Result:
             tolerance=STAGE_TOLERANCE,
             align=options.align and not done,
         )
-        result = descend(replace(stage, start=done[-1] if done else None))
-        done.append(_at_weight(result, 1 / fraction))
-        if result.status is Status.STOPPED:
+        done.append(descend(replace(stage, start=done[-1] if done else None)))
+        if done[-1].status is Status.STOPPED:
             return _joined(done)
     done.append(descend(replace(_with(inputs, align=False), start=done[-1])))
     return _joined(done)
@@ -133,26 +129,21 @@ def _times(results: list[Result]) -> dict[str, float]:
     }
 
 
-def _at_weight(result: Result, factor: float) -> Result:
-    """As the full weight counts it, so that all energies of a staged history compare."""
-
-    def weighted(entry: Iteration) -> Iteration:
-        return replace(entry, energy_p2p=entry.energy_p2p * factor)
-
-    return replace(
-        result,
-        energy_p2p=result.energy_p2p * factor,
-        initial=weighted(result.initial),
-        history=tuple(weighted(entry) for entry in result.history),
-    )
-
-
 def _joined(stages: list[Result]) -> Result:
-    """The last stage's result with the histories and the times of all."""
-    entries = [entry for stage in stages for entry in stage.history]
+    """The last stage's result with the histories and the times of all.
+
+    The full weight counts everywhere, so that all energies compare.
+    """
+    factors = [1 / fraction for fraction in (*STAGES, 1.0)][: len(stages)]
+    (initial, *first), *later = (
+        [replace(e, energy_p2p=e.energy_p2p * factor) for e in (stage.initial, *stage.history)]
+        for stage, factor in zip(stages, factors, strict=True)
+    )
+    entries = [*first, *(entry for _, *others in later for entry in others)]
     return replace(
         stages[-1],
-        initial=stages[0].initial,
+        energy_p2p=stages[-1].energy_p2p * factors[-1],
+        initial=initial,
         history=tuple(replace(entry, iteration=i) for i, entry in enumerate(entries, start=1)),
         **_times(stages),
     )

@@ -14,7 +14,7 @@ from glid_nb.solvers.newton import Newton
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.result import Callback, DeformationMap, Result
-from glid_nb.solvers.start import check_belongs
+from glid_nb.solvers.subspace import check_belongs
 
 
 @double_precision

@@ -18,8 +18,8 @@ from glid_nb.solvers.hessian import (
     positive_part,
 )
 from glid_nb.solvers.options import MOST_PER_CALL
-from glid_nb.solvers.outcome import CONVERGED, INDEFINITE, RUNNING
-from glid_nb.solvers.problem import Positional, Problem
+from glid_nb.solvers.problem import Problem
+from glid_nb.solvers.status import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.unknowns import expand, restrict_gradient, restrict_hessian
 
 if TYPE_CHECKING:
@@ -42,19 +42,19 @@ them; below this one nobody sees a distortion.
 class Settings(NamedTuple):
     """Numbers that may change without compiling again."""
 
-    tolerance: Float[AnyArray, ""]
-    iterations: Int[AnyArray, ""]
-    may_refine: Bool[AnyArray, ""]
+    tolerance: Float[AnyArray, ""] | float
+    iterations: Int[AnyArray, ""] | int
+    may_refine: Bool[AnyArray, ""] | bool
     """Whether to return as soon as a panel refuses a step, so that it can be split."""
-    ridge: Float[AnyArray, ""]
+    ridge: Float[AnyArray, ""] | float
     """Added to the Hessian's diagonal, relative to its mean (Section 9.1's epsilon)."""
-    reuse: Bool[AnyArray, ""]
+    reuse: Bool[AnyArray, ""] | bool
     """Whether the first iteration takes the factor that it is given instead of a new one."""
-    corrections: Int[AnyArray, ""]
+    corrections: Int[AnyArray, ""] | int
     """Most corrections of one iteration."""
-    projects_first: Bool[AnyArray, ""]
+    projects_first: Bool[AnyArray, ""] | bool
     """Whether to project the Hessian before its first factorisation."""
-    attempts: Int[AnyArray, ""]
+    attempts: Int[AnyArray, ""] | int
     """Factorisations of one iteration; the second is of the projected Hessian."""
 
 
@@ -94,7 +94,6 @@ class _Call(NamedTuple):
 
     problem: Problem
     settings: Settings
-    positional: Positional
     p2p_hessian: Float[Array, "4u 4u"]
     """Of the positional energy, in whitened coordinates."""
 
@@ -106,30 +105,18 @@ def iterations(
     settings: Settings,
 ) -> State:
     """Up to ``settings.iterations`` (at most `MOST_PER_CALL`) Newton iterations, to be compiled."""
-    positional = Positional.of(problem.constraints)
+    positional = problem.positional
     rows = whitening.pulled_back(positional.matrix, problem.matrices.whitening)
     p2p_hessian = rows.T @ (positional.weights[:, None] * rows)
     p2p_hessian = restrict_hessian(p2p_hessian, problem.unknowns)
-    call = _Call(problem, settings, positional, p2p_hessian)
+    call = _Call(problem, settings, p2p_hessian)
 
     def goes_on(state: State) -> Bool[Array, ""]:
         return (state.outcome == RUNNING) & (state.iteration < settings.iterations)
 
-    start = _start(call, coefficients, factor)
-    end = lax.while_loop(goes_on, functools.partial(_iteration, call), start)
-
-    def helped() -> Bool[Array, " p"]:
-        return end.refused & evaluation.tightened_by_splitting(problem, end.point)
-
-    return end._replace(refused=lax.cond(jnp.any(end.refused), helped, lambda: end.refused))
-
-
-def _start(call: _Call, coefficients: Float[Array, " 4c"], factor: Float[Array, "4u 4u"]) -> State:
-    """Before the first iteration."""
-    point = evaluation.evaluated(call.problem, call.positional, coefficients)
-    real = call.problem.matrices.real
-    blank = jnp.full(MOST_PER_CALL, jnp.nan)
-    return State(
+    point = evaluation.evaluated(problem, coefficients)
+    real, blank = problem.matrices.real, jnp.full(MOST_PER_CALL, jnp.nan)
+    start = State(
         point=point,
         start_iso=point.energy_iso,
         start_p2p=point.energy_p2p,
@@ -149,11 +136,17 @@ def _start(call: _Call, coefficients: Float[Array, " 4c"], factor: Float[Array, 
         sigma2_lower=jnp.full(real.shape, jnp.nan),
         factor=factor,
     )
+    end = lax.while_loop(goes_on, functools.partial(_iteration, call), start)
+
+    def helped() -> Bool[Array, " p"]:
+        return end.refused & evaluation.tightened_by_splitting(problem, end.point)
+
+    return end._replace(refused=lax.cond(jnp.any(end.refused), helped, lambda: end.refused))
 
 
 def _iteration(call: _Call, state: State) -> State:
     """One iteration of Algorithm 1; close to the minimum, with corrections."""
-    problem, positional, point = call.problem, call.positional, state.point
+    problem, point = call.problem, state.point
     # The Hessian and its factor, projected where it is not positive definite.
     factor, modified = _factorised(call, state)
     definite = jnp.isfinite(factor[-1, -1])
@@ -161,9 +154,9 @@ def _iteration(call: _Call, state: State) -> State:
     line = _newton_line(call, point, factor)
     decrement = jnp.sqrt(jnp.maximum(line.squared_decrement, 0))
     # Line search and certificate.
-    found = line_search.search(problem, positional, point, line)
+    found = line_search.search(problem, point, line)
     outcome, step, panel, refused = line_search.backtrack(
-        problem, positional, point, line, found, call.settings.may_refine
+        problem, point, line, found, call.settings.may_refine
     )
     # Stop on the decrement.
     outcome = jnp.where(_is_minimal(call, point, line), CONVERGED, outcome)
@@ -171,33 +164,35 @@ def _iteration(call: _Call, state: State) -> State:
     stepped = outcome == RUNNING
     # Step.
     step = jnp.where(stepped, step, 0.0)
-    after = _After(
-        point=evaluation.moved(problem, positional, point, line, step),
-        panel=panel,
-        corrections=jnp.array(0),
-        minimal=jnp.array(False),
-        decrement=decrement,
+    there = evaluation.moved(problem, point, line, step)
+    there, panel, corrections, minimal, last_decrement = lax.cond(
+        stepped,
+        functools.partial(_corrected, call, factor, point.energy - there.energy),
+        lambda point, panel: (point, panel, jnp.array(0), jnp.array(False), decrement),
+        *(there, panel),
     )
-    go_on = functools.partial(_corrected, call, factor, point.energy)
-    after = lax.cond(stepped, go_on, lambda a: a, after)
-    least = jnp.min(jnp.where(problem.matrices.real, after.panel.sigma2_lower, jnp.inf))
     record = Record(
-        energy_iso=after.point.energy_iso,
-        energy_p2p=after.point.energy_p2p,
+        energy_iso=there.energy_iso,
+        energy_p2p=there.energy_p2p,
         step=step,
         decrement=decrement,
-        sigma2_lower=least,
+        sigma2_lower=jnp.min(jnp.where(problem.matrices.real, panel.sigma2_lower, jnp.inf)),
         hessian_modified=modified,
-        corrections=after.corrections,
+        corrections=corrections,
     )
+    i = state.iteration
     return state._replace(
-        point=after.point,
-        iteration=state.iteration + stepped,
-        outcome=jnp.where(after.minimal, CONVERGED, outcome),
-        decrement=jnp.where(after.minimal, after.decrement, decrement),
-        records=_recorded(state.records, state.iteration, record, stepped),
+        point=there,
+        iteration=i + stepped,
+        outcome=jnp.where(minimal, CONVERGED, outcome),
+        decrement=jnp.where(minimal, last_decrement, decrement),
+        records=jax.tree.map(
+            lambda known, new: known.at[i].set(jnp.where(stepped, new, known[i])),
+            state.records,
+            record,
+        ),
         refused=refused,
-        sigma2_lower=jnp.where(stepped, after.panel.sigma2_lower, state.sigma2_lower),
+        sigma2_lower=jnp.where(stepped, panel.sigma2_lower, state.sigma2_lower),
         factor=factor,
     )
 
@@ -253,7 +248,7 @@ def _factorised(call: _Call, state: State) -> tuple[Float[Array, "4u 4u"], Bool[
 def _newton_line(call: _Call, point: Point, factor: Float[Array, "4u 4u"]) -> Line:
     """The line in the direction ``-H^-1 gradient``, computed in whitened coordinates."""
     unknowns, t = call.problem.unknowns, call.problem.matrices.whitening
-    gradient = evaluation.gradient(call.problem, call.positional, point)
+    gradient = evaluation.gradient(call.problem, point)
     gradient = restrict_gradient(whitening.pulled_back(gradient, t), unknowns)
     step = -cholesky.solve(factor, gradient)
     step = jnp.where(jnp.isfinite(factor[-1, -1]), step, 0)
@@ -267,82 +262,56 @@ def _is_minimal(call: _Call, point: Point, line: Line) -> Bool[Array, ""]:
     return line.squared_decrement / 2 <= call.settings.tolerance * scale
 
 
-class _After(NamedTuple):
-    """Where an iteration ends."""
-
-    point: Point
-    panel: PanelBounds
-    corrections: Int[Array, ""]
-    minimal: Bool[Array, ""]
-    """Whether a correction found that the point is the minimum."""
-    decrement: Float[Array, ""]
-    """Of the last correction."""
-
-
 def _corrected(
-    call: _Call, factor: Float[Array, "4u 4u"], total: Float[Array, ""], stepped: _After
-) -> _After:
+    call: _Call,
+    factor: Float[Array, "4u 4u"],
+    gain: Float[Array, ""],
+    stepped: Point,
+    panel: PanelBounds,
+) -> tuple[Point, PanelBounds, Int[Array, ""], Bool[Array, ""], Float[Array, ""]]:
     """Go on by corrections while they pay, provided that the last one is certified.
 
     Corrections are steps by the same factor from gradients of their own (Shamanskii's method), for
-    a fraction of the cost of another Hessian. ``total`` is the energy before the iteration's step.
+    a fraction of the cost of another Hessian. ``gain`` is what the iteration's step gained.
+
+    Returns
+    -------
+    tuple
+        The point, the bounds there, the number of corrections, whether the last one found that the
+        point is the minimum, and its decrement.
     """
-    gain = total - stepped.point.energy
-    point, count, minimal, decrement = _corrections(call, stepped.point, gain, factor)
-    panel = lax.cond(
-        count > 0,
-        lambda: evaluation.bounds(call.problem, point),
-        lambda: stepped.panel,
-    )
-    matrices = call.problem.matrices
-    zeros = evaluation.has_zeros(matrices, panel)
-    proved = jnp.all(panel.injective | ~matrices.real) & ~zeros & (count > 0)
-    return _After(
-        point=_where(proved, point, stepped.point),
-        panel=_where(proved, panel, stepped.panel),
-        corrections=jnp.where(proved, count, 0),
-        minimal=minimal & proved,
-        decrement=decrement,
-    )
-
-
-def _corrections(
-    call: _Call, point: Point, gain: Float[Array, ""], factor: Float[Array, "4u 4u"]
-) -> tuple[Point, Int[Array, ""], Bool[Array, ""], Float[Array, ""]]:
-    """Where corrections lead, how many there were, whether to the minimum, the last decrement."""
-    problem, positional, settings = call.problem, call.positional, call.settings
+    problem, settings = call.problem, call.settings
 
     def correct(carry: tuple) -> tuple:
         point, gain, count, _, _ = carry
         line = _newton_line(call, point, factor)
-        found = line_search.search(problem, positional, point, line)
+        found = line_search.search(problem, point, line)
         minimal = _is_minimal(call, point, line)
         takes = found.acceptable[found.best] & ~minimal
-        there = evaluation.moved(problem, positional, point, line, found.steps[found.best])
+        there = evaluation.moved(problem, point, line, found.steps[found.best])
         gained = point.energy - there.energy
         decrement = jnp.sqrt(jnp.maximum(line.squared_decrement, 0))
         more = takes & (gained < _CONTRACTION * gain) & (count + 1 < settings.corrections)
         return _where(takes, there, point), gained, count + takes, more, (minimal, decrement)
 
-    more = (gain < _CLOSE * point.energy) & (settings.corrections > 0)
+    more = (gain < _CLOSE * stepped.energy) & (settings.corrections > 0)
     nothing = (jnp.array(False), jnp.array(jnp.inf))
-    carry = (point, gain, jnp.array(0), more, nothing)
+    carry = (stepped, gain, jnp.array(0), more, nothing)
     point, _, count, _, (minimal, decrement) = lax.while_loop(lambda c: c[3], correct, carry)
-    return point, count, minimal, decrement
-
-
-def _recorded(
-    records: Record, iteration: Int[Array, ""], record: Record, stepped: Bool[Array, ""]
-) -> Record:
-    """The records with one more, where a step was taken."""
-    return jax.tree.map(
-        lambda all_, one: all_.at[iteration].set(jnp.where(stepped, one, all_[iteration])),
-        records,
-        record,
+    bounds = lax.cond(count > 0, lambda: evaluation.bounds(problem, point), lambda: panel)
+    zeros = evaluation.has_zeros(problem.matrices, bounds)
+    injective = jnp.all(bounds.injective | ~problem.matrices.real)
+    proved = injective & ~zeros & (count > 0)
+    return (
+        _where(proved, point, stepped),
+        _where(proved, bounds, panel),
+        jnp.where(proved, count, 0),
+        minimal & proved,
+        decrement,
     )
 
 
-def _where(condition: Bool[Array, ""], one: Any, other: Any) -> Any:
+def _where(condition: Bool[AnyArray, ""] | bool, one: Any, other: Any) -> Any:
     return jax.tree.map(lambda a, b: jnp.where(condition, a, b), one, other)
 
 

@@ -30,17 +30,11 @@ class Unknowns(NamedTuple):
     """One entry per padded hole column (its length is what matters)."""
 
 
-def unknowns_of(basis: Basis, conformal: bool) -> Unknowns:
-    """The unknowns among all columns; ``conformal`` drops all of ``psi`` and the logarithms."""
-    return _unknowns(basis, conformal, np.arange(basis.n_columns))
-
-
-def reduced_unknowns(basis: Basis, conformal: bool) -> Unknowns:
-    """The unknowns among the columns that have any, as :func:`unknowns_of`."""
-    return _unknowns(basis, conformal, basis.unknown_columns)
-
-
-def _unknowns(basis: Basis, conformal: bool, columns: Int[AnyArray, " u"]) -> Unknowns:
+def unknowns_of(
+    basis: Basis, conformal: bool, columns: Int[AnyArray, " u"] | None = None
+) -> Unknowns:
+    """The unknowns among all columns, or some; ``conformal`` drops ``psi`` and the logarithms."""
+    columns = np.arange(basis.n_columns) if columns is None else columns
     phi, psi = (free[columns] & (columns >= 0) for free in (basis.phi_free, basis.psi_free))
     n_holes = basis.n_hole_columns
     if conformal:

@@ -92,7 +92,7 @@ def coefficients(x: Float[Array, " 4u"], t: Float[Array, "2 c u"]) -> Float[Arra
     return jnp.stack([re @ t[0].T - im @ t[1].T, re @ t[1].T + im @ t[0].T], axis=1).ravel()
 
 
-def pulled_back(rows: Float[Array, "*r 4c"], t: Float[Array, "2 c u"]) -> Float[Array, "*r 4u"]:
+def pulled_back(rows: Float[AnyArray, "*r 4c"], t: Float[Array, "2 c u"]) -> Float[Array, "*r 4u"]:
     """Derivatives with respect to coordinates from those with respect to coefficients."""
     parts = rows.reshape(*rows.shape[:-1], 2, 2, -1)
     re, im = parts[..., 0, :], parts[..., 1, :]

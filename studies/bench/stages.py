@@ -11,10 +11,10 @@ import jax.numpy as jnp
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision, single_blas_thread
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Result, cholesky, evaluation, line_search
-from glid_nb.solvers.evaluation import Line, Point
+from glid_nb.solvers.evaluation import Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
-from glid_nb.solvers.problem import Positional, Problem, constraints_of, real_coefficients
-from glid_nb.solvers.unknowns import reduced_unknowns, restrict_hessian
+from glid_nb.solvers.problem import Problem, positional_energy, real_coefficients
+from glid_nb.solvers.unknowns import restrict_hessian, unknowns_of
 from studies.timing import timed
 
 STAGES = ("gradient", "hessian", "factor", "search", "certificate")
@@ -33,19 +33,15 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
     disc, options = result.discretisation, result.options
     assert disc is not None
     assert isinstance(result.map, HarmonicMap)
-    constraints = constraints_of(disc.domain, result.pose, options.p2p_weight)
-    unknowns = reduced_unknowns(disc.basis, options.conformal)
+    positional = positional_energy(disc.domain, result.pose, options.p2p_weight)
+    unknowns = unknowns_of(disc.basis, options.conformal, disc.basis.unknown_columns)
     singularities = disc.basis.singularities
     energy = result.energy_measure
-    problem = Problem(disc.matrices, singularities, unknowns, constraints, energy)
+    problem = Problem(disc.matrices, singularities, unknowns, positional, energy)
     y = jnp.asarray(real_coefficients(disc.basis, result.map))
 
-    def evaluated(problem: Problem, y: Any) -> Point:
-        return evaluation.evaluated(problem, Positional.of(problem.constraints), y)
-
     def gradient(problem: Problem, y: Any) -> Any:
-        point = evaluated(problem, y)
-        return evaluation.gradient(problem, Positional.of(problem.constraints), point)
+        return evaluation.gradient(problem, evaluation.evaluated(problem, y))
 
     def hessian(problem: Problem, point: Point) -> Any:
         return _hessian(problem, point, options.hessian == "projected")
@@ -53,10 +49,7 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
     def factor(h: Any, b: Any) -> Any:
         return cholesky.solve(cholesky.factorise(h), b)
 
-    def search(problem: Problem, point: Point, line: Line) -> Any:
-        return line_search.search(problem, Positional.of(problem.constraints), point, line)
-
-    point = _compiled(evaluated)(problem, y)
+    point = _compiled(evaluation.evaluated)(problem, y)
     line = _compiled(evaluation.line_along)(problem, -_SMALL * y, jnp.array(-1.0))
     h = _compiled(hessian)(problem, point).astype(float)
     h = _compiled(lambda h, unknowns: restrict_hessian(h, unknowns, ridge=_RIDGE))(h, unknowns)
@@ -64,7 +57,7 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
         "gradient": (gradient, (problem, y)),
         "hessian": (hessian, (problem, point)),
         "factor": (factor, (h, jnp.ones(len(h)))),
-        "search": (search, (problem, point, line)),
+        "search": (line_search.search, (problem, point, line)),
         "certificate": (evaluation.bounds, (problem, point)),
     }
     with single_blas_thread():

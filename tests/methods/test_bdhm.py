@@ -13,9 +13,8 @@ from glid_nb._runtime import single_blas_thread
 from glid_nb.energies import ARAP
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods.bdhm.bounds import DistortionBounds
 from glid_nb.methods.bdhm.problem import BoundedProblem
-from glid_nb.methods.bdhm.samples import MARGIN
+from glid_nb.methods.bdhm.program import MARGIN, DistortionBounds
 from glid_nb.solvers import MethodError, Pose, Progress, Result, Status
 
 from ..reference_map import DenseCheck, Measured

@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 from glid_nb.geometry import MeshMap, graded_panels, triangulate
 from glid_nb.harmonic import as_complex
 from glid_nb.methods import METHODS
-from glid_nb.methods.linear.cauchy import cauchy_point_to_point
-from glid_nb.methods.linear.mean_value import mean_value_coordinates
-from glid_nb.methods.linear.moving_least_squares import moving_least_squares
+from glid_nb.methods.linear.coordinates import (
+    cauchy_point_to_point,
+    mean_value_coordinates,
+    moving_least_squares,
+)
 from glid_nb.solvers import Pose, Status
 
 from ..domains import real

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import itertools
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,11 +13,10 @@ from glid_nb._runtime import double_precision
 from glid_nb.certificate import certify
 from glid_nb.energies import ARAP, Energy, SymmetricDirichlet
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods.subspace.descent import View
-from glid_nb.methods.subspace.first_order import LBFGS
-from glid_nb.methods.subspace.newton_variants import FLOOR, NewtonEigen, NewtonStaged
-from glid_nb.methods.subspace.problem import SubspaceProblem
+from glid_nb.methods.subspace.descent import DirectedDescent, SubspaceMethod
+from glid_nb.methods.subspace.methods import FLOOR, LBFGS, NewtonEigen, NewtonStaged
 from glid_nb.solvers import Options, Pose, Result, Status
+from glid_nb.solvers.method import Inputs
 
 from ..reference_map import DenseCheck
 from .problems import problem, run_method
@@ -30,6 +30,14 @@ PAPER = {"sampling": "uniform", "certificate": "lipschitz"}
 def run(method: str, name: str, energy: Energy | None = None, **settings: object) -> Result:
     domain, pose = problem(name)
     return run_method(method, domain, pose, energy, **settings)
+
+
+def started(method: SubspaceMethod, name: str, **options: Any) -> DirectedDescent:
+    domain, pose = problem(name)
+    given = Options(align=False, **options)
+    return method.started(
+        Inputs(domain=domain, pose=pose, energy=SymmetricDirichlet(), options=given)
+    )
 
 
 @pytest.mark.parametrize("name", ["ell", "ring"])
@@ -63,21 +71,16 @@ def test_modified_hessians_pass_where_the_exact_one_is_indefinite(method: str) -
 @double_precision
 def test_newton_eigen_raises_or_mirrors_negative_eigenvalues() -> None:
     """``-V f(L) V^T g`` with the exact Hessian ``V L V^T``, indefinite after one step."""
-    domain, pose = problem("bent")
-    searcher = SubspaceProblem(domain, pose, SymmetricDirichlet(), Options(align=False))
-    point, gradient = searcher.evaluate(searcher.start)
-    step = NewtonStaged().direction(View(searcher, point, gradient))
-    assert isinstance(step, np.ndarray)
-    move = searcher.advance(point, gradient, step, False)
-    point, gradient = move.point, np.asarray(move.gradient)
-    h = searcher.hessian(point, "exact") + searcher.p2p_hessian
+    at = started(NewtonStaged(), "bent")
+    assert at.advance(False).iterations == 1
+    h = at.hessian("exact") + at.p2p_hessian
     values, vectors = np.linalg.eigh(h)
     assert values[0] < -1e-3
     # Along each eigenvector, the gradient over the eigenvalue's replacement.
     for absolute, least in ((False, FLOOR), (True, -values[0])):
-        moved = NewtonEigen(absolute=absolute).direction(View(searcher, point, gradient))
+        moved = NewtonEigen(absolute=absolute).direction(at)
         along = vectors.T @ moved
-        slope = vectors.T @ gradient
+        slope = vectors.T @ at.gradient
         assert along[0] == pytest.approx(-slope[0] / least, rel=1e-6)
         assert along[-1] == pytest.approx(-slope[-1] / values[-1], rel=1e-3)
 
@@ -162,40 +165,33 @@ def test_lbfgs_direction_is_that_of_dense_bfgs() -> None:
 
     The textbook's inverse loses digits to a heavy weight, so that this one is light.
     """
-    domain, pose = problem("ring")
-    searcher = SubspaceProblem(
-        domain, pose, SymmetricDirichlet(), Options(align=False, p2p_weight=1e3)
-    )
-    method = LBFGS(memory=5)
-    memory = method.remembered()
-    free = searcher.free
-    point, gradient = searcher.evaluate(searcher.start)
-    inverse = np.linalg.inv(searcher.p2p_hessian + np.diag(np.where(free > 0, 2e-4, 1.0)))
+    at = started(LBFGS(memory=5), "ring", p2p_weight=1e3)
+    inverse = np.linalg.inv(at.p2p_hessian + np.diag(np.where(at.free > 0, 2e-4, 1.0)))
     last = None
     for _ in range(5):
-        x = np.asarray(point.coefficients) * free
+        x, gradient = np.asarray(at.point.coefficients) * at.free, at.gradient
         if last is not None:
             s, y = x - last[0], gradient - last[1]
             assert s @ y > 0
             left = np.eye(len(s)) - np.outer(s, y) / (s @ y)
             inverse = left @ inverse @ left.T + np.outer(s, s) / (s @ y)
         last = (x, gradient)
-        direction = method.direction(View(searcher, point, gradient, memory))
+        direction = at.method.direction(at)
+        assert isinstance(direction, np.ndarray)
         expected = -inverse @ gradient
         assert np.linalg.norm(direction - expected) < 1e-6 * np.linalg.norm(expected)
-        move = searcher.advance(point, gradient, direction, False)
-        assert float(move.step) > 0
-        point, gradient = move.point, np.asarray(move.gradient)
-    assert len(memory.pairs) == 4
+        assert at.advance(False).iterations == 1
+        assert at.step is not None
+        assert at.step > 0
+    assert len(at.memory.pairs) == 4
 
 
 def test_the_problem_is_set_up_in_double_precision() -> None:
     """Also where JAX's own default is single: handles' images agree with the map's."""
     domain, pose = problem("ring")
-    searcher = SubspaceProblem(domain, pose, SymmetricDirichlet(), Options(align=False))
-    rows = searcher.problem.constraints.handles[: len(pose)]
-    identity = HarmonicMap.identity(domain)
-    phi = searcher.discretisation.basis.pad(identity.phi)
+    at = started(NewtonStaged(), "ring")
+    phi = at.discretisation.basis.pad(HarmonicMap.identity(domain).phi)
+    rows = at.problem.positional.matrix[: len(pose), : 2 * len(phi)]
     images = rows @ np.concatenate([phi.real, phi.imag])
     np.testing.assert_allclose(images, pose.handles[:, 0], atol=1e-13)
 

@@ -11,7 +11,7 @@ import scipy.sparse.linalg
 from numpy.typing import NDArray
 
 from glid_nb.geometry import Triangulation, triangulate
-from glid_nb.methods.linear.weights import bounded_biharmonic_weights, harmonic_weights
+from glid_nb.methods.linear.coordinates import bounded_biharmonic_weights, harmonic_weights
 
 from .problems import problem
 
@@ -70,7 +70,7 @@ def test_harmonic_weights_solve_the_laplace_equation(name: str, power: int) -> N
     right = -q[free][:, handles].toarray()
     solution: Any = scipy.sparse.linalg.spsolve(q[free][:, free].tocsc(), right)
     expected[free] = solution
-    w = harmonic_weights(mesh, handles, power)
+    w = harmonic_weights(mesh, handles.tobytes(), power)
     np.testing.assert_allclose(w, expected, atol=1e-8)
     np.testing.assert_allclose(w.sum(axis=1), 1, atol=1e-8)
 
@@ -80,9 +80,9 @@ def test_harmonic_weights_have_their_extremes_at_handles(name: str) -> None:
     """The maximum principle, which holds for Delaunay triangulations, and only of order 1."""
     mesh, handles = mesh_and_handles(name)
     inside = np.setdiff1d(np.arange(len(mesh.vertices)), handles)
-    w = harmonic_weights(mesh, handles, 1)
+    w = harmonic_weights(mesh, handles.tobytes(), 1)
     assert 0 < w[inside].min() < w[inside].max() < 1
-    biharmonic = harmonic_weights(mesh, handles, 2)
+    biharmonic = harmonic_weights(mesh, handles.tobytes(), 2)
     assert biharmonic.min() < -0.01
 
 
@@ -111,10 +111,10 @@ def test_bounded_biharmonic_weights_are_those_of_a_quadratic_program(name: str) 
     # Each is bounded for itself; that they add up to 1 is made so afterwards.
     assert np.abs(expected.sum(axis=1) - 1).max() > 0.01
     expected /= expected.sum(axis=1, keepdims=True)
-    w = bounded_biharmonic_weights(mesh, handles)
+    w = bounded_biharmonic_weights(mesh, handles.tobytes())
     np.testing.assert_allclose(w, expected, atol=1e-4)
     np.testing.assert_allclose(w.sum(axis=1), 1, atol=1e-12)
     assert w.min() >= 0
     assert w.max() <= 1
     # The bound does something: without it weights are negative here.
-    assert harmonic_weights(mesh, handles, 2).min() < -0.01
+    assert harmonic_weights(mesh, handles.tobytes(), 2).min() < -0.01

@@ -12,7 +12,6 @@ from glid_nb.harmonic import HarmonicMap, basis_of
 from glid_nb.solvers.unknowns import (
     canonical,
     expand,
-    reduced_unknowns,
     restrict_gradient,
     restrict_hessian,
     unknowns_of,
@@ -68,7 +67,8 @@ def test_restriction_and_expansion_are_those_of_the_dense_matrix(
 def test_the_reduced_unknowns_are_all_unknowns(name: str, conformal: bool) -> None:
     basis = basis_of(domain(name))
     columns = basis.unknown_columns
-    every, reduced = unknowns_of(basis, conformal), reduced_unknowns(basis, conformal)
+    every = unknowns_of(basis, conformal)
+    reduced = unknowns_of(basis, conformal, basis.unknown_columns)
     assert len(columns) <= basis.n_columns
     assert len(columns) % 8 == 0
     places = np.concatenate(

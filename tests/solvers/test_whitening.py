@@ -14,8 +14,8 @@ from glid_nb.harmonic.cauchy import cauchy_coordinates
 from glid_nb.solvers import Options, Pose, Status, solve, step
 from glid_nb.solvers.discretisation import basis_rows, discretise
 from glid_nb.solvers.evaluation import products
-from glid_nb.solvers.outcome import INDEFINITE
-from glid_nb.solvers.unknowns import expand, reduced_unknowns
+from glid_nb.solvers.status import INDEFINITE
+from glid_nb.solvers.unknowns import expand, unknowns_of
 from glid_nb.solvers.whitening import coefficients, pulled_back, whitened
 
 from ..domains import domain
@@ -90,7 +90,7 @@ def test_a_gradient_pulls_back_as_coefficients_push_forward(name: str, seed: int
 def test_unknowns_stay_where_they_are(name: str) -> None:
     """Fixed coefficients stay zero, and logarithms stay tied, whatever the coordinates."""
     basis = basis_of(domain(name))
-    unknowns = reduced_unknowns(basis, conformal=False)
+    unknowns = unknowns_of(basis, False, basis.unknown_columns)
     t = discretise(domain(name)).matrices.whitening
     rng = np.random.default_rng(1)
     with jax.enable_x64(True):

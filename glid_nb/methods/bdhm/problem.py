@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from glid_nb._jax import jax, jnp
 from glid_nb._runtime import double_precision
 from glid_nb.certificate import Certificate, certify
 from glid_nb.geometry import Domain, graded_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.solvers import Pose
 from glid_nb.solvers.discretisation import complex_basis
-from glid_nb.solvers.start import aligned
-from glid_nb.solvers.unknowns import canonical, unknowns_of
+from glid_nb.solvers.problem import map_from, real_coefficients
+from glid_nb.solvers.subspace import aligned
+from glid_nb.solvers.unknowns import canonical, expand, unknowns_of
 
 Array = NDArray[Any]
 
@@ -26,23 +27,15 @@ _RATIO = 0.5
 _RIDGE = 1e-6
 
 
-@dataclass(frozen=True, eq=False)
-class Samples:
+class Samples(NamedTuple):
     """``f_z = a v`` and ``conj(f_zbar) = b v`` at samples, both complex."""
 
     a: Array
     b: Array
 
-    def __len__(self) -> int:
-        return len(self.a)
-
     def values(self, v: Array) -> tuple[Array, Array]:
         """``f_z`` and ``conj(f_zbar)`` there."""
         return self.a @ v, self.b @ v
-
-    def and_also(self, more: Samples) -> Samples:
-        """These, then others."""
-        return Samples(np.concatenate([self.a, more.a]), np.concatenate([self.b, more.b]))
 
 
 class BoundedProblem:
@@ -52,17 +45,23 @@ class BoundedProblem:
     ``v`` times the inverse of the triangular factor of the energy's matrix.
     """
 
+    @double_precision
     def __init__(self, domain: Domain, pose: Pose, p2p_weight: float) -> None:
         self.domain, self.pose, self.weight = domain, pose, p2p_weight
         self._basis = basis_of(domain)
         # The holes' psi = conj(phi) are no unknowns of their own.
-        self._expansion = self._independent()
+        unknowns = unknowns_of(self._basis, False)
+        self._free = np.flatnonzero(unknowns.free)
+        changes = jnp.asarray(np.eye(len(unknowns.free))[self._free])
+        self._expansion = np.array(jax.vmap(expand, (0, None))(changes, unknowns)).T.copy()
         self._panels = graded_panels(domain, _RATIO)
         self._shares = self._panels.length / self._panels.length.sum()
         self._targets = pose.targets @ np.array([1, 1j])
         self.samples = self.samples_at(self._panels.middle)
-        handles = self._at_handles()
-        self._factor = self._triangular(self.samples, handles)
+        phi, psi = _split(self._expansion)
+        c = complex_basis(cauchy.cauchy_coordinates, pose.handles @ np.array([1, 1j]), self._basis)
+        handles = c @ phi + (c @ psi).conj()
+        self._factor = self._triangular(handles)
         inverse = scipy.linalg.solve_triangular(self._factor, np.eye(len(self._factor)))
         self._expansion = self._expansion @ inverse
         self.samples = Samples(self.samples.a @ inverse, self.samples.b @ inverse)
@@ -78,14 +77,11 @@ class BoundedProblem:
     def unknowns(self, map: HarmonicMap, align: bool) -> Array:
         """The unknowns of a map, rigidly moved toward the targets if asked for."""
         map = canonical(aligned(map, self.pose) if align else map)
-        phi, psi = self._basis.pad(map.phi), self._basis.pad(map.psi)
-        full = np.concatenate([part(c) for c in (phi, psi) for part in (np.real, np.imag)])
-        return self._factor @ full[self._free]
+        return self._factor @ real_coefficients(self._basis, map)[self._free]
 
     def map_of(self, v: Array) -> HarmonicMap:
         """The map with these unknowns."""
-        phi, psi = (part[self._basis.columns] for part in _split(self._expansion @ v))
-        return HarmonicMap(self.domain, phi, psi)
+        return map_from(self.domain, self._expansion @ v)
 
     def certified(self, v: Array, tightness: float) -> Certificate:
         """What is proved of the map with these unknowns."""
@@ -106,37 +102,14 @@ class BoundedProblem:
         pull += self.weight * (self._handles.conj().T @ (self._handles @ v - self._targets))
         return np.real(pull)
 
-    def _triangular(self, samples: Samples, handles: Array) -> Array:
+    def _triangular(self, handles: Array) -> Array:
         """``R`` with ``R^T R`` the energy's matrix, without squaring its condition."""
         root = np.sqrt(4 * self._shares)[:, None]
-        rows = [root * samples.a, root * samples.b, np.sqrt(self.weight) * handles]
+        rows = [root * self.samples.a, root * self.samples.b, np.sqrt(self.weight) * handles]
         stacked = [part for row in rows for part in (row.real, row.imag)]
         if len(self.pose) < 2:
             stacked.append(np.sqrt(_RIDGE) * np.eye(handles.shape[1]))
         return np.asarray(np.linalg.qr(np.concatenate(stacked), mode="r"))
-
-    @double_precision
-    def _at_handles(self) -> Array:
-        """The handles' images as a linear function of the free coefficients."""
-        phi, psi = _split(self._expansion)
-        if not len(self.pose):
-            return np.zeros((0, phi.shape[1]), dtype=complex)
-        points = self.pose.handles @ np.array([1, 1j])
-        c = complex_basis(cauchy.cauchy_coordinates, points, self._basis)
-        return c @ phi + (c @ psi).conj()
-
-    def _independent(self) -> Array:
-        """(4c, n): all coefficients from the free ones, the holes' ``psi = conj(phi)`` included."""
-        unknowns = unknowns_of(self._basis, False)
-        self._free = np.flatnonzero(np.asarray(unknowns.free))
-        size, n_holes = len(unknowns.free), len(unknowns.holes)
-        matrix = np.zeros((size, len(self._free)))
-        matrix[self._free, np.arange(len(self._free))] = 1
-        c = size // 4
-        for j in range(c - n_holes, c):
-            matrix[2 * c + j] = matrix[j]
-            matrix[3 * c + j] = -matrix[c + j]
-        return matrix
 
 
 def _split(full: Array) -> tuple[Array, Array]:

@@ -9,26 +9,27 @@ without the margin, exceeds it, the sample's bound gives way to what the map has
 
 from __future__ import annotations
 
-import time
-from dataclasses import dataclass
-from typing import Any
+import functools
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from glid_nb._runtime import double_precision, single_blas_thread
+from glid_nb._runtime import single_blas_thread
 from glid_nb.certificate import Certificate
-from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods.bdhm.bounds import DistortionBounds
 from glid_nb.methods.bdhm.problem import BoundedProblem
-from glid_nb.methods.bdhm.program import Step, solve_program
-from glid_nb.methods.bdhm.samples import MARGIN, ActiveSet
-from glid_nb.solvers import Iteration, Method, Pose, Result, Status
-from glid_nb.solvers.loop import Ending, GeneratedDescent, Snapshot, Steps, follow
+from glid_nb.methods.bdhm.program import (
+    MARGIN,
+    ActiveSet,
+    Array,
+    DistortionBounds,
+    Step,
+    solve_program,
+)
+from glid_nb.solvers import Iteration, Method, Result, Status
+from glid_nb.solvers.loop import Ending, GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.method import Inputs
-
-Array = NDArray[Any]
 
 # How much of the margin the proof may take.
 _PROOF = 0.4
@@ -45,7 +46,6 @@ _NOTHING = 1e-10
 # What a program's duality gap may be: relative to the decrease that counts as none, and in itself.
 _GAP, _LEAST_GAP, _MOST_GAP = 0.01, 1e-12, 1e-6
 
-
 TOLERANCE = 1e-5
 """The share of the energy that a program may still promise to gain where the method has converged.
 
@@ -54,7 +54,7 @@ The energy itself may be some twenty times that above its least, for the method 
 
 
 @dataclass(frozen=True)
-class BDHM(Method):
+class BDHM(DistortionBounds, Method):
     """ARAP within given bounds on k, sigma_1 and sigma_2 by cone programs (Clarabel).
 
     Bounded distortion harmonic maps (Chen & Weber 2015). ``k``, ``sigma1`` and ``sigma2`` bound the
@@ -71,45 +71,30 @@ class BDHM(Method):
     energies = ("arap",)
     package = "clarabel"
 
-    k: float = 0.8
-    sigma1: float = 5.0
-    sigma2: float = 0.3
     tolerance: float = TOLERANCE
 
     def __post_init__(self) -> None:
-        super().__post_init__()
-        _ = self.bounds  # refuses what is out of range
-
-    @property
-    def bounds(self) -> DistortionBounds:
-        """The bounds."""
-        return DistortionBounds(self.k, self.sigma1, self.sigma2)
+        DistortionBounds.__post_init__(self)
+        Method.__post_init__(self)
 
     def run(self, inputs: Inputs) -> Result:
         """Alternate between frames and cone programs until none lowers the energy."""
-        return follow(lambda: GeneratedDescent(self, self._steps(inputs)), inputs)
+        return follow(lambda: GeneratedDescent(self, inputs, self._steps(_Descent(self, inputs))))
 
-    def _steps(self, inputs: Inputs) -> Steps:
-        domain, options = inputs.domain, inputs.options
-        problem = _problem(domain, inputs.pose, options.p2p_weight)
-        descent = _Descent(problem, self.bounds, self.tolerance)
-        identity, start = HarmonicMap.identity(domain), self.harmonic_start(inputs)
-        now = descent.started(identity if start is None else start, options.align)
-        if not self.bounds.hold(now.certificate):
-            now = descent.started(identity, options.align)
-        seconds = 0.0
-        while True:
-            yield descent.snapshot(now, seconds)
-            began = time.perf_counter()
+    def _steps(self, descent: _Descent) -> Steps:
+        inputs = descent.inputs
+        identity, start = HarmonicMap.identity(inputs.domain), self.harmonic_start(inputs)
+        now: Iterate | Ending = descent.started(identity if start is None else start)
+        if not self.hold(now.certificate):
+            now = descent.started(identity)
+        while isinstance(now, Iterate):
+            yield functools.partial(descent.reached, now)
             with single_blas_thread():
-                outcome = descent.advance(now)
-            if isinstance(outcome, Ending):
-                return outcome
-            now, seconds = outcome, time.perf_counter() - began
+                now = descent.advance(now)
+        return now
 
 
-@dataclass(frozen=True, eq=False)
-class Iterate:
+class Iterate(NamedTuple):
     """A map that is proved to keep the bounds."""
 
     v: Array
@@ -121,51 +106,65 @@ class Iterate:
 class _Descent:
     """One run, and the samples that it adds to as it goes."""
 
-    def __init__(self, problem: BoundedProblem, bounds: DistortionBounds, tolerance: float) -> None:
-        self.problem, self.bounds, self.tolerance = problem, bounds, tolerance
-        self.active = ActiveSet.empty(problem, bounds)
+    def __init__(self, method: BDHM, inputs: Inputs) -> None:
+        self.method, self.inputs = method, inputs
+        with single_blas_thread():
+            self.problem = BoundedProblem(inputs.domain, inputs.pose, inputs.options.p2p_weight)
+        samples = self.problem.samples
+        none = np.zeros((3, len(samples.a)), dtype=bool)
+        self.active = ActiveSet(self.problem, method, samples, none)
         self.far = True
-        self.tightness = _PROOF * MARGIN * bounds.narrowest
 
-    def started(self, map: HarmonicMap, align: bool) -> Iterate:
-        v = self.problem.unknowns(map, align)
+    def started(self, map: HarmonicMap) -> Iterate:
+        v = self.problem.unknowns(map, self.inputs.options.align)
         return Iterate(v, sum(self.problem.energies(v)), self._proved(v))
+
+    def reached(self, now: Iterate) -> Reached:
+        iso, p2p = self.problem.energies(now.v)
+        entry = Iteration(
+            iteration=0,
+            energy_iso=iso,
+            energy_p2p=p2p,
+            time=0.0,
+            step=now.step,
+            sigma2_lower=now.certificate.sigma2_lower,
+        )
+        return Reached(entry, lambda: self.problem.map_of(now.v), proof=now.certificate)
 
     def advance(self, now: Iterate) -> Iterate | Ending:
         """The next map, or why there is none."""
         self.active = self.active.around(now.v)
+        outcome = self._attempt(now, 1 if self.far else _ROUNDS)
         if self.far:
-            outcome = self._attempt(now, 1)
             self.far = isinstance(outcome, Iterate) and _SHORT <= (outcome.step or 0.0) < 1
-            if isinstance(outcome, Iterate) or outcome.status is Status.CONVERGED:
-                return outcome
-        outcome = self._attempt(now, _ROUNDS)
+            if isinstance(outcome, Ending) and outcome.status is not Status.CONVERGED:
+                outcome = self._attempt(now, _ROUNDS)
         if isinstance(outcome, Iterate) or outcome.status is Status.CONVERGED:
             return outcome
         # Where the map has used up the margin no step is proved any more. A program that gives
         # some of it back need not lower the energy, but far from the minimum it does.
-        self.active = self.active.with_excess(_INWARD)
+        self.active = replace(self.active, excess=_INWARD)
         inward = self._attempt(now, _ROUNDS)
-        self.active = self.active.with_excess(1.0)
+        self.active = replace(self.active, excess=1.0)
         return inward if isinstance(inward, Iterate) else outcome
 
     def _attempt(self, now: Iterate, rounds: int) -> Iterate | Ending:
         """The step of a program that is solved again with the samples its solution violates."""
         gradient = self.problem.gradient(now.v)
-        none = self.tolerance * max(now.energy, _NOTHING)
+        none = self.method.tolerance * max(now.energy, _NOTHING)
         gap = float(np.clip(_GAP * none, _LEAST_GAP, _MOST_GAP))
         while True:
             program = solve_program(gradient, self.active, now.v, gap)
             rounds -= 1
             if program.change is None:
                 return _blocked(f"the cone program was not solved ({program.status})")
-            if program.decrease <= none and program.solved:
+            if program.decrease <= none and program.status == "Solved":
                 if self.active.excess < 1:
                     return _blocked("giving back some of the margin costs more than it gains")
                 return Ending(
                     Status.CONVERGED,
                     "The solver converged: with the frames held fixed no map within the bounds has "
-                    f"an energy that is lower by more than {self.tolerance:g} of it.",
+                    f"an energy that is lower by more than {self.method.tolerance:g} of it.",
                 )
             reached = now.v + program.change
             wider = self.active.and_violated(reached)
@@ -187,7 +186,7 @@ class _Descent:
         if not energy <= now.energy:
             return None
         certificate = self._proved(v)
-        if not self.bounds.hold(certificate):
+        if not self.method.hold(certificate):
             return certificate
         return Iterate(v, energy, certificate, step)
 
@@ -208,19 +207,7 @@ class _Descent:
         )
 
     def _proved(self, v: Array) -> Certificate:
-        return self.problem.certified(v, self.tightness)
-
-    def snapshot(self, now: Iterate, seconds: float) -> Snapshot:
-        iso, p2p = self.problem.energies(now.v)
-        entry = Iteration(
-            iteration=0,
-            energy_iso=iso,
-            energy_p2p=p2p,
-            time=seconds,
-            step=now.step,
-            sigma2_lower=now.certificate.sigma2_lower,
-        )
-        return Snapshot(entry, lambda: self.problem.map_of(now.v), now.certificate)
+        return self.problem.certified(v, _PROOF * MARGIN * self.method.narrowest)
 
 
 def _blocked(why: str) -> Ending:
@@ -229,9 +216,3 @@ def _blocked(why: str) -> Ending:
         f"The solver did not converge: {why}. The last map, which keeps the bounds and has the "
         "least energy, is returned.",
     )
-
-
-@double_precision
-def _problem(domain: Domain, pose: Pose, p2p_weight: float) -> BoundedProblem:
-    with single_blas_thread():
-        return BoundedProblem(domain, pose, p2p_weight)

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
+import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.geometry import signed_area
 from glid_nb.harmonic import as_complex
-from glid_nb.methods.linear import weights
-from glid_nb.methods.linear.cauchy import cauchy_point_to_point
-from glid_nb.methods.linear.mean_value import handle_polygon, mean_value_coordinates
-from glid_nb.methods.linear.moving_least_squares import Kind, moving_least_squares
+from glid_nb.methods.linear import coordinates
+from glid_nb.methods.mesh.operators import flips
 from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
 from glid_nb.solvers import MethodError, Status
 from glid_nb.solvers.loop import Ending, Steps
@@ -37,13 +36,11 @@ class LinearMethod(MeshMethod):
 
     def steps(self, problem: MeshProblem) -> Steps:
         """The one solve."""
-        yield problem.snapshot(problem.start, 0.0)
-        began = time.perf_counter()
+        yield problem.at(problem.start)
         w = self.images(problem)
-        state = problem.snapshot(w, time.perf_counter() - began)
-        yield state
-        flips = state.entry.flips
-        over = f"{flips} triangles are" if flips else "no triangle is"
+        yield problem.at(w)
+        count = flips(*problem.operators.wirtinger(w))
+        over = f"{count} triangles are" if count else "no triangle is"
         return Ending(Status.CONVERGED, f"A linear method, solved at once: {over} turned over.")
 
 
@@ -57,13 +54,13 @@ class MovingLeastSquares(LinearMethod):
     name = "mls"
     label = "Moving least squares"
 
-    kind: Kind = "rigid"
+    kind: coordinates.Kind = "rigid"
     alpha: float = 1.0
 
     def images(self, problem: MeshProblem) -> Array:
-        rest = problem.operators.rest
-        handles = rest[problem.handles]
-        return moving_least_squares(rest, handles, problem.targets, self.kind, self.alpha)
+        z, targets = problem.operators.rest, problem.targets
+        handles = z[problem.handles]
+        return coordinates.moving_least_squares(z, handles, targets, self.kind, self.alpha)
 
 
 @dataclass(frozen=True)
@@ -81,9 +78,7 @@ class BoundedBiharmonicWeights(LinearMethod):
     iterations: int = 20
 
     def images(self, problem: MeshProblem) -> Array:
-        mesh = problem.operators.mesh
-        w = weights.bounded_biharmonic_weights(mesh, problem.handles, self.iterations)
-        return _blended(problem, w)
+        return _blended(problem, coordinates.bounded_biharmonic_weights, self.iterations)
 
 
 @dataclass(frozen=True)
@@ -99,8 +94,7 @@ class HarmonicWeights(LinearMethod):
     power: Literal[1, 2, 3] = 2
 
     def images(self, problem: MeshProblem) -> Array:
-        mesh = problem.operators.mesh
-        return _blended(problem, weights.harmonic_weights(mesh, problem.handles, self.power))
+        return _blended(problem, coordinates.harmonic_weights, self.power)
 
 
 @dataclass(frozen=True)
@@ -121,7 +115,7 @@ class MeanValueCoordinates(LinearMethod):
                 f"mean value coordinates take the handles as their cage and need at least 3 of "
                 f"them; there are {len(points)}"
             )
-        polygon = points[handle_polygon(as_complex(points))]
+        polygon = points[_around(as_complex(points))]
         if abs(signed_area(polygon)) <= _FLAT * inputs.domain.cage.longer_side**2:
             raise MethodError(
                 "mean value coordinates take the handles as their cage, and these lie on one line; "
@@ -130,9 +124,9 @@ class MeanValueCoordinates(LinearMethod):
 
     def images(self, problem: MeshProblem) -> Array:
         rest = problem.operators.rest
-        order = handle_polygon(as_complex(problem.inputs.pose.handles))
+        order = _around(as_complex(problem.inputs.pose.handles))
         polygon = rest[problem.handles][order]
-        return mean_value_coordinates(rest, polygon) @ problem.targets[order]
+        return coordinates.mean_value_coordinates(rest, polygon) @ problem.targets[order]
 
 
 @dataclass(frozen=True)
@@ -148,11 +142,17 @@ class CauchyCoordinates(LinearMethod):
 
     def images(self, problem: MeshProblem) -> Array:
         domain, pose = problem.inputs.domain, problem.inputs.pose
-        map_ = cauchy_point_to_point(domain, pose, problem.p2p_weight)
+        map_ = coordinates.cauchy_point_to_point(domain, pose, problem.p2p_weight)
         return as_complex(map_(problem.operators.mesh.vertices))
 
 
-def _blended(problem: MeshProblem, w: Array) -> Array:
+def _blended(problem: MeshProblem, weights: Callable[..., Array], *settings: int) -> Array:
     """Linear blend skinning by translations."""
-    rest = problem.operators.rest
-    return rest + w @ (problem.targets - rest[problem.handles])
+    rest, handles = problem.operators.rest, problem.handles.astype(np.int64)
+    w = weights(problem.operators.mesh, handles.tobytes(), *settings)
+    return rest + w @ (problem.targets - rest[handles])
+
+
+def _around(handles: Array) -> Array:
+    """(h,) indices that order the handles by their angle about their mean: a simple polygon."""
+    return np.argsort(np.angle(handles - handles.mean()), kind="stable")

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import time
-from dataclasses import dataclass, replace
+import itertools
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from glid_nb.energies import Energy, SymmetricDirichlet
-from glid_nb.methods.mesh.operators import MeshOperators, Pinned, flips, largest_step
-from glid_nb.methods.mesh.projection import Array, project
+from glid_nb.methods.mesh.operators import Array, MeshOperators, Pinned, flips, largest_step
 from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
-from glid_nb.solvers import MethodError, Status
+from glid_nb.solvers import Status
 from glid_nb.solvers.loop import Ending, Steps
 
 _ARMIJO = 1e-4
@@ -19,12 +20,13 @@ _SAFETY = 0.9
 _LEAST_STEP = 1e-14
 # A decrease promised by the proxy that rounding of the energy can hide.
 _ROUNDING = 1e-8
-_WINDOW = 10
 _SMOOTHING = 30
+BOUND, ENOUGH = 0.9, 0.95
+"""The little dilatation is projected onto the first bound until it is below the second, at which
+the singular values' ratio is 39."""
 
 
-@dataclass(frozen=True)
-class _State:
+class _State(NamedTuple):
     w: Array
     fz: Array
     fzb: Array
@@ -44,23 +46,18 @@ class AQP(MeshMethod):
     name = "aqp"
     label = "AQP"
     max_iterations = 1000
+    window = 10
     energies = ("iso", "exp", "amips", "mips", "custom")
     options = ("align", "max_iterations")
 
-    kappa: float = 1000.0
+    kappa: float = field(
+        default=1000.0, metadata={"least": 1, "why": ", at which AQP does not extrapolate"}
+    )
     tolerance: float = 1e-9
-    arap_iterations: int = 5
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.kappa < 1:
-            raise MethodError(
-                f"kappa must be at least 1, at which AQP does not extrapolate; got {self.kappa!r}"
-            )
-        if self.arap_iterations < 1:
-            raise MethodError(
-                "arap_iterations must be at least 1: the first brings the handles to their targets"
-            )
+    arap_iterations: int = field(
+        default=5,
+        metadata={"least": 1, "why": ", for the first brings the handles to their targets"},
+    )
 
     def steps(self, problem: MeshProblem) -> Steps:
         """Extrapolated steps while they lower the energy."""
@@ -69,35 +66,19 @@ class AQP(MeshMethod):
         problem = replace(problem, p2p_weight=1.0)
         theta = (1 - np.sqrt(1 / self.kappa)) / (1 + np.sqrt(1 / self.kappa))
         pinned = Pinned(problem.operators, problem.handles)
-        proxy = _Proxy(problem.operators, pinned, problem.energy, theta)
-        began = time.perf_counter()
-        now = self._started(problem, proxy)
-        yield problem.snapshot(now.w, time.perf_counter() - began)
-        if not np.isfinite(now.energy):
-            left = flips(now.fz, now.fzb)
+        proxy = _Proxy(problem.operators, pinned, problem.inputs.energy, theta)
+        now = start = self._started(problem, proxy)
+        yield problem.at(start.w)
+        if not np.isfinite(start.energy):
+            left = flips(start.fz, start.fzb)
             return Ending(
                 Status.BLOCKED,
                 f"No start was found: the projection left {left} triangles turned over or nearly "
                 "flat, where the energy is not finite.",
             )
-        before, step = now, 1.0
-        energies = [now.energy]
-        while True:
-            began = time.perf_counter()
-            found = proxy.iterated(now, before, step)
-            if found is None:
-                return proxy.without_decrease(now)
-            before, (now, step) = now, found
-            yield problem.snapshot(now.w, time.perf_counter() - began, step)
-            energies.append(now.energy)
-            recent = energies[-1 - _WINDOW :]
-            gain = recent[0] - recent[-1]
-            if len(recent) > _WINDOW and gain <= self.tolerance * abs(recent[-1]):
-                return Ending(
-                    Status.CONVERGED,
-                    f"The solver converged: {_WINDOW} iterations together lower the energy by less "
-                    f"than {self.tolerance:g} of it.",
-                )
+        for now, step in proxy.path(start):
+            yield problem.at(now.w, step)
+        return proxy.without_decrease(now)
 
     def _started(self, problem: MeshProblem, proxy: _Proxy) -> _State:
         """ARAP, projected, and smoothed for other energies than the symmetric Dirichlet energy."""
@@ -106,9 +87,11 @@ class AQP(MeshMethod):
             for _ in range(self.arap_iterations):
                 w = _arap_step(operators, proxy.pinned, w, problem.targets)
             w, _ = project(operators, proxy.pinned, w)
-        if problem.energy.name != "iso":
+        if problem.inputs.energy.name != "iso":
             # The projection leaves slender triangles, where an exponential energy overflows.
-            w = replace(proxy, energy=SymmetricDirichlet()).smoothed(w)
+            smoothing = replace(proxy, energy=SymmetricDirichlet())
+            for now, _ in itertools.islice(smoothing.path(smoothing.state(w)), _SMOOTHING):
+                w = now.w
         return proxy.state(w)
 
 
@@ -133,16 +116,12 @@ class _Proxy:
             found = self._descended(now, step)
         return None if found is None or found[0].energy >= now.energy else found
 
-    def smoothed(self, w: Array) -> Array:
-        """Where some iterations lead."""
-        now = before = self.state(w)
-        step = 1.0
-        for _ in range(_SMOOTHING):
-            found = self.iterated(now, before, step)
-            if found is None:
-                break
+    def path(self, now: _State) -> Iterator[tuple[_State, float]]:
+        """The states from one on and the steps to them, while steps lower the energy."""
+        before, step = now, 1.0
+        while (found := self.iterated(now, before, step)) is not None:
             before, (now, step) = now, found
-        return now.w
+            yield found
 
     def without_decrease(self, now: _State) -> Ending:
         """The end where no step lowers the energy."""
@@ -190,3 +169,40 @@ def _arap_step(operators: MeshOperators, pinned: Pinned, w: Array, targets: Arra
     modulus = np.abs(fz)
     rotation = np.where(modulus > 0, fz / np.where(modulus > 0, modulus, 1), 1)
     return pinned.solve(2 * operators.adjoint(rotation, 0 * rotation), targets)
+
+
+def project(
+    operators: MeshOperators, pinned: Pinned, w: Array, most_iterations: int = 500
+) -> tuple[Array, int]:
+    """A map close to ``w`` with the same held vertices, and how many iterations it took.
+
+    Projection onto maps of bounded distortion (Kovalsky et al. 2015): the differentials are
+    projected onto ``|f_zbar| <= k |f_z|`` triangle by triangle; the next map is the closest one on
+    the hyperplane that separates them, the constraints kept. That needs one solve with the
+    Laplacian's factor per iteration. Triangles may be left that are turned over.
+    """
+    for iteration in range(most_iterations):
+        fz, fzb = operators.wirtinger(w)
+        if (np.abs(fzb) < ENOUGH * np.abs(fz)).all():
+            return w, iteration
+        pz, pzb = closest(fz, fzb, BOUND)
+        nz, nzb = fz - pz, fzb - pzb
+        gap = float(operators.weights @ (np.abs(nz) ** 2 + np.abs(nzb) ** 2))
+        normal = operators.adjoint(nz, nzb)
+        direction = pinned.solve(normal)
+        slope = float(np.real(np.vdot(normal, direction)))
+        if not slope > 0:
+            return w, iteration
+        w = w - (gap / slope) * direction
+    return w, most_iterations
+
+
+def closest(fz: Array, fzb: Array, bound: float) -> tuple[Array, Array]:
+    """The closest differentials with ``|f_zbar| <= bound |f_z|``."""
+    a, b = np.abs(fz), np.abs(fzb)
+    t = (a + bound * b) / (1 + bound**2)
+    outside = b > bound * a
+    safe_a, safe_b = np.where(a > 0, a, 1), np.where(b > 0, b, 1)
+    pz = np.where(outside, t * np.where(a > 0, fz / safe_a, 1), fz)
+    pzb = np.where(outside, bound * t * fzb / safe_b, fzb)
+    return pz, pzb

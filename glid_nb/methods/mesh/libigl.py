@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.energies import AMIPS, ARAP, Energy, ExponentialSymmetricDirichlet
+from glid_nb.geometry import as_points
+from glid_nb.harmonic import as_complex
 from glid_nb.methods.mesh.operators import flips
 from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
-from glid_nb.solvers import MethodError, Status
-from glid_nb.solvers.loop import Ending, Steps
+from glid_nb.solvers import MethodError
+from glid_nb.solvers.loop import Steps
 
 Array = NDArray[Any]
-
-_WINDOW = 5
 
 
 def slim_energy(energy: Energy) -> tuple[str, float]:
@@ -29,26 +27,28 @@ def slim_energy(energy: Energy) -> tuple[str, float]:
     MethodError
         For AMIPS, ARAP, and the exponential energy with another parameter than libigl's.
     """
+    refused = None
     if isinstance(energy, AMIPS):
         # On triangles libigl weights EXP_CONFORMAL by the symmetric Dirichlet energy's gradient, so
         # it does not end at a minimum of that either, and it is not offered under another name.
-        raise MethodError(
-            "libigl's SLIM has no AMIPS: the closest of its energies, EXP_CONFORMAL, is "
+        refused = (
+            "has no AMIPS: the closest of its energies, EXP_CONFORMAL, is "
             "exp((sigma_1/sigma_2 + sigma_2/sigma_1)/2), without AMIPS' terms of area and with no "
             "s; use MIPS(), or AMIPS with the method aqp"
         )
-    if isinstance(energy, ARAP):
-        raise MethodError(
-            "libigl's SLIM has ARAP, but that is no barrier: maps creep up to the first flat "
-            "triangle, stay there and at last turn it over; use the method arap-mesh, or "
-            "SymmetricDirichlet()"
+    elif isinstance(energy, ARAP):
+        refused = (
+            "has ARAP, but that is no barrier: maps creep up to the first flat triangle, stay "
+            "there and at last turn it over; use the method arap-mesh, or SymmetricDirichlet()"
         )
-    if isinstance(energy, ExponentialSymmetricDirichlet) and energy.s != 2:
-        raise MethodError(
-            "libigl's SLIM minimises exp(sigma_1^2 + sigma_1^-2 + sigma_2^2 + sigma_2^-2), which "
-            "is exp(s E_iso) with s = 2, and its Python bindings cannot set the factor; got "
-            f"s = {energy.s}; use ExponentialSymmetricDirichlet(2), or the method aqp"
+    elif isinstance(energy, ExponentialSymmetricDirichlet) and energy.s != 2:
+        refused = (
+            "minimises exp(sigma_1^2 + sigma_1^-2 + sigma_2^2 + sigma_2^-2), which is exp(s E_iso) "
+            f"with s = 2, and its Python bindings cannot set the factor; got s = {energy.s}; use "
+            "ExponentialSymmetricDirichlet(2), or the method aqp"
         )
+    if refused:
+        raise MethodError(f"libigl's SLIM {refused}")
     return {
         "iso": ("SYMMETRIC_DIRICHLET", 2.0),
         "exp": ("EXP_SYMMETRIC_DIRICHLET", 1.0),
@@ -70,6 +70,7 @@ class SLIM(MeshMethod):
     max_iterations = 300
     energies = ("iso", "exp", "mips")
     package = "igl"
+    window = 5
 
     tolerance: float = 1e-9
 
@@ -83,7 +84,7 @@ class SLIM(MeshMethod):
         """libigl's iterations."""
         import igl  # noqa: PLC0415
 
-        name, factor = slim_energy(problem.energy)
+        name, factor = slim_energy(problem.inputs.energy)
         mesh, w = problem.operators.mesh, problem.start
         flat = np.column_stack([mesh.vertices, np.zeros(len(mesh.vertices))])
         if flips(*problem.operators.wirtinger(w)):
@@ -91,13 +92,15 @@ class SLIM(MeshMethod):
         data = igl.slim_precompute(
             np.asfortranarray(flat),
             np.asfortranarray(mesh.triangles),
-            np.asfortranarray(_real(w)),
+            np.asfortranarray(as_points(w)),
             getattr(igl.MappingEnergyType, name),
             problem.handles.astype(np.int32),
-            np.asfortranarray(_real(problem.targets)),
+            np.asfortranarray(as_points(problem.targets)),
             problem.p2p_weight * problem.operators.area * factor,
         )
-        return _iterated(problem, _real(w), lambda _: igl.slim_solve(data, 1), self.tolerance)
+        while True:
+            yield problem.at(w)
+            w = as_complex(igl.slim_solve(data, 1))
 
 
 @dataclass(frozen=True)
@@ -111,6 +114,7 @@ class ARAPLocalGlobal(MeshMethod):
     label = "ARAP, local/global"
     energies = ("arap",)
     package = "igl"
+    window = 5
     options = ("align", "max_iterations")
     needs_handles = True
 
@@ -126,44 +130,7 @@ class ARAPLocalGlobal(MeshMethod):
         vertices = np.ascontiguousarray(mesh.vertices)
         faces = np.ascontiguousarray(mesh.triangles, dtype=np.int64)
         igl.arap_precomputation(vertices, faces, 2, problem.handles.astype(np.int32), data)
-        targets = _real(problem.targets)
-
-        def step(images: Array) -> Any:
-            return igl.arap_solve(targets, data, np.ascontiguousarray(images))
-
-        return _iterated(problem, _real(problem.start), step, self.tolerance, hard=True)
-
-
-def _iterated(
-    problem: MeshProblem,
-    images: Array,
-    step: Callable[[Array], Any],
-    tolerance: float,
-    hard: bool = False,
-) -> Steps:
-    """Steps from images (v, 2) on until some of them together change next to nothing.
-
-    A start that misses ``hard`` constraints has no energy to compare with.
-    """
-    energies: list[float] = []
-    seconds = 0.0
-    while True:
-        state = problem.snapshot(images[:, 0] + 1j * images[:, 1], seconds)
-        yield state
-        entry = state.entry
-        misses = hard and not energies and entry.energy_p2p > 0
-        energies.append(np.inf if misses else entry.energy_iso if hard else entry.energy)
-        recent = energies[-1 - _WINDOW :]
-        if len(recent) > _WINDOW and abs(recent[0] - recent[-1]) <= tolerance * abs(recent[-1]):
-            return Ending(
-                Status.CONVERGED,
-                f"The solver converged: {_WINDOW} iterations together change the energy by less "
-                f"than {tolerance:g} of it.",
-            )
-        began = time.perf_counter()
-        images = step(images)
-        seconds = time.perf_counter() - began
-
-
-def _real(w: Any) -> Any:
-    return np.stack([np.real(w), np.imag(w)], axis=-1)
+        targets, w = as_points(problem.targets), problem.start
+        while True:
+            yield problem.at(w)
+            w = as_complex(igl.arap_solve(targets, data, as_points(w)))

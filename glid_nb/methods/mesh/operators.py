@@ -127,12 +127,5 @@ def largest_step(fz: Array, fzb: Array, dfz: Array, dfzb: Array) -> float:
     return float(np.min(2 * c[hits] / denominator[hits], initial=np.inf))
 
 
-@jit
-def _density(energy: Energy, x: Any, y: Any) -> Any:
-    return energy.density(x, y)
-
-
-@jit
-def _alphas(energy: Energy, x: Any, y: Any) -> Any:
-    d = energy.differentials(x, y)
-    return d.alpha1, d.alpha2
+_density = jit(lambda energy, x, y: energy.density(x, y))
+_alphas = jit(lambda energy, x, y: energy.differentials(x, y)[:2])

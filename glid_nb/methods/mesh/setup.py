@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb.energies import Energy
-from glid_nb.geometry import MeshMap, Triangulation, triangulate
+from glid_nb.geometry import MeshMap, Triangulation, as_points, triangulate
 from glid_nb.harmonic import as_complex
 from glid_nb.methods.mesh.operators import MeshOperators, flips
 from glid_nb.solvers import DeformationMap, Iteration, Method, MethodError, Result
-from glid_nb.solvers.loop import GeneratedDescent, Snapshot, Steps, follow
+from glid_nb.solvers.loop import GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.method import Inputs
-from glid_nb.solvers.start import RigidMotion
+from glid_nb.solvers.pose import rigid_motion
 
 Array = NDArray[Any]
 
-_TRIANGLE = 3
 _AT_VERTEX = 1e-9  # of the shape's longer side
 
 
@@ -33,7 +32,6 @@ class MeshProblem:
     """(h,) vertex indices."""
     targets: Array
     """(h,) complex."""
-    energy: Energy
     p2p_weight: float
     start: Array
     """(v,) complex: the images to start from, rigidly moved if that was asked for."""
@@ -57,28 +55,32 @@ class MeshProblem:
         targets = pose.targets @ np.array([1, 1j])
         images = _images(start, operators)
         if inputs.options.align and len(handles):
-            turn, middle, aim = RigidMotion.closest(images[handles], targets)
+            turn, middle, aim = rigid_motion(images[handles], targets)
             images = aim + turn * (images - middle)
         weight = inputs.options.p2p_weight
-        return cls(inputs, operators, handles, targets, inputs.energy, weight, images)
+        return cls(inputs, operators, handles, targets, weight, images)
 
     def map_of(self, w: Array) -> MeshMap:
         """The map with these images."""
-        return MeshMap(self.operators.mesh, np.stack([np.real(w), np.imag(w)], axis=-1))
+        return MeshMap(self.operators.mesh, as_points(w))
 
-    def snapshot(self, w: Array, seconds: float, step: float | None = None) -> Snapshot:
-        """The state for the record; none of this work is timed."""
-        fz, fzb = self.operators.wirtinger(w)
-        miss = w[self.handles] - self.targets
-        entry = Iteration(
-            iteration=0,
-            energy_iso=self.operators.energy(self.energy, fz, fzb),
-            energy_p2p=self.p2p_weight / 2 * float((np.abs(miss) ** 2).sum()),
-            time=seconds,
-            step=step,
-            flips=flips(fz, fzb),
-        )
-        return Snapshot(entry, lambda: self.map_of(w))
+    def at(self, w: Array, step: float | None = None) -> Callable[[], Reached]:
+        """What tells where a method is that has come to the images ``w``."""
+
+        def reached() -> Reached:
+            fz, fzb = self.operators.wirtinger(w)
+            miss = w[self.handles] - self.targets
+            entry = Iteration(
+                iteration=0,
+                energy_iso=self.operators.energy(self.inputs.energy, fz, fzb),
+                energy_p2p=self.p2p_weight / 2 * float((np.abs(miss) ** 2).sum()),
+                time=0.0,
+                step=step,
+                flips=flips(fz, fzb),
+            )
+            return Reached(entry, lambda: self.map_of(w))
+
+        return reached
 
 
 def _vertices_at(mesh: Triangulation, points: Array, tolerance: float) -> Array:
@@ -118,12 +120,7 @@ class MeshMethod(Method):
     family = "mesh"
     needs_handles = False
 
-    n_vertices: int = field(default=10_000, kw_only=True)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.n_vertices < _TRIANGLE:
-            raise MethodError(f"n_vertices must be at least {_TRIANGLE}, got {self.n_vertices!r}")
+    n_vertices: int = field(default=10_000, kw_only=True, metadata={"least": 3})
 
     def check_handles(self, inputs: Inputs) -> None:
         """Raise :class:`MethodError` where these handles do not do."""
@@ -138,4 +135,4 @@ class MeshMethod(Method):
         """Its steps, recorded."""
         self.check_handles(inputs)
         problem = MeshProblem.of(inputs, self.n_vertices)
-        return follow(lambda: GeneratedDescent(self, self.steps(problem)), inputs)
+        return follow(lambda: GeneratedDescent(self, inputs, self.steps(problem)))
