@@ -1,4 +1,4 @@
-"""Strict checks of arguments, refused by name, and arrays as immutable values."""
+"""Strict checks of arguments, refused by name."""
 
 from __future__ import annotations
 
@@ -8,14 +8,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from numbers import Integral, Real
 from types import NoneType
-from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints
+from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
-from numpy.typing import NDArray
 
 from glid_nb._errors import did_you_mean
-
-A = TypeVar("A", bound=NDArray[Any])
 
 
 def check_type(
@@ -94,60 +91,3 @@ def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str
     if "above" in limits:
         return f"a finite number greater than {above:g}"
     return f"a finite number {'' if 'least' in limits else 'of '}at least {least:g}"
-
-
-def real_array(value: Any) -> NDArray[np.float64]:
-    """``value`` as a new float64 array; a missing number (None) becomes NaN.
-
-    A TypeError or ValueError for ragged nesting and for anything but real numbers in floating-point
-    range, such as text, truth values and complex numbers.
-    """
-    if _holds_truth_value(value):
-        raise TypeError("true and false are not numbers")
-    array = np.asarray(value)
-    if array.dtype.kind in "iuf":
-        return array.astype(np.float64)
-    if array.dtype.kind != "O" or array.ndim == 0:
-        raise TypeError(f"{array.dtype.name} values are not real numbers")
-    try:
-        return np.array([_number(v) for v in array.ravel()]).reshape(array.shape)
-    except OverflowError as error:
-        raise ValueError("a number is too large for floating point") from error
-
-
-def number_pairs(
-    value: Any, wanted: str, error: type[Exception], shape: str = ""
-) -> NDArray[np.float64]:
-    """(n, 2) numbers as a new float64 array, also for an empty list; NaN and infinity pass.
-
-    The message of the ``error`` begins with ``wanted``, "handles must be a list of [x, y] pairs",
-    for another shape with ``shape`` if that is given.
-    """
-    try:
-        pairs = real_array(value)
-    except (TypeError, ValueError) as problem:
-        raise error(f"{wanted} ({problem})") from problem
-    pairs = pairs.reshape(-1, 2) if pairs.shape == (0,) else pairs
-    if pairs.ndim != 2 or pairs.shape[1] != 2:
-        raise error(f"{shape or wanted + '; the shape is'} {pairs.shape}")
-    return pairs
-
-
-def read_only(array: A) -> A:
-    """The array itself, which nobody can write to from now on."""
-    array.setflags(write=False)
-    return array
-
-
-def _number(value: Any) -> float:
-    if value is None:
-        return float("nan")
-    if isinstance(value, int | float):
-        return float(value)
-    raise TypeError(f"{type(value).__name__} is not a number")
-
-
-def _holds_truth_value(value: Any) -> bool:
-    if isinstance(value, list | tuple):
-        return any(_holds_truth_value(v) for v in value)
-    return isinstance(value, bool)

@@ -6,8 +6,8 @@ import functools
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb._jax import jit, jnp
 from glid_nb._runtime import COMPILER_OPTIONS
 from glid_nb.certificate import rounding
@@ -15,8 +15,6 @@ from glid_nb.certificate.panels import modulus
 from glid_nb.certificate.paper import derivative_bound_weights
 from glid_nb.harmonic import HarmonicMap, cauchy, run_on
 from glid_nb.harmonic.cauchy import Singularities
-
-Array = NDArray[Any]
 
 _CHUNK = 256
 

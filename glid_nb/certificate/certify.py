@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb._jax import jit, jnp
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision
 from glid_nb.certificate import rounding
@@ -19,7 +19,6 @@ from glid_nb.certificate.paper import Lipschitz, windings
 from glid_nb.geometry import Panels, graded_panels, place
 from glid_nb.harmonic import HarmonicMap, cauchy, run_on
 
-Array = NDArray[Any]
 CertificateKind = Literal["hermite", "lipschitz", "bdhm"]
 
 PROOFS: dict[CertificateKind, type[PanelProof]] = {

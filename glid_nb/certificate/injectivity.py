@@ -20,12 +20,12 @@ from __future__ import annotations
 
 import functools
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb._runtime import double_precision
 from glid_nb.certificate.arcs import Arcs, jets_of
 from glid_nb.certificate.certify import Certificate, certify
@@ -33,8 +33,6 @@ from glid_nb.certificate.panels import split
 from glid_nb.geometry import Panels, as_points, graded_panels, place
 from glid_nb.geometry.panels import cross, point_distance, segment_distance, segments_cross
 from glid_nb.harmonic import HarmonicMap
-
-Array = NDArray[Any]
 
 _MAX_ROUNDS = 40
 # A crossing is looked for in so many pairs of panels,

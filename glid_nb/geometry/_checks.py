@@ -12,7 +12,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import number_pairs
+from glid_nb._arrays import number_pairs
 from glid_nb.geometry._loops import GeometryError, loop_name, place, plain_name, segments
 
 # Parts of the boundary closer than this share of the cage's size count as touching: a few thousand

@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import read_only
+from glid_nb._arrays import read_only
 from glid_nb.geometry._checks import RESOLUTION, check_loops, checked_vertices
 from glid_nb.geometry._loops import GeometryError, edge_lengths, loop_list, loop_name, signed_area
 

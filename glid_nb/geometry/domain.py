@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import number_pairs, read_only
+from glid_nb._arrays import number_pairs, read_only
 from glid_nb._errors import about
 from glid_nb.geometry._loops import GeometryError, loop_list, loop_name, place
 from glid_nb.geometry.cage import Cage

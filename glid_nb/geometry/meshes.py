@@ -11,7 +11,7 @@ import pythoncdt
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import read_only
+from glid_nb._arrays import Array, read_only
 from glid_nb.geometry._loops import (
     GeometryError,
     as_points,
@@ -21,8 +21,6 @@ from glid_nb.geometry._loops import (
     subdivided,
 )
 from glid_nb.geometry.cage import Cage
-
-Array = NDArray[Any]
 
 # Least distance of lattice points from the boundary, in spacings: closer ones make flat triangles;
 _MARGIN = 0.55
@@ -196,7 +194,7 @@ def _spacing(cage: Cage, n_vertices: int) -> float:
     return spacing
 
 
-def _lattice(cage: Cage, spacing: float) -> NDArray[Any]:
+def _lattice(cage: Cage, spacing: float) -> Array:
     """(p, 2) points of the hexagonal lattice inside the cage, away from its boundary."""
     inner = shapely.buffer(cage.polygon, -_MARGIN * spacing, quad_segs=4)
     if inner.is_empty:

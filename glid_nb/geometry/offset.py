@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from glid_nb._arguments import read_only
+from glid_nb._arrays import read_only
 from glid_nb.geometry._loops import (
     GeometryError,
     edge_lengths,

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from glid_nb._arguments import read_only
+from glid_nb._arrays import Array, read_only
 from glid_nb.geometry._loops import GeometryError, edge_lengths, next_index, subdivided
 
 if TYPE_CHECKING:
     from glid_nb.geometry.cage import Cage
     from glid_nb.geometry.domain import Domain
 
-Array = NDArray[Any]
 
 # Bisecting an edge this often brings it below rounding.
 _MAX_BISECTIONS = 48

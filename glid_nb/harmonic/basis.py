@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb.geometry._loops import next_index
 from glid_nb.harmonic.cauchy import Singularities
 
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
     from glid_nb.geometry import Domain
 
-Array = NDArray[Any]
 
 _BUCKET = 8
 _HOLE_BUCKETS = (0, 1, 2, 4, 8, 16, 32, 64)

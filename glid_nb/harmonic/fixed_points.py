@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from glid_nb._arrays import Array
 from glid_nb.harmonic.map import as_complex, basis_of
 
 if TYPE_CHECKING:
     from glid_nb.geometry import Domain
     from glid_nb.harmonic.map import HarmonicMap
 
-Array = NDArray[Any]
 
 _CHUNK = 1 << 21  # numbers at a time
 _MOST_KEPT = 1 << 26  # numbers, of 8 bytes each

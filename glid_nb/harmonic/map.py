@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from glid_nb._arguments import number_pairs, read_only, real_array
+from glid_nb._arrays import Array, number_pairs, read_only, real_array
 from glid_nb._errors import InputError, about
 from glid_nb._jax import jit, jnp
 from glid_nb._json import parse_json, write_json
@@ -21,7 +21,6 @@ from glid_nb.harmonic import cauchy
 from glid_nb.harmonic.basis import basis_of
 from glid_nb.harmonic.cauchy import Singularities
 
-Array = NDArray[Any]
 R = TypeVar("R")
 
 FORMAT = "glid_nb-map"

@@ -11,7 +11,7 @@ import shapely
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
-from glid_nb._arguments import read_only
+from glid_nb._arrays import read_only
 from glid_nb.imaging.options import Point
 from glid_nb.imaging.outline import Outline, ring_loop, thinned
 

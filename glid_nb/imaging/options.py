@@ -13,7 +13,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import number_pairs, read_only, unmet
+from glid_nb._arguments import unmet
+from glid_nb._arrays import number_pairs, read_only
 from glid_nb._errors import about
 from glid_nb._json import check_fields, check_strokes, read_object
 from glid_nb.imaging.errors import TraceError

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import find_objects, label
 from skimage.measure import block_reduce, find_contours
 
-from glid_nb._arguments import read_only
+from glid_nb._arrays import read_only
 from glid_nb.geometry._loops import signed_area
 from glid_nb.imaging.errors import TraceError
 from glid_nb.imaging.foreground import Foreground

@@ -11,18 +11,16 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from glid_nb import methods
-from glid_nb._arguments import real_array
+from glid_nb._arrays import Array, real_array
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.document import NamedPose
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.solvers import Method, Pose
-
-Array = NDArray[Any]
 
 # Least distance of two handles, as a share of the cage's size.
 _LEAST_DISTANCE = 1e-6

@@ -6,12 +6,13 @@ import functools
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from numbers import Real
-from typing import Any, Concatenate, ParamSpec
+from typing import Concatenate, ParamSpec
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from glid_nb._arguments import check_type
+from glid_nb._arrays import Array
 from glid_nb.certificate import Certificate
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
@@ -26,7 +27,6 @@ from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins
 from glid_nb.solvers import Options, Pose
 
-Array = NDArray[Any]
 P = ParamSpec("P")
 
 

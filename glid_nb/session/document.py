@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._arguments import read_only
+from glid_nb._arrays import read_only
 from glid_nb._errors import InputFileError, about
 from glid_nb.certificate import Certificate, certify
 from glid_nb.energies import Energy

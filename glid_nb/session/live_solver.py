@@ -5,11 +5,10 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.document import NamedPose, Solution
@@ -17,8 +16,6 @@ from glid_nb.session.edit_state import Frame, Task
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.solvers import DeformationMap, Iteration, Newton, Progress, Result, solve
 from glid_nb.solvers.discretisation import discretise
-
-Array = NDArray[Any]
 
 FRAME_INTERVAL = 1 / 40
 """Least number of seconds between two frames of one solve; the last frame is always sent."""

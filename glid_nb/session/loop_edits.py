@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import number_pairs, read_only
+from glid_nb._arrays import number_pairs, read_only
 from glid_nb.geometry import GeometryError, loop_name
 
 Loop: TypeAlias = NDArray[np.float64]

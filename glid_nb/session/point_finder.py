@@ -6,13 +6,11 @@ import functools
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb.geometry import Domain, MeshMap, triangulate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import DeformationMap
-
-Array = NDArray[Any]
 
 _MESH_VERTICES = 2000
 _NEWTON_STEPS = 6

@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import number_pairs, read_only
+from glid_nb._arrays import number_pairs, read_only
 from glid_nb.geometry import Cage, Domain, GeometryError
 from glid_nb.imaging import Hole, PixelFrame, Scribbles, TraceError, TraceOptions, Tracer, Tracing
 from glid_nb.imaging.options import Point

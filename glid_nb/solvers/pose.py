@@ -8,14 +8,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from glid_nb._arguments import number_pairs, read_only
+from glid_nb._arrays import Array, number_pairs, read_only
 from glid_nb._errors import InputError
 from glid_nb.geometry import Domain, place
-
-Array = NDArray[Any]
-
 
 # Farther away, the rounding of a coordinate would be felt in the proof.
 _FARTHEST = 1e6
@@ -95,7 +92,7 @@ class Pose:
         return cls(data["handles"], data["targets"])
 
 
-def rigid_motion(z: NDArray[Any], targets: NDArray[Any]) -> tuple[complex, complex, complex]:
+def rigid_motion(z: Array, targets: Array) -> tuple[complex, complex, complex]:
     """``z -> aim + turn (z - middle)`` that brings (h,) complex points closest to their targets.
 
     Returns turn, middle and aim.

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb.certificate import Certificate, certify
 from glid_nb.energies import Energy
 from glid_nb.geometry import MeshMap
@@ -22,7 +22,6 @@ from glid_nb.solvers.status import Status
 if TYPE_CHECKING:
     from glid_nb.solvers.method import Method
 
-Array = NDArray[Any]
 DeformationMap = HarmonicMap | MeshMap
 
 

@@ -6,8 +6,8 @@ import functools
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb._errors import InputError
 from glid_nb.certificate import certify
 from glid_nb.geometry import Domain
@@ -26,8 +26,6 @@ from glid_nb.solvers.problem import (
 )
 from glid_nb.solvers.result import Iteration, Result
 from glid_nb.solvers.unknowns import canonical, unknowns_of
-
-Array = NDArray[Any]
 
 
 class StartError(InputError):
@@ -123,7 +121,7 @@ def _starting_point(method: Method, inputs: Inputs) -> tuple[HarmonicMap, Discre
     return canonical(HarmonicMap(domain, map_.phi, map_.psi)), fresh()
 
 
-def aligned(map: HarmonicMap, pose: Pose, images: NDArray[Any] | None = None) -> HarmonicMap:
+def aligned(map: HarmonicMap, pose: Pose, images: Array | None = None) -> HarmonicMap:
     """The map followed by the rigid motion that brings its handles closest to their targets.
 
     A rigid motion changes neither the isometric energy nor the certificate. ``images`` (h, 2) are

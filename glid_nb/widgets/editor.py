@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from glid_nb._jax import once_loaded
 from glid_nb._runtime import enable_compilation_cache
 from glid_nb.certificate import Certificate
+from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.imaging.render import View
@@ -21,6 +22,7 @@ from glid_nb.session import Document, NamedPose
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
 from glid_nb.session.editor_model import Application, EditorModel, find_document
+from glid_nb.session.status_line import StatusLine
 from glid_nb.session.tracing import TracingProblem
 from glid_nb.solvers import Method, Pose
 from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
@@ -187,6 +189,11 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         return self.deformation.state.map
 
     @property
+    def comparison(self) -> MeshMap | None:
+        """What a method on a mesh has come to, uncertified; None for other methods."""
+        return self.deformation.moment.comparison
+
+    @property
     def certificate(self) -> Certificate:
         """The proof of `map`."""
         return self.deformation.certificate
@@ -200,6 +207,11 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def poses(self) -> tuple[NamedPose, ...]:
         """All poses."""
         return self.deformation.state.poses
+
+    @property
+    def status(self) -> StatusLine:
+        """What is going on, in words."""
+        return self.deformation.status
 
     @property
     def document(self) -> Document:

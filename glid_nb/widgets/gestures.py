@@ -7,14 +7,13 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb._errors import InputError
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
 from glid_nb.session.model import Observed
 
-Array = NDArray[Any]
 Event = Mapping[str, Any]
 
 LEFT, RIGHT = 0, 2

@@ -15,6 +15,7 @@ import scipy.sparse
 from numpy.typing import NDArray
 from PIL import Image
 
+from glid_nb._arrays import Array
 from glid_nb.figures.style import VERMILION
 from glid_nb.geometry import MeshMap, Triangulation
 from glid_nb.harmonic import as_complex
@@ -22,7 +23,6 @@ from glid_nb.methods.mesh.operators import MeshOperators
 from glid_nb.widgets.overlays import N_COLORS, rgb
 from glid_nb.widgets.shader import ShaderMap, energy_defines, glsl
 
-Array = NDArray[Any]
 Uniforms = dict[str, dict[str, Any]]
 EvaluatedIn = Literal["shader", "kernel"]
 Evaluation = Callable[[Any], tuple[Array, Array]]

@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb._jax import jnp
 from glid_nb.energies import Energy
 from glid_nb.solvers.restarts import isometry_energy
-
-Array = NDArray[Any]
 
 COLORS = (
     *("#fcf4b6", "#fecc8f", "#fea16e", "#f8765c", "#e75263"),
@@ -93,8 +92,8 @@ def _overlay(name: str, energy: Energy) -> Overlay:
 def color_range(
     name: str,
     energy: Energy,
-    fz: NDArray[Any] | None = None,
-    fzb: NDArray[Any] | None = None,
+    fz: Array | None = None,
+    fzb: Array | None = None,
     least: tuple[float, float] | None = None,
 ) -> tuple[float, float]:
     """The values at the pale and at the dark end of the colour map.

@@ -7,8 +7,8 @@ from typing import Any
 import ipywidgets
 import numpy as np
 import traitlets
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import DeformationMap
 from glid_nb.widgets.bundle import bundle, stylesheet
@@ -18,8 +18,6 @@ from glid_nb.widgets.overlays import PANEL_LEGEND, legend
 from glid_nb.widgets.pad import Pad
 from glid_nb.widgets.scene import N_VERTICES, Drawing, Scene, renderer
 from glid_nb.widgets.shader import UNIFORM_VECTORS
-
-Array = NDArray[Any]
 
 CORNERS = ("bottom right", "bottom left", "top right", "top left")  # the usual place first
 

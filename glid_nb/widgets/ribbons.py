@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb.geometry import Domain
 from glid_nb.geometry._loops import subdivided
 from glid_nb.geometry.panels import Panels
-
-Array = NDArray[Any]
 
 _PIECES_PER_SIDE = 80
 _PANEL_PIECES = 2

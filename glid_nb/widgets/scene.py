@@ -7,8 +7,8 @@ from typing import Any, Literal
 
 import numpy as np
 import pythreejs as three
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.figures.style import BLUE, GREY
 from glid_nb.geometry import MeshMap, Triangulation, triangulate, uniform_panels
@@ -20,7 +20,6 @@ from glid_nb.widgets.overlays import COLORS, FULL_MARGIN, MARGIN_COLORS, OVERLAY
 from glid_nb.widgets.ribbons import PANEL_VERTICES, cage_ribbon, offset_ribbon, panel_ribbon
 from glid_nb.widgets.shader import UNIFORM_VECTORS, ShaderMap, energy_uniform
 
-Array = NDArray[Any]
 Range = Literal["keep", "widen", "fit"]
 
 N_VERTICES = 10_000

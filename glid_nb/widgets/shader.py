@@ -6,13 +6,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb.energies import ENERGIES, Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
-
-Array = NDArray[Any]
 
 UNIFORM_VECTORS = 1024
 """Vectors of uniforms that a vertex shader is assumed to hold until the page says otherwise."""

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._arguments import read_only
+from glid_nb._arrays import read_only
 from glid_nb.imaging.errors import TraceError
 from glid_nb.imaging.foreground.measure import (
     RGBA,

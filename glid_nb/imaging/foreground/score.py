@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
-from glid_nb._arguments import read_only
+from glid_nb._arrays import read_only
 from glid_nb.imaging.errors import TraceError
 
 _SMOOTHING = 0.001  # of the longer side

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._arguments import read_only
+from glid_nb._arrays import read_only
 from glid_nb.geometry._loops import signed_area
 from glid_nb.imaging.simplify.edges import divide_long_edges, enclosing, merge_short_edges
 from glid_nb.imaging.simplify.loops import Loops, Points, repair, significance

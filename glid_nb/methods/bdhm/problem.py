@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb._jax import jax, jnp
 from glid_nb._runtime import double_precision
 from glid_nb.certificate import Certificate, certify
@@ -18,8 +18,6 @@ from glid_nb.solvers.discretisation import complex_basis
 from glid_nb.solvers.problem import map_from, real_coefficients
 from glid_nb.solvers.subspace import aligned
 from glid_nb.solvers.unknowns import canonical, expand, unknowns_of
-
-Array = NDArray[Any]
 
 # Panels this long relative to their distance from the singularities carry the samples.
 _RATIO = 0.5

@@ -10,13 +10,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.sparse
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb.certificate import Certificate
 from glid_nb.methods.bdhm.problem import BoundedProblem, Samples
 from glid_nb.solvers import MethodError
-
-Array = NDArray[Any]
 
 # By which share of a bound's range the bounds at samples are stricter than the proved ones.
 MARGIN = 0.01

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import functools
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb._runtime import double_precision
 from glid_nb.geometry import Domain, Triangulation, graded_panels
 from glid_nb.harmonic import HarmonicMap, as_complex, basis_of, cauchy
 from glid_nb.solvers import Pose
 from glid_nb.solvers.discretisation import complex_basis
 
-Array = NDArray[Any]
 Kind = Literal["rigid", "similarity"]
 
 # A point this close to an edge, relative to its ends' distances, is on it.

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb.geometry import signed_area
 from glid_nb.harmonic import as_complex
 from glid_nb.methods.linear import coordinates
@@ -17,8 +17,6 @@ from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
 from glid_nb.solvers import MethodError, Status
 from glid_nb.solvers.loop import Ending, Steps
 from glid_nb.solvers.method import Inputs
-
-Array = NDArray[Any]
 
 _FLAT = 1e-12  # an area relative to the square of the shape's longer side: none
 

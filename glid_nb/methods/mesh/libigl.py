@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from glid_nb.energies import AMIPS, ARAP, Energy, ExponentialSymmetricDirichlet
 from glid_nb.geometry import as_points
@@ -15,8 +13,6 @@ from glid_nb.methods.mesh.operators import flips
 from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
 from glid_nb.solvers import MethodError
 from glid_nb.solvers.loop import Steps
-
-Array = NDArray[Any]
 
 
 def slim_energy(energy: Energy) -> tuple[str, float]:

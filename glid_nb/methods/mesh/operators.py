@@ -7,14 +7,12 @@ from typing import Any
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb._jax import jit
 from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy
 from glid_nb.geometry import Triangulation
-
-Array = NDArray[Any]
 
 
 class MeshOperators:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb.geometry import MeshMap, Triangulation, as_points, triangulate
 from glid_nb.harmonic import as_complex
 from glid_nb.methods.mesh.operators import MeshOperators, flips
@@ -16,8 +15,6 @@ from glid_nb.solvers import DeformationMap, Iteration, Method, MethodError, Resu
 from glid_nb.solvers.loop import GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.pose import rigid_motion
-
-Array = NDArray[Any]
 
 _AT_VERTEX = 1e-9  # of the shape's longer side
 

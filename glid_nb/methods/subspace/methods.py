@@ -8,8 +8,8 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb._jax import jnp
 from glid_nb.methods.subspace.descent import DirectedDescent, SecondOrderMethod, SubspaceMethod
 from glid_nb.solvers import Method, MethodError, OptionError, Result, Status
@@ -17,7 +17,6 @@ from glid_nb.solvers.loop import Ending
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import descend
 
-Array = NDArray[Any]
 Initial = Literal["identity", "dirichlet"]
 
 MEMORY = 5

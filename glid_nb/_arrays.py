@@ -1,0 +1,68 @@
+"""Arrays: the alias of their type, arrays of numbers from untrusted values, immutable arrays."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array: TypeAlias = NDArray[Any]
+A = TypeVar("A", bound=Array)
+
+
+def real_array(value: Any) -> NDArray[np.float64]:
+    """``value`` as a new float64 array; a missing number (None) becomes NaN.
+
+    A TypeError or ValueError for ragged nesting and for anything but real numbers in floating-point
+    range, such as text, truth values and complex numbers.
+    """
+    if _holds_truth_value(value):
+        raise TypeError("true and false are not numbers")
+    array = np.asarray(value)
+    if array.dtype.kind in "iuf":
+        return array.astype(np.float64)
+    if array.dtype.kind != "O" or array.ndim == 0:
+        raise TypeError(f"{array.dtype.name} values are not real numbers")
+    try:
+        return np.array([_number(v) for v in array.ravel()]).reshape(array.shape)
+    except OverflowError as error:
+        raise ValueError("a number is too large for floating point") from error
+
+
+def number_pairs(
+    value: Any, wanted: str, error: type[Exception], shape: str = ""
+) -> NDArray[np.float64]:
+    """(n, 2) numbers as a new float64 array, also for an empty list; NaN and infinity pass.
+
+    The message of the ``error`` begins with ``wanted``, "handles must be a list of [x, y] pairs",
+    for another shape with ``shape`` if that is given.
+    """
+    try:
+        pairs = real_array(value)
+    except (TypeError, ValueError) as problem:
+        raise error(f"{wanted} ({problem})") from problem
+    pairs = pairs.reshape(-1, 2) if pairs.shape == (0,) else pairs
+    if pairs.ndim != 2 or pairs.shape[1] != 2:
+        raise error(f"{shape or wanted + '; the shape is'} {pairs.shape}")
+    return pairs
+
+
+def read_only(array: A) -> A:
+    """The array itself, which nobody can write to from now on."""
+    array.setflags(write=False)
+    return array
+
+
+def _number(value: Any) -> float:
+    if value is None:
+        return float("nan")
+    if isinstance(value, int | float):
+        return float(value)
+    raise TypeError(f"{type(value).__name__} is not a number")
+
+
+def _holds_truth_value(value: Any) -> bool:
+    if isinstance(value, list | tuple):
+        return any(_holds_truth_value(v) for v in value)
+    return isinstance(value, bool)
