@@ -18,11 +18,11 @@ demo: $(VENV)/.demo
 
 # --no-skip: a test that would be skipped because something is missing fails instead.
 test: $(VENV)/.test browser
-	$(PYTEST) --no-skip -n auto --dist worksteal --durations 25
+	$(PYTEST) -p no:nbval --no-skip -n auto --dist worksteal --durations 25
 	$(PYTEST) --nbval --nbval-current-env notebooks
 
 unit: $(VENV)/.test
-	$(PYTEST) --no-skip -m "not slow and not browser" -n auto tests
+	$(PYTEST) -p no:nbval --no-skip -m "not slow and not browser" -n auto tests
 
 lint: $(VENV)/.dev
 	$(VENV)/bin/ruff check .

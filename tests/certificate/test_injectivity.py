@@ -14,6 +14,8 @@ from glid_nb.certificate import GlobalInjectivity, certify, global_injectivity
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 Array = np.ndarray
 
 
@@ -107,7 +109,6 @@ def _square(x: float, y: float, side: float) -> list[list[float]]:
     return [[x, y], [x + side, y], [x + side, y + side], [x, y + side]]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("n_holes", [0, 1, 2, 3])
 def test_the_identity_is_injective(n_holes: int) -> None:
     holes = [_square(2.5 * k - 3, -2.2, 1.0 + k / 4) for k in range(n_holes)]
@@ -121,7 +122,6 @@ def test_the_identity_is_injective(n_holes: int) -> None:
     assert str(outcome.n_panels) in outcome.reason
 
 
-@pytest.mark.slow
 def test_a_bar_wound_over_itself_is_locally_but_not_globally_injective() -> None:
     map = _spiral(-0.05)
     certificate = certify(map)
@@ -134,7 +134,6 @@ def test_a_bar_wound_over_itself_is_locally_but_not_globally_injective() -> None
     assert np.linalg.norm(crossings - outcome.crossing, axis=1).min() < 1e-4
 
 
-@pytest.mark.slow
 def test_the_last_moment_before_two_ends_meet_is_told_from_the_first_after() -> None:
     apart, over = -0.15, -0.1
     while over - apart > 1e-7:
@@ -210,7 +209,6 @@ def _bent_bar(turns: tuple[float, ...], shear: complex, similarity: complex) -> 
     return _holomorphic(BAR, bend, shear * similarity)
 
 
-@pytest.mark.slow
 @settings(max_examples=20)
 @given(
     st.tuples(st.floats(-4.5, 4.5), st.floats(-2, 2), st.floats(-2, 2)),
@@ -233,7 +231,6 @@ def test_a_random_bend_is_judged_like_a_dense_polyline(
         assert _is_simple(map)
 
 
-@pytest.mark.slow
 @settings(max_examples=20)
 @given(
     st.lists(st.floats(0.5, 1.5), min_size=46, max_size=46),

@@ -99,6 +99,7 @@ def test_more_columns_need_more_slack() -> None:
     assert rounding.slack_factor(1000) > 2 * rounding.slack_factor(100)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["hermite", "lipschitz"])
 def test_a_map_moved_far_away_is_decided_quickly(kind: str) -> None:
     """Rounding alone keeps the bounds from the tightness asked; splitting cannot help it."""

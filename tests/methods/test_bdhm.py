@@ -20,6 +20,8 @@ from glid_nb.solvers import MethodError, Pose, Progress, Result, Status
 from ..reference_map import DenseCheck, Measured
 from .problems import problem, run_method
 
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
 pytest.importorskip("clarabel")
 
 LOOSE, TIGHT = (0.8, 5.0, 0.3), (0.16, 1.42, 0.72)
@@ -40,7 +42,6 @@ def measured(map: HarmonicMap) -> Measured:
     )
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("bounds", [LOOSE, TIGHT], ids=["loose", "tight"])
 @pytest.mark.parametrize("name", ["ell", "ring", "bent"])
 def test_the_bounds_hold_densely_and_are_certified(
@@ -59,7 +60,6 @@ def test_the_bounds_hold_densely_and_are_certified(
     assert sum(dense.windings) == 0
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ell", "ring"])
 def test_bounds_that_do_not_bind_leave_the_arap_minimum(name: str) -> None:
     """Within wide bounds the alternation of frames and programs is ARAP's local/global method."""
@@ -78,7 +78,6 @@ def test_bounds_that_bind_cost_energy() -> None:
     assert tight.energy > loose.energy
 
 
-@pytest.mark.slow
 def test_every_iterate_keeps_the_bounds() -> None:
     domain, pose = problem("ring")
     seen = []
@@ -194,7 +193,6 @@ def test_an_unmoved_pose_is_stationary_at_once() -> None:
     assert result.iterations == 0
 
 
-@pytest.mark.slow
 def test_a_map_that_has_used_up_the_margin_goes_on() -> None:
     """sigma_1 binds along a whole side here, and no program that admits the map proves a step."""
     domain = Domain.from_cage(Cage([[0, 0], [4, 0], [4, 2], [0, 2]]))

@@ -371,6 +371,7 @@ def test_gradient_and_hessian_are_those_of_the_discretised_energy(energy: Energy
     np.testing.assert_array_equal(hessian[np.ix_(free, fixed)], 0)
 
 
+@pytest.mark.slow
 def test_the_hessian_is_integrated_in_the_middle_of_panels_and_of_pairs() -> None:
     d, matrices, _, _, _ = discretised()
     panels, size = discretise(d).panels, len(matrices.real)
