@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from glid_nb._arguments import check_type
+from glid_nb._arrays import Array
 from glid_nb._jax import jax, jnp, lax
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision, single_blas_thread
 from glid_nb.energies import Energy, as_energy
@@ -31,7 +32,6 @@ from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Result
 from glid_nb.solvers.status import RUNNING
-from glid_nb.solvers.subspace import Array
 
 # Poses per device and call; few sizes, for each compiles a program of its own.
 _SIZES = (1, 4, 16, 64)

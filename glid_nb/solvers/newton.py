@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from glid_nb._arrays import Array
 from glid_nb._jax import jit, jnp
 from glid_nb._runtime import double_precision
 from glid_nb.solvers import status, step
@@ -16,7 +17,7 @@ from glid_nb.solvers.options import Options
 from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Iteration, Result
 from glid_nb.solvers.status import Status
-from glid_nb.solvers.subspace import Array, SubspaceDescent
+from glid_nb.solvers.subspace import SubspaceDescent
 
 # Without two handles a rotation costs nothing and the Hessian is singular (Appendix I).
 _RIDGE, _LARGEST_RIDGE = 1e-9, 1e-2

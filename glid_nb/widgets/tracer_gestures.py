@@ -7,10 +7,11 @@ from typing import ClassVar
 
 import numpy as np
 
+from glid_nb._arrays import Array
 from glid_nb.imaging import TraceError, read_image
 from glid_nb.session import loop_edits
 from glid_nb.session.tracing import TracingModel
-from glid_nb.widgets.gestures import ARROWS, LEFT, RIGHT, Array, Event, Gestures, place
+from glid_nb.widgets.gestures import ARROWS, LEFT, RIGHT, Event, Gestures, place
 
 Vertex = tuple[int, int]
 """Which loop, and which of its vertices."""

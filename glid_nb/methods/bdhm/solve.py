@@ -15,18 +15,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from glid_nb._arrays import Array
 from glid_nb._runtime import single_blas_thread
 from glid_nb.certificate import Certificate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods.bdhm.problem import BoundedProblem
-from glid_nb.methods.bdhm.program import (
-    MARGIN,
-    ActiveSet,
-    Array,
-    DistortionBounds,
-    Step,
-    solve_program,
-)
+from glid_nb.methods.bdhm.program import MARGIN, ActiveSet, DistortionBounds, Step, solve_program
 from glid_nb.solvers import Iteration, Method, Result, Status
 from glid_nb.solvers.loop import Ending, GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.method import Inputs

@@ -9,8 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from glid_nb._arrays import Array
 from glid_nb.energies import Energy, SymmetricDirichlet
-from glid_nb.methods.mesh.operators import Array, MeshOperators, Pinned, flips, largest_step
+from glid_nb.methods.mesh.operators import MeshOperators, Pinned, flips, largest_step
 from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
 from glid_nb.solvers import Status
 from glid_nb.solvers.loop import Ending, Steps

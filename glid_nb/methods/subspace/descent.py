@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from glid_nb._arrays import Array
 from glid_nb._jax import jnp
 from glid_nb._runtime import double_precision
 from glid_nb.methods.subspace import programs
@@ -16,7 +17,7 @@ from glid_nb.solvers.loop import Advance, Ending, Reached, Stopwatch, follow
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.status import NO_DECREASE, RUNNING
 from glid_nb.solvers.step import LEAST_ENERGY
-from glid_nb.solvers.subspace import Array, SubspaceDescent
+from glid_nb.solvers.subspace import SubspaceDescent
 from glid_nb.solvers.unknowns import restrict_hessian
 
 # A decrease promised by the direction that rounding of the energy can hide.
