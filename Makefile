@@ -9,6 +9,8 @@
 SHELL := /bin/sh
 VENV := .venv
 PYTEST := $(VENV)/bin/python -m pytest
+# One more than there are processors: a test that waits for the browser leaves its own idle.
+WORKERS = $(shell expr $$(nproc) + 1)
 
 .PHONY: demo test unit lint format dev compare bench browser clean
 .DEFAULT_GOAL := demo
@@ -18,7 +20,7 @@ demo: $(VENV)/.demo
 
 # --no-skip: a test that would be skipped because something is missing fails instead.
 test: $(VENV)/.test browser
-	$(PYTEST) -p no:nbval --no-skip -n auto --dist worksteal --durations 25
+	$(PYTEST) -p no:nbval --no-skip -n $(WORKERS) --dist worksteal --durations 25
 	$(PYTEST) --nbval --nbval-current-env notebooks
 
 unit: $(VENV)/.test
