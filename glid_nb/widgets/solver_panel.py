@@ -48,7 +48,7 @@ class FieldRows(ipywidgets.GridBox):
         self._on_change = on_change
         self.controls: dict[str, Any] = {}
         """By the field's name."""
-        columns = "124px minmax(0, 1fr)"
+        columns = "144px minmax(0, 1fr)"
         super().__init__([], layout={"grid_template_columns": columns, "grid_gap": "2px 8px"})
 
     def build(self, controls: Mapping[str, tuple[str, Any]]) -> None:
