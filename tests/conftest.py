@@ -50,6 +50,8 @@ def _compilation_cache() -> None:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    # First, so that one process takes all that wait for a browser, and the others work meanwhile.
+    items.sort(key=lambda item: item.get_closest_marker("browser") is None)
     if config.getoption("--reference"):
         return
     left_out = [item for item in items if item.get_closest_marker("reference")]
