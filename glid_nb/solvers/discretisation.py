@@ -175,17 +175,24 @@ def discretise(
     """
     basis, graded = basis_of(domain), sampling == "graded"
     panels = graded_panels(domain) if graded else uniform_panels(domain.cage, UNIFORM_SAMPLES)
-    rows = _evaluated(basis, certificate, panels.start, panels.end)
+    rows = _evaluated(basis, certificate, panels.start, panels.end, graded)
     return _assembled(domain, sampling, certificate, panels, rows, bucket(len(panels)))
 
 
 def _evaluated(
-    basis: Basis, certificate: CertificateKind, start: np.ndarray, end: np.ndarray
+    basis: Basis,
+    certificate: CertificateKind,
+    start: np.ndarray,
+    end: np.ndarray,
+    graded: bool = True,
 ) -> _Rows:
+    """The rows of some panels; the uniform sampling has no midpoints."""
+    ends = basis_rows(cauchy.first_derivatives, start, basis)
+    middle = (start + end) / 2
     return _Rows(
-        basis_rows(cauchy.first_derivatives, start, basis),
+        ends,
         basis_rows(cauchy.second_derivatives, start, basis),
-        basis_rows(cauchy.first_derivatives, (start + end) / 2, basis),
+        basis_rows(cauchy.first_derivatives, middle, basis) if graded else ends[:0],
         *_proof_rows(start, end, basis, certificate),
     )
 
