@@ -117,22 +117,25 @@ def jets_of(map: HarmonicMap, start: Array, end: Array) -> Jets:
 @functools.partial(jit, compiler_options=COMPILER_OPTIONS)
 def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularities) -> Jets:
     edges = cauchy.edge_coefficients(coefficients, singularities)
-    first, second, first_off, second_off = rounding.derivatives(start, edges, singularities)
+    known: Any = rounding.derivatives(start, edges, singularities)
+    first, second, first_off, second_off = known
     exterior = jnp.arange(coefficients.shape[1]) <= singularities.previous[0]
     local = coefficients - jnp.where(exterior, coefficients[:, :1], 0)
     values = cauchy.cauchy_coordinates(start, singularities) @ local.T
-    slack = rounding.slack_factor(coefficients.shape[1]) * modulus(local).max(axis=1).sum()
-    third = derivative_bound_weights(start, end, singularities, 2)
+    slack: Any = rounding.slack_factor(coefficients.shape[1]) * modulus(local).max(axis=1).sum()
+    third: Any = derivative_bound_weights(start, end, singularities, 2)
     third = third @ jumps(coefficients, singularities).sum(axis=0)
     # What a start beside its edge changes, by Taylor's theorem.
-    off = beside_by(singularities)
+    off: Any = beside_by(singularities)
     bend, steep = (modulus(a).sum(axis=0) for a in (second, first))
     rest = third / (modulus(end - start) + 2 * off) ** 2 * off
     bend_off = off * (bend + rest)
     return Jets(
         values[:, 0] + jnp.conj(values[:, 1]),
-        *first,
-        *second,
+        first[0],
+        first[1],
+        second[0],
+        second[1],
         slack * _value_scale(start, singularities) + off * (steep + bend_off),
         first_off.sum(axis=0) + bend_off,
         second_off.sum(axis=0) + rest,

@@ -189,6 +189,33 @@ def _to_split(known: _Known, tightness: float) -> Array:
     )
 
 
+def certificate_of(map: HarmonicMap) -> Certificate:
+    """The certificate of a map from its coefficients alone; computed once, for maps are immutable.
+
+    Where a solver has proved a map by :func:`proved_by`, and this cannot, it is the solver's.
+    """
+    known = vars(map)
+    if "_certificate" not in known:
+        own = certify(map)
+        known["_certificate"] = own if own.certified else known.get("_proof", own)
+    return known["_certificate"]
+
+
+def proved_by(
+    map: HarmonicMap, panels: Panels, bounds: PanelBounds, kind: CertificateKind
+) -> Certificate:
+    """The certificate of a map by bounds that a solver has, rounding included, on its panels."""
+    own: Any = (np.asarray(values)[: len(panels)] for values in bounds)
+    bounds = PanelBounds(*own)
+    turns = windings(np.asarray(bounds.turning), panels.loop, 1 + map.domain.n_holes)
+    certified = bool(np.all(bounds.injective)) and sum(turns) == 0
+    how = "Proved locally injective" if certified else "Undecided: not proved"
+    reason = f"{how} by the solver on {len(panels)} panels."
+    proof = _assembled(map, panels, bounds, kind, turns, certified, reason)
+    vars(map)["_proof"] = proof
+    return proof
+
+
 def _conclude(
     map: HarmonicMap, panels: Panels, known: _Known, kind: CertificateKind
 ) -> Certificate:
@@ -213,6 +240,18 @@ def _conclude(
         reason = f"The map is not locally injective: f_z has {sum(turns)} zeros in the domain."
     else:
         certified, reason = True, f"Proved locally injective on {len(panels)} panels."
+    return _assembled(map, panels, bounds, kind, turns, certified, reason)
+
+
+def _assembled(
+    map: HarmonicMap,
+    panels: Panels,
+    bounds: PanelBounds,
+    kind: CertificateKind,
+    turns: tuple[int, ...],
+    certified: bool,
+    reason: str,
+) -> Certificate:
     sigma2, sigma1, k = (np.asarray(values) for values in bounds[:3])
     along = (panels.start, panels.end, panels.loop, panels.depth, panels.next)
     per_panel = PanelCertificate(*along, sigma2, sigma1, k)

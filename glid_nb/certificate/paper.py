@@ -141,7 +141,7 @@ def clearance(
 
 def beside_by(singularities: Singularities) -> Float[Array, ""]:
     """How far the end of a panel may lie beside its edge: inside the offset cage's exterior."""
-    vertices = singularities.vertices
+    vertices = jnp.asarray(singularities.vertices)
     exterior = jnp.arange(vertices.shape[0]) <= singularities.previous[0]
     return rounding.BESIDE * jnp.max(jnp.where(exterior, modulus(vertices), 0))
 

@@ -124,6 +124,12 @@ def bounds(problem: Problem, point: Point) -> PanelBounds:
     return matrices.proof.bounds(fz, fzb_conj, remainder)
 
 
+def no_bounds(real: Bool[Array, " p"]) -> PanelBounds:
+    """Nothing proved."""
+    blank = jnp.zeros(real.shape)
+    return PanelBounds(blank, blank, blank, real, blank)
+
+
 def has_zeros(matrices: Matrices, panel: PanelBounds) -> Bool[Array, ""]:
     """Whether ``f_z`` has zeros inside (30)."""
     return fz_vanishes(jnp.where(matrices.real, panel.turning, 0))

@@ -18,6 +18,7 @@ from glid_nb.solvers.evaluation import (
     has_zeros,
     isometric_energy,
     moved,
+    no_bounds,
 )
 from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.status import BLOCKED, NO_DECREASE, PENDING, REFUSED, RUNNING
@@ -146,11 +147,10 @@ def backtrack(
         ended = (outcome != BLOCKED) | (shorter == 0)
         return jnp.where(ended, outcome, PENDING), jnp.where(ended, index, shorter), panel, refused
 
-    blank = jnp.zeros(real.shape)
     start = (
         jnp.where(found.acceptable[found.best], PENDING, NO_DECREASE),
         found.best,
-        PanelBounds(blank, blank, blank, real, blank),
+        no_bounds(real),
         jnp.zeros_like(real),
     )
     outcome, index, panel, refused = lax.while_loop(lambda c: c[0] == PENDING, attempt, start)

@@ -83,8 +83,8 @@ class State(NamedTuple):
     records: Record
     refused: Bool[Array, " p"]
     """Panels that refused the last preferred step and may allow it once they are split."""
-    sigma2_lower: Float[Array, " p"]
-    """Certified bound per panel at ``point``, once a step was taken."""
+    bounds: PanelBounds
+    """The certificate at ``point``, once a step was taken."""
     factor: Float[Array, "4u 4u"]
     """Cholesky factor of the last Hessian, in whitened coordinates."""
 
@@ -133,7 +133,7 @@ def iterations(
             corrections=jnp.zeros(MOST_PER_CALL, int),
         ),
         refused=jnp.zeros_like(real),
-        sigma2_lower=jnp.full(real.shape, jnp.nan),
+        bounds=evaluation.no_bounds(real),
         factor=factor,
     )
     end = lax.while_loop(goes_on, functools.partial(_iteration, call), start)
@@ -192,7 +192,7 @@ def _iteration(call: _Call, state: State) -> State:
             record,
         ),
         refused=refused,
-        sigma2_lower=jnp.where(stepped, panel.sigma2_lower, state.sigma2_lower),
+        bounds=_where(stepped, panel, state.bounds),
         factor=factor,
     )
 
