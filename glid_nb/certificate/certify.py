@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -62,6 +62,8 @@ class Certificate:
     kind: CertificateKind
     reason: str
     """One sentence: what is proved, or where and why the proof failed."""
+    map: HarmonicMap = field(repr=False)
+    """The map that this is the certificate of."""
 
     @property
     def winding(self) -> int:
@@ -89,6 +91,11 @@ class _Known(NamedTuple):
     def folded(self) -> Array:
         """(p,) bool: the map is proved to fold at the panel's start."""
         return self.sigma2_seen <= -2 * self.slack
+
+    @property
+    def hopeless(self) -> Array:
+        """(p,) bool: rounding hides that the map is injective at the panel's start."""
+        return ~((self.sigma2_seen > self.slack) & np.isfinite(self.sigma1_seen + self.slack))
 
 
 @double_precision
@@ -122,7 +129,7 @@ def certify(
     known: _Known = evaluate(panels.start, panels.end)
     for _ in range(_MAX_ROUNDS if refine else 0):
         wanted = _to_split(known, tightness) & panels.divisible
-        if known.folded.any() or not wanted.any() or len(panels) > _MAX_PANELS:
+        if known.hopeless.any() or not wanted.any() or len(panels) > _MAX_PANELS:
             break
         panels, known = split(panels, known, wanted, evaluate)
     return _conclude(map, panels, known, kind)
@@ -175,7 +182,7 @@ def _conclude(
     along = (panels.start, panels.end, panels.loop, panels.depth, panels.next)
     per_panel = PanelCertificate(*along, sigma2, sigma1, k)
     extremes = (float(sigma2.min()), float(sigma1.max()), float(k.max()))
-    return Certificate(certified, *extremes, turns, per_panel, kind, reason)
+    return Certificate(certified, *extremes, turns, per_panel, kind, reason, map)
 
 
 @functools.partial(jit, static_argnames="kind", compiler_options=COMPILER_OPTIONS)

@@ -43,7 +43,7 @@ _NODES_PER_COORDINATE = 2.25
 _CHUNK_ELEMENTS = 1 << 18
 
 _LARGE = 256  # columns; an iteration with more takes as long as a tenth of compiling it
-_GROWTH, _GROWTH_OF_LARGE = 1.5, 1.125
+_GROWTH, _GROWTH_OF_LARGE = 1.25, 1.125
 _MOST_PANELS = 20_000
 
 
@@ -141,9 +141,9 @@ class Discretisation:
         size = len(self.matrices.real)
         if len(panels) > size:
             # Who splits once splits again: growing by more now saves compiling again and again,
-            # unless the padding would cost more than that.
-            growth = _GROWTH if basis.n_columns <= _LARGE else _GROWTH_OF_LARGE
-            size = bucket(int(growth * len(panels)))
+            # unless the padding would cost more than that. Few sizes serve all ways to a minimum.
+            small = basis.n_columns <= _LARGE
+            size = _rung(len(panels)) if small else bucket(int(_GROWTH_OF_LARGE * len(panels)))
         return _assembled(
             self.domain, "graded", self.certificate, panels, rows, size, self.matrices.whitening
         )
@@ -287,6 +287,13 @@ def bucket(count: int) -> int:
     wanted = count + count // 64
     step = 64 if wanted <= 256 else max(32, 1 << (wanted.bit_length() - 5))
     return max(-(-wanted // step) * step, 128)
+
+
+def _rung(count: int) -> int:
+    """The padded size for panels that were split: two sizes an octave, with room for more."""
+    wanted = int(_GROWTH * count)
+    octave = 1 << wanted.bit_length()
+    return max(octave if wanted > 3 * octave // 4 else 3 * octave // 4, 128)
 
 
 def padded(array: np.ndarray, size: int, fill: float | None = None) -> np.ndarray:
