@@ -10,11 +10,8 @@ from pathlib import Path
 from typing import Any
 
 import glid_nb
-<<<<<<< HEAD
 from glid_nb._errors import InputError
-=======
 from glid_nb._json import json_text
->>>>>>> main
 from glid_nb.cli.output import summary_json, summary_text, write_all
 from glid_nb.cli.progress import step
 
