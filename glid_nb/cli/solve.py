@@ -13,6 +13,7 @@ from pathlib import Path
 import glid_nb
 from glid_nb._errors import about
 from glid_nb._json import json_text
+from glid_nb.certificate.proof import proof_text
 from glid_nb.cli.flags import add_solver_flags, energy_of, options_of
 from glid_nb.cli.output import check_file
 from glid_nb.cli.solving import finish, run_solver
@@ -22,6 +23,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("problem", type=Path, metavar="PROBLEM.json", help="what is solved")
     add("--out", type=Path, metavar="map.json", help="where the map goes")
+    proof = "where the proof goes, for glid-check map.json proof.json"
+    add("--proof", type=Path, metavar="proof.json", help=proof)
     add("--report", type=Path, metavar="report.json", help="where the report goes")
     start = "a certified map of the same domain to start from (default: see --align)"
     add("--start", type=Path, metavar="map.json", help=start)
@@ -30,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(chosen: argparse.Namespace) -> None:
-    for path in (chosen.out, chosen.report):
+    for path in (chosen.out, chosen.proof, chosen.report):
         if path is not None:
             check_file(path)
     problem = glid_nb.Problem.load(chosen.problem)
@@ -42,6 +45,8 @@ def run(chosen: argparse.Namespace) -> None:
     files: dict[Path, bytes | str] = {}
     if chosen.out:
         files[chosen.out] = json_text(result.map.to_dict())
+    if chosen.proof and result.certificate:
+        files[chosen.proof] = proof_text(result.certificate)
     if chosen.report:
         files[chosen.report] = json_text(report)
     finish(result, report, files, chosen.json)
