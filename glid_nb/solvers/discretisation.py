@@ -215,7 +215,7 @@ def _assembled(
         weights = np.concatenate([padded(ends, p, 0.0), padded(length * (4 / 6), p, 0.0)])
         nodes = np.concatenate([padded(rows.ends, p), padded(rows.middles, p)])
         index, share = _hessian_nodes(panels, domain, length, weights)
-        h = bucket(len(index))
+        h = bucket(len(index)) if t is None else _rung(len(index))
         along = rows.middles, length
     else:
         weights = padded(np.full(count, 1 / count), p, 0.0)
