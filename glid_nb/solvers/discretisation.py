@@ -37,8 +37,8 @@ HESSIAN_STRIDE = 10
 # they are no longer than this many times their distance to the nearest singularity.
 _PAIR_RATIO = 1.4
 # Of a rotation no energy knows, so a node tells one real number of the two of f_z. With hardly more
-# nodes than that for each coefficient, what oscillates between the nodes has no curvature.
-_NODES_PER_COLUMN = 2.25
+# nodes than that for each coordinate, what oscillates between the nodes has no curvature.
+_NODES_PER_COORDINATE = 2.25
 
 _CHUNK_ELEMENTS = 1 << 18
 
@@ -214,20 +214,23 @@ def _assembled(
         np.add.at(ends, panels.next, length / 6)
         weights = np.concatenate([padded(ends, p, 0.0), padded(length * (4 / 6), p, 0.0)])
         nodes = np.concatenate([padded(rows.ends, p), padded(rows.middles, p)])
-        index, share = _hessian_nodes(panels, domain, length, weights)
-        h = bucket(len(index)) if t is None else _rung(len(index))
         along = rows.middles, length
     else:
         weights = padded(np.full(count, 1 / count), p, 0.0)
         nodes = padded(rows.ends, p)
         index = np.arange(0, count, HESSIAN_STRIDE)
         share = np.full(len(index), 1 / len(index))
-        h = -(-len(index) // 16) * 16
         along = rows.ends[index], share
+    padding = bucket if t is None else _rung
     if t is None:
         basis = basis_of(domain)
         (anchor,) = basis_rows(cauchy.cauchy_coordinates, panels.start[:1], basis)
         t = jnp.asarray(whitening(*along, anchor, basis))
+    if sampling == "graded":
+        index, share = _hessian_nodes(panels, domain, length, weights, np.asarray(t))
+        h = padding(len(index))
+    else:
+        h = -(-len(index) // 16) * 16
     index, chord = padded(index, h), panels.end - panels.start
     matrices = Matrices(
         nodes=_transposed(nodes),
@@ -247,18 +250,20 @@ def _assembled(
 
 
 def _hessian_nodes(
-    panels: Panels, domain: Domain, length: np.ndarray, weights: np.ndarray
+    panels: Panels, domain: Domain, length: np.ndarray, weights: np.ndarray, t: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Which nodes the Hessian's quadrature takes, and their weights: the fewest that will do.
 
     The middle of each pair of panels, an end of both, or of a single panel; or of every panel; or
     all nodes of the energy.
     """
-    wanted = _NODES_PER_COLUMN * domain.n_coefficients
+    n_coordinates, n_unknown = np.count_nonzero(t.any(axis=(0, 1))), basis_of(domain).phi_free.sum()
+    wanted = _NODES_PER_COORDINATE * n_coordinates
     p, count = len(weights) // 2, len(panels)
     middles = np.arange(p, p + count)
     first = np.flatnonzero(paired(panels, domain, _PAIR_RATIO))
-    if count - len(first) >= wanted:
+    # Where coordinates were left out, others oscillate as fast as the panels follow each other.
+    if n_coordinates == n_unknown and count - len(first) >= wanted:
         index, share = middles.copy(), length.copy()
         index[first] = first + 1
         share[first] += share[first + 1]
