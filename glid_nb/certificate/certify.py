@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -62,6 +62,8 @@ class Certificate:
     kind: CertificateKind
     reason: str
     """One sentence: what is proved, or where and why the proof failed."""
+    map: HarmonicMap = field(repr=False)
+    """The map that this is the certificate of."""
 
     @property
     def winding(self) -> int:
@@ -175,7 +177,7 @@ def _conclude(
     along = (panels.start, panels.end, panels.loop, panels.depth, panels.next)
     per_panel = PanelCertificate(*along, sigma2, sigma1, k)
     extremes = (float(sigma2.min()), float(sigma1.max()), float(k.max()))
-    return Certificate(certified, *extremes, turns, per_panel, kind, reason)
+    return Certificate(certified, *extremes, turns, per_panel, kind, reason, map)
 
 
 @functools.partial(jit, static_argnames="kind", compiler_options=COMPILER_OPTIONS)

@@ -150,9 +150,8 @@ def _live_certificate(frame: Frame, panels: Panels) -> Certificate:
     bounds = dict.fromkeys(("sigma1_upper", "k_upper"), np.full(len(panels), np.nan))
     proof = PanelCertificate(**vars(panels), sigma2_lower=frame.sigma2_lower, **bounds)
     least = float(frame.sigma2_lower.min())
-    return Certificate(
-        True, least, np.nan, np.nan, (), proof, "hermite", "Certified step by step by the solver."
-    )
+    reason = "Certified step by step by the solver."
+    return Certificate(True, least, np.nan, np.nan, (), proof, "hermite", reason, frame.map)
 
 
 def _placeholder(width: int, height: int) -> bytes:
