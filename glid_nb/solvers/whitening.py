@@ -18,16 +18,17 @@ would swamp the other.
 
 from __future__ import annotations
 
+import functools
 from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
 
-from glid_nb._jax import AnyArray, jnp
+from glid_nb._jax import AnyArray, jit, jnp
 from glid_nb.harmonic.basis import Basis
 
 if TYPE_CHECKING:
-    from jaxtyping import Array, Float
+    from jaxtyping import Array, Float, Int
 
 # Raises the Gram matrix's diagonal, relative to its mean, should columns be dependent.
 _RIDGE = 1e-13
@@ -78,11 +79,18 @@ def whitening(
     return np.stack([np.real(t), np.imag(t)])
 
 
-def whitened(nodes: Float[AnyArray, "2c s"], t: Float[AnyArray, "2 c u"]) -> Float[Array, "2u s"]:
-    """``D T`` from ``D``, both as ``[Re, -Im]``, transposed."""
+@functools.partial(jit, static_argnames="dtype")
+def whitened(
+    nodes: Float[AnyArray, "2c s"],
+    index: Int[AnyArray, " h"],
+    t: Float[AnyArray, "2 c u"],
+    dtype: type[np.floating],
+) -> Float[Array, "2u h"]:
+    """``D T`` at some nodes from ``D``, both as ``[Re, -Im]``, transposed."""
     c = t.shape[1]
-    re, im = nodes[:c], -nodes[c:]
-    return jnp.concatenate([t[0].T @ re - t[1].T @ im, -(t[0].T @ im + t[1].T @ re)])
+    re, im = nodes[:c, index], -nodes[c:, index]
+    parts = [t[0].T @ re - t[1].T @ im, -(t[0].T @ im + t[1].T @ re)]
+    return jnp.concatenate(parts).astype(dtype)
 
 
 def coefficients(x: Float[Array, " 4u"], t: Float[Array, "2 c u"]) -> Float[Array, " 4c"]:
