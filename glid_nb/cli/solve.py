@@ -1,7 +1,8 @@
 """Solve a problem given as a file, and write the map and a report.
 
 PROBLEM.json is an object with the keys cage, holes, handles and targets (world coordinates);
-offset, offset_cage, offset_holes and hole_points are used when given. Without --report only the
+offset, offset_cage, offset_holes and hole_points are used when given, and image_size_px goes into
+the map. Without --report only the
 map is written, without --out only the report.
 """
 
@@ -12,10 +13,10 @@ from pathlib import Path
 
 import glid_nb
 from glid_nb._errors import about
-from glid_nb._json import json_text
+from glid_nb._json import check_size, json_text, read_object
 from glid_nb.cli.flags import add_solver_flags, energy_of, options_of
-from glid_nb.cli.output import check_file
-from glid_nb.cli.solving import finish, run_solver
+from glid_nb.cli.output import check_files
+from glid_nb.cli.solving import finish, map_text, run_solver
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,10 +31,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(chosen: argparse.Namespace) -> None:
-    for path in (chosen.out, chosen.report):
-        if path is not None:
-            check_file(path)
-    problem = glid_nb.Problem.load(chosen.problem)
+    check_files([chosen.out, chosen.report], [chosen.problem, chosen.start])
+    data = read_object(chosen.problem)
+    with about(chosen.problem):
+        problem = glid_nb.Problem.from_dict(data)
+        size = data.get("image_size_px")
+        if size is not None:
+            check_size(size, "image_size_px")
     energy, options = energy_of(chosen), options_of(chosen)
     start = glid_nb.HarmonicMap.load(chosen.start) if chosen.start else None
     with about(chosen.start or chosen.problem):
@@ -41,7 +45,7 @@ def run(chosen: argparse.Namespace) -> None:
     assert isinstance(result.map, glid_nb.HarmonicMap)
     files: dict[Path, bytes | str] = {}
     if chosen.out:
-        files[chosen.out] = json_text(result.map.to_dict())
+        files[chosen.out] = map_text(result.map, size)
     if chosen.report:
         files[chosen.report] = json_text(report)
     finish(result, report, files, chosen.json)
