@@ -22,14 +22,17 @@ class InputFileError(InputError):
 
 @contextmanager
 def about(where: str | Path, kind: type[InputError] = InputFileError) -> Iterator[None]:
-    """Put ``where``, a file or a key, in front of an InputError's message; raise it as ``kind``."""
+    """Put ``where``, a file or a key, in front of an InputError's message; raise it as ``kind``.
+
+    The error that it replaces is not shown: one sentence says everything.
+    """
     try:
         yield
     except InputError as error:
         text = str(error)
         if not re.match(rf"{re.escape(str(where))}(: | (is|has|holds|must) )", text):
             text = f"{where}: {text}"
-        raise kind(text) from error
+        raise kind(text).with_traceback(error.__traceback__) from None
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

@@ -2,37 +2,75 @@
 
 from __future__ import annotations
 
+import errno
 import os
-import tempfile
+import secrets
+import stat
 from pathlib import Path
-from typing import Literal
+from typing import BinaryIO, Literal
 
 
 def write_bytes_atomically(path: Path, data: bytes) -> None:
     """Write ``data`` to a temporary file beside ``path``, then rename it over ``path``.
 
-    The message of an OSError names ``path`` or its folder.
+    A symbolic link stays one: the file that it points to is replaced. An existing file keeps its
+    permissions. A file with other hard links, or whose owner is another, is overwritten in place
+    instead, so that all its names keep showing one file; if that fails its old content is put back.
+    A device or a pipe is written to. The message of an OSError names ``path`` or its folder.
     """
     path = Path(path)
     if path.is_dir():
         raise IsADirectoryError(f"{path.absolute()} is a folder; name a file")
+    target = Path(os.path.realpath(path))
     try:
-        handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-        try:
-            with os.fdopen(handle, "wb") as file:
-                file.write(data)
-                file.flush()
-                os.fsync(file.fileno())
-            # mkstemp makes private files; set the permissions that open() would.
-            mask = os.umask(0)
-            os.umask(mask)
-            Path(name).chmod(0o666 & ~mask)
-            Path(name).replace(path)
-        except BaseException:
-            Path(name).unlink(missing_ok=True)
-            raise
+        _replace(target, data)
     except OSError as error:
-        raise in_words(error, path, "written") from error
+        raise in_words(error, target if path.is_symlink() else path, "written") from None
+
+
+def _replace(target: Path, data: bytes) -> None:
+    try:
+        old = target.stat()
+    except FileNotFoundError:
+        old = None
+    if old is not None and not os.access(target, os.W_OK):
+        raise PermissionError(errno.EACCES, "it is write-protected")
+    if old is not None and not stat.S_ISREG(old.st_mode):
+        target.write_bytes(data)
+        return
+    # tempfile makes private files; open() gives a new file the usual permissions.
+    temporary = target.with_name(f".glid-nb-{secrets.token_hex(8)}.tmp")
+    mode = 0o666 if old is None else stat.S_IMODE(old.st_mode)
+    try:
+        with open(temporary, "xb", opener=lambda name, flags: os.open(name, flags, mode)) as file:
+            _write(file, data)
+            new = os.fstat(file.fileno())
+        if old and (old.st_nlink > 1 or (old.st_uid, old.st_gid) != (new.st_uid, new.st_gid)):
+            _overwrite(target, data)
+        else:
+            if old:
+                temporary.chmod(mode)
+            temporary.replace(target)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def _overwrite(target: Path, data: bytes) -> None:
+    before = target.read_bytes()
+    with target.open("r+b") as file:
+        try:
+            _write(file, data)
+        except BaseException:
+            file.seek(0)
+            _write(file, before)
+            raise
+
+
+def _write(file: BinaryIO, data: bytes) -> None:
+    file.write(data)
+    file.truncate()
+    file.flush()
+    os.fsync(file.fileno())
 
 
 def write_text_atomically(path: Path, text: str) -> None:

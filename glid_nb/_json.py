@@ -39,10 +39,10 @@ def parse_json(raw: bytes, name: str, kind: str = "a JSON file", *, nan: bool = 
             parse_constant=float if nan else _refuse_constant,
             object_pairs_hook=_object,
         )
-    except UnicodeDecodeError as error:
-        raise InputFileError(f"{name} is not {kind}: it is not UTF-8 text") from error
+    except UnicodeDecodeError:
+        raise InputFileError(f"{name} is not {kind}: it is not UTF-8 text") from None
     except (ValueError, RecursionError) as error:
-        raise InputFileError(f"{name} is not {kind}: {error}") from error
+        raise InputFileError(f"{name} is not {kind}: {error}") from None
 
 
 def read_object(path: str | Path) -> dict[str, Any]:
@@ -109,6 +109,14 @@ def check_positive(value: Any, key: str) -> None:
         raise InputFileError(f'"{key}" must be a positive number, not {_shown(value)}')
 
 
+def check_size(value: Any, key: str) -> None:
+    """The pixels of a picture, ``[width, height]``: whole numbers above 0."""
+    if not (isinstance(value, list) and len(value) == 2 and all(type(n) is int for n in value)):
+        raise InputFileError(f"{key} must be [width, height], not {_shown(value)}")
+    if min(value) < 1:
+        raise InputFileError(f"{key} is {value[0]} x {value[1]}; a side has at least 1 pixel")
+
+
 def check_points(value: Any, key: str) -> None:
     """A list of ``[x, y]`` pairs of finite numbers."""
     _check_list_of(value, key, "[x, y] pair")
@@ -154,9 +162,9 @@ def _refuse_constant(constant: str) -> None:
 
 
 def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    data = dict(pairs)
-    if len(data) < len(pairs):
-        keys = [key for key, _ in pairs]
-        twice = next(key for key in keys if keys.count(key) > 1)
-        raise ValueError(f'the key "{twice}" is given twice')
+    data: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in data:
+            raise ValueError(f"the key {_shown(key)} is given twice")
+        data[key] = value
     return data

@@ -30,6 +30,92 @@ def test_permissions_are_those_of_a_plain_open(tmp_path: Path, mask: int) -> Non
     assert stat.S_IMODE((tmp_path / "a.txt").stat().st_mode) == 0o666 & ~mask
 
 
+def test_an_existing_file_keeps_its_permissions(tmp_path: Path) -> None:
+    path = tmp_path / "a.txt"
+    path.write_text("old")
+    for mode in (0o600, 0o666, 0o640):
+        path.chmod(mode)
+        write_text_atomically(path, "new")
+        assert stat.S_IMODE(path.stat().st_mode) == mode
+    assert path.read_text() == "new"
+
+
+def test_a_symbolic_link_stays_one(tmp_path: Path) -> None:
+    (tmp_path / "far").mkdir()
+    file, link, chain = tmp_path / "far" / "a.txt", tmp_path / "link", tmp_path / "chain"
+    link.symlink_to(Path("far") / "a.txt")
+    chain.symlink_to("link")
+    for text in ("made", "replaced"):
+        write_text_atomically(chain, text)
+        assert file.read_text() == text
+    assert link.is_symlink()
+    assert chain.is_symlink()
+    assert [p.name for p in file.parent.iterdir()] == ["a.txt"]
+
+
+def test_a_link_that_leads_nowhere_is_an_os_error(tmp_path: Path) -> None:
+    link, loop = tmp_path / "link", tmp_path / "loop"
+    link.symlink_to(tmp_path / "nowhere" / "a.txt")
+    loop.symlink_to("loop")
+    with pytest.raises(FileNotFoundError, match=r"^The folder .*nowhere does not exist$"):
+        write_text_atomically(link, "")
+    with pytest.raises(OSError, match=r"^\S*loop cannot be written: "):
+        write_text_atomically(loop, "")
+    assert loop.is_symlink()
+
+
+def test_hard_links_stay_one_file(tmp_path: Path) -> None:
+    first, second = tmp_path / "a.txt", tmp_path / "b.txt"
+    first.write_text("a long old text")
+    second.hardlink_to(first)
+    first.chmod(0o640)
+    write_text_atomically(second, "new")
+    assert first.read_text() == "new"
+    assert first.samefile(second)
+    assert stat.S_IMODE(first.stat().st_mode) == 0o640
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_a_hard_link_that_cannot_be_overwritten_keeps_what_was_there(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first, second = tmp_path / "a.txt", tmp_path / "b.txt"
+    first.write_text("old")
+    second.hardlink_to(first)
+    calls = []
+
+    def fail_once_in_place(file: int) -> None:
+        calls.append(file)
+        if len(calls) == 2:
+            raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", fail_once_in_place)
+    with pytest.raises(OSError, match=r"b\.txt cannot be written: No space left"):
+        write_text_atomically(second, "something longer")
+    assert first.read_text() == "old"
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_a_device_stays_one(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    try:
+        write_text_atomically(pipe, "new")
+        assert os.read(reader, 10) == b"new"
+    finally:
+        os.close(reader)
+    assert stat.S_ISFIFO(pipe.stat().st_mode)
+
+
+def test_the_umask_of_the_process_is_left_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another thread would make files with permissions that nobody wanted."""
+    monkeypatch.delattr("os.umask")
+    write_text_atomically(tmp_path / "a.txt", "")
+
+
 @pytest.mark.parametrize("culprit", ["os.fsync", "pathlib.Path.chmod", "pathlib.Path.replace"])
 def test_a_failure_leaves_what_was_there(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, culprit: str

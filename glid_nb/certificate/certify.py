@@ -102,6 +102,11 @@ class _Known(NamedTuple):
         """(p,) bool: the map is proved to fold at the panel's start."""
         return self.sigma2_seen <= -2 * self.slack
 
+    @property
+    def hopeless(self) -> Array:
+        """(p,) bool: rounding hides that the map is injective at the panel's start."""
+        return ~((self.sigma2_seen > self.slack) & np.isfinite(self.sigma1_seen + self.slack))
+
 
 @double_precision
 def certify(
@@ -134,7 +139,7 @@ def certify(
     known: _Known = evaluate(panels.start, panels.end)
     for _ in range(_MAX_ROUNDS if refine else 0):
         wanted = _to_split(known, tightness) & panels.divisible
-        if known.folded.any() or not wanted.any() or len(panels) > _MAX_PANELS:
+        if known.hopeless.any() or not wanted.any() or len(panels) > _MAX_PANELS:
             break
         panels, known = split(panels, known, wanted, evaluate)
     return _conclude(map, panels, known, kind)

@@ -30,7 +30,7 @@ from glid_nb._runtime import double_precision
 from glid_nb.certificate.arcs import Arcs, jets_of
 from glid_nb.certificate.certify import Certificate, certify
 from glid_nb.certificate.panels import split
-from glid_nb.geometry import Panels, as_points, graded_panels, place
+from glid_nb.geometry import Panels, as_points, graded_panels, place, places
 from glid_nb.geometry.panels import cross, point_distance, segment_distance, segments_cross
 from glid_nb.harmonic import HarmonicMap
 
@@ -101,8 +101,8 @@ def global_injectivity(
         if double_point is not None:
             image, points = double_point
             reason = (
-                f"The map overlaps itself: the boundary points {place(points[0])} and "
-                f"{place(points[1])} are both mapped to {place(image)}."
+                f"The map overlaps itself: the boundary points {places(points)} are both mapped to "
+                f"{place(image)}."
             )
             return GlobalInjectivity("no", reason, len(panels), as_points(image), as_points(points))
         # Split the larger arc of a pair, or both if they are about equal.
@@ -227,8 +227,8 @@ def _certainly_cross(pair: Arcs) -> Array:
 def _undecided(panels: Panels, pairs: Array, unresolved: Array) -> GlobalInjectivity:
     if pairs.size:
         closest = pairs[:, np.argmin(panels.length[pairs].max(axis=0))]
-        places = " and ".join(place(z) for z in panels.middle[closest])
-        what = f"the images of the boundary near {places} touch or nearly do"
+        where = places(panels.middle[closest])
+        what = f"the images of the boundary near {where} touch or nearly do"
     else:
         what = f"the image of the boundary is too curved near {place(panels.middle[unresolved][0])}"
     reason = f"Undecided: {what}; {len(panels)} pieces of the boundary do not tell."

@@ -19,13 +19,14 @@ import glid_nb
 from glid_nb._errors import InputFileError, about
 from glid_nb._json import json_text
 from glid_nb.cli import flags
-from glid_nb.cli.output import check_folder
+from glid_nb.cli.output import check_files, check_folder
 from glid_nb.cli.progress import step
-from glid_nb.cli.solving import finish, run_solver
+from glid_nb.cli.solving import finish, map_text, run_solver
 from glid_nb.cli.trace import cage_data, size_in_words
 
 DEFAULT_SAMPLE = "gecko"
 DEFAULT_POSE = "gentle"
+_FILES = ("deformed.png", "overview.png", "cage.json", "map.json", "report.json")
 # The picture is zoomed out if more than this share of the shape leaves its frame.
 _CROPPED = 1e-3
 
@@ -46,6 +47,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(chosen: argparse.Namespace) -> None:
     out: Path = chosen.out
     check_folder(out)
+    if out.is_dir():
+        check_files([out / name for name in _FILES], [chosen.image, chosen.pose, chosen.scribbles])
     energy, options = flags.energy_of(chosen), flags.options_of(chosen)
     tracing_options = flags.trace_options_of(chosen)
     source, sample = _source(chosen.image)
@@ -62,13 +65,12 @@ def run(chosen: argparse.Namespace) -> None:
     with step("drawing the overview"):
         figure = glid_nb.figures.figure_png(glid_nb.figures.overview(image, result, pose))
 
-    files: dict[Path, bytes | str] = {
-        out / "deformed.png": deformed,
-        out / "overview.png": figure,
-        out / "cage.json": json_text(cage_data(tracing)),
-        out / "map.json": json_text(result.map.to_dict()),
-        out / "report.json": json_text(report),
-    }
+    size = list(image.shape[1::-1])
+    contents = (
+        *(deformed, figure, json_text(cage_data(tracing))),
+        *(map_text(result.map, size), json_text(report)),
+    )
+    files = {out / name: data for name, data in zip(_FILES, contents, strict=True)}
     out.mkdir(parents=True, exist_ok=True)
     notes = [*tracing.notes, *domain.notes]
     if cropped:

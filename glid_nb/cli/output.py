@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterable, Mapping
 from itertools import groupby
 from pathlib import Path
@@ -21,14 +22,29 @@ _INJECTIVE = {
 }
 
 
-def check_file(path: Path, suffix: str = "") -> None:
-    """Raise an OSError if no file can be made at ``path``, an InputFileError for another suffix."""
-    if suffix and path.suffix.lower() != suffix:
-        raise InputFileError(f"{path}: only {suffix} is written; name a file that ends in {suffix}")
-    if path.is_dir():
-        raise IsADirectoryError(21, "is a folder; name a file", str(path))
-    if not path.parent.is_dir():
-        raise FileNotFoundError(2, "there is no such folder to write to", str(path.parent))
+def check_files(outputs: Iterable[Path | None], inputs: Iterable[str | Path | None]) -> None:
+    """Raise an OSError if a file cannot be made; skip None.
+
+    An InputFileError if it is one of the inputs, or another output, by whatever name or link.
+    """
+    taken = [(Path(path), "it is read too") for path in inputs if path is not None]
+    for path in outputs:
+        if path is None:
+            continue
+        if path.is_dir():
+            raise IsADirectoryError(21, "is a folder; name a file", str(path))
+        if not path.parent.is_dir():
+            raise FileNotFoundError(2, "there is no such folder to write to", str(path.parent))
+        for other, why in taken:
+            if _same_file(path, other):
+                raise InputFileError(f"{path} would be overwritten, but {why}; name another file")
+        taken.append((path, "another result goes there"))
+
+
+def _same_file(one: Path, other: Path) -> bool:
+    if one.exists() and other.exists():
+        return one.is_file() and one.samefile(other)
+    return os.path.realpath(one) == os.path.realpath(other)
 
 
 def check_folder(path: Path) -> None:

@@ -1,7 +1,8 @@
 """Warp a picture through a map.
 
-The picture must be the one that the map's cage was traced from, or one of the same size. Its
-longer side is 20 world units.
+The picture must be the one that the map's cage was traced from, or one of the same size; another
+is refused. Its longer side is 20 world units. Maps without image_size_px, from problems without
+it, do not tell the size: their cage must then lie on the picture.
 """
 
 from __future__ import annotations
@@ -10,8 +11,9 @@ import argparse
 from pathlib import Path
 
 import glid_nb
-from glid_nb._errors import about
-from glid_nb.cli.output import check_file, write_all
+from glid_nb._errors import InputFileError, about
+from glid_nb._json import read_object
+from glid_nb.cli.output import check_files, write_all
 from glid_nb.cli.progress import step
 
 MAX_SIDE = 20_000
@@ -29,11 +31,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(chosen: argparse.Namespace) -> None:
-    check_file(chosen.out, ".png")
+    if chosen.out.suffix.lower() != ".png":
+        raise InputFileError(f"{chosen.out}: only .png is written; name a file that ends in .png")
+    check_files([chosen.out], [chosen.image, chosen.map])
     glid_nb.enable_compilation_cache()
-    harmonic_map = glid_nb.HarmonicMap.load(chosen.map)
+    data = read_object(chosen.map)
+    with about(chosen.map):
+        harmonic_map = glid_nb.HarmonicMap.from_dict(data)
     image = glid_nb.read_image(chosen.image)
-    size = tuple(chosen.size or image.shape[1::-1])
+    own = image.shape[1::-1]
+    traced = data.get("image_size_px")
+    if traced not in (None, list(own)):
+        raise InputFileError(
+            f"{chosen.image} has {own[0]} x {own[1]} pixels, but {chosen.map} is of a picture of "
+            f"{traced}; take the picture that its cage was traced from"
+        )
+    size = tuple(chosen.size or own)
     with about(chosen.map), step("rendering"):
         picture = glid_nb.export.picture_png(image, harmonic_map, size, chosen.view)
     write_all({chosen.out: picture})

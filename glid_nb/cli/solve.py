@@ -1,7 +1,8 @@
 """Solve a problem given as a file, and write the map and a report.
 
 PROBLEM.json is an object with the keys cage, holes, handles and targets (world coordinates);
-offset, offset_cage, offset_holes and hole_points are used when given. Without --report only the
+offset, offset_cage, offset_holes and hole_points are used when given, and image_size_px goes into
+the map. Without --report only the
 map is written, without --out only the report.
 """
 
@@ -12,11 +13,11 @@ from pathlib import Path
 
 import glid_nb
 from glid_nb._errors import about
-from glid_nb._json import json_text
+from glid_nb._json import check_size, json_text, read_object
 from glid_nb.certificate.proof import proof_text
 from glid_nb.cli.flags import add_solver_flags, energy_of, options_of
-from glid_nb.cli.output import check_file
-from glid_nb.cli.solving import finish, run_solver
+from glid_nb.cli.output import check_files
+from glid_nb.cli.solving import finish, map_text, run_solver
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -33,10 +34,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(chosen: argparse.Namespace) -> None:
-    for path in (chosen.out, chosen.proof, chosen.report):
-        if path is not None:
-            check_file(path)
-    problem = glid_nb.Problem.load(chosen.problem)
+    check_files([chosen.out, chosen.proof, chosen.report], [chosen.problem, chosen.start])
+    data = read_object(chosen.problem)
+    with about(chosen.problem):
+        problem = glid_nb.Problem.from_dict(data)
+        size = data.get("image_size_px")
+        if size is not None:
+            check_size(size, "image_size_px")
     energy, options = energy_of(chosen), options_of(chosen)
     start = glid_nb.HarmonicMap.load(chosen.start) if chosen.start else None
     with about(chosen.start or chosen.problem):
@@ -44,7 +48,7 @@ def run(chosen: argparse.Namespace) -> None:
     assert isinstance(result.map, glid_nb.HarmonicMap)
     files: dict[Path, bytes | str] = {}
     if chosen.out:
-        files[chosen.out] = json_text(result.map.to_dict())
+        files[chosen.out] = map_text(result.map, size)
     if chosen.proof and result.certificate:
         files[chosen.proof] = proof_text(result.certificate)
     if chosen.report:

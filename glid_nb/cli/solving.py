@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import glid_nb
+from glid_nb._json import json_text
 from glid_nb.cli.output import summary_json, summary_text, write_all
 from glid_nb.cli.progress import step
 
@@ -42,6 +43,12 @@ def run_solver(
         result = glid_nb.solve(domain, pose, energy, options, start=start, callback=show)
     with step("proving the result"):
         return result, glid_nb.build_report(result)
+
+
+def map_text(map: glid_nb.HarmonicMap, image_size: list[int] | None) -> str:
+    """The content of map.json, with the pixels of the picture for `glid-nb render` if known."""
+    size = {} if image_size is None else {"image_size_px": image_size}
+    return json_text({**map.to_dict(), **size})
 
 
 def finish(

@@ -15,7 +15,7 @@ import glid_nb
 from glid_nb._errors import about
 from glid_nb._json import write_json
 from glid_nb.cli.flags import add_trace_flags, trace_options_of
-from glid_nb.cli.output import check_file
+from glid_nb.cli.output import check_files
 from glid_nb.cli.progress import step
 
 
@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(chosen: argparse.Namespace) -> None:
-    check_file(chosen.out)
+    check_files([chosen.out], [chosen.image, chosen.scribbles])
     options = trace_options_of(chosen)
     image = glid_nb.read_image(chosen.image)
     with about(chosen.image), step(f"tracing {chosen.image.name}"):

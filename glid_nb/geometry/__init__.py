@@ -4,6 +4,7 @@ from glid_nb.geometry._loops import GeometryError as GeometryError
 from glid_nb.geometry._loops import as_points as as_points
 from glid_nb.geometry._loops import loop_name as loop_name
 from glid_nb.geometry._loops import place as place
+from glid_nb.geometry._loops import places as places
 from glid_nb.geometry._loops import signed_area as signed_area
 from glid_nb.geometry.cage import Cage as Cage
 from glid_nb.geometry.domain import Domain as Domain

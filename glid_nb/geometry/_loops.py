@@ -37,10 +37,19 @@ def plain_name(index: int) -> str:
     return "the outline" if index == 0 else f"hole {index}"
 
 
-def place(point: ArrayLike) -> str:
+def place(point: ArrayLike, digits: int = 6) -> str:
     """Coordinates of an (x, y) or complex point for a message, e.g. "(1.5, -0.25)"."""
     x, y = as_points(point) if np.iscomplexobj(point) else np.asarray(point, dtype=np.float64)
-    return f"({x:.6g}, {y:.6g})"
+    return f"({x:.{digits}g}, {y:.{digits}g})"
+
+
+def places(points: ArrayLike) -> str:
+    """Two points for a message, joined by "and", with the digits that tell them apart."""
+    for digits in (6, 9, 12, 17):
+        one, other = (place(point, digits) for point in np.asarray(points))
+        if one != other:
+            break
+    return f"{one} and {other}"
 
 
 def as_points(z: ArrayLike) -> NDArray[np.float64]:

@@ -11,7 +11,8 @@ import pythoncdt
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arrays import Array, read_only
+from glid_nb._arguments import check_type
+from glid_nb._arrays import Array, number_pairs, read_only
 from glid_nb.geometry._loops import (
     GeometryError,
     as_points,
@@ -129,6 +130,8 @@ def triangulate(
 
     The (k, 2) points, such as handles, become vertices too; a GeometryError names one outside.
     """
+    check_type("cage", cage, Cage, "that of a domain is domain.cage")
+    check_type("n_vertices", n_vertices, int | np.integer, "give a whole number")
     if n_vertices < 3:
         raise GeometryError(f"a triangulation needs at least 3 vertices, not {n_vertices}")
     spacing = _spacing(cage, n_vertices)
@@ -136,7 +139,9 @@ def triangulate(
         subdivided(loop, _parts(edge_lengths(corners), spacing))
         for loop, corners in zip(cage.loops_complex, cage.loops, strict=True)
     ]
-    wanted = np.asarray([] if points is None else points, dtype=float).reshape(-1, 2)
+    wanted = number_pairs(
+        [] if points is None else points, "points must be a list of [x, y] pairs", GeometryError
+    )
     outside = np.flatnonzero(~cage.contains(wanted))
     if outside.size:
         raise GeometryError(

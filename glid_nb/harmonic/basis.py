@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from glid_nb.geometry import Domain
 
 
-_BUCKET = 8
+BUCKET = 8
 _HOLE_BUCKETS = (0, 1, 2, 4, 8, 16, 32, 64)
 
 
@@ -39,19 +39,6 @@ class Basis(NamedTuple):
     columns: Int[Array, " n"]
     phi_free: Bool[Array, " c"]
     psi_free: Bool[Array, " c"]
-
-    @property
-    def unknown_columns(self) -> Int[Array, " u"]:
-        """The columns with unknowns in order, and -1 where they are padded.
-
-        Vertex columns are padded so that the total is a multiple of the bucket size, hole columns
-        as in the basis.
-        """
-        first_hole = self.n_columns - self.n_hole_columns
-        own = np.flatnonzero(self.phi_free[:first_hole])
-        padding = np.full(-(len(own) + self.n_hole_columns) % _BUCKET, -1)
-        holes = np.arange(first_hole, self.n_columns)
-        return np.concatenate([own, padding, np.where(self.phi_free[holes], holes, -1)])
 
     @property
     def n_columns(self) -> int:
@@ -90,9 +77,9 @@ def basis_of(domain: Domain) -> Basis:
     m, n_holes = len(vertices), len(rho)
 
     hole_padding = next(b for b in (*_HOLE_BUCKETS, n_holes) if b >= n_holes) - n_holes
-    padding = -(m + n_holes + hole_padding) % _BUCKET
+    padding = -(m + n_holes + hole_padding) % BUCKET
     if padding in (1, 2):  # a loop has at least 3 vertices
-        padding += _BUCKET
+        padding += BUCKET
     center = vertices.mean()
     far = 1e3 * np.abs(vertices - center).max()
     ring = center + far * np.exp(2j * np.pi * np.arange(padding) / max(padding, 1))

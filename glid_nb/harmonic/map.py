@@ -29,6 +29,8 @@ FORMAT_VERSION = 1
 # Bounds the memory of a chunk, in points times columns.
 _CHUNK_ELEMENTS = 1 << 19
 _SMALL_CHUNK = 64
+# Squares of larger coefficients, times those of the basis, overflow.
+_LARGEST = 1e120
 
 
 class MapError(InputError):
@@ -47,7 +49,7 @@ class HarmonicMap:
     domain : Domain
         Where the map lives.
     phi, psi : (n,) complex array_like
-        Finite coefficients, ``n`` = offset-cage vertices + holes, including those fixed to zero.
+        Coefficients up to 1e120, ``n`` = offset-cage vertices + holes, including those fixed to 0.
         For the holes ``phi_j = conj(psi_j)`` must hold (Section 5); else a MapError says which.
     """
 
@@ -65,9 +67,11 @@ class HarmonicMap:
                     f"{name} has shape {values.shape}, but the domain has {n} coefficients "
                     f"(offset-cage vertices and holes); pass an array of shape ({n},)"
                 )
-            bad = np.flatnonzero(~np.isfinite(values))
+            largest = np.maximum(np.abs(values.real), np.abs(values.imag))
+            bad = np.flatnonzero(~(largest <= _LARGEST))
             if bad.size:
-                raise MapError(f"{name}[{bad[0]}] is {values[bad[0]]}; it must be finite")
+                wanted = f"it must be finite and at most {_LARGEST:g}"
+                raise MapError(f"{name}[{bad[0]}] is {values[bad[0]]}; {wanted}")
             object.__setattr__(self, name, read_only(values))
         holes = slice(n - domain.n_holes, n)
         gap = np.abs(self.phi[holes] - self.psi[holes].conj())

@@ -25,6 +25,11 @@ ImageSource = str | os.PathLike[str] | bytes | Image.Image | ArrayLike
 RGBA = NDArray[np.uint8] | NDArray[np.uint16]
 """(h, w, 4) red, green, blue and alpha (not premultiplied), row 0 at the top."""
 
+# Pillow's others start programs (EPS), are no pictures, or have no signature to tell them by.
+_FORMATS = (
+    *("PNG", "JPEG", "GIF", "TIFF", "WEBP", "BMP", "AVIF", "JPEG2000"),
+    *("ICO", "ICNS", "PPM", "PSD", "PCX", "QOI", "SGI"),
+)
 _TIFF_STARTS = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 _BITS_PER_SAMPLE = 258  # the TIFF tag
 _ADDRESS = re.compile(r"([a-z][a-z0-9+.-]+):/{1,2}(.*)", re.IGNORECASE | re.DOTALL)
@@ -37,8 +42,9 @@ def read_image(source: ImageSource, name: str | None = None) -> RGBA:
     Parameters
     ----------
     source
-        Path or bytes of a file (PNG, JPEG, TIFF, GIF, WebP, BMP or what else Pillow reads; its
-        first frame), a PIL image, or an array as in `as_rgba`. EXIF orientation is applied.
+        Path or bytes of a file (PNG, JPEG, TIFF, GIF, WebP, BMP, AVIF, JPEG 2000, Photoshop or
+        another format of pixels; its first frame), a PIL image, or an array as in `as_rgba`. EXIF
+        orientation is applied.
     name
         The picture's name in error messages; by default a file's path.
 
@@ -65,9 +71,9 @@ def read_image(source: ImageSource, name: str | None = None) -> RGBA:
     except TraceError:
         raise
     except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
-        raise TraceError(f"{name} is too large ({error}); scale it down first") from error
+        raise TraceError(f"{name} is too large ({error}); scale it down first") from None
     except Exception as error:  # decoders raise errors of any type
-        raise TraceError(f"{name} is damaged or cut short: {error}") from error
+        raise TraceError(f"{name} is damaged or cut short: {error}") from None
     return as_rgba(source)
 
 
@@ -92,7 +98,7 @@ def as_rgba(image: ArrayLike) -> RGBA:
     try:
         array: NDArray[Any] = np.asarray(image)
     except ValueError as error:  # rows of different lengths
-        raise TraceError(f"the image is no array: {error}") from error
+        raise TraceError(f"the image is no array: {error}") from None
     if array.ndim not in (2, 3) or (array.ndim == 3 and not 0 <= array.shape[2] <= 4):
         raise TraceError(
             "an image must have the shape (h, w) or (h, w, c) with 1 to 4 channels (grey, "
@@ -171,28 +177,39 @@ def _bytes_of(path: str | os.PathLike[str]) -> bytes:
     path = Path(path)
     try:
         return path.read_bytes()
-    except FileNotFoundError as error:
-        raise TraceError(f"{path}: there is no such file") from error
+    except FileNotFoundError:
+        raise TraceError(f"{path}: there is no such file") from None
     except OSError as error:
-        raise TraceError(f"{path} cannot be read: {error.strerror or error}") from error
+        raise TraceError(f"{path} cannot be read: {error.strerror or error}") from None
 
 
 def _decode(data: bytes, name: str) -> RGBA:
     if not data:
         raise TraceError(f"{name} is empty")
     try:
-        picture = Image.open(io.BytesIO(data))
-    except UnidentifiedImageError as error:
+        picture = Image.open(io.BytesIO(data), formats=_FORMATS)
+    except UnidentifiedImageError:
         if data.startswith(_TIFF_STARTS):
             return _from_tifffile(data, name)  # formats that Pillow does not know
-        raise TraceError(
-            f"{name} is not in a picture format that can be read; save it as PNG or JPEG first"
-        ) from error
+        if data.startswith(b"PK"):
+            advice = "a session or another zip file; open a session by its path"
+        else:
+            advice = "not in a picture format that can be read; save it as PNG or JPEG first"
+        raise TraceError(f"{name} is {advice}") from None
     with picture:
         tags = picture.tag_v2 if isinstance(picture, TiffImageFile) else {}
         if picture.mode in ("RGB", "RGBA") and max(tags.get(_BITS_PER_SAMPLE, (8,))) > 8:
             return _from_tifffile(data, name)  # Pillow would round to 8 bit
         return _from_pillow(picture, name)
+
+
+def picture_format(data: bytes) -> str | None:
+    """Pillow's name for the format of a picture's file, such as "JPEG"; None for no picture."""
+    try:
+        with Image.open(io.BytesIO(data), formats=_FORMATS) as picture:
+            return picture.format
+    except Exception:  # a damaged picture is none either
+        return None
 
 
 def _from_pillow(picture: Image.Image, name: str) -> RGBA:

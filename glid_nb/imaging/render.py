@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from numbers import Integral
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
@@ -91,7 +93,7 @@ def rendering(
         raise RenderError(f"unknown view {view!r}; choose one of {', '.join(get_args(View))}")
     texture = Texture.from_image(image)
     source = PixelFrame(*texture.size)
-    width, height = texture.size if size is None else size
+    width, height = texture.size if size is None else _sides(size)
     if min(width, height) < 1:
         raise RenderError(f"size is {width} x {height} pixels; both sides must be at least 1")
     if width * height >= _MOST_PIXELS:
@@ -112,6 +114,13 @@ def rendering(
     else:
         mesh = deformed_mesh(map, n_vertices)
     return Rendering(draw_mesh(texture, mesh, frame), frame, mesh)
+
+
+def _sides(size: tuple[int, int]) -> tuple[int, int]:
+    sides = tuple(size) if isinstance(size, Iterable) else ()
+    if len(sides) != 2 or any(isinstance(n, bool) or not isinstance(n, Integral) for n in sides):
+        raise RenderError(f"size must be (width, height) in whole pixels, not {size!r:.60}")
+    return int(sides[0]), int(sides[1])
 
 
 def _check_fits(frame: PixelFrame, map: HarmonicMap) -> None:

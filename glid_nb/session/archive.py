@@ -16,6 +16,7 @@ from PIL import Image
 
 from glid_nb._errors import InputFileError
 from glid_nb._files import in_words, write_bytes_atomically
+from glid_nb.imaging.read import picture_format
 
 # The PNG of the picture encoded last: an editor saves the same one again and again.
 _last: tuple[weakref.ref[NDArray[np.uint8]], bytes] | None = None
@@ -51,7 +52,7 @@ def read_archive(path: Path, most_bytes: Mapping[str, int]) -> dict[str, bytes]:
         size = path.stat().st_size
         data = path.read_bytes() if size <= most else b""
     except OSError as error:
-        raise in_words(error, path, "read") from error
+        raise in_words(error, path, "read") from None
     if size > most:
         raise InputFileError(f"the file has {size:,} bytes; {most:,} are allowed")
     members: dict[str, bytes] = {}
@@ -65,7 +66,13 @@ def read_archive(path: Path, most_bytes: Mapping[str, int]) -> dict[str, bytes]:
     except InputFileError:
         raise
     except _DAMAGE as error:
-        raise InputFileError(f"this is no intact zip file: {error}") from error
+        if (kind := picture_format(data)) is not None:
+            what = f"it is a {kind} picture; open it as the picture instead of as a session"
+        elif zipfile.is_zipfile(io.BytesIO(data)):
+            what = f"it is no intact zip file: {error}"
+        else:
+            what = "it is no zip file, so no session that was saved, or only a part of one"
+        raise InputFileError(what) from None
     return members
 
 
@@ -116,6 +123,6 @@ def read_png(
     except InputFileError:
         raise
     except Exception as error:  # Pillow's decoder raises nearly anything for a damaged file
-        raise InputFileError(f"{name} is damaged: {error}") from error
+        raise InputFileError(f"{name} is damaged: {error}") from None
     pixels.setflags(write=False)
     return pixels

@@ -10,7 +10,7 @@ gets all results together, with the last.
 from __future__ import annotations
 
 import functools
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -74,7 +74,8 @@ def solve_batch(
     Raises
     ------
     TypeError
-        When the domain or the options are of the wrong type, or there is no device.
+        When the domain or the options are of the wrong type, or the devices are not one or more
+        different ones of one platform.
     PoseError
         When a handle lies outside the domain, or the targets have another shape.
     """
@@ -85,11 +86,7 @@ def solve_batch(
     if not poses:
         return ()
     poses[0].check_inside(domain)
-    devices = tuple(jax.local_devices() if devices is None else devices)
-    if not devices or not all(isinstance(device, jax.Device) for device in devices):
-        raise TypeError(
-            f"devices must be one or more of jax.local_devices(), not {list(devices)!r}"
-        )
+    devices = _checked_devices(jax.local_devices() if devices is None else devices)
     method = Newton()
     batch = [
         _Pose(method, Inputs(domain=domain, pose=pose, energy=energy, options=options))
@@ -98,6 +95,17 @@ def solve_batch(
     with single_blas_thread():
         compile_time = _run(batch, devices) / len(batch)
     return tuple(pose.finished(compile_time) for pose in batch)
+
+
+def _checked_devices(devices: Any) -> tuple[Any, ...]:
+    given = tuple(devices) if isinstance(devices, Iterable) else ()
+    are = bool(given) and all(isinstance(device, jax.Device) for device in given)
+    if not are or len(set(given)) < len(given) or len({one.platform for one in given}) > 1:
+        raise TypeError(
+            "devices must be one or more of jax.local_devices(), each of them once and all of one "
+            f"platform, not {devices!r:.200}"
+        )
+    return given
 
 
 def _poses(handles: ArrayLike, targets: ArrayLike) -> list[Pose]:

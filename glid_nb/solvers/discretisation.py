@@ -37,13 +37,13 @@ HESSIAN_STRIDE = 10
 # they are no longer than this many times their distance to the nearest singularity.
 _PAIR_RATIO = 1.4
 # Of a rotation no energy knows, so a node tells one real number of the two of f_z. With hardly more
-# nodes than that for each coefficient, what oscillates between the nodes has no curvature.
-_NODES_PER_COLUMN = 2.25
+# nodes than that for each coordinate, what oscillates between the nodes has no curvature.
+_NODES_PER_COORDINATE = 2.25
 
 _CHUNK_ELEMENTS = 1 << 18
 
 _LARGE = 256  # columns; an iteration with more takes as long as a tenth of compiling it
-_GROWTH, _GROWTH_OF_LARGE = 1.5, 1.125
+_GROWTH, _GROWTH_OF_LARGE = 1.25, 1.125
 _MOST_PANELS = 20_000
 
 
@@ -115,8 +115,9 @@ class Discretisation:
         """
         m = self.matrices
         if self.sampling == "graded":
-            m = m._replace(hessian_index=jnp.arange(len(m.weights)), hessian_weights=m.weights)
-        return m._replace(whitened=whitened(m.nodes[:, m.hessian_index], m.whitening))
+            index = jax.device_put(np.arange(len(m.weights)))
+            m = m._replace(hessian_index=index, hessian_weights=m.weights)
+        return m._replace(whitened=whitened(m.nodes, m.hessian_index, m.whitening, np.float64))
 
     @property
     def can_refine(self) -> bool:
@@ -141,9 +142,9 @@ class Discretisation:
         size = len(self.matrices.real)
         if len(panels) > size:
             # Who splits once splits again: growing by more now saves compiling again and again,
-            # unless the padding would cost more than that.
-            growth = _GROWTH if basis.n_columns <= _LARGE else _GROWTH_OF_LARGE
-            size = bucket(int(growth * len(panels)))
+            # unless the padding would cost more than that. Few sizes serve all ways to a minimum.
+            small = basis.n_columns <= _LARGE
+            size = _rung(len(panels)) if small else bucket(int(_GROWTH_OF_LARGE * len(panels)))
         return _assembled(
             self.domain, "graded", self.certificate, panels, rows, size, self.matrices.whitening
         )
@@ -204,7 +205,7 @@ def _assembled(
     panels: Panels,
     rows: _Rows,
     p: int,
-    t: Array | None = None,
+    t: Any = None,
 ) -> Discretisation:
     """On ``p`` padded panels; ``t`` is the whitening of the panels that a solve began with."""
     count, length = len(panels), panels.length / panels.length.sum()
@@ -214,51 +215,57 @@ def _assembled(
         np.add.at(ends, panels.next, length / 6)
         weights = np.concatenate([padded(ends, p, 0.0), padded(length * (4 / 6), p, 0.0)])
         nodes = np.concatenate([padded(rows.ends, p), padded(rows.middles, p)])
-        index, share = _hessian_nodes(panels, domain, length, weights)
-        h = bucket(len(index))
         along = rows.middles, length
     else:
         weights = padded(np.full(count, 1 / count), p, 0.0)
         nodes = padded(rows.ends, p)
         index = np.arange(0, count, HESSIAN_STRIDE)
         share = np.full(len(index), 1 / len(index))
-        h = -(-len(index) // 16) * 16
         along = rows.ends[index], share
+    padding = bucket if t is None else _rung
     if t is None:
         basis = basis_of(domain)
         (anchor,) = basis_rows(cauchy.cauchy_coordinates, panels.start[:1], basis)
-        t = jnp.asarray(whitening(*along, anchor, basis))
+        t = whitening(*along, anchor, basis)
+    if sampling == "graded":
+        index, share = _hessian_nodes(panels, domain, length, weights, np.asarray(t))
+        h = padding(len(index))
+    else:
+        h = -(-len(index) // 16) * 16
     index, chord = padded(index, h), panels.end - panels.start
     matrices = Matrices(
         nodes=_transposed(nodes),
         slopes=_transposed(padded(rows.slopes, p)),
-        hessian_index=jnp.asarray(index),
-        whitened=whitened(_transposed(nodes[index]), t).astype(jnp.float32),
+        hessian_index=index,
+        whitened=whitened(_transposed(nodes), index, t, np.float32),
         whitening=t,
-        weights=jnp.asarray(weights),
-        hessian_weights=jnp.asarray(padded(share, h, 0.0)),
+        weights=weights,
+        hessian_weights=padded(share, h, 0.0),
         proof=jax.tree.map(lambda part: _transposed(padded(part, p)), rows.proof),
-        rounding=jnp.asarray(padded(rows.rounding, p)),
-        chord=jnp.stack([padded(np.real(chord), p), padded(np.imag(chord), p)]),
-        next=jnp.asarray(padded(panels.next, p)),
-        real=jnp.asarray(np.arange(p) < count),
+        rounding=padded(rows.rounding, p),
+        chord=np.stack([padded(np.real(chord), p), padded(np.imag(chord), p)]),
+        next=padded(panels.next, p),
+        real=np.arange(p) < count,
     )
-    return Discretisation(domain, sampling, certificate, panels, matrices)
+    # Unlike jnp.asarray this compiles nothing.
+    return Discretisation(domain, sampling, certificate, panels, jax.device_put(matrices))
 
 
 def _hessian_nodes(
-    panels: Panels, domain: Domain, length: np.ndarray, weights: np.ndarray
+    panels: Panels, domain: Domain, length: np.ndarray, weights: np.ndarray, t: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Which nodes the Hessian's quadrature takes, and their weights: the fewest that will do.
 
     The middle of each pair of panels, an end of both, or of a single panel; or of every panel; or
     all nodes of the energy.
     """
-    wanted = _NODES_PER_COLUMN * domain.n_coefficients
+    n_coordinates, n_unknown = np.count_nonzero(t.any(axis=(0, 1))), basis_of(domain).phi_free.sum()
+    wanted = _NODES_PER_COORDINATE * n_coordinates
     p, count = len(weights) // 2, len(panels)
     middles = np.arange(p, p + count)
     first = np.flatnonzero(paired(panels, domain, _PAIR_RATIO))
-    if count - len(first) >= wanted:
+    # Where coordinates were left out, others oscillate as fast as the panels follow each other.
+    if n_coordinates == n_unknown and count - len(first) >= wanted:
         index, share = middles.copy(), length.copy()
         index[first] = first + 1
         share[first] += share[first + 1]
@@ -270,8 +277,8 @@ def _hessian_nodes(
     return every, weights[every]
 
 
-def _transposed(rows: np.ndarray) -> Array:
-    return jnp.asarray(np.ascontiguousarray(rows.T))
+def _transposed(rows: np.ndarray) -> np.ndarray:
+    return np.ascontiguousarray(rows.T)
 
 
 def bucket(count: int) -> int:
@@ -283,6 +290,13 @@ def bucket(count: int) -> int:
     wanted = count + count // 64
     step = 64 if wanted <= 256 else max(32, 1 << (wanted.bit_length() - 5))
     return max(-(-wanted // step) * step, 128)
+
+
+def _rung(count: int) -> int:
+    """The padded size for panels that were split: two sizes an octave, with room for more."""
+    wanted = int(_GROWTH * count)
+    octave = 1 << wanted.bit_length()
+    return max(octave if wanted > 3 * octave // 4 else 3 * octave // 4, 128)
 
 
 def padded(array: np.ndarray, size: int, fill: float | None = None) -> np.ndarray:

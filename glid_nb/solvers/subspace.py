@@ -43,7 +43,7 @@ def check_belongs(map: HarmonicMap, domain: Domain) -> None:
 class SubspaceDescent(Descent):
     """A method at work on maps of the harmonic subspace.
 
-    ``reduced``: the unknowns are those of the columns that have any, not of all.
+    ``reduced``: the unknowns are those of the whitened coordinates, not of all columns.
 
     Attributes
     ----------
@@ -66,11 +66,14 @@ class SubspaceDescent(Descent):
         options, pose = inputs.options, inputs.pose
         map_, self.discretisation = _starting_point(method, inputs)
         basis = self.discretisation.basis
-        columns = basis.unknown_columns if reduced else None
         self.problem = Problem(
             matrices=self.discretisation.matrices,
             singularities=basis.singularities,
-            unknowns=unknowns_of(basis, options.conformal, columns),
+            unknowns=unknowns_of(
+                basis,
+                options.conformal,
+                self.discretisation.matrices.whitening if reduced else None,
+            ),
             positional=positional_energy(inputs.domain, pose, options.p2p_weight),
             energy=inputs.energy,
         )

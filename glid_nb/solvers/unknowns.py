@@ -1,7 +1,7 @@
 """Which coefficients are unknowns, and the tie of the logarithms (paper Section 5).
 
-Real vectors ``[Re phi, Im phi, Re psi, Im psi]`` hold all padded columns, or only those that have
-unknowns (:attr:`~glid_nb.harmonic.basis.Basis.unknown_columns`), padded to a bucket. What is no
+Real vectors ``[Re phi, Im phi, Re psi, Im psi]`` hold all padded columns, or the coordinates of
+:mod:`glid_nb.solvers.whitening`, padded to a bucket. What is no
 unknown among them is masked: its rows and columns of the Hessian become those of the identity and
 its gradient 0, which keeps shapes fixed. The hole coefficients obey ``psi_j = conj(phi_j)``; their
 ``psi`` parts are folded onto the ``phi`` parts.
@@ -18,7 +18,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.basis import Basis
 
 if TYPE_CHECKING:
-    from jaxtyping import Array, Float, Int
+    from jaxtyping import Array, Float
 
 
 class Unknowns(NamedTuple):
@@ -31,12 +31,20 @@ class Unknowns(NamedTuple):
 
 
 def unknowns_of(
-    basis: Basis, conformal: bool, columns: Int[AnyArray, " u"] | None = None
+    basis: Basis, conformal: bool, whitening: Float[AnyArray, "2 c u"] | None = None
 ) -> Unknowns:
-    """The unknowns among all columns, or some; ``conformal`` drops ``psi`` and the logarithms."""
-    columns = np.arange(basis.n_columns) if columns is None else columns
-    phi, psi = (free[columns] & (columns >= 0) for free in (basis.phi_free, basis.psi_free))
+    """The unknowns among all columns, or among the coordinates of a whitening.
+
+    ``conformal`` drops ``psi`` and the logarithms.
+    """
     n_holes = basis.n_hole_columns
+    if whitening is None:
+        phi, psi = basis.phi_free, basis.psi_free.copy()
+    else:
+        phi = np.asarray(whitening).any(axis=(0, 1))
+        psi = phi & (np.arange(len(phi)) > 0)
+        psi[len(psi) - n_holes :] = False
+    phi = phi.copy()
     if conformal:
         psi[:] = False
         phi[len(phi) - n_holes :] = False

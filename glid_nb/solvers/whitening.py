@@ -7,30 +7,40 @@ along the boundary, leave it with the condition of ``K`` alone. Newton's directi
 any coordinates.
 
 Coefficients that are no unknowns have no coordinate, so that nothing is computed for them: ``T``
-has a row for each column and a column for each of those with unknowns. Those stay in their order,
-so that the masks and the tie of :mod:`glid_nb.solvers.unknowns` serve in both: the exterior's first
-coordinate becomes the translation, of which no derivative knows, and a logarithm's coordinate is
-its coefficient, scaled. All others vanish at one point of the boundary. So none moves a handle by
-more than its length along the boundary; pinned at the first coefficient instead, what oscillates
-along a fine cage would move all of them by many times the shape's size, and the positional energy
-would swamp the other.
+has a row for each column, and columns for the translation, of which no derivative knows, for the
+others, zeros for padding, and last one for each logarithm, its coefficient, scaled. So the tie of
+:mod:`glid_nb.solvers.unknowns` serves in both. All but the translation vanish at one point of the
+boundary. So none moves a handle by more than its length along the boundary; pinned at the first
+coefficient instead, what oscillates along a fine cage would move all of them by many times the
+shape's size, and the positional energy would swamp the other.
+
+Cauchy's integral takes the boundary values of what is holomorphic outside to zero. The finer a cage
+is divided, the better its hat functions approach those: large coefficients, whose rounding errors
+the certificate has to allow for, and next to no map. Directions in which the derivative is small
+against the slopes of the coefficients along the offset cage have no coordinate either. What they
+could add to a map with slopes of about 1 is as small.
 """
 
 from __future__ import annotations
 
+import functools
 from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
 
-from glid_nb._jax import AnyArray, jnp
-from glid_nb.harmonic.basis import Basis
+from glid_nb._jax import AnyArray, jit, jnp
+from glid_nb.harmonic.basis import BUCKET, Basis
 
 if TYPE_CHECKING:
-    from jaxtyping import Array, Float
+    from jaxtyping import Array, Complex, Float, Int
 
 # Raises the Gram matrix's diagonal, relative to its mean, should columns be dependent.
 _RIDGE = 1e-13
+# Derivatives, in the mean square over the boundary, of coordinates whose slopes along the offset
+# cage have the mean square 1. Where some are below the first number (traced cages have 0.005 and
+# more), those below the second are left out: they oscillate faster than the panels' nodes can tell.
+_STEEP, _LEAST = 3e-3, 3e-2
 
 
 def whitening(
@@ -62,27 +72,54 @@ def whitening(
     gram[np.diag_indices_from(gram)] += _RIDGE * np.trace(gram).real / len(gram)
     lower = scipy.linalg.cholesky(gram, lower=True)
     inverse = scipy.linalg.solve_triangular(lower, np.eye(len(gram)), lower=True)
+    inverse = _without_steep(inverse, single_valued, basis)
 
-    columns_of = basis.unknown_columns
-    place = np.full(c, -1)
-    place[columns_of[columns_of >= 0]] = np.flatnonzero(columns_of >= 0)
-    t = np.zeros((c, len(columns_of)), dtype=complex)
+    kept, n_holes = len(inverse), basis.n_hole_columns
+    u = -(-(1 + kept + n_holes) // BUCKET) * BUCKET
+    t = np.zeros((c, u), dtype=complex)
     t[: basis.n_exterior, 0] = 1
-    t[np.ix_(single_valued, place[single_valued])] = inverse.conj().T
+    t[single_valued, 1 : 1 + kept] = inverse.conj().T
     for j in logarithms:
         along = inverse.conj().T @ (inverse @ (columns.conj().T @ scaled[:, j]))
         rest = np.linalg.norm(scaled[:, j] - columns @ along)
-        t[single_valued, place[j]], t[j, place[j]] = -along / rest, 1 / rest
+        t[single_valued, u - c + j], t[j, u - c + j] = -along / rest, 1 / rest
     value = anchor[:c] - 1j * anchor[c:]
     t[: basis.n_exterior, 1:] -= value @ t[:, 1:]
     return np.stack([np.real(t), np.imag(t)])
 
 
-def whitened(nodes: Float[AnyArray, "2c s"], t: Float[AnyArray, "2 c u"]) -> Float[Array, "2u s"]:
-    """``D T`` from ``D``, both as ``[Re, -Im]``, transposed."""
+def _without_steep(
+    inverse: Complex[np.ndarray, "n n"], chosen: Int[np.ndarray, " n"], basis: Basis
+) -> Complex[np.ndarray, "k n"]:
+    """The rows whose conjugates are the coordinates of the chosen columns, turned so that those
+    with steep slopes can be left out; as they are where there are none.
+    """
+    values = np.zeros((basis.n_columns, len(inverse)), dtype=complex)
+    values[chosen] = inverse.conj().T
+    vertices, _, previous, _ = basis.singularities
+    own = basis.columns[basis.columns < len(vertices)]
+    edges = np.abs(vertices - vertices[previous])[own]
+    rises = (values[own] - values[previous[own]]) / np.sqrt(edges * edges.sum())[:, None]
+    if np.linalg.norm(rises) <= 1 / _STEEP:
+        return inverse
+    squares, turn = scipy.linalg.eigh(rises.conj().T @ rises)
+    if squares[-1] <= _STEEP**-2:
+        return inverse
+    return turn[:, squares <= _LEAST**-2].conj().T @ inverse
+
+
+@functools.partial(jit, static_argnames="dtype")
+def whitened(
+    nodes: Float[AnyArray, "2c s"],
+    index: Int[AnyArray, " h"],
+    t: Float[AnyArray, "2 c u"],
+    dtype: type[np.floating],
+) -> Float[Array, "2u h"]:
+    """``D T`` at some nodes from ``D``, both as ``[Re, -Im]``, transposed."""
     c = t.shape[1]
-    re, im = nodes[:c], -nodes[c:]
-    return jnp.concatenate([t[0].T @ re - t[1].T @ im, -(t[0].T @ im + t[1].T @ re)])
+    re, im = nodes[:c, index], -nodes[c:, index]
+    parts = [t[0].T @ re - t[1].T @ im, -(t[0].T @ im + t[1].T @ re)]
+    return jnp.concatenate(parts).astype(dtype)
 
 
 def coefficients(x: Float[Array, " 4u"], t: Float[Array, "2 c u"]) -> Float[Array, " 4c"]:

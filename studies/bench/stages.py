@@ -34,7 +34,7 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
     assert disc is not None
     assert isinstance(result.map, HarmonicMap)
     positional = positional_energy(disc.domain, result.pose, options.p2p_weight)
-    unknowns = unknowns_of(disc.basis, options.conformal, disc.basis.unknown_columns)
+    unknowns = unknowns_of(disc.basis, options.conformal, disc.matrices.whitening)
     singularities = disc.basis.singularities
     energy = result.energy_measure
     problem = Problem(disc.matrices, singularities, unknowns, positional, energy)

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from glid_nb.certificate import GlobalInjectivity, certify, global_injectivity
-from glid_nb.geometry import Cage, Domain
+from glid_nb.geometry import Cage, Domain, places
 from glid_nb.harmonic import HarmonicMap
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
@@ -168,6 +168,13 @@ def test_a_loop_traced_twice_is_undecided() -> None:
     assert outcome.verdict == "undecided"
     assert outcome.n_panels <= 2000
     assert "touch" in outcome.reason
+
+
+def test_two_places_are_told_apart() -> None:
+    assert places([1.5, 2 - 1j]) == "(1.5, 0) and (2, -1)"
+    assert places([1.23456789 + 0j, 1.23456788]) == "(1.23456789, 0) and (1.23456788, 0)"
+    assert places([complex(1 / 3), np.nextafter(1 / 3, 1)]).count("0.3333333333333333") == 2
+    assert places([1j, 1j]) == "(0, 1) and (0, 1)"
 
 
 def test_an_annulus_turned_inside_out_is_injective() -> None:

@@ -259,3 +259,83 @@ def test_a_map_that_collapses(run, picture: Path, tmp_path: Path, map_data: dict
 def test_a_picture_is_written_as_png_only(run, picture: Path, tmp_path: Path) -> None:
     outcome = run("render", picture, tmp_path / "map.json", "--out", tmp_path / "x.jpg")
     assert_refused(outcome, "x.jpg", "ends in .png")
+
+
+def _names(path: Path, tmp_path: Path, kind: str) -> Path:
+    """The same file by another name."""
+    other = tmp_path / "by-another-name.png"
+    if kind == "the same":
+        return path
+    if kind == "roundabout":
+        return path.parent / ".." / path.parent.name / path.name
+    if kind == "symbolic link":
+        other.symlink_to(path)
+    else:
+        other.hardlink_to(path)
+    return other
+
+
+@pytest.mark.parametrize("kind", ["the same", "roundabout", "symbolic link", "hard link"])
+@pytest.mark.parametrize(
+    ("words", "place"),
+    [
+        ("solve FILE --out OUT", "problem"),
+        ("solve FILE --report OUT", "problem"),
+        ("solve problem.json --start FILE --out OUT", "map"),
+        ("trace FILE --out OUT", "picture"),
+        ("trace plus.png --scribbles FILE --out OUT", "scribbles"),
+        ("render FILE map.json --out OUT", "picture"),
+        ("render plus.png FILE --out OUT", "map"),
+    ],
+)
+def test_a_command_never_writes_over_its_input(
+    run, picture: Path, problem: Path, tmp_path: Path, words: str, place: str, kind: str
+) -> None:
+    file = {"problem": problem, "picture": picture}.get(place, tmp_path / f"{place}.png")
+    if not file.exists():
+        file.write_text("{}")
+    before, out = file.read_bytes(), _names(file, tmp_path, kind)
+    known = {"FILE": file, "OUT": out, "problem.json": problem, "plus.png": picture}
+    outcome = run(*(known.get(word, word) for word in words.split()))
+    assert_refused(outcome, out, "would be overwritten, but it is read too")
+    assert file.read_bytes() == before
+
+
+@pytest.mark.parametrize("flag", ["IMAGE", "--pose", "--scribbles"])
+def test_a_demo_never_writes_over_its_input(run, picture: Path, tmp_path: Path, flag: str) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    file = out / ("deformed.png" if flag == "IMAGE" else "map.json")
+    file.write_bytes(picture.read_bytes())
+    words = [file] if flag == "IMAGE" else [picture, flag, file]
+    assert_refused(run("demo", *words, "--out", out), file, "would be overwritten")
+    assert file.read_bytes() == picture.read_bytes()
+
+
+def test_two_results_never_go_to_one_file(run, problem: Path, tmp_path: Path) -> None:
+    out, link = tmp_path / "map.json", tmp_path / "link"
+    link.symlink_to(out)
+    for report in (out, link):
+        outcome = run("solve", problem, "--out", out, "--report", report)
+        assert_refused(outcome, report, "another result goes there")
+
+
+def test_a_picture_of_another_size_than_the_maps(
+    run, picture: Path, tmp_path: Path, map_data: dict[str, Any]
+) -> None:
+    other = _picture(tmp_path / "half.png", np.array(Image.open(picture).resize((80, 60))))
+    path = tmp_path / "map.json"
+    path.write_text(json.dumps({**map_data, "image_size_px": [160, 120]}))
+    out = tmp_path / "x.png"
+    outcome = run("render", other, path, "--out", out)
+    assert_refused(outcome, other, "80 x 60", "[160, 120]", "that its cage was traced from")
+    assert not out.exists()
+    assert run("render", picture, path, "--out", out).code == 0
+
+
+def test_a_picture_size_that_is_none(
+    run, problem: Path, problem_data: dict[str, Any], tmp_path: Path
+) -> None:
+    problem.write_text(json.dumps({**problem_data, "image_size_px": [160, "wide"]}))
+    outcome = run("solve", problem, "--out", tmp_path / "map.json")
+    assert_refused(outcome, problem, "image_size_px must be [width, height]")

@@ -83,12 +83,16 @@ def test_trace_takes_scribbles(run, picture: Path, tmp_path: Path) -> None:
     assert glid_nb.Cage.from_dict(read(out)).contains([[-5.0, 0.0]]).all()
 
 
-def test_solve_writes_a_map_and_a_report(run, problem: Path, tmp_path: Path) -> None:
+def test_solve_writes_a_map_and_a_report(
+    run, problem: Path, problem_data: dict[str, Any], tmp_path: Path
+) -> None:
+    problem.write_text(json.dumps({**problem_data, "image_size_px": [160, 120]}))
     out, proof, report_path = (tmp_path / f"{name}.json" for name in ("map", "proof", "report"))
     outcome = run("solve", problem, "--out", out, "--proof", proof, "--report", report_path)
     assert outcome.code == 0
     assert glid_check.main([str(out), str(proof)]) == 0
     harmonic_map = glid_nb.HarmonicMap.load(out)
+    assert json.loads(out.read_text())["image_size_px"] == [160, 120]
     np.testing.assert_allclose(harmonic_map([[7.0, 0.0]]), [[6.0, 3.0]], atol=1e-3)
     report = strict_json(report_path.read_text())
     assert report["status"] in ("converged", "stationary")

@@ -77,6 +77,26 @@ class TestArrays:
         np.testing.assert_array_equal(as_rgba8(every)[..., 0], expected)
 
 
+class TestFormats:
+    @pytest.mark.parametrize(
+        "kind", ["png", "jpeg", "gif", "tiff", "webp", "bmp", "ppm", "jpeg2000", "avif"]
+    )
+    def test_formats_of_pixels_are_read(self, kind):
+        data = encoded(Image.new("RGB", (7, 5), (250, 0, 0)), kind)
+        assert read_image(data).shape == (5, 7, 4)
+
+    def test_no_program_is_started(self, monkeypatch):
+        """Pillow hands EPS to Ghostscript."""
+        data = encoded(Image.new("RGB", (7, 5)), "eps")
+        monkeypatch.setattr("PIL.EpsImagePlugin.Ghostscript", None)
+        with pytest.raises(TraceError, match="not in a picture format that can be read"):
+            read_image(data)
+
+    def test_a_session_is_no_picture(self):
+        with pytest.raises(TraceError, match=r"^a\.glid is a session or another zip file"):
+            read_image(b"PK\x03\x04 and so on", "a.glid")
+
+
 class TestNames:
     def test_a_picture_is_called_by_the_name_that_was_given(self):
         with pytest.raises(TraceError, match=r"^mine\.png is not in a picture format"):

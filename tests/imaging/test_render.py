@@ -214,6 +214,9 @@ def test_bad_input(domain: Domain):
     image, identity = coordinates_as_colours(20, 20), HarmonicMap.identity(domain)
     with pytest.raises(ValueError, match="unknown view 'front'; choose one of source, fit"):
         render(image, identity, view="front")  # type: ignore[arg-type]
+    for size in ((3,), (10.5, 20), (10.0, 20), (3, 4, 5), (True, 5), 5, "ab", [[1, 2], [3, 4]]):
+        with pytest.raises(ValueError, match=r"size must be \(width, height\) in whole pixels"):
+            render(image, identity, size=size)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="size is 0 x 5 pixels"):
         render(image, identity, size=(0, 5))
     with pytest.raises(ValueError, match=r"at most 2\^30 pixels"):

@@ -5,6 +5,8 @@ from __future__ import annotations
 import io
 import json
 import math
+import time
+import traceback
 import zipfile
 from collections.abc import Callable
 from dataclasses import replace
@@ -17,12 +19,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
+from glid_nb._errors import InputError
 from glid_nb.energies import AMIPS, CustomEnergy, SymmetricDirichlet
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.methods import AQP
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.document_file import load_document, save_document
+from glid_nb.session.problem import Problem, load_pose
 from glid_nb.solvers import Newton, Options, Pose
 
 from ..domains import domain, random_map
@@ -375,6 +379,49 @@ def test_wrong_json_is_refused(
 ) -> None:
     text = json.dumps(change(json.loads(valid["document.json"])))
     refuse(tmp_path, zipped({**valid, "document.json": text.encode()}), culprit)
+
+
+HUGE = 1e118
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda p: {"psi": [[HUGE, 0], *p["psi"][1:]]},
+        lambda p: {"phi": [[1e300, 0], *p["phi"][1:]]},
+        lambda p: {
+            "phi": [*p["phi"][:-1], [HUGE, HUGE]],
+            "psi": [*p["psi"][:-1], [HUGE, -HUGE]],
+        },
+    ],
+    ids=["turned over", "overflowing", "a logarithm"],
+)
+def test_huge_coefficients_are_refused_at_once(
+    tmp_path: Path, valid: dict[str, bytes], change: Callable[[Data], Data]
+) -> None:
+    data = json.loads(valid["document.json"])
+    data["poses"][0].update(change(data["poses"][0]))
+    began = time.process_time()
+    refuse(tmp_path, zipped({**valid, "document.json": json.dumps(data).encode()}), "phi|certified")
+    assert time.process_time() - began < 1.0
+
+
+def test_a_file_of_another_kind_is_named(tmp_path: Path) -> None:
+    buffer = io.BytesIO()
+    Image.new("RGB", (40, 30)).save(buffer, format="JPEG")
+    refuse(tmp_path, buffer.getvalue(), "it is a JPEG picture; open it as the picture instead")
+    refuse(tmp_path, b'{"cage": []}', "it is no zip file, so no session that was saved")
+
+
+def test_a_wrong_file_is_refused_in_one_sentence(tmp_path: Path) -> None:
+    path = tmp_path / "photo.jpg"
+    Image.new("RGB", (40, 30)).save(path)
+    for load in (load_document, Problem.load, HarmonicMap.load, load_pose):
+        with pytest.raises(InputError) as refusal:
+            load(path)
+        said = "".join(traceback.format_exception(refusal.value))
+        assert said.count("Traceback") == 1
+        assert said.rstrip().endswith(str(refusal.value))
 
 
 @pytest.mark.parametrize("value", [NAN, INFINITY, -INFINITY])

@@ -53,10 +53,13 @@ def test_ragged_targets_are_refused() -> None:
         solve_batch(domain("ell"), HANDLES, [[[0, 0]], [[0, 0], [1, 1]]])
 
 
-@pytest.mark.parametrize("devices", [[], ["cpu"]])
-def test_devices_are_jax_devices(devices: list[str]) -> None:
-    with pytest.raises(TypeError, match="devices must be one or more of"):
-        solve_batch(domain("ell"), HANDLES, targets(1), devices=devices)
+def test_devices_are_different_jax_devices() -> None:
+    import jax
+
+    one = jax.local_devices()[0]
+    for devices in ([], ["cpu"], "cpu", [one, one], one, 1):
+        with pytest.raises(TypeError, match=r"devices must be one or more of .* each of them once"):
+            solve_batch(domain("ell"), HANDLES, targets(1), devices=devices)
 
 
 @pytest.mark.slow

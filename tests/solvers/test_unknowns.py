@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from glid_nb.harmonic import HarmonicMap, basis_of
+from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.unknowns import (
     canonical,
     expand,
@@ -64,22 +65,17 @@ def test_restriction_and_expansion_are_those_of_the_dense_matrix(
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("conformal", [False, True])
-def test_the_reduced_unknowns_are_all_unknowns(name: str, conformal: bool) -> None:
-    basis = basis_of(domain(name))
-    columns = basis.unknown_columns
-    every = unknowns_of(basis, conformal)
-    reduced = unknowns_of(basis, conformal, basis.unknown_columns)
-    assert len(columns) <= basis.n_columns
-    assert len(columns) % 8 == 0
-    places = np.concatenate(
-        [np.where(columns >= 0, k * basis.n_columns + columns, -1) for k in range(4)]
-    )
-    assert sorted(places[reduced.free > 0]) == list(np.flatnonzero(every.free))
+def test_whitened_coordinates_are_as_many_as_the_unknowns(name: str, conformal: bool) -> None:
+    basis, t = basis_of(domain(name)), np.asarray(discretise(domain(name)).matrices.whitening)
+    every, whitened = (unknowns_of(basis, conformal, part) for part in (None, t))
+    assert t.shape[2] <= basis.n_columns
+    assert t.shape[2] % 8 == 0
+    each = [unknowns.free.reshape(4, -1).sum(axis=1) for unknowns in (every, whitened)]
+    np.testing.assert_array_equal(*each)
     # The tie of the logarithms counts from the end.
-    n_holes = basis.n_hole_columns
-    own = columns[len(columns) - n_holes :]
-    expected = np.arange(basis.n_columns - n_holes, basis.n_columns)
-    np.testing.assert_array_equal(own, np.where(basis.phi_free[expected], expected, -1))
+    last = slice(t.shape[2] - basis.n_hole_columns, None)
+    expected = basis.phi_free[basis.n_columns - basis.n_hole_columns :] & (not conformal)
+    np.testing.assert_array_equal(whitened.free.reshape(4, -1)[:2, last], [expected, expected])
 
 
 @pytest.mark.slow
