@@ -222,13 +222,14 @@ def _assembled(
         index = np.arange(0, count, HESSIAN_STRIDE)
         share = np.full(len(index), 1 / len(index))
         along = rows.ends[index], share
+    padding = bucket if t is None else _rung
     if t is None:
         basis = basis_of(domain)
         (anchor,) = basis_rows(cauchy.cauchy_coordinates, panels.start[:1], basis)
         t = whitening(*along, anchor, basis)
     if sampling == "graded":
         index, share = _hessian_nodes(panels, domain, length, weights, np.asarray(t))
-        h = bucket(len(index))
+        h = padding(len(index))
     else:
         h = -(-len(index) // 16) * 16
     index, chord = padded(index, h), panels.end - panels.start
