@@ -324,3 +324,13 @@ def test_a_long_thin_domain_with_small_features() -> None:
     check = DenseCheck.on(d.cage.loops_complex, [z], np.empty(0), 20_000)
     truth = check.measure(phi, 0.01 * z)
     check_sound(certify(HarmonicMap(d, phi, 0.01 * z)), truth)
+
+
+def test_what_rounding_hides_is_not_searched_for() -> None:
+    """With a huge logarithm f_z and f_zbar agree to the last digit, on whatever panels."""
+    map = HarmonicMap.identity(domain("twin"))
+    phi, psi = np.array(map.phi), np.array(map.psi)
+    phi[-1] = psi[-1] = 1e60
+    c = certify(HarmonicMap(map.domain, phi, psi))
+    assert not c.certified
+    assert len(c.panels) < 1000

@@ -203,3 +203,12 @@ def test_a_point_that_is_not_finite_is_refused() -> None:
     identity = HarmonicMap.identity(domain("ell"))
     with pytest.raises(MapError, match="point 1 is"):
         identity([[0.0, 0.0], [np.nan, 1.0]])
+
+
+def test_coefficients_that_squares_would_overflow_are_refused() -> None:
+    d = domain("ring")
+    phi = HarmonicMap.identity(d).phi.copy()
+    for value in (1e121, complex(0, -1e300), complex(1e308, 1e308), np.inf, np.nan):
+        phi[3] = value
+        with pytest.raises(MapError, match=r"phi\[3\] is .*; it must be finite and at most"):
+            HarmonicMap(d, phi, np.zeros_like(phi))
