@@ -115,8 +115,9 @@ class Discretisation:
         """
         m = self.matrices
         if self.sampling == "graded":
-            m = m._replace(hessian_index=jnp.arange(len(m.weights)), hessian_weights=m.weights)
-        return m._replace(whitened=whitened(m.nodes[:, m.hessian_index], m.whitening))
+            index = jax.device_put(np.arange(len(m.weights)))
+            m = m._replace(hessian_index=index, hessian_weights=m.weights)
+        return m._replace(whitened=whitened(m.nodes, m.hessian_index, m.whitening, np.float64))
 
     @property
     def can_refine(self) -> bool:
@@ -204,7 +205,7 @@ def _assembled(
     panels: Panels,
     rows: _Rows,
     p: int,
-    t: Array | None = None,
+    t: Any = None,
 ) -> Discretisation:
     """On ``p`` padded panels; ``t`` is the whitening of the panels that a solve began with."""
     count, length = len(panels), panels.length / panels.length.sum()
@@ -221,31 +222,33 @@ def _assembled(
         index = np.arange(0, count, HESSIAN_STRIDE)
         share = np.full(len(index), 1 / len(index))
         along = rows.ends[index], share
+    padding = bucket if t is None else _rung
     if t is None:
         basis = basis_of(domain)
         (anchor,) = basis_rows(cauchy.cauchy_coordinates, panels.start[:1], basis)
-        t = jnp.asarray(whitening(*along, anchor, basis))
+        t = whitening(*along, anchor, basis)
     if sampling == "graded":
         index, share = _hessian_nodes(panels, domain, length, weights, np.asarray(t))
-        h = bucket(len(index))
+        h = padding(len(index))
     else:
         h = -(-len(index) // 16) * 16
     index, chord = padded(index, h), panels.end - panels.start
     matrices = Matrices(
         nodes=_transposed(nodes),
         slopes=_transposed(padded(rows.slopes, p)),
-        hessian_index=jnp.asarray(index),
-        whitened=whitened(_transposed(nodes[index]), t).astype(jnp.float32),
+        hessian_index=index,
+        whitened=whitened(_transposed(nodes), index, t, np.float32),
         whitening=t,
-        weights=jnp.asarray(weights),
-        hessian_weights=jnp.asarray(padded(share, h, 0.0)),
+        weights=weights,
+        hessian_weights=padded(share, h, 0.0),
         proof=jax.tree.map(lambda part: _transposed(padded(part, p)), rows.proof),
-        rounding=jnp.asarray(padded(rows.rounding, p)),
-        chord=jnp.stack([padded(np.real(chord), p), padded(np.imag(chord), p)]),
-        next=jnp.asarray(padded(panels.next, p)),
-        real=jnp.asarray(np.arange(p) < count),
+        rounding=padded(rows.rounding, p),
+        chord=np.stack([padded(np.real(chord), p), padded(np.imag(chord), p)]),
+        next=padded(panels.next, p),
+        real=np.arange(p) < count,
     )
-    return Discretisation(domain, sampling, certificate, panels, matrices)
+    # Unlike jnp.asarray this compiles nothing.
+    return Discretisation(domain, sampling, certificate, panels, jax.device_put(matrices))
 
 
 def _hessian_nodes(
@@ -274,8 +277,8 @@ def _hessian_nodes(
     return every, weights[every]
 
 
-def _transposed(rows: np.ndarray) -> Array:
-    return jnp.asarray(np.ascontiguousarray(rows.T))
+def _transposed(rows: np.ndarray) -> np.ndarray:
+    return np.ascontiguousarray(rows.T)
 
 
 def bucket(count: int) -> int:

@@ -108,16 +108,17 @@ class Backtracking(NamedTuple):
     outcome: Int[Array, ""]
     """RUNNING where ``step`` is certified."""
     step: Float[Array, ""]
+    point: Point
     panel: PanelBounds
-    """The bounds there."""
+    """The bounds at ``point``, a step ``step`` along the line."""
     refused: Bool[Array, " p"]
     """Panels that refused the first step."""
 
 
 def backtrack(
-    problem: Problem, point: Point, line: Line, found: Search, may_refine: Bool[AnyArray, ""] | bool
+    problem: Problem, point: Point, line: Line, found: Search, once: Bool[AnyArray, ""] | bool
 ) -> Backtracking:
-    """Go from the best candidate to shorter ones until one is certified, or ask for finer panels.
+    """Go from the best candidate to shorter ones until one is certified; ``once``: try one only.
 
     Where Condition (30) fails, ``f_z`` has zeros inside, and no panel refuses, the step jumps over
     a map with a zero on the boundary; the panels along which ``f_z`` turned most are where.
@@ -132,8 +133,8 @@ def backtrack(
         jumped = zeros & ~jnp.any(refuses) & (turned >= jnp.max(turned) / 2)
         return refuses | (jumped & real)
 
-    def attempt(carry: tuple[Array, Array, PanelBounds, Array]) -> tuple:
-        _, index, _, refused = carry
+    def attempt(carry: tuple[Array, Array, Point, PanelBounds, Array]) -> tuple:
+        _, index, _, _, refused = carry
         there = moved(problem, point, line, found.steps[index])
         panel = bounds(problem, there)
         refuses = refusing(panel)
@@ -141,17 +142,21 @@ def backtrack(
         first = index == found.best
         refused = jnp.where(first, refuses, refused)
         shorter = jnp.argmax(found.acceptable & (jnp.arange(count) > index))
-        outcome = jnp.where(~fails, RUNNING, jnp.where(first & may_refine, REFUSED, BLOCKED))
+        outcome = jnp.where(~fails, RUNNING, jnp.where(first & once, REFUSED, BLOCKED))
         # argmax gives 0 when there is no shorter acceptable candidate.
         ended = (outcome != BLOCKED) | (shorter == 0)
-        return jnp.where(ended, outcome, PENDING), jnp.where(ended, index, shorter), panel, refused
+        outcome, index = jnp.where(ended, outcome, PENDING), jnp.where(ended, index, shorter)
+        return outcome, index, there, panel, refused
 
     blank = jnp.zeros(real.shape)
     start = (
         jnp.where(found.acceptable[found.best], PENDING, NO_DECREASE),
         found.best,
+        point,
         PanelBounds(blank, blank, blank, real, blank),
         jnp.zeros_like(real),
     )
-    outcome, index, panel, refused = lax.while_loop(lambda c: c[0] == PENDING, attempt, start)
-    return Backtracking(outcome, found.steps[index], panel, refused)
+    outcome, index, there, panel, refused = lax.while_loop(
+        lambda c: c[0] == PENDING, attempt, start
+    )
+    return Backtracking(outcome, found.steps[index], there, panel, refused)

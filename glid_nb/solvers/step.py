@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from glid_nb._jax import AnyArray, jax, jit, jnp, lax
 from glid_nb._runtime import COMPILER_OPTIONS
-from glid_nb.certificate import PanelBounds
 from glid_nb.solvers import cholesky, evaluation, line_search, whitening
 from glid_nb.solvers.evaluation import Line, Point
 from glid_nb.solvers.hessian import (
@@ -74,6 +73,7 @@ class State(NamedTuple):
     """State of the loop."""
 
     point: Point
+    """Certified, once a step was taken."""
     start_iso: Float[Array, ""]
     """Energies before the first iteration of this call."""
     start_p2p: Float[Array, ""]
@@ -87,6 +87,10 @@ class State(NamedTuple):
     """Certified bound per panel at ``point``, once a step was taken."""
     factor: Float[Array, "4u 4u"]
     """Cholesky factor of the last Hessian, in whitened coordinates."""
+    corrects: Bool[Array, ""]
+    """Whether the next step is a correction."""
+    gain: Float[Array, ""]
+    """What the last step gained."""
 
 
 class _Call(NamedTuple):
@@ -104,7 +108,12 @@ def iterations(
     factor: Float[Array, "4u 4u"],
     settings: Settings,
 ) -> State:
-    """Up to ``settings.iterations`` (at most `MOST_PER_CALL`) Newton iterations, to be compiled."""
+    """Up to ``settings.iterations`` (at most `MOST_PER_CALL`) Newton iterations, to be compiled.
+
+    An iteration is a step with a Hessian of its own and, close to the minimum, corrections: steps
+    by the same factor from gradients of their own (Shamanskii's method), for a fraction of the cost
+    of another Hessian. All are turns of one loop, so that one body is compiled.
+    """
     positional = problem.positional
     rows = whitening.pulled_back(positional.matrix, problem.matrices.whitening)
     p2p_hessian = rows.T @ (positional.weights[:, None] * rows)
@@ -112,7 +121,8 @@ def iterations(
     call = _Call(problem, settings, p2p_hessian)
 
     def goes_on(state: State) -> Bool[Array, ""]:
-        return (state.outcome == RUNNING) & (state.iteration < settings.iterations)
+        more = state.corrects | (state.iteration < settings.iterations)
+        return (state.outcome == RUNNING) & more
 
     point = evaluation.evaluated(problem, coefficients)
     real, blank = problem.matrices.real, jnp.full(MOST_PER_CALL, jnp.nan)
@@ -135,8 +145,10 @@ def iterations(
         refused=jnp.zeros_like(real),
         sigma2_lower=jnp.full(real.shape, jnp.nan),
         factor=factor,
+        corrects=jnp.array(False),
+        gain=jnp.array(jnp.inf),
     )
-    end = lax.while_loop(goes_on, functools.partial(_iteration, call), start)
+    end = lax.while_loop(goes_on, functools.partial(_step, call), start)
 
     def helped() -> Bool[Array, " p"]:
         return end.refused & evaluation.tightened_by_splitting(problem, end.point)
@@ -144,56 +156,62 @@ def iterations(
     return end._replace(refused=lax.cond(jnp.any(end.refused), helped, lambda: end.refused))
 
 
-def _iteration(call: _Call, state: State) -> State:
-    """One iteration of Algorithm 1; close to the minimum, with corrections."""
-    problem, point = call.problem, state.point
+def _step(call: _Call, state: State) -> State:
+    """One step of Algorithm 1, the first of an iteration or a correction."""
+    problem, settings, point, corrects = call.problem, call.settings, state.point, state.corrects
     # The Hessian and its factor, projected where it is not positive definite.
     factor, modified = _factorised(call, state)
     definite = jnp.isfinite(factor[-1, -1])
     # The direction.
     line = _newton_line(call, point, factor)
     decrement = jnp.sqrt(jnp.maximum(line.squared_decrement, 0))
-    # Line search and certificate.
-    found = line_search.search(problem, point, line)
-    outcome, step, panel, refused = line_search.backtrack(
-        problem, point, line, found, call.settings.may_refine
-    )
     # Stop on the decrement.
-    outcome = jnp.where(_is_minimal(call, point, line), CONVERGED, outcome)
+    scale = jnp.maximum(jnp.abs(point.energy), LEAST_ENERGY)
+    minimal = line.squared_decrement / 2 <= settings.tolerance * scale
+    # Line search and certificate; a correction does not try shorter steps.
+    found = line_search.search(problem, point, line)
+    found = found._replace(acceptable=found.acceptable & definite & ~minimal)
+    once = settings.may_refine | corrects
+    outcome, step, there, panel, refused = line_search.backtrack(problem, point, line, found, once)
+    outcome = jnp.where(minimal, CONVERGED, outcome)
     outcome = jnp.where(definite, outcome, INDEFINITE)
-    stepped = outcome == RUNNING
     # Step.
-    step = jnp.where(stepped, step, 0.0)
-    there = evaluation.moved(problem, point, line, step)
-    there, panel, corrections, minimal, last_decrement = lax.cond(
-        stepped,
-        functools.partial(_corrected, call, factor, point.energy - there.energy),
-        lambda point, panel: (point, panel, jnp.array(0), jnp.array(False), decrement),
-        *(there, panel),
-    )
-    record = Record(
+    stepped = outcome == RUNNING
+    there = _where(stepped, there, point)
+    i = state.iteration - corrects
+    known = jax.tree.map(lambda column: column[i], state.records)
+    first = Record(
         energy_iso=there.energy_iso,
         energy_p2p=there.energy_p2p,
         step=step,
         decrement=decrement,
         sigma2_lower=jnp.min(jnp.where(problem.matrices.real, panel.sigma2_lower, jnp.inf)),
         hessian_modified=modified,
-        corrections=corrections,
+        corrections=jnp.array(0),
     )
-    i = state.iteration
+    corrected = known._replace(
+        energy_iso=first.energy_iso,
+        energy_p2p=first.energy_p2p,
+        sigma2_lower=first.sigma2_lower,
+        corrections=known.corrections + 1,
+    )
+    record = _where(stepped, _where(corrects, corrected, first), known)
+    # A correction that fails only ends the iteration, and the solve where it has no more to gain.
+    ends = corrects & minimal & (known.corrections > 0)
+    outcome = jnp.where(corrects, jnp.where(ends, CONVERGED, RUNNING), outcome)
+    gain = point.energy - there.energy
+    pays = gain < jnp.where(corrects, _CONTRACTION * state.gain, _CLOSE * there.energy)
     return state._replace(
         point=there,
-        iteration=i + stepped,
-        outcome=jnp.where(minimal, CONVERGED, outcome),
-        decrement=jnp.where(minimal, last_decrement, decrement),
-        records=jax.tree.map(
-            lambda known, new: known.at[i].set(jnp.where(stepped, new, known[i])),
-            state.records,
-            record,
-        ),
-        refused=refused,
+        iteration=i + (stepped | corrects),
+        outcome=outcome,
+        decrement=jnp.where(corrects & ~ends, state.decrement, decrement),
+        records=jax.tree.map(lambda column, new: column.at[i].set(new), state.records, record),
+        refused=jnp.where(corrects, state.refused, refused),
         sigma2_lower=jnp.where(stepped, panel.sigma2_lower, state.sigma2_lower),
         factor=factor,
+        corrects=stepped & pays & (record.corrections < settings.corrections),
+        gain=gain,
     )
 
 
@@ -205,33 +223,35 @@ def _factorised(call: _Call, state: State) -> tuple[Float[Array, "4u 4u"], Bool[
     """
     problem, settings = call.problem, call.settings
     matrices, energy = problem.matrices, problem.energy
-    wanted = jnp.logical_not(settings.reuse) | (state.iteration > 0)
-    nodes = state.point.samples.nodes[:, matrices.hessian_index]
-    x, y = evaluation.squares(nodes)
-    local = local_hessian(energy.differentials(x, y), x, y)
-    projected = positive_part(local)
+    first_step = jnp.logical_not(settings.reuse) | (state.iteration > 0)
+    wanted = first_step & ~state.corrects
     dtype = matrices.whitened.dtype
-    weights, f, g = jax.tree.map(
-        lambda a: a.astype(dtype), (matrices.hessian_weights, *evaluation.directions(nodes))
-    )
-
-    def assembled(k: LocalHessian) -> Float[Array, "4u 4u"]:
-        k = LocalHessian(*(part.astype(dtype) for part in k))
-        return assemble(matrices.whitened, weights, f, g, k)
-
-    def project(h: Float[Array, "4u 4u"]) -> Float[Array, "4u 4u"]:
-        if not energy.indefinite_across_f_only:
-            return assembled(projected)
-        # The Hessian that was not definite lacks this block alone.
-        across = (projected.across_f - local.across_f).astype(dtype)
-        block = assemble_across_f(matrices.whitened, weights, f, across)
-        return h.at[: block.shape[0], : block.shape[0]].add(block)
-
-    first = _where(settings.projects_first, projected, local)
 
     def attempt(carry: tuple) -> tuple:
         _, h, count = carry
-        h = lax.cond(count == 0, lambda _: assembled(first), project, h)
+        nodes = state.point.samples.nodes[:, matrices.hessian_index]
+        x, y = evaluation.squares(nodes)
+        local = local_hessian(energy.differentials(x, y), x, y)
+        projected = positive_part(local)
+        weights, f, g = jax.tree.map(
+            lambda a: a.astype(dtype), (matrices.hessian_weights, *evaluation.directions(nodes))
+        )
+
+        def assembled(_: Any) -> Float[Array, "4u 4u"]:
+            k = _where(settings.projects_first | (count > 0), projected, local)
+            k = LocalHessian(*(part.astype(dtype) for part in k))
+            return assemble(matrices.whitened, weights, f, g, k)
+
+        def project(h: Float[Array, "4u 4u"]) -> Float[Array, "4u 4u"]:
+            # The Hessian that was not definite lacks this block alone.
+            across = (projected.across_f - local.across_f).astype(dtype)
+            block = assemble_across_f(matrices.whitened, weights, f, across)
+            return h.at[: block.shape[0], : block.shape[0]].add(block)
+
+        if energy.indefinite_across_f_only:
+            h = lax.cond(count == 0, assembled, project, h)
+        else:
+            h = assembled(h)
         whole = restrict_hessian(h, problem.unknowns, call.p2p_hessian, settings.ridge)
         return cholesky.factorise(whole), h, count + 1
 
@@ -254,61 +274,6 @@ def _newton_line(call: _Call, point: Point, factor: Float[Array, "4u 4u"]) -> Li
     step = jnp.where(jnp.isfinite(factor[-1, -1]), step, 0)
     direction = whitening.coefficients(expand(step, unknowns), t)
     return evaluation.line_along(call.problem, direction, jnp.dot(gradient, step))
-
-
-def _is_minimal(call: _Call, point: Point, line: Line) -> Bool[Array, ""]:
-    """Whether a step promises next to no decrease of the energy."""
-    scale = jnp.maximum(jnp.abs(point.energy), LEAST_ENERGY)
-    return line.squared_decrement / 2 <= call.settings.tolerance * scale
-
-
-def _corrected(
-    call: _Call,
-    factor: Float[Array, "4u 4u"],
-    gain: Float[Array, ""],
-    stepped: Point,
-    panel: PanelBounds,
-) -> tuple[Point, PanelBounds, Int[Array, ""], Bool[Array, ""], Float[Array, ""]]:
-    """Go on by corrections while they pay, provided that the last one is certified.
-
-    Corrections are steps by the same factor from gradients of their own (Shamanskii's method), for
-    a fraction of the cost of another Hessian. ``gain`` is what the iteration's step gained.
-
-    Returns
-    -------
-    tuple
-        The point, the bounds there, the number of corrections, whether the last one found that the
-        point is the minimum, and its decrement.
-    """
-    problem, settings = call.problem, call.settings
-
-    def correct(carry: tuple) -> tuple:
-        point, gain, count, _, _ = carry
-        line = _newton_line(call, point, factor)
-        found = line_search.search(problem, point, line)
-        minimal = _is_minimal(call, point, line)
-        takes = found.acceptable[found.best] & ~minimal
-        there = evaluation.moved(problem, point, line, found.steps[found.best])
-        gained = point.energy - there.energy
-        decrement = jnp.sqrt(jnp.maximum(line.squared_decrement, 0))
-        more = takes & (gained < _CONTRACTION * gain) & (count + 1 < settings.corrections)
-        return _where(takes, there, point), gained, count + takes, more, (minimal, decrement)
-
-    more = (gain < _CLOSE * stepped.energy) & (settings.corrections > 0)
-    nothing = (jnp.array(False), jnp.array(jnp.inf))
-    carry = (stepped, gain, jnp.array(0), more, nothing)
-    point, _, count, _, (minimal, decrement) = lax.while_loop(lambda c: c[3], correct, carry)
-    bounds = lax.cond(count > 0, lambda: evaluation.bounds(problem, point), lambda: panel)
-    zeros = evaluation.has_zeros(problem.matrices, bounds)
-    injective = jnp.all(bounds.injective | ~problem.matrices.real)
-    proved = injective & ~zeros & (count > 0)
-    return (
-        _where(proved, point, stepped),
-        _where(proved, bounds, panel),
-        jnp.where(proved, count, 0),
-        minimal & proved,
-        decrement,
-    )
 
 
 def _where(condition: Bool[AnyArray, ""] | bool, one: Any, other: Any) -> Any:

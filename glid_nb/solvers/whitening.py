@@ -23,12 +23,13 @@ could add to a map with slopes of about 1 is as small.
 
 from __future__ import annotations
 
+import functools
 from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
 
-from glid_nb._jax import AnyArray, jnp
+from glid_nb._jax import AnyArray, jit, jnp
 from glid_nb.harmonic.basis import BUCKET, Basis
 
 if TYPE_CHECKING:
@@ -107,11 +108,18 @@ def _without_steep(
     return turn[:, squares <= _LEAST**-2].conj().T @ inverse
 
 
-def whitened(nodes: Float[AnyArray, "2c s"], t: Float[AnyArray, "2 c u"]) -> Float[Array, "2u s"]:
-    """``D T`` from ``D``, both as ``[Re, -Im]``, transposed."""
+@functools.partial(jit, static_argnames="dtype")
+def whitened(
+    nodes: Float[AnyArray, "2c s"],
+    index: Int[AnyArray, " h"],
+    t: Float[AnyArray, "2 c u"],
+    dtype: type[np.floating],
+) -> Float[Array, "2u h"]:
+    """``D T`` at some nodes from ``D``, both as ``[Re, -Im]``, transposed."""
     c = t.shape[1]
-    re, im = nodes[:c], -nodes[c:]
-    return jnp.concatenate([t[0].T @ re - t[1].T @ im, -(t[0].T @ im + t[1].T @ re)])
+    re, im = nodes[:c, index], -nodes[c:, index]
+    parts = [t[0].T @ re - t[1].T @ im, -(t[0].T @ im + t[1].T @ re)]
+    return jnp.concatenate(parts).astype(dtype)
 
 
 def coefficients(x: Float[Array, " 4u"], t: Float[Array, "2 c u"]) -> Float[Array, " 4c"]:

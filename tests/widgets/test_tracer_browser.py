@@ -349,3 +349,12 @@ def test_touch(open_notebook: OpenNotebook) -> None:
     hand.settle()
     np.testing.assert_allclose(hand.vertex(0, i), (x - 30, y - 10), atol=2)
     assert book.value("tracer.shown['problems']") == []
+
+    # The kernel closes it in the middle of a drag; an error in the console would fail this test.
+    touch("touchStart", hand.place(*hand.vertex(0, i)))
+    place = hand.place(300, 200)
+    book.value("tracer.close()")
+    for step in range(5):
+        touch("touchMove", (place[0] + 5 * step, place[1]))
+    touch("touchEnd")
+    hand.root.wait_for(state="detached")

@@ -58,7 +58,8 @@ export class Stage {
     this.themes.disconnect();
     this.dark.removeEventListener("change", this.themeChanged);
     cancelAnimationFrame(this.frame);
-    this.bitmap?.close();
+    this.turn = null; // a picture that is still decoded comes too late
+    this.bitmap = this.bitmap?.close(); // none: a redraw may still come
   }
 
   takeFiles(upload) {
@@ -120,10 +121,9 @@ export class Stage {
   resize() {
     const { clientWidth: width, clientHeight: height } = this.element;
     if (!width || !height) return;
-    const first = !this.width;
+    if (!this.width) this.fit();
     Object.assign(this, { width, height });
     Object.assign(this.view, { width, height });
-    if (first) this.fit();
     this.redraw();
   }
 
