@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import functools
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from glid_nb._arrays import Array
+from glid_nb._files import write_text_atomically
 from glid_nb._jax import jit, jnp
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision
 from glid_nb.certificate import rounding
@@ -16,6 +18,7 @@ from glid_nb.certificate.bdhm import BDHM
 from glid_nb.certificate.hermite import Hermite
 from glid_nb.certificate.panels import EndValues, PanelBounds, PanelProof, modulus, split
 from glid_nb.certificate.paper import Lipschitz, windings
+from glid_nb.certificate.proof import proof_text
 from glid_nb.geometry import Panels, graded_panels, place
 from glid_nb.harmonic import HarmonicMap, cauchy, run_on
 
@@ -74,6 +77,13 @@ class Certificate:
     def panels_split(self) -> int:
         """Number of panels that come from splitting."""
         return int((self.panels.depth > 0).sum())
+
+    def save(self, path: str | Path) -> None:
+        """Write the proof file that ``glid-check map.json proof.json`` reads, atomically.
+
+        Raises InputError if the map is not certified.
+        """
+        write_text_atomically(Path(path), proof_text(self))
 
 
 class _Known(NamedTuple):

@@ -14,6 +14,7 @@ from pathlib import Path
 import glid_nb
 from glid_nb._errors import about
 from glid_nb._json import check_size, json_text, read_object
+from glid_nb.certificate.proof import proof_text
 from glid_nb.cli.flags import add_solver_flags, energy_of, options_of
 from glid_nb.cli.output import check_files
 from glid_nb.cli.solving import finish, map_text, run_solver
@@ -23,6 +24,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("problem", type=Path, metavar="PROBLEM.json", help="what is solved")
     add("--out", type=Path, metavar="map.json", help="where the map goes")
+    proof = "where the proof goes, for glid-check map.json proof.json"
+    add("--proof", type=Path, metavar="proof.json", help=proof)
     add("--report", type=Path, metavar="report.json", help="where the report goes")
     start = "a certified map of the same domain to start from (default: see --align)"
     add("--start", type=Path, metavar="map.json", help=start)
@@ -31,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(chosen: argparse.Namespace) -> None:
-    check_files([chosen.out, chosen.report], [chosen.problem, chosen.start])
+    check_files([chosen.out, chosen.proof, chosen.report], [chosen.problem, chosen.start])
     data = read_object(chosen.problem)
     with about(chosen.problem):
         problem = glid_nb.Problem.from_dict(data)
@@ -46,6 +49,8 @@ def run(chosen: argparse.Namespace) -> None:
     files: dict[Path, bytes | str] = {}
     if chosen.out:
         files[chosen.out] = map_text(result.map, size)
+    if chosen.proof and result.certificate:
+        files[chosen.proof] = proof_text(result.certificate)
     if chosen.report:
         files[chosen.report] = json_text(report)
     finish(result, report, files, chosen.json)

@@ -1,16 +1,19 @@
 """Many poses of one shape at once, spread over all local devices.
 
-The poses are split over the devices and run through :func:`glid_nb.solvers.step.iterations`, on
-CPUs one after the other, elsewhere vectorised, in lockstep. After every call those that have ended
-leave the batch, and those that need the host, because a panel must be split for one, are set aside,
-so that no device works at a pose longer than that takes; they are finished one by one. The caller
-gets all results together, with the last.
+CPUs take one pose after the other. Elsewhere the poses are split over the devices and run through
+:func:`glid_nb.solvers.step.iterations` vectorised, in lockstep. After every call those that have
+ended leave the batch, and those that need the host, because a panel must be split for one, are set
+aside, so that no device works at a pose longer than that takes; they are finished one by one. The
+caller gets all results together, with the last.
 """
 
 from __future__ import annotations
 
 import functools
 from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from queue import SimpleQueue
 from typing import Any
 
 import numpy as np
@@ -18,11 +21,12 @@ from numpy.typing import ArrayLike
 
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
-from glid_nb._jax import jax, jnp, lax
+from glid_nb._jax import jax, jnp
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision, single_blas_thread
 from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Domain
 from glid_nb.solvers import step
+from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.loop import Advance, Stopwatch, followed
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import SLOW_ITERATIONS, Newton, NewtonDescent, descend
@@ -87,11 +91,39 @@ def solve_batch(
         return ()
     poses[0].check_inside(domain)
     devices = _checked_devices(jax.local_devices() if devices is None else devices)
+    given = [Inputs(domain=domain, pose=pose, energy=energy, options=options) for pose in poses]
+    # A CPU gains nothing from lockstep, in which every pose takes every branch; and the thread pool
+    # of XLA 0.10 was seen to lose tasks of such programs and to wait for them for ever.
+    each = _one_by_one if all(device.platform == "cpu" for device in devices) else _in_lockstep
+    return each(given, devices)
+
+
+def _one_by_one(given: Sequence[Inputs], devices: tuple[Any, ...]) -> tuple[Result, ...]:
+    """Every device takes the next pose when it has done one."""
+    free: SimpleQueue[Any] = SimpleQueue()
+    for device in devices:
+        free.put(device)
+
+    def solved(inputs: Inputs) -> Result:
+        device = free.get()
+        try:
+            with jax.default_device(device):
+                return replace(Newton().run(inputs), factor=None)
+        finally:
+            free.put(device)
+
+    options = given[0].options
+    discretise(given[0].domain, options.sampling, options.certificate)  # once for all threads
+    pool = ThreadPoolExecutor(len(devices))
+    try:
+        return tuple(pool.map(solved, given))
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _in_lockstep(given: Sequence[Inputs], devices: tuple[Any, ...]) -> tuple[Result, ...]:
     method = Newton()
-    batch = [
-        _Pose(method, Inputs(domain=domain, pose=pose, energy=energy, options=options))
-        for pose in poses
-    ]
+    batch = [_Pose(method, inputs) for inputs in given]
     with single_blas_thread():
         compile_time = _run(batch, devices) / len(batch)
     return tuple(pose.finished(compile_time) for pose in batch)
@@ -196,9 +228,6 @@ def dealt(count: int, devices: int, per_device: int) -> Array:
 def _program(devices: tuple[Any, ...]) -> Any:
     """The compiled program for poses on these devices; each device loops on its own."""
     mesh = jax.sharding.Mesh(np.array(devices), ("poses",))
-    # A CPU gains nothing from lockstep, in which every pose takes every branch; and the thread pool
-    # of XLA 0.10 was seen to lose tasks of such programs and to wait for them for ever.
-    in_turn = all(device.platform == "cpu" for device in devices)
     each, shared = jax.P("poses"), jax.P()
 
     def together(
@@ -214,8 +243,6 @@ def _program(devices: tuple[Any, ...]) -> Any:
             # A factor serves one pose at one time; it need not come back.
             return state._replace(factor=jnp.zeros(()))
 
-        if in_turn:
-            return lax.map(lambda pose: one(*pose), (aims, coefficients, limits))
         return jax.vmap(one)(aims, coefficients, limits)
 
     sharded = jax.shard_map(

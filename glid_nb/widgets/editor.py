@@ -258,10 +258,11 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def export(
         self, path: str | Path, size: tuple[int, int] | None = None, view: View = "source"
     ) -> tuple[Path, ...]:
-        """Export what is shown as ``.png``, ``.obj``, ``.glb``, ``.svg``, ``.html`` or ``.py``.
+        """Export as ``.png``, ``.obj``, ``.glb``, ``.svg``, ``.html``, ``.py`` or ``.proof.json``.
 
         ``size`` and ``view`` of a picture are as in `glid_nb.render`. Returns the written files:
-        ``path``, then those that come with it, such as ``-texture.png`` with a mesh.
+        ``path``, then those that come with it, such as ``-texture.png`` with a mesh, or
+        ``.map.json`` with a proof (``glid-check x.map.json x.proof.json``).
 
         Raises
         ------

@@ -7,6 +7,8 @@ from pathlib import Path
 
 from glid_nb._errors import InputError
 from glid_nb._files import write_bytes_atomically
+from glid_nb._json import json_text
+from glid_nb.certificate.proof import proof_text
 from glid_nb.imaging.render import View
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
@@ -18,10 +20,15 @@ FORMATS = {
     ".svg": "Cage (SVG)",
     ".html": "Page that shows it (HTML)",
     ".py": "Python script",
+    ".proof.json": "Proof for glid-check (JSON)",
 }
 """What each suffix stands for."""
 
-_BESIDE = {".obj": (".mtl", "-texture.png"), ".py": ("-source.png",)}
+_BESIDE = {
+    ".obj": (".mtl", "-texture.png"),
+    ".py": ("-source.png",),
+    ".proof.json": (".map.json",),
+}
 """Endings, after the stem, of the files that come with one."""
 
 
@@ -50,12 +57,19 @@ def names_of(paths: Sequence[Path]) -> str:
 
 def files_of(path: Path) -> tuple[Path, ...]:
     """The files that `export` writes for this name: itself, then those that come with it."""
-    suffix = path.suffix.lower()
-    if suffix not in FORMATS:
-        raise ExportError(
-            f"{str(path)!r} cannot be exported: its name must end in {', '.join(FORMATS)}"
-        )
-    return (path, *(path.with_name(path.stem + rest) for rest in _BESIDE.get(suffix, ())))
+    suffix = _suffix(path)
+    stem = path.name[: -len(suffix)]
+    return (path, *(path.with_name(stem + rest) for rest in _BESIDE.get(suffix, ())))
+
+
+def _suffix(path: Path) -> str:
+    """The one of `FORMATS` that the name ends in; ExportError for none."""
+    for suffix in FORMATS:
+        if path.name.lower().endswith(suffix) and len(path.name) > len(suffix):
+            return suffix
+    raise ExportError(
+        f"{str(path)!r} cannot be exported: its name must end in {', '.join(FORMATS)}"
+    )
 
 
 def check_free(model: EditorModel, paths: Sequence[Path], owner: Path) -> None:
@@ -116,7 +130,7 @@ def _contents(
 
     document, state = model.document, model.deformation.state
     image, map_ = document.image, state.map
-    match path.suffix.lower():
+    match _suffix(path):
         case ".png":
             return [to.picture_png(image, map_, size, view)]
         case ".obj":
@@ -129,6 +143,11 @@ def _contents(
             return [to.cage_svg(map_, (width, height), source=True, pose=state.pose).encode()]
         case ".html":
             return [to.page_html(image, map_, model.deformation.certificate, path.stem).encode()]
+        case ".proof.json":
+            return [
+                proof_text(model.deformation.certificate).encode(),
+                json_text(map_.to_dict()).encode(),
+            ]
         case _:
             return [python_code(document, files_of(path)[1].name).encode(), png(image)]
 

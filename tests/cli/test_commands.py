@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+import glid_check
 import glid_nb
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
@@ -86,9 +87,10 @@ def test_solve_writes_a_map_and_a_report(
     run, problem: Path, problem_data: dict[str, Any], tmp_path: Path
 ) -> None:
     problem.write_text(json.dumps({**problem_data, "image_size_px": [160, 120]}))
-    out, report_path = tmp_path / "map.json", tmp_path / "report.json"
-    outcome = run("solve", problem, "--out", out, "--report", report_path)
+    out, proof, report_path = (tmp_path / f"{name}.json" for name in ("map", "proof", "report"))
+    outcome = run("solve", problem, "--out", out, "--proof", proof, "--report", report_path)
     assert outcome.code == 0
+    assert glid_check.main([str(out), str(proof)]) == 0
     harmonic_map = glid_nb.HarmonicMap.load(out)
     assert json.loads(out.read_text())["image_size_px"] == [160, 120]
     np.testing.assert_allclose(harmonic_map([[7.0, 0.0]]), [[6.0, 3.0]], atol=1e-3)
@@ -125,8 +127,11 @@ def test_solve_takes_its_options(run, problem: Path, tmp_path: Path) -> None:
     report_path = tmp_path / "report.json"
     words = ("--energy", "amips", "--s", 0.5, "--p2p-weight", 10, "--max-iterations", 1)
     words += ("--sampling", "uniform", "--certificate", "lipschitz", "--hessian", "projected")
+    out, proof = tmp_path / "map.json", tmp_path / "proof.json"
+    words += ("--out", out, "--proof", proof)
     outcome = run("solve", problem, "--report", report_path, "--json", *words)
     assert outcome.code == 0
+    assert glid_check.main([str(out), str(proof)]) == 0
     report = strict_json(report_path.read_text())
     assert (report["energy"], report["s"], report["p2p_weight"]) == ("amips", 0.5, 10)
     assert report["iterations"] == 1
@@ -135,7 +140,8 @@ def test_solve_takes_its_options(run, problem: Path, tmp_path: Path) -> None:
     assert report["options"]["hessian"] == "projected"
     summary = strict_json(outcome.out)
     assert summary["E"] == report["E"]
-    assert summary["files"] == {"report.json": str(report_path)}
+    files = (out, proof, report_path)
+    assert summary["files"] == {path.name: str(path) for path in files}
 
 
 def test_conformal_maps_have_no_dilatation(run, problem: Path, tmp_path: Path) -> None:

@@ -9,12 +9,15 @@ import subprocess
 import sys
 from collections.abc import Callable
 
+import jax
 import numpy as np
 import pytest
 
+from glid_nb.energies import as_energy
 from glid_nb.geometry import Domain
-from glid_nb.solvers import Options, Pose, PoseError, Status, solve, solve_batch
+from glid_nb.solvers import Options, Pose, PoseError, Status, batch, solve, solve_batch
 from glid_nb.solvers.batch import dealt
+from glid_nb.solvers.method import Inputs
 
 from ..domains import domain
 from .checks import check_certified
@@ -43,6 +46,23 @@ def test_a_batch_is_the_poses_one_by_one() -> None:
         assert numbers == list(range(1, len(numbers) + 1))
 
 
+@pytest.mark.slow
+def test_poses_in_lockstep_are_the_poses_one_by_one() -> None:
+    """As a GPU runs them."""
+    ell, goals = domain("ell"), targets(3)
+    given = [
+        Inputs(domain=ell, pose=Pose(HANDLES, goal), energy=as_energy(None), options=Options())
+        for goal in goals
+    ]
+    with jax.enable_x64(True):
+        results = batch._in_lockstep(given, tuple(jax.local_devices()))
+    alone = [solve(ell, Pose(HANDLES, goal)) for goal in goals]
+    np.testing.assert_allclose([r.energy for r in results], [r.energy for r in alone], rtol=1e-6)
+    for goal, result in zip(goals, results, strict=True):
+        check_certified(result)
+        np.testing.assert_array_equal(result.pose.targets, goal)
+
+
 def test_an_empty_batch() -> None:
     for none in (np.zeros((0, 3, 2)), []):
         assert solve_batch(domain("ell"), HANDLES, none) == ()
@@ -54,8 +74,6 @@ def test_ragged_targets_are_refused() -> None:
 
 
 def test_devices_are_different_jax_devices() -> None:
-    import jax
-
     one = jax.local_devices()[0]
     for devices in ([], ["cpu"], "cpu", [one, one], one, 1):
         with pytest.raises(TypeError, match=r"devices must be one or more of .* each of them once"):
@@ -97,7 +115,8 @@ _ON_TWO_DEVICES = """
 import json, sys
 import numpy as np
 import jax
-from glid_nb import Cage, Domain, Options, solve_batch
+from glid_nb import Cage, Domain, Options, enable_compilation_cache, solve_batch
+enable_compilation_cache()
 data = json.load(sys.stdin)
 assert len(jax.local_devices()) == 2
 shape = Domain.from_cage(Cage(data["cage"]))
@@ -140,6 +159,7 @@ given = json.load(sys.stdin)
 import jax
 jax.distributed.initialize(given["coordinator"], num_processes=2, process_id=given["host"])
 import glid_nb as glid
+glid.enable_compilation_cache()
 shape = glid.Domain.from_cage(glid.Cage(given["exterior"], given["holes"]))
 share = given["targets"][jax.process_index()::jax.process_count()]
 options = glid.Options(restarts=0)

@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+import glid_check
 import glid_nb as glid
 from glid_nb.figures.style import distortion_colors
 from glid_nb.session.autosave import flush
@@ -96,6 +97,8 @@ def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
     for suffix in (".png", ".obj", ".glb", ".svg", ".html", ".py"):
         for file in editor.export(tmp_path / f"out{suffix}"):
             assert file.stat().st_size > 100
+    proof, map_ = map(str, editor.export(tmp_path / "out.proof.json"))
+    assert glid_check.main([map_, proof]) == 0
     with Image.open(editor.export(tmp_path / "big.png", size=(400, 200))[0]) as picture:
         assert picture.size == (400, 200)
         expected = glid.render(bar(), editor.map, size=(400, 200))

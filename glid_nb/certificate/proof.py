@@ -1,0 +1,92 @@
+"""The proof file: what a certificate claims, exactly, for a checker that shares no code with us.
+
+``docs/checking.md`` documents the format, ``glid_check.py`` reads it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from glid_nb._arrays import Array
+from glid_nb._errors import InputError
+from glid_nb._json import json_text
+from glid_nb.geometry import Panels, graded_panels
+
+if TYPE_CHECKING:
+    from glid_nb.certificate.certify import Certificate
+
+FORMAT = "glid_nb-proof"
+FORMAT_VERSION = 1
+
+# An edge is not bisected more often than its positions can tell apart.
+_MOST_BISECTIONS = 60
+
+
+def proof_text(certificate: Certificate) -> str:
+    """The proof file of a certificate, as text.
+
+    Raises
+    ------
+    InputError
+        If the certificate does not prove its map locally injective: then nothing is claimed.
+    """
+    if not certificate.certified:
+        raise InputError(f"there is no proof to write: {certificate.reason}")
+    map_, bounds = certificate.map, ("sigma2_lower", "sigma1_upper", "k_upper")
+    loops = map_.domain.cage.loops_complex
+    pieces = dyadic_panels(certificate.panels, loops)
+    if sum(map(len, pieces)) != len(certificate.panels):
+        # The claims do not depend on the panels, and these are far fewer than uniform ones.
+        pieces = dyadic_panels(graded_panels(map_.domain), loops)
+    values = {key: value for key, value in map_.to_dict().items() if key != "notes"}
+    return json_text(
+        {
+            **_hexadecimal(values),
+            "format": FORMAT,
+            "version": FORMAT_VERSION,
+            **{key: getattr(certificate, key).hex() for key in bounds},
+            "windings": list(certificate.windings),
+            "panels": pieces,
+        }
+    )
+
+
+def dyadic_panels(panels: Panels, loops: Iterable[Array]) -> list[list[list[int]]]:
+    """Per edge of the cage, loop by loop, the pieces ``[k, d]`` from k/2^d to (k+1)/2^d of it.
+
+    Edges are bisected until no piece holds the middles of two panels: so panels that come from
+    bisecting the edges, as all but uniform ones do, are found again.
+    """
+    edges = []
+    for number, loop in enumerate(loops):
+        own = panels.loop == number
+        first = np.flatnonzero(np.isin(panels.start[own], loop))
+        for start, end, middles in zip(
+            loop, np.roll(loop, -1), np.split(panels.middle[own], first[1:]), strict=True
+        ):
+            edges.append(_bisected(np.real((middles - start) / (end - start)), 0, 0))
+    return edges
+
+
+def _bisected(middles: Array, k: int, d: int) -> list[list[int]]:
+    if len(middles) <= 1 or d == _MOST_BISECTIONS:
+        return [[k, d]]
+    left = int(np.searchsorted(middles, (2 * k + 1) / 2 ** (d + 1)))
+    return [
+        *_bisected(middles[:left], 2 * k, d + 1),
+        *_bisected(middles[left:], 2 * k + 1, d + 1),
+    ]
+
+
+def _hexadecimal(value: Any) -> Any:
+    """The value with every number in it as the hexadecimal text of its 64 bits."""
+    if isinstance(value, float):
+        return value.hex()
+    if isinstance(value, list):
+        return [_hexadecimal(item) for item in value]
+    if isinstance(value, dict):
+        return {key: _hexadecimal(item) for key, item in value.items()}
+    return value
