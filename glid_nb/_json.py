@@ -15,6 +15,9 @@ from glid_nb._files import write_text_atomically
 Check = Callable[[Any, str], None]
 """``check(value, key)`` raises InputFileError if the value is not valid for that key."""
 
+_MOST_VALUES = 4_000_000
+_EXACT_DIGITS = 300  # integers of fewer are in the range of floating point
+
 _KINDS = {
     type(None): "null",
     bool: "true or false",
@@ -32,6 +35,9 @@ def parse_json(raw: bytes, name: str, kind: str = "a JSON file", *, nan: bool = 
     Raises InputFileError, "(name) is not (kind): ...", for invalid JSON and for repeated keys. NaN
     and Infinity may be accepted, so that a later check can name their key.
     """
+    # Parsing more takes seconds and gigabytes; the largest documents have half as many.
+    if raw.count(b",") > _MOST_VALUES:
+        raise InputFileError(f"{name} is not {kind}: it has over {_MOST_VALUES:,} values")
     try:
         return json.loads(
             raw.decode("utf-8-sig"),
@@ -154,7 +160,7 @@ def _shown(value: Any) -> str:
 
 
 def _integer(digits: str) -> int | float:
-    return int(digits) if math.isfinite(number := float(digits)) else number
+    return int(digits) if len(digits) < _EXACT_DIGITS else float(digits)
 
 
 def _refuse_constant(constant: str) -> None:

@@ -56,9 +56,13 @@ def check_loops(loops: list[NDArray[np.float64]]) -> None:
 
 def _check_distinct(loop: NDArray[np.float64], number: int, resolution: float) -> None:
     name, plain = loop_name(number), plain_name(number)
-    points: Any = shapely.points(loop)
-    pairs = shapely.STRtree(points).query(points, predicate="dwithin", distance=resolution).T
-    pairs = sorted((i, j) for i, j in pairs.tolist() if i < j)
+    # Two of the copies are enough; thousands in one place would make millions of pairs.
+    first = np.unique(loop, axis=0, return_index=True)[1]
+    copies = np.setdiff1d(np.arange(len(loop)), first)
+    kept = np.union1d(first, copies[:2])
+    points: Any = shapely.points(loop[kept])
+    near = shapely.STRtree(points).query(points, predicate="dwithin", distance=resolution)
+    pairs = sorted((i, j) for i, j in kept[near].T.tolist() if i < j)
     if not pairs:
         return
     i, j = pairs[0]

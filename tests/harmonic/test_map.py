@@ -231,3 +231,12 @@ def test_a_translation_changes_no_derivative() -> None:
     near = HarmonicMap(map.domain, phi, map.psi)
     for a, b in zip(far.wirtinger(points), near.wirtinger(points), strict=True):
         np.testing.assert_allclose(a, b, rtol=0, atol=1e-14)
+
+
+def test_coefficients_that_squares_would_overflow_are_refused() -> None:
+    d = domain("ring")
+    phi = HarmonicMap.identity(d).phi.copy()
+    for value in (1e121, complex(0, -1e300), complex(1e308, 1e308), np.inf, np.nan):
+        phi[3] = value
+        with pytest.raises(MapError, match=r"phi\[3\] is .*; it must be finite and at most"):
+            HarmonicMap(d, phi, np.zeros_like(phi))
