@@ -114,15 +114,16 @@ class NewtonDescent(SubspaceDescent):
         self.point, self.coefficients = state.point, state.point.coefficients
         self.decrement = float(state.decrement)
         end, taken = int(state.outcome), int(state.iteration)
-        panels = len(self.discretisation.panels)
-        self.sigma2_lower = np.asarray(state.sigma2_lower)[:panels]
+        panels = self.discretisation.panels
+        if taken:
+            self.proved = panels, state.bounds
         if not hasattr(self, "initial"):
             iso, p2p = float(state.start_iso), float(state.start_p2p)
             self.initial = Iteration(iteration=0, energy_iso=iso, energy_p2p=p2p, time=0.0)
         columns = {k: np.asarray(v)[:taken].tolist() for k, v in state.records._asdict().items()}
         for values in zip(*columns.values(), strict=True):
             known = dict(zip(columns, values, strict=True), panels_split=self.just_split)
-            self.record(Iteration(iteration=0, time=seconds / taken, panels=panels, **known))
+            self.record(Iteration(iteration=0, time=seconds / taken, panels=len(panels), **known))
             self.just_split = 0
         # After a split the map is still where its Hessian was taken.
         self.reuse = end == status.REFUSED and bool(self.inputs.options.corrections)
