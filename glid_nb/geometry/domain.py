@@ -15,6 +15,7 @@ from glid_nb._arrays import number_pairs, read_only
 from glid_nb._errors import about
 from glid_nb.geometry._loops import GeometryError, loop_list, loop_name, place
 from glid_nb.geometry.cage import Cage
+from glid_nb.geometry.division import divided
 from glid_nb.geometry.offset import Offset, offset_cage
 from glid_nb.geometry.offset import hole_points as choose_hole_points
 
@@ -70,10 +71,11 @@ class Domain:
         """The domain of a cage, with chosen offset cage and hole points.
 
         `offset` is the distance between the cages, by default 0.005 of the longer side of the
-        cage's bounding box. It is reduced in narrow passages; `notes` says where.
+        cage's bounding box. It is reduced in narrow passages; `notes` says where. Where edges are
+        long against the shape's width, the offset cage has more vertices than the cage.
         """
         result = _offset_of(cage, offset)
-        return cls(cage, result.cage, notes=result.notes)
+        return cls(cage, divided(result.cage, cage), notes=result.notes)
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Domain:
@@ -96,7 +98,7 @@ class Domain:
                 "'offset_holes' is given without 'offset_cage'; give both or neither"
             )
         result = _offset_of(cage, data.get("offset"))
-        return cls(cage, result.cage, points, notes + result.notes)
+        return cls(cage, divided(result.cage, cage), points, notes + result.notes)
 
     def to_dict(self) -> dict[str, Any]:
         """Nested lists under the keys that `from_dict` reads, ready for JSON."""

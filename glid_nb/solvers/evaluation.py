@@ -8,7 +8,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from glid_nb._jax import jnp, lax
-from glid_nb.certificate import EndValues, PanelBounds, fz_vanishes
+from glid_nb.certificate import EndValues, PanelBounds, fz_vanishes, rounding
+from glid_nb.certificate.panels import modulus
 from glid_nb.certificate.paper import turning
 from glid_nb.energies import Differentials, Energy
 from glid_nb.solvers.discretisation import Matrices
@@ -33,7 +34,8 @@ class Point(NamedTuple):
     energy_iso: Float[Array, ""]
     energy_p2p: Float[Array, ""]
     largest: Float[Array, ""]
-    """Largest modulus of a coefficient since the samples were computed anew."""
+    """What the rounding errors are relative to, the largest since the samples were computed anew;
+    see :func:`reach`."""
 
     @property
     def energy(self) -> Float[Array, ""]:
@@ -52,19 +54,19 @@ class Line(NamedTuple):
 
 def evaluated(problem: Problem, y: Float[Array, " 4c"]) -> Point:
     """The point with the coefficients ``y``, its samples computed anew."""
-    return _point(problem, y, products(problem.matrices, y), largest_modulus(y))
+    return _point(problem, y, products(problem.matrices, local(problem, y)), reach(problem, y))
 
 
 def line_along(problem: Problem, direction: Float[Array, " 4c"], slope: Float[Array, ""]) -> Line:
     """The line in a direction, along which the energy changes by ``slope`` at first."""
-    return Line(direction, products(problem.matrices, direction), -slope)
+    return Line(direction, products(problem.matrices, local(problem, direction)), -slope)
 
 
 def moved(problem: Problem, point: Point, line: Line, step: Float[Array, ""]) -> Point:
     """The point ``step`` along a line; its samples are carried along (G.11)."""
     samples = Samples(*(a + step * b for a, b in zip(point.samples, line.change, strict=True)))
     y = point.coefficients + step * line.direction
-    largest = jnp.maximum(point.largest, largest_modulus(y))
+    largest = jnp.maximum(point.largest, reach(problem, y))
     return _point(problem, y, samples, largest)
 
 
@@ -110,7 +112,8 @@ def bounds(problem: Problem, point: Point) -> PanelBounds:
     """The certificate's bounds on every panel."""
     matrices, samples = problem.matrices, point.samples
     truncation = _truncation(problem, point.coefficients)
-    remainder = truncation + matrices.rounding * point.largest
+    slack = rounding.allowance(matrices.rounding * point.largest, point.largest)
+    remainder = truncation + matrices.proof.slack_share * slack
     chord = lax.complex(*matrices.chord)
     panels = chord.shape[0]
     f, g = _complex_rows(samples.nodes[:, :panels])
@@ -119,6 +122,12 @@ def bounds(problem: Problem, point: Point) -> PanelBounds:
     fz = EndValues(f, f[after], df * chord, df[after] * chord)
     fzb_conj = EndValues(g, g[after], dg * chord, dg[after] * chord)
     return matrices.proof.bounds(fz, fzb_conj, remainder)
+
+
+def no_bounds(real: Bool[Array, " p"]) -> PanelBounds:
+    """Nothing proved."""
+    blank = jnp.zeros(real.shape)
+    return PanelBounds(blank, blank, blank, real, blank)
 
 
 def has_zeros(matrices: Matrices, panel: PanelBounds) -> Bool[Array, ""]:
@@ -132,9 +141,27 @@ def tightened_by_splitting(problem: Problem, point: Point) -> Bool[Array, " p"]:
     return jnp.max(truncation, axis=0) > problem.matrices.rounding * point.largest
 
 
-def largest_modulus(coefficients: Float[Array, " 4c"]) -> Float[Array, ""]:
-    """The largest modulus of a coefficient."""
-    return jnp.maximum(*(jnp.abs(part).max() for part in _complex_pair(coefficients)))
+def local(problem: Problem, y: Float[Array, " 4c"]) -> Float[Array, " 4c"]:
+    """The coefficients relative to the mean of the exterior's ``phi``: a translated map.
+
+    No derivative knows of a translation, so it shall cost no accuracy.
+    """
+    c, (_, _, preceding, _) = y.shape[0] // 4, problem.singularities
+    exterior = (jnp.arange(c) <= preceding[0]) / (1.0 + preceding[0])
+    re, im = jnp.sum(y[:c] * exterior), jnp.sum(y[c : 2 * c] * exterior)
+    inside, none = exterior > 0, jnp.zeros(2 * c)
+    return y - jnp.concatenate([jnp.where(inside, re, 0), jnp.where(inside, im, 0), none])
+
+
+def reach(problem: Problem, y: Float[Array, " 4c"]) -> Float[Array, ""]:
+    """What rounding errors are relative to: the largest local coefficient, and of the largest
+    one itself the share that its own rounding has in them."""
+    most, farthest = (
+        jnp.maximum(*(modulus(part).max() for part in _complex_pair(a)))
+        for a in (local(problem, y), y)
+    )
+    n_columns = y.shape[0] // 4
+    return most + 8 * rounding.UNIT_ROUNDOFF / rounding.slack_factor(n_columns) * farthest
 
 
 def fz_turning(matrices: Matrices, nodes: Float[Array, "4 s"]) -> Float[Array, " p"]:

@@ -83,8 +83,8 @@ class State(NamedTuple):
     records: Record
     refused: Bool[Array, " p"]
     """Panels that refused the last preferred step and may allow it once they are split."""
-    sigma2_lower: Float[Array, " p"]
-    """Certified bound per panel at ``point``, once a step was taken."""
+    bounds: PanelBounds
+    """The certificate at ``point``, once a step was taken."""
     factor: Float[Array, "4u 4u"]
     """Cholesky factor of the last Hessian, in whitened coordinates."""
     corrects: Bool[Array, ""]
@@ -143,7 +143,7 @@ def iterations(
             corrections=jnp.zeros(MOST_PER_CALL, int),
         ),
         refused=jnp.zeros_like(real),
-        sigma2_lower=jnp.full(real.shape, jnp.nan),
+        bounds=evaluation.no_bounds(real),
         factor=factor,
         corrects=jnp.array(False),
         gain=jnp.array(jnp.inf),
@@ -208,7 +208,7 @@ def _step(call: _Call, state: State) -> State:
         decrement=jnp.where(corrects & ~ends, state.decrement, decrement),
         records=jax.tree.map(lambda column, new: column.at[i].set(new), state.records, record),
         refused=jnp.where(corrects, state.refused, refused),
-        sigma2_lower=jnp.where(stepped, panel.sigma2_lower, state.sigma2_lower),
+        bounds=_where(stepped, panel, state.bounds),
         factor=factor,
         corrects=stepped & pays & (record.corrections < settings.corrections),
         gain=gain,

@@ -40,7 +40,7 @@ _RIDGE = 1e-13
 # Derivatives, in the mean square over the boundary, of coordinates whose slopes along the offset
 # cage have the mean square 1. Where some are below the first number (traced cages have 0.005 and
 # more), those below the second are left out: they oscillate faster than the panels' nodes can tell.
-_STEEP, _LEAST = 3e-3, 3e-2
+_STEEP, _LEAST = 4.5e-3, 3e-2
 
 
 def whitening(

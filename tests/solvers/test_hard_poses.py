@@ -12,10 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from glid_nb.geometry import Cage, Domain
+from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Options, Pose, Status, solve
 
-from ..domains import NAMES, domain
+from ..domains import NAMES, domain, real
 from ..geometry.shapes import KINDS as CAGES
 from ..geometry.shapes import random_cage
 from .checks import check_certified
@@ -119,6 +120,23 @@ def test_restarts_keep_the_best_attempt() -> None:
     assert several.attempts[0].energy == pytest.approx(alone.energy)
     assert min(a.energy for a in several.attempts) >= several.energy * (1 - 1e-6)
     check_certified(several)
+
+
+@pytest.mark.parametrize("turn", ["end", "over"])
+def test_a_bar_of_four_vertices_bends_as_a_finely_divided_one(turn: str) -> None:
+    """An end turned by 180 degrees, or set upside down and bent over the other."""
+    corners = np.array([[-10, -1], [10, -1], [10, 1], [-10, 1]])
+    fine = [subdivided(corners @ np.array([1, 1j]), np.array([20, 2, 20, 2]))]
+    handles = np.array([[-9, -0.5], [-9, 0.5], [9, -0.5], [9, 0.5]])
+    targets = handles.copy()
+    targets[2:] = [18, 0] - handles[2:] if turn == "end" else [0, 6] - handles[2:]
+    four, many = (
+        solve(Domain.from_cage(cage), Pose(handles, targets))
+        for cage in (Cage(corners), Cage(real(fine[0])))
+    )
+    assert four.status is many.status is Status.CONVERGED
+    assert four.energy < 1.05 * many.energy
+    assert many.energy < 3
 
 
 def test_the_paper_settings_never_return_an_uncertified_map() -> None:
