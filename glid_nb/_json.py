@@ -117,10 +117,9 @@ def check_positive(value: Any, key: str) -> None:
 
 def check_size(value: Any, key: str) -> None:
     """The pixels of a picture, ``[width, height]``: whole numbers above 0."""
-    if not (isinstance(value, list) and len(value) == 2 and all(type(n) is int for n in value)):
-        raise InputFileError(f"{key} must be [width, height], not {_shown(value)}")
-    if min(value) < 1:
-        raise InputFileError(f"{key} is {value[0]} x {value[1]}; a side has at least 1 pixel")
+    pair = isinstance(value, list) and len(value) == 2
+    if not pair or not all(type(n) is int and n > 0 for n in value):
+        raise InputFileError(f"{key} must be [width, height] in pixels, not {_shown(value)}")
 
 
 def check_points(value: Any, key: str) -> None:

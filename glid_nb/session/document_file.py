@@ -119,13 +119,10 @@ def _checked_version(data: Any) -> int:
 
 
 def _checked_size(value: Any) -> tuple[int, int]:
-    if not (isinstance(value, list) and len(value) == 2 and all(type(n) is int for n in value)):
-        raise DocumentError(f"image_size_px must be [width, height], not {value!r:.60}")
+    _json.check_size(value, "image_size_px")
     width, height = value
-    if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
-        raise DocumentError(
-            f"image_size_px is {width} x {height}; a side has 1 to {MAX_SIDE} pixels"
-        )
+    if max(value) > MAX_SIDE:
+        raise DocumentError(f"image_size_px is {width} x {height}; {MAX_SIDE} is the most")
     return width, height
 
 

@@ -407,5 +407,5 @@ def test_steps_that_creep_to_a_fold_end_a_solve(step: float, gain: float, ends: 
         Iteration(iteration=i, energy_iso=float(e), energy_p2p=0.0, time=0.0, step=step)
         for i, e in enumerate(energies)
     ]
-    assert newton._creeps(entries) is ends
-    assert not newton._creeps(entries[:3])
+    assert newton._has_stalled(entries) is ends
+    assert not newton._has_stalled(entries[:4])
