@@ -83,8 +83,10 @@ class State(NamedTuple):
     records: Record
     refused: Bool[Array, " p"]
     """Panels that refused the last preferred step and may allow it once they are split."""
-    bounds: PanelBounds
-    """The certificate at ``point``, once a step was taken."""
+    sigma2_lower: Float[Array, " p"]
+    """Certified bound per panel at ``point``, once a step was taken."""
+    turning: Float[Array, " p"]
+    """The proved change of ``arg f_z`` along each panel there."""
     factor: Float[Array, "4u 4u"]
     """Cholesky factor of the last Hessian, in whitened coordinates."""
     corrects: Bool[Array, ""]
@@ -143,7 +145,8 @@ def iterations(
             corrections=jnp.zeros(MOST_PER_CALL, int),
         ),
         refused=jnp.zeros_like(real),
-        bounds=evaluation.no_bounds(real),
+        sigma2_lower=jnp.full(real.shape, jnp.nan),
+        turning=jnp.zeros(real.shape),
         factor=factor,
         corrects=jnp.array(False),
         gain=jnp.array(jnp.inf),
@@ -208,7 +211,8 @@ def _step(call: _Call, state: State) -> State:
         decrement=jnp.where(corrects & ~ends, state.decrement, decrement),
         records=jax.tree.map(lambda column, new: column.at[i].set(new), state.records, record),
         refused=jnp.where(corrects, state.refused, refused),
-        bounds=_where(stepped, panel, state.bounds),
+        sigma2_lower=jnp.where(stepped, panel.sigma2_lower, state.sigma2_lower),
+        turning=jnp.where(stepped, panel.turning, state.turning),
         factor=factor,
         corrects=stepped & pays & (record.corrections < settings.corrections),
         gain=gain,

@@ -59,7 +59,6 @@ def test_the_proof_of_a_step_is_what_the_compiled_call_has_proved() -> None:
     assert result.proof.reason.startswith("Proved locally injective by the solver on")
     assert len(result.proof.panels) <= result.n_panels
     assert result.proof.sigma2_lower == result.history[-1].sigma2_lower
-    assert result.proof.sigma1_upper >= certify(result.map).sigma1_upper * 0.97
     assert result.proof.windings == (0, 0)
 
 
