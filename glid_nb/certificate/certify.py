@@ -279,10 +279,12 @@ def _kernel(
     start: Any, end: Any, coefficients: Any, singularities: Singularities, kind: CertificateKind
 ) -> _Known:
     edges, chord = cauchy.edge_coefficients(coefficients, singularities), end - start
+    # Both ends at once: half the program to compile.
+    parts = rounding.derivatives(jnp.concatenate([start, end]), edges, singularities)
     (values, slopes, slack), (values_end, slopes_end, slack_end) = (
         (first, chord * second, first_off + modulus(chord) * second_off)
-        for first, second, first_off, second_off in (
-            rounding.derivatives(z, edges, singularities) for z in (start, end)
+        for first, second, first_off, second_off in zip(
+            *(jnp.split(part, 2, axis=1) for part in parts), strict=True
         )
     )
     fz, fzb_conj = (EndValues(values[k], values_end[k], slopes[k], slopes_end[k]) for k in (0, 1))
