@@ -59,7 +59,10 @@ class Files(NamedTuple):
             _put(self.map, place, float(value))
 
     def get(self, place: Place) -> float:
-        return functools.reduce(lambda data, key: data[key], place, self.map)
+        value: Any = self.map
+        for key in place:
+            value = value[key]
+        return value
 
 
 def _put(data: Any, place: Place, value: Any) -> None:
@@ -425,6 +428,7 @@ def test_dyadic_panels_are_those_of_the_certificate() -> None:
     panels = graded_panels(d)
     panels, _ = panels.split(np.arange(len(panels)) % 3 == 0)
     found = dyadic_panels(panels, loops)
+    assert found is not None
     starts = [
         start + (np.roll(loop, -1)[i] - start) * k / 2**d
         for loop, edges in zip(loops, (found[:8], found[8:]), strict=True)
@@ -477,3 +481,10 @@ def test_it_runs_where_the_package_is_not_installed(tmp_path: Path) -> None:
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("VERIFIED")
+
+
+def test_it_says_that_python_flint_is_missing() -> None:
+    command = [sys.executable, "-I", "-S", str(SOURCE), "map.json", "proof.json"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr == "glid-check needs python-flint: pip install python-flint\n"
