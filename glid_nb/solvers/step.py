@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from glid_nb._jax import AnyArray, jax, jit, jnp, lax
 from glid_nb._runtime import COMPILER_OPTIONS
-from glid_nb.certificate import PanelBounds
 from glid_nb.solvers import cholesky, evaluation, line_search, whitening
 from glid_nb.solvers.evaluation import Line, Point
 from glid_nb.solvers.hessian import (
