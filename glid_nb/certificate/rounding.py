@@ -64,10 +64,10 @@ def slack_factor(n_columns: int) -> float:
 def carried_slack_factor(n_columns: int) -> float:
     """The factor for carried values, relative to the largest coefficients so far.
 
-    One error for the first sum, two for each step, and two more, so that a proof from carried
-    values also succeeds with values computed anew.
+    One error for the first sum, two for each step, and four more, so that a proof from carried
+    values also succeeds with values computed anew, by edges, whose allowance is at most twice this.
     """
-    return (1 + 2 * CARRIED_STEPS + 2) * slack_factor(n_columns)
+    return (1 + 2 * CARRIED_STEPS + 4) * slack_factor(n_columns)
 
 
 def allowance(slack: Float[Array, "*k p"], probe: Float[Array, ""]) -> Float[Array, "*k p"]:

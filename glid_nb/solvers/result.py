@@ -208,8 +208,11 @@ class Result:
 
         Computed on first use; where that fails, :attr:`proof` holds all the same.
         """
-        disc = self.discretisation
-        if disc is None or isinstance(self.map, MeshMap):
-            return self.proof
+        disc, proof = self.discretisation, self.proof
+        if isinstance(self.map, MeshMap):
+            return None
+        own = proof is not None and proof.belongs_to(self.map)  # the map may have been replaced
+        if disc is None:
+            return proof if own else certify(self.map)
         tight = certify(self.map, disc.certificate, disc.panels, refine=disc.can_refine)
-        return tight if tight.certified else self.proof
+        return proof if own and not tight.certified else tight

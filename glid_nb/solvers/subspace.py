@@ -10,7 +10,7 @@ import numpy as np
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
 from glid_nb._jax import jit
-from glid_nb.certificate import Certificate, certify, proved_by
+from glid_nb.certificate import Certificate, certificate_of, certify, proved_by
 from glid_nb.geometry import Domain, Panels
 from glid_nb.harmonic import HarmonicMap, as_complex
 from glid_nb.solvers import evaluation
@@ -168,7 +168,7 @@ def _starting_point(
         )
     proof = start.proof if isinstance(start, Result) else None
     if proof is None or not proof.belongs_to(map_):
-        proof = certify(map_)
+        proof = certificate_of(map_)
     if not proof.certified:
         raise StartError(f"the map to start from is not certified: {proof.reason}")
     if isinstance(start, Result):

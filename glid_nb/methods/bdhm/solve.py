@@ -81,8 +81,9 @@ class BDHM(DistortionBounds, Method):
         now: Iterate | Ending = descent.started(identity if start is None else start)
         if not self.hold(now.certificate):
             now = descent.started(identity)
-        if not self.hold(now.certificate):
-            raise MethodError(f"the identity cannot be proved here: {now.certificate.reason}")
+            if not self.hold(now.certificate):
+                why = now.certificate.reason
+                raise MethodError(f"the identity is not proved to keep the bounds: {why}")
         while isinstance(now, Iterate):
             yield functools.partial(descent.reached, now)
             with single_blas_thread():
