@@ -36,6 +36,8 @@ SAME_ENERGY = 1e-6
 STAGES = (1e-5, 1e-3, 1e-1)
 STAGE_ITERATIONS, STAGE_TOLERANCE = 8, 1e-3
 TURNING_ITERATIONS = 4
+# A stage that distorts the shape by more than so many times the first way's energy is the last.
+HOPELESS = 1.5
 # Fewer most iterations than these ask for a look at them, not for the minimum.
 FEW_ITERATIONS = 20
 
@@ -140,6 +142,8 @@ def _turned(
         done.append(descend(replace(loose, pose=pose, start=done[-1] if done else None)))
         if done[-1].status is Status.STOPPED:
             return replace(first, status=Status.STOPPED)
+        if done[-1].energy_iso > HOPELESS * first.energy:
+            return replace(done[-1], **_times(done))
     done.append(descend(replace(_with(inputs, align=False), start=done[-1])))
     return replace(done[-1], **_times(done))
 
