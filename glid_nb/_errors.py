@@ -33,6 +33,8 @@ def about(where: str | Path, kind: type[InputError] = InputFileError) -> Iterato
         if not re.match(rf"{re.escape(str(where))}(: | (is|has|holds|must) )", text):
             text = f"{where}: {text}"
         raise kind(text).with_traceback(error.__traceback__) from None
+    except RecursionError:  # of the checks, by lists in lists in lists
+        raise kind(f"{where}: it holds values that are nested too deep") from None
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

@@ -15,6 +15,9 @@ from glid_nb._files import write_text_atomically
 Check = Callable[[Any, str], None]
 """``check(value, key)`` raises InputFileError if the value is not valid for that key."""
 
+_MOST_VALUES = 4_000_000
+_EXACT_DIGITS = 300  # integers of fewer are in the range of floating point
+
 _KINDS = {
     type(None): "null",
     bool: "true or false",
@@ -32,6 +35,9 @@ def parse_json(raw: bytes, name: str, kind: str = "a JSON file", *, nan: bool = 
     Raises InputFileError, "(name) is not (kind): ...", for invalid JSON and for repeated keys. NaN
     and Infinity may be accepted, so that a later check can name their key.
     """
+    # Parsing more takes seconds and gigabytes; the largest documents have half as many.
+    if raw.count(b",") > _MOST_VALUES:
+        raise InputFileError(f"{name} is not {kind}: it has over {_MOST_VALUES:,} values")
     try:
         return json.loads(
             raw.decode("utf-8-sig"),
@@ -111,10 +117,9 @@ def check_positive(value: Any, key: str) -> None:
 
 def check_size(value: Any, key: str) -> None:
     """The pixels of a picture, ``[width, height]``: whole numbers above 0."""
-    if not (isinstance(value, list) and len(value) == 2 and all(type(n) is int for n in value)):
-        raise InputFileError(f"{key} must be [width, height], not {_shown(value)}")
-    if min(value) < 1:
-        raise InputFileError(f"{key} is {value[0]} x {value[1]}; a side has at least 1 pixel")
+    pair = isinstance(value, list) and len(value) == 2
+    if not pair or not all(type(n) is int and n > 0 for n in value):
+        raise InputFileError(f"{key} must be [width, height] in pixels, not {_shown(value)}")
 
 
 def check_points(value: Any, key: str) -> None:
@@ -154,7 +159,7 @@ def _shown(value: Any) -> str:
 
 
 def _integer(digits: str) -> int | float:
-    return int(digits) if math.isfinite(number := float(digits)) else number
+    return int(digits) if len(digits) < _EXACT_DIGITS else float(digits)
 
 
 def _refuse_constant(constant: str) -> None:

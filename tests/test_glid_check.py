@@ -21,6 +21,7 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from threadpoolctl import threadpool_limits
 
 import glid_check
 from glid_nb._errors import InputError
@@ -38,7 +39,7 @@ pytestmark = pytest.mark.slow
 SOURCE = Path(glid_check.__file__)
 COUNT = 20_000  # dense points
 # Claims are this close to what dense evaluation finds, so that one 1 % tighter is false.
-SLACK = 2e-3
+SLACK = 5e-3
 BOUNDS = ("sigma2_lower", "sigma1_upper", "k_upper")
 LISTS = ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "phi", "psi")
 
@@ -58,7 +59,10 @@ class Files(NamedTuple):
             _put(self.map, place, float(value))
 
     def get(self, place: Place) -> float:
-        return functools.reduce(lambda data, key: data[key], place, self.map)
+        value: Any = self.map
+        for key in place:
+            value = value[key]
+        return value
 
 
 def _put(data: Any, place: Place, value: Any) -> None:
@@ -142,7 +146,8 @@ def points(data: Any) -> np.ndarray:
 
 def is_true(files: Files, dense: DenseCheck) -> bool | None:
     """Whether dense evaluation finds the claims true; None where it is too close to tell."""
-    with np.errstate(all="ignore"):
+    # Threads only hinder products as small as these.
+    with np.errstate(all="ignore"), threadpool_limits(1):
         truth = dense.measure(points(files.map["phi"]), points(files.map["psi"]))
     s2, s1, k = (float.fromhex(files.proof[key]) for key in BOUNDS)
     gaps = [truth.sigma2 / s2 - 1, 1 - truth.sigma1 / s1, 1 - truth.k / k]
@@ -181,7 +186,8 @@ def test_a_cage_with_ten_holes_is_verified() -> None:
     map = HarmonicMap(d, map.phi + wave, np.where(np.arange(len(wave)) < len(wave) - 10, 0, wave))
     truth = dense_on(map.to_dict()).measure(map.phi, map.psi)
     assert 0.5 < truth.sigma2 < 0.99
-    verdict = check(files_of(certificate(map, truth)))
+    # Uniform panels are replaced by graded ones.
+    verdict = check(files_of(certificate(map, truth, uniform_panels(d.cage, 300))))
     assert verdict.verified, verdict.out
 
 
@@ -222,7 +228,7 @@ def test_a_proof_of_a_map_that_differs_in_one_bit_is_refused(data: st.DataObject
 
 
 @given(data=st.data(), bit=st.integers(0, 63))
-@settings(max_examples=200)
+@settings(max_examples=150)
 def test_a_changed_coefficient_is_verified_only_if_the_claims_still_hold(
     data: st.DataObject, bit: int
 ) -> None:
@@ -302,7 +308,7 @@ def test_other_windings_are_refused(turns: list[int]) -> None:
     radius=st.floats(-3, 1).map(lambda e: 10.0**e),
     angle=st.floats(0, 6.3),
 )
-@settings(max_examples=150)
+@settings(max_examples=100)
 def test_a_moved_vertex_is_verified_only_if_the_claims_hold_there(
     data: st.DataObject, radius: float, angle: float
 ) -> None:
@@ -422,6 +428,7 @@ def test_dyadic_panels_are_those_of_the_certificate() -> None:
     panels = graded_panels(d)
     panels, _ = panels.split(np.arange(len(panels)) % 3 == 0)
     found = dyadic_panels(panels, loops)
+    assert found is not None
     starts = [
         start + (np.roll(loop, -1)[i] - start) * k / 2**d
         for loop, edges in zip(loops, (found[:8], found[8:]), strict=True)
@@ -429,9 +436,7 @@ def test_dyadic_panels_are_those_of_the_certificate() -> None:
         for k, d in edges[i]
     ]
     np.testing.assert_allclose(starts, panels.start, atol=1e-14)
-    # Others are replaced by pieces of about their size.
-    uniform = dyadic_panels(uniform_panels(d.cage, 300), loops)
-    assert 300 <= sum(map(len, uniform)) <= 600
+    assert dyadic_panels(uniform_panels(d.cage, 300), loops) is None
 
 
 def test_the_checker_is_one_short_file_that_imports_flint_and_the_standard_library() -> None:
@@ -476,3 +481,10 @@ def test_it_runs_where_the_package_is_not_installed(tmp_path: Path) -> None:
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("VERIFIED")
+
+
+def test_it_says_that_python_flint_is_missing() -> None:
+    command = [sys.executable, "-I", "-S", str(SOURCE), "map.json", "proof.json"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr == "glid-check needs python-flint: pip install python-flint\n"

@@ -12,7 +12,7 @@ from glid_nb._jax import jit, jnp
 from glid_nb._runtime import COMPILER_OPTIONS
 from glid_nb.certificate import rounding
 from glid_nb.certificate.panels import modulus
-from glid_nb.certificate.paper import derivative_bound_weights
+from glid_nb.certificate.paper import beside_by, derivative_bound_weights, jumps
 from glid_nb.harmonic import HarmonicMap, cauchy, run_on
 from glid_nb.harmonic.cauchy import Singularities
 
@@ -25,8 +25,10 @@ _FINAL_ROUNDING = 1 + 1e-12
 class Jets(NamedTuple):
     """A map to second order at the starts of panels; every field is an array over the panels.
 
-    The errors bound the rounding errors of the image and of its first and second derivative in any
-    unit direction. ``third`` bounds the third derivative along the whole panel.
+    The image is relative to the first coefficients, so that a translation costs no accuracy. The
+    errors bound those of the image and of its first and second derivative in any unit direction, by
+    rounding and because a start may lie beside its edge. ``third`` bounds the third derivative
+    along the whole panel, times the square of its length.
     """
 
     f: Array
@@ -78,7 +80,7 @@ class Arcs(NamedTuple):
         # A function whose slope is at most K is at most (|start| + |end| + K l) / 2.
         bend = (
             sum(np.abs(jet.second(direction)) + jet.second_error for jet in (at_start, at_end))
-            + at_start.third * length
+            + at_start.third / np.where(length > 0, length, np.inf)
         ) / 2
         return cls(
             at_start.f,
@@ -114,28 +116,35 @@ def jets_of(map: HarmonicMap, start: Array, end: Array) -> Jets:
 
 @functools.partial(jit, compiler_options=COMPILER_OPTIONS)
 def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularities) -> Jets:
-    columns = (cauchy.cauchy_coordinates, cauchy.first_derivatives, cauchy.second_derivatives)
-    values, slopes, curvatures = (c(start, singularities) @ coefficients.T for c in columns)
-    jumps = modulus(cauchy.slope_jumps(coefficients, singularities)).sum(axis=0)
-    third: Any = derivative_bound_weights(start, end, singularities, 2) @ jumps
-    # Twice, for the sums over phi and over psi.
-    slack: Any = 2 * rounding.slack_factor(coefficients.shape[1]) * modulus(coefficients).max()
-    first_scale, second_scale = cauchy.rounding_scale(start, singularities)
+    edges = cauchy.edge_coefficients(coefficients, singularities)
+    known: Any = rounding.derivatives(start, edges, singularities)
+    first, second, first_off, second_off = known
+    exterior = jnp.arange(coefficients.shape[1]) <= singularities.previous[0]
+    local = coefficients - jnp.where(exterior, coefficients[:, :1], 0)
+    values = cauchy.cauchy_coordinates(start, singularities) @ local.T
+    slack: Any = rounding.slack_factor(coefficients.shape[1]) * modulus(local).max(axis=1).sum()
+    third: Any = derivative_bound_weights(start, end, singularities, 2)
+    third = third @ jumps(coefficients, singularities).sum(axis=0)
+    # What a start beside its edge changes, by Taylor's theorem.
+    off: Any = beside_by(singularities)
+    bend, steep = (modulus(a).sum(axis=0) for a in (second, first))
+    rest = third / (modulus(end - start) + 2 * off) ** 2 * off
+    bend_off = off * (bend + rest)
     return Jets(
         values[:, 0] + jnp.conj(values[:, 1]),
-        slopes[:, 0],
-        slopes[:, 1],
-        curvatures[:, 0],
-        curvatures[:, 1],
-        slack * _value_scale(start, singularities),
-        slack * first_scale,
-        slack * second_scale,
+        first[0],
+        first[1],
+        second[0],
+        second[1],
+        slack * _value_scale(start, singularities) + off * (steep + bend_off),
+        first_off.sum(axis=0) + bend_off,
+        second_off.sum(axis=0) + rest,
         third,
     )
 
 
 def _value_scale(z: Any, singularities: Singularities) -> Any:
-    """The sum of the moduli of all terms of ``C(z)``, like ``cauchy.rounding_scale`` for ``D(z)``.
+    """The sum of the moduli of all terms of ``C(z)``, like ``rounding.term_scale`` for ``D(z)``.
 
     ``|Log(B_{j+1} / B_j)| <= |ln |B_{j+1} / B_j|| + pi``, and 4 roundoffs beside it.
     """

@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, NamedTuple, Self
 import numpy as np
 
 from glid_nb._jax import jax, jnp
+from glid_nb.certificate import rounding
 from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
-from glid_nb.certificate.paper import distances, segment_bounds
+from glid_nb.certificate.paper import beside_by, clearance, segment_bounds
 from glid_nb.harmonic.cauchy import Singularities
 
 if TYPE_CHECKING:
@@ -27,12 +28,15 @@ class BDHM(NamedTuple):
     """The proof by these constants, for ``n = m + N`` vertices and holes."""
 
     length: Float[Array, " p"]
+    """``l``, and what ends beside their edge add."""
     weights: Float[Array, "n p"]
     """``L_j``."""
     first: Int[Array, "m p"]
     """The vertex with the largest ``L`` on the loop of ``z_j``, for each segment."""
     second: Int[Array, "m p"]
     """The neighbour of ``first`` with the larger ``L``."""
+
+    slack_share = 2
 
     @classmethod
     def on(
@@ -41,7 +45,7 @@ class BDHM(NamedTuple):
         """``L_j`` on each segment, and the vertices of the affine function."""
         vertices, following, preceding, _ = map(jnp.asarray, singularities)
         m = vertices.shape[0]
-        d = distances(start, end, singularities)
+        d, _ = clearance(start, end, singularities)
         near = d[:, :m]
         chord = modulus(vertices[following] - vertices[preceding])
         weights = chord / (2 * np.pi * near[:, preceding] * near * near[:, following])
@@ -53,7 +57,9 @@ class BDHM(NamedTuple):
         after = take(weights, following[first], 1) >= take(weights, preceding[first], 1)
         second = jnp.where(after, following[first], preceding[first])
         weights = jnp.concatenate([weights, d[:, m:] ** -2], axis=1)
-        return cls(jnp.abs(end - start), weights.T, first.T, second.T)
+        # An end that is off by delta changes the value there by delta L.
+        length = rounding.UPWARD * (modulus(end - start) + 4 * beside_by(singularities))
+        return cls(length, weights.T, first.T, second.T)
 
     def constants(
         self, coefficients: Complex[Array, "k n"], singularities: Singularities

@@ -10,17 +10,26 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from glid_nb._arrays import Array
+from glid_nb._errors import InputError
 from glid_nb._files import write_text_atomically
 from glid_nb._jax import jit, jnp
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision
 from glid_nb.certificate import rounding
 from glid_nb.certificate.bdhm import BDHM
 from glid_nb.certificate.hermite import Hermite
-from glid_nb.certificate.panels import EndValues, PanelBounds, PanelProof, modulus, split
-from glid_nb.certificate.paper import Lipschitz, windings
+from glid_nb.certificate.panels import (
+    EndValues,
+    PanelBounds,
+    PanelProof,
+    check_tiling,
+    modulus,
+    split,
+)
+from glid_nb.certificate.paper import Lipschitz, beside, jumps, windings
 from glid_nb.certificate.proof import proof_text
 from glid_nb.geometry import Panels, graded_panels, place
 from glid_nb.harmonic import HarmonicMap, cauchy, run_on
+from glid_nb.harmonic.cauchy import Singularities
 
 CertificateKind = Literal["hermite", "lipschitz", "bdhm"]
 
@@ -34,6 +43,10 @@ PROOFS: dict[CertificateKind, type[PanelProof]] = {
 _CHUNK = 256
 _MAX_ROUNDS = 40
 _MAX_PANELS = 400_000
+
+
+class CertificateError(InputError):
+    """A certificate does not belong to the map it is given for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +81,15 @@ class Certificate:
     map: HarmonicMap = field(repr=False)
     """The map that this is the certificate of."""
 
+    def belongs_to(self, map: HarmonicMap) -> bool:
+        """Whether it is of this map: the same coefficients on the same or an equal domain."""
+        own = self.map
+        return own is map or (
+            np.array_equal(own.phi, map.phi)
+            and np.array_equal(own.psi, map.psi)
+            and (own.domain is map.domain or own.domain.to_dict() == map.domain.to_dict())
+        )
+
     @property
     def winding(self) -> int:
         """Number of zeros of ``f_z`` in the domain: the sum of (30) over ``2 pi``."""
@@ -95,12 +117,18 @@ class _Known(NamedTuple):
     k_seen: Any
     fz_seen: Any
     slack: Any
-    """Bound on the rounding error."""
+    """Bound on the error of both derivatives there."""
 
     @property
     def folded(self) -> Array:
         """(p,) bool: the map is proved to fold at the panel's start."""
-        return self.sigma2_seen <= -2 * self.slack
+        return np.isfinite(self.slack) & (self.sigma2_seen <= -2 * self.slack)
+
+    @property
+    def angle_error(self) -> float:
+        """Bounds the error of the sum of all turnings: each end is off by ``slack / |f_z|``."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return float(np.pi * np.sum(self.slack / self.fz_seen))
 
     @property
     def hopeless(self) -> Array:
@@ -129,13 +157,21 @@ def certify(
     refine : bool
         Split panels on which the proof fails, as the paper does not, or whose bounds are further
         than the relative ``tightness`` from values that the map attains.
+
+    Raises
+    ------
+    GeometryError
+        When the panels do not tile the boundary of the map's cage.
     """
     if kind not in PROOFS:
         raise ValueError(f"unknown kind of certificate {kind!r}; choose one of {', '.join(PROOFS)}")
     if not tightness > 0:
         raise ValueError(f"tightness is {tightness}; it must be positive")
     evaluate = functools.partial(run_on, map, functools.partial(_kernel, kind=kind), _CHUNK)
-    panels = graded_panels(map.domain) if panels is None else panels
+    if panels is None:
+        panels = graded_panels(map.domain)
+    else:
+        check_tiling(panels, map.domain.cage)
     known: _Known = evaluate(panels.start, panels.end)
     for _ in range(_MAX_ROUNDS if refine else 0):
         wanted = _to_split(known, tightness) & panels.divisible
@@ -148,12 +184,14 @@ def certify(
 def _to_split(known: _Known, tightness: float) -> Array:
     """(p,) bool: the proof fails, or the panel keeps the overall bounds from being tight."""
     bounds, injective = known.bounds, np.asarray(known.bounds.injective)
+    if not np.isfinite(known.slack).all():  # out of scale
+        return ~injective & np.isfinite(known.slack)
     worst = known.k_seen.max()
     k_slack = tightness * max(worst, 1e-3)
     # Splitting does not reduce the allowance for rounding, so smaller gains are not worth it.
     least_gain = 4 * known.slack
     failed = ~injective & (known.sigma2_seen > least_gain)
-    loose_sigma2 = known.sigma2_seen - bounds.sigma2_lower > least_gain
+    loose_sigma2 = injective & (known.sigma2_seen - bounds.sigma2_lower > least_gain)
     loose_sigma1 = bounds.sigma1_upper - known.sigma1_seen > least_gain
     # Where k is unknown the proof failed; elsewhere k is bounded and f_z is not 0.
     k_known = np.isfinite(bounds.k_upper) & (known.fz_seen > 0)
@@ -164,6 +202,38 @@ def _to_split(known: _Known, tightness: float) -> Array:
         | (loose_sigma1 & (bounds.sigma1_upper > known.sigma1_seen.max() * (1 + tightness)))
         | (loose_k & injective & (bounds.k_upper > worst + k_slack))
     )
+
+
+def certificate_of(map: HarmonicMap) -> Certificate:
+    """The certificate of a map from its coefficients alone; computed once, for maps are immutable.
+
+    Where a solver has proved a map by :func:`proved_by`, and this cannot, it is the solver's.
+    """
+    known = vars(map)
+    if "_certificate" not in known:
+        own = certify(map)
+        known["_certificate"] = own if own.certified else known.get("_proof", own)
+    return known["_certificate"]
+
+
+def proved_by(
+    map: HarmonicMap, panels: Panels, sigma2_lower: Array, turning: Array, kind: CertificateKind
+) -> Certificate:
+    """The certificate of a map by what a solver has proved, rounding included, on its panels.
+
+    A solver bounds neither sigma_1 nor k, of which only ``k < 1`` follows.
+    """
+    known = np.ones(len(panels), dtype=bool)
+    unbounded = np.full(len(panels), np.inf)
+    own: Any = (sigma2_lower, unbounded, np.ones(len(panels)), known, turning)
+    bounds = PanelBounds(*own)
+    turns = windings(turning, panels.loop, 1 + map.domain.n_holes)
+    certified = bool((sigma2_lower > 0).all()) and sum(turns) == 0
+    how = "Proved locally injective" if certified else "Undecided: not proved"
+    reason = f"{how} by the solver on {len(panels)} panels."
+    proof = _assembled(map, panels, bounds, kind, turns, certified, reason)
+    vars(map)["_proof"] = proof
+    return proof
 
 
 def _conclude(
@@ -184,10 +254,24 @@ def _conclude(
             f"Undecided: {int(unproved.sum())} of {len(panels)} panels could not be proved "
             f"injective, the worst near {place(panels.middle[i])}."
         )
+    elif not known.angle_error < 1:
+        reason = "Undecided: f_z is too small beside rounding errors to count its turns."
     elif sum(turns) != 0:
         reason = f"The map is not locally injective: f_z has {sum(turns)} zeros in the domain."
     else:
         certified, reason = True, f"Proved locally injective on {len(panels)} panels."
+    return _assembled(map, panels, bounds, kind, turns, certified, reason)
+
+
+def _assembled(
+    map: HarmonicMap,
+    panels: Panels,
+    bounds: PanelBounds,
+    kind: CertificateKind,
+    turns: tuple[int, ...],
+    certified: bool,
+    reason: str,
+) -> Certificate:
     sigma2, sigma1, k = (np.asarray(values) for values in bounds[:3])
     along = (panels.start, panels.end, panels.loop, panels.depth, panels.next)
     per_panel = PanelCertificate(*along, sigma2, sigma1, k)
@@ -197,19 +281,23 @@ def _conclude(
 
 @functools.partial(jit, static_argnames="kind", compiler_options=COMPILER_OPTIONS)
 def _kernel(
-    start: Any, end: Any, coefficients: Any, singularities: Any, kind: CertificateKind
+    start: Any, end: Any, coefficients: Any, singularities: Singularities, kind: CertificateKind
 ) -> _Known:
-    chord = end - start
-    values = [cauchy.first_derivatives(z, singularities) @ coefficients.T for z in (start, end)]
-    slopes = [
-        chord[:, None] * (cauchy.second_derivatives(z, singularities) @ coefficients.T)
-        for z in (start, end)
-    ]
-    fz, fzb_conj = (EndValues(*(a[:, k] for a in (*values, *slopes))) for k in (0, 1))
+    edges, chord = cauchy.edge_coefficients(coefficients, singularities), end - start
+    # Both ends at once: half the program to compile.
+    parts = rounding.derivatives(jnp.concatenate([start, end]), edges, singularities)
+    (values, slopes, slack), (values_end, slopes_end, slack_end) = (
+        (first, chord * second, first_off + modulus(chord) * second_off)
+        for first, second, first_off, second_off in zip(
+            *(jnp.split(part, 2, axis=1) for part in parts), strict=True
+        )
+    )
+    fz, fzb_conj = (EndValues(values[k], values_end[k], slopes[k], slopes_end[k]) for k in (0, 1))
     proof = PROOFS[kind].on(start, end, singularities)
-    factor = rounding.slack_factor(coefficients.shape[1]) * jnp.abs(coefficients).max()
-    slack = factor * rounding.panel_scale(start, end, singularities)
-    remainder = proof.remainder(coefficients, singularities) + slack
+    slack = rounding.allowance(jnp.maximum(slack, slack_end), 1 + modulus(edges).max())
+    remainder = proof.remainder(coefficients, singularities) + proof.slack_share * slack
     bounds = proof.bounds(fz, fzb_conj, remainder)
     f, g = modulus(fz.start), modulus(fzb_conj.start)
-    return _Known(bounds, f - g, f + g, g / f, f, slack)
+    # The start itself may lie beside the boundary.
+    shift = jumps(coefficients, singularities) @ beside(start, end, singularities).T
+    return _Known(bounds, f - g, f + g, g / f, f, jnp.sum(slack + shift, axis=0))

@@ -13,9 +13,10 @@ import functools
 from typing import TYPE_CHECKING, NamedTuple, Self
 
 from glid_nb._jax import jnp
+from glid_nb.certificate import rounding
 from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
-from glid_nb.certificate.paper import derivative_bound_weights, turning
-from glid_nb.harmonic.cauchy import Singularities, slope_jumps
+from glid_nb.certificate.paper import beside, derivative_bound_weights, jumps, turning
+from glid_nb.harmonic.cauchy import Singularities
 
 if TYPE_CHECKING:
     from jaxtyping import Array, Complex, Float
@@ -28,25 +29,25 @@ if TYPE_CHECKING:
 class Hermite(NamedTuple):
     """The proof by cubic interpolants on graded panels."""
 
-    factor: Float[Array, " p"]
-    """``l^4 / 384``, which turns a bound on the fourth derivative into the remainder."""
     weights: Float[Array, "n p"]
-    """The bound on the fourth derivative per unit of each slope jump."""
+    """``l^4 / 384`` times the bound on the fourth derivative per unit of each slope jump, and
+    :func:`~glid_nb.certificate.paper.beside`."""
+
+    slack_share = 1
 
     @classmethod
     def on(
         cls, start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
     ) -> Self:
         """The constants of the remainder on the panels."""
-        weights = derivative_bound_weights(start, end, singularities, 4)
-        return cls(jnp.abs(end - start) ** 4 / 384, weights.T)
+        weights = derivative_bound_weights(start, end, singularities, 4) / 384
+        return cls((weights + beside(start, end, singularities)).T)
 
     def remainder(
         self, coefficients: Complex[Array, "k n"], singularities: Singularities
     ) -> Float[Array, "k p"]:
         """``e_f`` and ``e_g``."""
-        jumps = jnp.abs(slope_jumps(coefficients, singularities))
-        return self.factor * (jumps @ self.weights)
+        return jumps(coefficients, singularities) @ self.weights
 
     @staticmethod
     def bounds(fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]) -> PanelBounds:
@@ -66,7 +67,7 @@ class Hermite(NamedTuple):
         direction = direction / modulus(direction)
         offset = _least([jnp.real(jnp.conj(direction) * point) for point in p])
         return PanelBounds(
-            jnp.nan_to_num(_least(sigma2), nan=-jnp.inf),
+            _least(sigma2),
             _greatest(sigma1),
             _greatest(k),
             offset > remainder[0],
@@ -78,9 +79,12 @@ def _piece_bounds(
     p: Cubic, q: Cubic, e_f: Float[Array, " p"], e_g: Float[Array, " p"]
 ) -> tuple[Array, Array, Array]:
     """Lower bound on sigma_2, upper bounds on sigma_1 and k, where ``p`` and ``q`` interpolate."""
-    p_square, q_square = _squared_modulus(p), _squared_modulus(q)
     p_most = _greatest([modulus(point) for point in p])
     q_most = _greatest([modulus(point) for point in q])
+    # The computed coefficients are off by this much.
+    p_off, q_off = (rounding.BERNSTEIN * most**2 for most in (p_most, q_most))
+    p_square = [a - p_off for a in _squared_modulus(p)]
+    q_square = [b + q_off for b in _squared_modulus(q)]
 
     # |p| - |q| = (|p|^2 - |q|^2) / (|p| + |q|), and the control points bound the denominator.
     # Where least is negative, |q|^2 <= |p|^2 - least gives |q| <= |p| + sqrt(-least).
@@ -98,7 +102,12 @@ def _piece_bounds(
     # k = (sigma_1 - sigma_2) / (sigma_1 + sigma_2) grows with sigma_1 and falls with sigma_2, so
     # the bounds on these bound it by less than 1 where sigma_2 is proved positive.
     from_sigma = (sigma1 - sigma2) / (sigma1 + sigma2)
-    return sigma2, sigma1, jnp.where(sigma2 > 0, jnp.minimum(k, from_sigma), k)
+    k = jnp.where(sigma2 > 0, jnp.minimum(k, from_sigma), k)
+    # Nothing is proved where anything overflows.
+    finite = jnp.isfinite(p_off + q_off + e_f + e_g)
+    sigma2 = jnp.where(finite, sigma2, -jnp.inf)
+    sigma1, k = (jnp.where(finite, a, jnp.inf) for a in (sigma1, k * (1 + rounding.BERNSTEIN)))
+    return sigma2, sigma1, k
 
 
 def _control_points(f: EndValues) -> Cubic:

@@ -28,7 +28,7 @@ import shapely
 from glid_nb._arrays import Array
 from glid_nb._runtime import double_precision
 from glid_nb.certificate.arcs import Arcs, jets_of
-from glid_nb.certificate.certify import Certificate, certify
+from glid_nb.certificate.certify import Certificate, CertificateError, certify
 from glid_nb.certificate.panels import split
 from glid_nb.geometry import Panels, as_points, graded_panels, place, places
 from glid_nb.geometry.panels import cross, point_distance, segment_distance, segments_cross
@@ -79,6 +79,10 @@ def global_injectivity(
     if max_panels < 1:
         raise ValueError(f"max_panels is {max_panels}; it must be at least 1")
     certificate = certify(map) if certificate is None else certificate
+    if not certificate.belongs_to(map):
+        raise CertificateError(
+            "the certificate belongs to another map; give this map's, certify(map), or leave it out"
+        )
     if not certificate.certified:
         reason = f"Undecided, because local injectivity is not certified: {certificate.reason}"
         return GlobalInjectivity("undecided", reason, 0)
@@ -204,7 +208,8 @@ def _proved_crossing(
     if not proved.any():
         return None
     best = int(np.argmax(proved))
-    return complex(image[:, best].mean()), (origin + position * direction)[:, best]
+    anchor = map.phi[0] + np.conj(map.psi[0])
+    return complex(image[:, best].mean() + anchor), (origin + position * direction)[:, best]
 
 
 def _certainly_cross(pair: Arcs) -> Array:

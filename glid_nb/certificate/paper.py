@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb._jax import jnp
+from glid_nb.certificate import rounding
 from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
 from glid_nb.harmonic.cauchy import Singularities, slope_jumps
 
@@ -36,11 +37,13 @@ def segment_bounds(
     mean_fzb = (modulus(fzb_conj.start) + modulus(fzb_conj.end)) / 2
     fz_min = mean_fz - variation_fz / 2
     fzb_max = mean_fzb + variation_fzb / 2
+    sigma1 = mean_fz + variation_fz / 2 + fzb_max
+    finite = jnp.isfinite(sigma1**2)
     return PanelBounds(
-        fz_min - fzb_max,
-        mean_fz + variation_fz / 2 + fzb_max,
+        jnp.where(finite, fz_min - fzb_max, -jnp.inf),
+        jnp.where(finite, sigma1, jnp.inf),
         jnp.where(fz_min > 0, fzb_max / fz_min, jnp.inf),
-        2 * mean_fz > variation_fz,
+        finite & (2 * mean_fz > variation_fz),
         turning(fz.start, fz.end),
     )
 
@@ -48,25 +51,25 @@ def segment_bounds(
 class Lipschitz(NamedTuple):
     """The paper's proof, by its Lipschitz constants (Section 8, Appendix H)."""
 
-    half_square: Float[Array, " p"]
-    """``l^2 / 2``, the factor of the sums in ``L l``."""
     weights: Float[Array, "n p"]
-    """``L_j`` and ``L_j^h``."""
+    """``l^2 / 2`` times ``L_j`` and ``L_j^h``, and :func:`beside`."""
+
+    slack_share = 2
+    """Half of the remainder is subtracted from each mean."""
 
     @classmethod
     def on(
         cls, start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
     ) -> Self:
         """``L_j`` and ``L_j^h`` on the segments."""
-        weights = derivative_bound_weights(start, end, singularities, 2)
-        return cls(jnp.abs(end - start) ** 2 / 2, weights.T)
+        weights = derivative_bound_weights(start, end, singularities, 2) / 2
+        return cls((weights + beside(start, end, singularities)).T)
 
     def remainder(
         self, coefficients: Complex[Array, "k n"], singularities: Singularities
     ) -> Float[Array, "k p"]:
         """``l^2/2 (sum_j L_j |s_j - s_{j+1}| + sum_j L_j^h |phi_j|)``, a part of ``L_fz l``."""
-        jumps = jnp.abs(slope_jumps(coefficients, singularities))
-        return self.half_square * (jumps @ self.weights)
+        return jumps(coefficients, singularities) @ self.weights
 
     @staticmethod
     def bounds(fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]) -> PanelBounds:
@@ -85,22 +88,63 @@ def variation(f: EndValues, remainder: Float[Array, " p"]) -> Float[Array, " p"]
     return (modulus(f.slope_start) + modulus(f.slope_end)) / 2 + remainder
 
 
+def jumps(coefficients: Complex[Array, "k n"], singularities: Singularities) -> Float[Array, "k n"]:
+    """``|s_j - s_{j+1}|``, and ``|phi_j|`` for the holes."""
+    return modulus(slope_jumps(coefficients, singularities))
+
+
 def derivative_bound_weights(
     start: Complex[Array, " p"],
     end: Complex[Array, " p"],
     singularities: Singularities,
     order: int,
 ) -> Float[Array, "p n"]:
-    """Weights ``w`` with ``|d^order f_z / dz^order| <= w @ |slope jumps|`` on each segment.
+    """Weights ``w`` with ``l^order |d^order f_z / dz^order| <= w @ jumps`` on each segment.
 
-    For ``order`` 2 the paper's ``L_j = 1 / (2 pi d(z_j)^2)`` and ``L_j^h = 2 / d(rho_k)^3``; in
-    general ``(order-1)! / (2 pi d^order)`` and ``order! / d^(order+1)``.
+    For ``order`` 2 they are ``l^2`` times the paper's ``L_j = 1 / (2 pi d(z_j)^2)`` and
+    ``L_j^h = 2 / d(rho_k)^3``; in general ``(order-1)! / (2 pi) (l/d)^order`` and
+    ``order! (l/d)^order / d``. They also hold on the edge that the segment is a rounded part of.
     """
-    d = distances(start, end, singularities)
+    d, ratio = clearance(start, end, singularities)
     m = singularities.vertices.shape[0]
-    vertices = math.factorial(order - 1) / (2 * math.pi) * d[:, :m] ** -order
-    holes = math.factorial(order) * d[:, m:] ** -(order + 1)
-    return jnp.concatenate([vertices, holes], axis=1)
+    power = rounding.UPWARD * ratio**order
+    vertices = math.factorial(order - 1) / (2 * math.pi) * power[:, :m]
+    return jnp.concatenate([vertices, math.factorial(order) * power[:, m:] / d[:, m:]], axis=1)
+
+
+def beside(
+    start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
+) -> Float[Array, "p n"]:
+    """Weights ``w``: where ends lie beside their edge, ``w @ jumps`` bounds what that changes.
+
+    An end that is ``delta`` off changes the value there by ``delta |f_z'|`` and the slope along the
+    panel by ``2 delta |f_z'| + delta l |f_z''|``, and each bound by no more than twice their sum.
+    """
+    d, ratio = clearance(start, end, singularities)
+    m = singularities.vertices.shape[0]
+    off = 4 * rounding.UPWARD * beside_by(singularities) / d * (1 + ratio)
+    return jnp.concatenate([off[:, :m] / (2 * math.pi), 2 * off[:, m:] / d[:, m:]], axis=1)
+
+
+def clearance(
+    start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
+) -> tuple[Float[Array, "p n"], Float[Array, "p n"]]:
+    """Lower bounds on :func:`distances` around each segment, and ``l / d``; 0 and inf where none.
+
+    The computed nearest point is off by 16 roundoffs of the distance to ``start``, at most
+    ``d + l``, and the segment's ends by `rounding.BESIDE`.
+    """
+    d, length = distances(start, end, singularities), modulus(end - start)[:, None]
+    u, off = 32 * rounding.UNIT_ROUNDOFF, beside_by(singularities)
+    d = jnp.maximum(d * (1 - u) - u * length - off, 0)
+    return d, (length + 2 * off) / d
+
+
+def beside_by(singularities: Singularities) -> Float[Array, ""]:
+    """How far the end of a panel may lie beside its edge: inside the offset cage's exterior."""
+    vertices = jnp.asarray(singularities.vertices)
+    exterior = jnp.arange(vertices.shape[0]) <= singularities.previous[0]
+    return rounding.BESIDE * jnp.max(jnp.where(exterior, modulus(vertices), 0))
 
 
 def distances(

@@ -23,6 +23,8 @@ FORMAT_VERSION = 1
 
 # An edge is not bisected more often than its positions can tell apart.
 _MOST_BISECTIONS = 60
+# How far rounding moves a panel's middle, in lengths of the panel.
+_ROUNDING = 0.1
 
 
 def proof_text(certificate: Certificate) -> str:
@@ -38,8 +40,8 @@ def proof_text(certificate: Certificate) -> str:
     map_, bounds = certificate.map, ("sigma2_lower", "sigma1_upper", "k_upper")
     loops = map_.domain.cage.loops_complex
     pieces = dyadic_panels(certificate.panels, loops)
-    if sum(map(len, pieces)) != len(certificate.panels):
-        # The claims do not depend on the panels, and these are far fewer than uniform ones.
+    if pieces is None:
+        # What is claimed does not depend on the panels, and these are fewer than uniform ones.
         pieces = dyadic_panels(graded_panels(map_.domain), loops)
     values = {key: value for key, value in map_.to_dict().items() if key != "notes"}
     return json_text(
@@ -54,11 +56,10 @@ def proof_text(certificate: Certificate) -> str:
     )
 
 
-def dyadic_panels(panels: Panels, loops: Iterable[Array]) -> list[list[list[int]]]:
+def dyadic_panels(panels: Panels, loops: Iterable[Array]) -> list[list[list[int]]] | None:
     """Per edge of the cage, loop by loop, the pieces ``[k, d]`` from k/2^d to (k+1)/2^d of it.
 
-    Edges are bisected until no piece holds the middles of two panels: so panels that come from
-    bisecting the edges, as all but uniform ones do, are found again.
+    None if the panels do not come from bisecting the edges, as uniform ones do not.
     """
     edges = []
     for number, loop in enumerate(loops):
@@ -67,11 +68,17 @@ def dyadic_panels(panels: Panels, loops: Iterable[Array]) -> list[list[list[int]
         for start, end, middles in zip(
             loop, np.roll(loop, -1), np.split(panels.middle[own], first[1:]), strict=True
         ):
-            edges.append(_bisected(np.real((middles - start) / (end - start)), 0, 0))
+            places = np.real((middles - start) / (end - start))
+            pieces = _bisected(places, 0, 0)
+            k, d = np.array(pieces, dtype=float).T
+            if len(k) != len(places) or np.abs(places * 2**d - k - 0.5).max() > _ROUNDING:
+                return None
+            edges.append(pieces)
     return edges
 
 
 def _bisected(middles: Array, k: int, d: int) -> list[list[int]]:
+    """Halves of halves of the piece ``[k, d]`` that do not hold the middles of two panels."""
     if len(middles) <= 1 or d == _MOST_BISECTIONS:
         return [[k, d]]
     left = int(np.searchsorted(middles, (2 * k + 1) / 2 ** (d + 1)))

@@ -1,14 +1,16 @@
 """Bounds on the rounding errors of the certificate, and its bounds rounded for text.
 
-The certificate's inequalities are evaluated in double precision. Each panel's remainder is
-enlarged by ``slack_factor(n) * scale * max_j |phi_j|``, a first-order running error bound
-(Higham, Accuracy and Stability of Numerical Algorithms, Section 3) for the ``n``-term sums
-``f_z = sum_j D_j phi_j``, the moduli of whose terms add up to at most ``scale * max |phi_j|``:
-``n`` roundings for the sum, and 64 for computing ``D_j``, control points and Bernstein
-coefficients.
+The certificate's inequalities are evaluated in double precision, of unit roundoff ``u``; what that
+may be off by is added to each panel's remainder. `docs/proof.md` derives every constant here.
+
+- Arithmetic and square roots are rounded correctly (IEEE 754, products may be fused with sums).
+- A complex sum of ``n`` products ``a_j b_j`` is ``2 n`` real products for each part, in any order:
+  it is off by ``sqrt(2) 2n u / (1 - 2n u) sum_j |a_j b_j|``.
+- The computed ``Log(B_{j+1} / B_j)`` is off by ``LOGARITHM u (1 + |Log|)``, if XLA's real
+  logarithm and ``atan2`` are off by no more than `ELEMENTARY` roundoffs (tests compare with Arb).
 
 A solver carries values along, ``f_z + t df_z``, instead of computing them anew. Each step adds the
-error of a sum whose coefficients ``t dphi`` have up to twice the largest modulus so far.
+error of a sum whose coefficients ``t dphi`` are up to twice the largest so far.
 """
 
 from __future__ import annotations
@@ -18,24 +20,49 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from typing import TYPE_CHECKING
 
 from glid_nb._jax import jnp
-from glid_nb.harmonic.cauchy import Singularities, rounding_scale
+from glid_nb.harmonic import cauchy
+from glid_nb.harmonic.cauchy import Singularities
 
 if TYPE_CHECKING:
-    from jaxtyping import Array, Complex, Float
+    from jaxtyping import Array, Bool, Complex, Float
 
 UNIT_ROUNDOFF = 2.0**-53
+
+ELEMENTARY = 2.0
+"""Roundoffs, relative, that XLA's real ``log`` and ``atan2`` may be off by."""
+COMPLEX_QUOTIENT = 8.0
+"""The same for the modulus of the error of XLA's complex division."""
+LOGARITHM = 16.0
+"""Roundoffs per ``1 + |Log|`` that ``Log(B_{j+1} / B_j)`` may be off by."""
+CUT = 64 * UNIT_ROUNDOFF
+"""An edge seen under an angle closer to pi may lie on the wrong side of the logarithm's cut."""
+BERNSTEIN = 16 * UNIT_ROUNDOFF
+"""Error of a Bernstein coefficient of ``|p|^2``, relative to the largest ``|p|^2``."""
+UPWARD = 1 + 2.0**-30
+"""Enlarges a bound by more than the rounding of all sums of positive numbers that lead to it."""
+UNDERFLOW = 1e-140
+"""Is added to all errors: where anything underflows, nothing of this size is proved."""
+BESIDE = 64 * UNIT_ROUNDOFF
+"""How far the end of a panel may lie beside its edge, relative to the largest coordinate.
+
+Each halving adds half an ulp to two thirds of what the ends were off by.
+"""
 
 CARRIED_STEPS = 31
 """Most steps through which values are carried before they are computed anew."""
 
 
 def slack_factor(n_columns: int) -> float:
-    """``(n + 64) u``, ``u`` the unit roundoff of double precision, for values computed anew."""
-    return (n_columns + 64) * UNIT_ROUNDOFF
+    """Relative to the sum of the moduli of all terms: ``(2 sqrt(2) n + 128) u``, rounded up.
+
+    For sums of ``n_columns`` terms computed anew; the 128 are for computing the terms, control
+    points, means and products along the panel.
+    """
+    return (3 * n_columns + 128) * UNIT_ROUNDOFF
 
 
 def carried_slack_factor(n_columns: int) -> float:
-    """The factor for carried values, relative to the largest modulus so far.
+    """The factor for carried values, relative to the largest coefficients so far.
 
     One error for the first sum, two for each step, and two more, so that a proof from carried
     values also succeeds with values computed anew.
@@ -43,13 +70,73 @@ def carried_slack_factor(n_columns: int) -> float:
     return (1 + 2 * CARRIED_STEPS + 2) * slack_factor(n_columns)
 
 
+def allowance(slack: Float[Array, "*k p"], probe: Float[Array, ""]) -> Float[Array, "*k p"]:
+    """Errors with that of underflow; infinite, so that nothing is proved, under fast math.
+
+    ``probe`` is any positive number that the compiler does not know.
+    """
+    return jnp.where(_is_exact(probe), slack + UNDERFLOW, jnp.inf)
+
+
+def _is_exact(a: Float[Array, ""]) -> Bool[Array, ""]:
+    """Whether the error of ``a + 2^-60 a`` is computed exactly, which reassociation would lose."""
+    b = a * 2.0**-60
+    total = a + b
+    second = total - a
+    return (a - (total - second)) + (b - second) == b
+
+
+def derivatives(
+    z: Complex[Array, " k"], edges: Complex[Array, "2 n"], singularities: Singularities
+) -> tuple[Complex[Array, "2 k"], Complex[Array, "2 k"], Float[Array, "2 k"], Float[Array, "2 k"]]:
+    """``f_z`` and ``conj(f_zbar)``, their derivatives, and bounds on the errors of both.
+
+    ``edges`` are the :func:`~glid_nb.harmonic.cauchy.edge_coefficients` of phi and psi.
+    """
+    first = cauchy.first_by_edges(z, singularities)
+    second = cauchy.second_by_edges(z, singularities)
+    m, size, factor = singularities.vertices.shape[0], jnp.abs(edges), slack_factor(edges.shape[1])
+    of_logarithms = (
+        LOGARITHM * UNIT_ROUNDOFF * jnp.sum(size[:, :m], axis=1, keepdims=True) / math.pi
+    )
+    off = factor * (size @ jnp.abs(first).T) + of_logarithms
+    # Near the cut a computed logarithm may be the wrong one.
+    near_cut = jnp.any(jnp.abs(jnp.real(first[:, :m])) > 0.5 - CUT, axis=1)
+    off = UPWARD * jnp.where(near_cut, jnp.inf, off)
+    second_off = UPWARD * factor * (size @ jnp.abs(second).T)
+    return edges @ first.T, edges @ second.T, off, second_off
+
+
 def panel_scale(
     start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
 ) -> Float[Array, " p"]:
-    """Per panel, the larger scale of the terms of ``f_z`` and ``l f_z'`` at its two ends."""
+    """Per panel, the larger scale of the terms of ``f_z`` and ``l f_z'`` at its two ends.
+
+    :func:`slack_factor` times this and the largest coefficient bounds the error of
+    ``sum_j D_j phi_j`` and ``l sum_j D'_j phi_j`` together.
+    """
     length = jnp.abs(end - start)
-    scales = [rounding_scale(z, singularities) for z in (start, end)]
-    return jnp.maximum(*(value + length * slope for value, slope in scales))
+    scales = [term_scale(z, singularities) for z in (start, end)]
+    return UPWARD * jnp.maximum(*(value + length * slope for value, slope in scales))
+
+
+def term_scale(
+    z: Complex[Array, " k"], singularities: Singularities
+) -> tuple[Float[Array, " k"], Float[Array, " k"]]:
+    """Sums of the moduli of all terms of ``D(z)``, with the logarithms' errors, and of ``D'(z)``.
+
+    Infinite where a computed logarithm may be that of the wrong branch.
+    """
+    vertices, following, preceding, rho = singularities
+    b, to_hole = jnp.abs(vertices - z[:, None]), jnp.abs(z[:, None] - rho)
+    edge, chord = (jnp.abs(vertices[following] - vertices[i]) for i in (slice(None), preceding))
+    log_over_edge = cauchy.log_over_edge(vertices - z[:, None], singularities)
+    absolute = LOGARITHM * UNIT_ROUNDOFF / slack_factor(len(vertices) + len(rho))
+    first = jnp.sum(jnp.abs(log_over_edge) + absolute / edge, axis=1) / math.pi
+    second = jnp.sum(chord / (b[:, preceding] * b * b[:, following]), axis=1) / (2 * math.pi)
+    angle = jnp.abs(jnp.imag(log_over_edge * (vertices[following] - vertices)))
+    first = jnp.where(jnp.any(angle > math.pi * (1 - 2 * CUT), axis=1), jnp.inf, first)
+    return first + jnp.sum(1 / to_hole, axis=1), second + jnp.sum(to_hole**-2, axis=1)
 
 
 def rounded_down(value: float, digits: int = 3) -> str:

@@ -44,7 +44,7 @@ def run(chosen: argparse.Namespace) -> None:
     if traced not in (None, list(own)):
         raise InputFileError(
             f"{chosen.image} has {own[0]} x {own[1]} pixels, but {chosen.map} is of a picture of "
-            f"{traced}; take the picture that its cage was traced from"
+            f"{traced!r:.60}; take the picture that its cage was traced from"
         )
     size = tuple(chosen.size or own)
     with about(chosen.map), step("rendering"):

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import glid_nb
+from glid_nb._errors import InputError
 from glid_nb._json import json_text
 from glid_nb.cli.output import summary_json, summary_text, write_all
 from glid_nb.cli.progress import step
@@ -61,13 +62,16 @@ def finish(
 ) -> None:
     """Write the files and print the summary, with ``extra`` as JSON or with ``rows`` as text.
 
-    Raises KeyboardInterrupt after a solve that Ctrl-C stopped.
+    Raises KeyboardInterrupt after a solve that Ctrl-C stopped, and an InputError where nothing that
+    the solver reached could be proved.
     """
     write_all(files)
     text = summary_json(report, files, **extra) if json else summary_text(report, files, rows or [])
     print(text)
     if result.status is glid_nb.Status.STOPPED:
         raise KeyboardInterrupt
+    if result.status is glid_nb.Status.UNPROVED or not report["certified"]:
+        raise InputError(f"{result.message} ({report['proof']})")
 
 
 @contextmanager

@@ -18,6 +18,7 @@ from glid_nb.geometry._loops import GeometryError, loop_name, place, plain_name,
 # Parts of the boundary closer than this share of the cage's size count as touching: a few thousand
 # roundings, below which neither an offset nor a normal direction can be computed.
 RESOLUTION = 1e-12
+_EDGES = 64
 
 
 def checked_vertices(vertices: ArrayLike, name: str) -> NDArray[np.float64]:
@@ -56,9 +57,13 @@ def check_loops(loops: list[NDArray[np.float64]]) -> None:
 
 def _check_distinct(loop: NDArray[np.float64], number: int, resolution: float) -> None:
     name, plain = loop_name(number), plain_name(number)
-    points: Any = shapely.points(loop)
-    pairs = shapely.STRtree(points).query(points, predicate="dwithin", distance=resolution).T
-    pairs = sorted((i, j) for i, j in pairs.tolist() if i < j)
+    # Two of the copies are enough; thousands in one place would make millions of pairs.
+    first = np.unique(loop, axis=0, return_index=True)[1]
+    copies = np.setdiff1d(np.arange(len(loop)), first)
+    kept = np.union1d(first, copies[:2])
+    points: Any = shapely.points(loop[kept])
+    near = shapely.STRtree(points).query(points, predicate="dwithin", distance=resolution)
+    pairs = sorted((i, j) for i, j in kept[near].T.tolist() if i < j)
     if not pairs:
         return
     i, j = pairs[0]
@@ -113,20 +118,30 @@ def _check_crossings(loops: list[NDArray[np.float64]], resolution: float) -> Non
     number = np.repeat(np.arange(len(loops)), sizes)
     index = np.arange(len(edges)) - (np.cumsum(sizes) - sizes)[number]
 
-    e, f = shapely.STRtree(edges).query(edges, predicate="dwithin", distance=resolution)
-    step = np.where(number[e] == number[f], index[f] - index[e], -1)
-    apart = (e < f) & (step != 1) & (step != sizes[number[e]] - 1)
-    if not apart.any():
+    tree, found = shapely.STRtree(edges), None
+    # Some edges at a time: a tangle has millions of crossings, and the first one is enough.
+    for start in range(0, len(edges), _EDGES):
+        chunk = edges[start : start + _EDGES]
+        e, f = tree.query(chunk, predicate="dwithin", distance=resolution)
+        e += start
+        step = np.where(number[e] == number[f], index[f] - index[e], -1)
+        apart = (e < f) & (step != 1) & (step != sizes[number[e]] - 1)
+        e, f = e[apart], f[apart]
+        crossing = shapely.crosses(edges[e], edges[f])
+        if crossing.any() or (found is None and len(e)):
+            first = np.lexsort((f, e, ~crossing))[0]
+            found = int(e[first]), int(f[first]), bool(crossing[first])
+        if crossing.any():
+            break
+    if found is None:
         return
-    e, f = e[apart], f[apart]
-    crossing = shapely.crosses(edges[e], edges[f])
-    first = np.lexsort((f, e, ~crossing))[0]
-    pair = edges[e[first]], edges[f[first]]
+    e, f, crosses = found
+    pair = edges[e], edges[f]
     common = shapely.get_coordinates(shapely.intersection(*pair))
     point = common[0] if len(common) else shapely.get_coordinates(shapely.shortest_line(*pair))[0]
-    a, b = int(number[e[first]]), int(number[f[first]])
-    edge_a, edge_b = (_edge(int(index[i[first]]), int(sizes[number[i[first]]])) for i in (e, f))
-    verb = "cross" if crossing[first] else "touch"
+    a, b = int(number[e]), int(number[f])
+    edge_a, edge_b = (_edge(int(index[i]), int(sizes[number[i]])) for i in (e, f))
+    verb = "cross" if crosses else "touch"
     if a != b:
         plain = f"{plain_name(b)} {verb}es {plain_name(a)}; move it away or merge the two"
         name_a = "the exterior loop" if a == 0 else loop_name(a)

@@ -64,8 +64,10 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
 
     A GeometryError for a distance that is not positive, and for a passage too narrow for float64.
     """
-    if not (isinstance(distance, Real) and 0 < distance < np.inf):
-        raise GeometryError(f"the offset must be a positive number, not {distance!r:.60}")
+    if not (isinstance(distance, Real) and 0 < distance <= 1e100):
+        raise GeometryError(
+            f"the offset must be a positive number, not {distance!r:.60}; 1e100 is the most"
+        )
     corners = _Corners(cage, distance)
     local = corners.smoothed(np.minimum(distance, corners.passage_limits(_PASSAGE_LENGTH)))
     for _ in range(1 + _GLOBAL_ROUNDS):

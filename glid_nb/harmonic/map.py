@@ -50,7 +50,8 @@ class HarmonicMap:
         Where the map lives.
     phi, psi : (n,) complex array_like
         Coefficients up to 1e120, ``n`` = offset-cage vertices + holes, including those fixed to 0.
-        For the holes ``phi_j = conj(psi_j)`` must hold (Section 5); else a MapError says which.
+        For the holes ``phi_j = conj(psi_j)`` must hold (Section 5), up to rounding, which is
+        evened out; else a MapError says which.
     """
 
     domain: Domain
@@ -72,7 +73,7 @@ class HarmonicMap:
             if bad.size:
                 wanted = f"it must be finite and at most {_LARGEST:g}"
                 raise MapError(f"{name}[{bad[0]}] is {values[bad[0]]}; {wanted}")
-            object.__setattr__(self, name, read_only(values))
+            object.__setattr__(self, name, values)
         holes = slice(n - domain.n_holes, n)
         gap = np.abs(self.phi[holes] - self.psi[holes].conj())
         scale = 1 + np.abs(self.phi[holes])
@@ -82,6 +83,12 @@ class HarmonicMap:
                 f"the logarithm coefficients of hole {worst + 1} are not conjugate: "
                 f"phi = {self.phi[holes][worst]}, psi = {self.psi[holes][worst]}"
             )
+        # The map's values know only their sum, so the halves are made equal.
+        uneven = np.flatnonzero(gap > 0) + holes.start
+        self.phi[uneven] += (self.psi[uneven].conj() - self.phi[uneven]) / 2
+        self.psi[uneven] = self.phi[uneven].conj()
+        read_only(self.phi)
+        read_only(self.psi)
 
     @classmethod
     def identity(cls, domain: Domain) -> HarmonicMap:
@@ -225,8 +232,9 @@ def _values(z: Any, coefficients: Any, singularities: Singularities) -> tuple[An
 
 @jit
 def _first(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any, Any]:
-    d = cauchy.first_derivatives(z, singularities)
-    return d @ coefficients[0], d @ coefficients[1]
+    edges = cauchy.edge_coefficients(coefficients, singularities)
+    fz, fzb_conj = (cauchy.first_by_edges(z, singularities) @ edges.T).T
+    return fz, fzb_conj
 
 
 @functools.partial(jit, static_argnames="order")

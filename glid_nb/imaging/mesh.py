@@ -93,13 +93,16 @@ def deformed_mesh(
     vertices, triangles = start.vertices, start.triangles
     heights = sheet_heights(map.domain.cage, vertices, triangles)
     images = map(vertices)
+    # Below this share of its size rounding bends an edge too.
+    least = 1e-9 * float(np.ptp(images, axis=0).max())
+    tolerance = np.inf if tolerance is None else max(tolerance, least)
     first, error = 0, 0.0
     for _ in range(_MOST_ROUNDS):
         edges, edge_of = unique_edges(triangles)
         # All others were straight enough in an earlier round.
         fresh = np.flatnonzero(edges.max(axis=1) >= first)
         middles, middle_images, bend = _halved(map, vertices, images, edges[fresh])
-        bent = bend > (np.inf if tolerance is None else tolerance)
+        bent = bend > tolerance
         if not bent.any() or len(vertices) + bent.sum() > _MOST_VERTICES:
             break
         error = max(error, float(bend[~bent].max(initial=0.0)))
@@ -116,13 +119,17 @@ def deformed_mesh(
 
 
 def deformed_loops(map: HarmonicMap, tolerance: float = 0.002) -> list[Floats]:
-    """The images of the cage's loops as polylines within ``tolerance`` world units of them."""
+    """The images of the cage's loops as polylines within ``tolerance`` world units of them.
+
+    Or within 10^-6 of their size, where that is more.
+    """
     loops = []
     for loop in map.domain.cage.loops:
         share = np.arange(_PER_EDGE)[:, None] / _PER_EDGE
         edge = (np.roll(loop, -1, axis=0) - loop)[:, None]
         points = np.concatenate([(loop[:, None] + share * edge).reshape(-1, 2), loop[:1]])
         images = map(points)
+        tolerance = max(tolerance, 1e-6 * float(np.ptp(images, axis=0).max()))
         for _ in range(_MOST_ROUNDS):
             start = np.arange(len(points) - 1)
             edges = np.stack([start, start + 1], axis=1)

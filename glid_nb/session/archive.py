@@ -85,6 +85,8 @@ def _check_member(info: zipfile.ZipInfo, most_bytes: Mapping[str, int]) -> None:
         )
     if info.flag_bits & 1:
         raise InputFileError(f"{name} is encrypted")
+    if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+        raise InputFileError(f"{name} is compressed by a method that sessions do not use")
     # zipfile stops at this size whatever the compressed data hold.
     if size > most_bytes[name]:
         raise InputFileError(f"{name} unpacks to {size:,} bytes; {most_bytes[name]:,} are allowed")

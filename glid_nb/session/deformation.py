@@ -13,12 +13,11 @@ from numpy.typing import ArrayLike
 
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
-from glid_nb.certificate import Certificate
+from glid_nb.certificate import Certificate, certificate_of
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session import actions
-from glid_nb.session.document import certificate_of
 from glid_nb.session.edit_state import EditError, EditState, Frame, Moment, Task
 from glid_nb.session.live_solver import LiveSolver
 from glid_nb.session.model import History, Observed

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import weakref
 from collections.abc import Sized
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -12,7 +11,6 @@ from numpy.typing import NDArray
 
 from glid_nb._arrays import read_only
 from glid_nb._errors import InputFileError, about
-from glid_nb.certificate import Certificate, certify
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
@@ -25,9 +23,6 @@ MOST_POSES = 1000
 _LONGEST_NAME = 200
 # What a solve of a pose depends on, by the names of the fields.
 _ASKED = {"pose": Pose, "energy": Energy, "options": Options, "method": Method}
-
-# Maps are immutable, so each is certified once, however often it is shown or saved.
-_certificates: weakref.WeakKeyDictionary[HarmonicMap, Certificate] = weakref.WeakKeyDictionary()
 
 
 class DocumentError(InputFileError):
@@ -180,14 +175,6 @@ def check_count(poses: Sized) -> None:
     """Raise :class:`DocumentError` for more poses than a document may hold."""
     if len(poses) > MOST_POSES:
         raise DocumentError(f"poses: there are {len(poses)}; {MOST_POSES} are allowed")
-
-
-def certificate_of(map: HarmonicMap) -> Certificate:
-    """The certificate of a map, computed once from its coefficients alone."""
-    certificate = _certificates.get(map)
-    if certificate is None:
-        certificate = _certificates[map] = certify(map)
-    return certificate
 
 
 def _check_kind(name: str, value: object, kind: type) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 
 from glid_nb import _json, methods
 from glid_nb._errors import InputFileError, about
+from glid_nb.certificate import certificate_of
 from glid_nb.energies import CustomEnergy, energy_by_name
 from glid_nb.geometry import Domain, as_points
 from glid_nb.harmonic import HarmonicMap
@@ -20,7 +21,7 @@ from glid_nb.harmonic.map import complex_from_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE
 from glid_nb.session.archive import image_png, light_png, read_archive, read_png, write_archive
-from glid_nb.session.document import Document, DocumentError, NamedPose, certificate_of, check_count
+from glid_nb.session.document import Document, DocumentError, NamedPose, check_count
 from glid_nb.solvers import Newton, Options, Pose
 
 T = TypeVar("T")
@@ -118,13 +119,10 @@ def _checked_version(data: Any) -> int:
 
 
 def _checked_size(value: Any) -> tuple[int, int]:
-    if not (isinstance(value, list) and len(value) == 2 and all(type(n) is int for n in value)):
-        raise DocumentError(f"image_size_px must be [width, height], not {value!r:.60}")
+    _json.check_size(value, "image_size_px")
     width, height = value
-    if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
-        raise DocumentError(
-            f"image_size_px is {width} x {height}; a side has 1 to {MAX_SIDE} pixels"
-        )
+    if max(value) > MAX_SIDE:
+        raise DocumentError(f"image_size_px is {width} x {height}; {MAX_SIDE} is the most")
     return width, height
 
 

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import functools
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from glid_nb._errors import InputError
+from glid_nb.certificate import Certificate
 from glid_nb.energies import Energy, SymmetricDirichlet
-from glid_nb.geometry import Domain, MeshMap, Panels
+from glid_nb.geometry import Domain, MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.document import NamedPose, Solution
 from glid_nb.solvers import DeformationMap, Iteration, Options, Pose
@@ -108,20 +106,15 @@ class Frame:
     """Numbers of the iterations at which the targets had moved."""
     solution: Solution | None = None
     """None while the solve goes on."""
-    panels: Panels | None = None
-    """Of the boundary; None for a method without panels."""
-    sigma2_lower: NDArray[Any] = field(default_factory=lambda: np.empty(0))
-    """(p,) certified bound per panel; empty when it is not known."""
+    proof: Certificate | None = None
+    """The solver's, of ``map``; None for a method on a mesh."""
     mesh: MeshMap | None = None
     """The map of a method on a mesh, which may fold."""
 
     @property
     def bound(self) -> float:
         """The certified lower bound on sigma_2; NaN when the solver has not given one."""
-        if len(self.sigma2_lower):
-            return float(self.sigma2_lower.min())
-        known = self.history[-1].sigma2_lower if self.history else None
-        return math.nan if known is None else known
+        return math.nan if self.proof is None else self.proof.sigma2_lower
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from glid_nb._arrays import Array
 from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.document import NamedPose, Solution
@@ -42,7 +41,6 @@ class LiveSolver:
         self._before: tuple[Iteration, ...] = ()
         self._starts: tuple[int, ...] = ()
         self._published = -np.inf
-        self._bounds: Array | None = None
 
     def solve(self, task: Task, worker: LatestWins[Task]) -> None:
         """Run the task's method and publish its frames.
@@ -55,7 +53,7 @@ class LiveSolver:
         before = self._before
         start = before[-1].iteration + 1 if before else 1
         earlier = (i for i in self._starts if before and before[0].iteration <= i < start)
-        self._starts, self._bounds = (*earlier, start), None
+        self._starts = (*earlier, start)
         try:
             result = self._result(task, worker)
         except Exception as error:  # shown to the user; the next task starts from its own map
@@ -78,7 +76,6 @@ class LiveSolver:
                 # The report before the first iteration: every task takes at least a step.
                 return worker.cancelled
             calls += 1
-            self._bounds = progress.sigma2_lower
             moved, iterations = len(progress.history) > iterations, len(progress.history)
             # A first call may only split panels; those are kept for the next task.
             if worker.overtaken or (task.single and (moved or calls > 1)):
@@ -102,11 +99,8 @@ class LiveSolver:
         history = (*self._before, *more)[-MOST_ITERATIONS:]
         map = now.map
         mesh, certified = (map, task.pose.map) if isinstance(map, MeshMap) else (None, map)
-        panels = None if now.discretisation is None else now.discretisation.panels
-        bounds = self._bounds
-        if panels is None or bounds is None or len(bounds) != len(panels):
-            bounds = np.empty(0)
-        return Frame(task, certified, history, self._starts, None, panels, bounds, mesh)
+        proof = now.certificate if isinstance(now, Progress) else now.proof
+        return Frame(task, certified, history, self._starts, None, proof, mesh)
 
 
 def _starting_point(edited: NamedPose, last: Result | None) -> DeformationMap | Result:

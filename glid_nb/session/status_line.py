@@ -6,10 +6,10 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from glid_nb.certificate import Certificate
+from glid_nb.certificate import Certificate, certificate_of
 from glid_nb.certificate.rounding import rounded_down, rounded_up
 from glid_nb.geometry import MeshMap
-from glid_nb.session.document import Solution, certificate_of
+from glid_nb.session.document import Solution
 from glid_nb.session.edit_state import EditState, Frame, Moment
 from glid_nb.solvers import MethodError, Status
 

@@ -233,22 +233,23 @@ def _assembled(
     else:
         h = -(-len(index) // 16) * 16
     index, chord = padded(index, h), panels.end - panels.start
-    matrices = Matrices(
-        nodes=_transposed(nodes),
-        slopes=_transposed(padded(rows.slopes, p)),
-        hessian_index=index,
-        whitened=whitened(_transposed(nodes), index, t, np.float32),
-        whitening=t,
-        weights=weights,
-        hessian_weights=padded(share, h, 0.0),
-        proof=jax.tree.map(lambda part: _transposed(padded(part, p)), rows.proof),
-        rounding=padded(rows.rounding, p),
-        chord=np.stack([padded(np.real(chord), p), padded(np.imag(chord), p)]),
-        next=padded(panels.next, p),
-        real=np.arange(p) < count,
-    )
-    # Unlike jnp.asarray this compiles nothing.
-    return Discretisation(domain, sampling, certificate, panels, jax.device_put(matrices))
+    on_host = {
+        "nodes": _transposed(nodes),
+        "slopes": _transposed(padded(rows.slopes, p)),
+        "hessian_index": index,
+        "whitened": whitened(_transposed(nodes), index, t, np.float32),
+        "whitening": t,
+        "weights": weights,
+        "hessian_weights": padded(share, h, 0.0),
+        "proof": jax.tree.map(lambda part: _transposed(padded(part, p)), rows.proof),
+        "rounding": padded(rows.rounding, p),
+        "chord": np.stack([padded(np.real(chord), p), padded(np.imag(chord), p)]),
+        "next": padded(panels.next, p),
+        "real": np.arange(p) < count,
+    }
+    # Unlike jnp.asarray, device_put compiles nothing.
+    matrices = Matrices(**jax.device_put(on_host))
+    return Discretisation(domain, sampling, certificate, panels, matrices)
 
 
 def _hessian_nodes(

@@ -8,7 +8,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from glid_nb._jax import jnp, lax
-from glid_nb.certificate import EndValues, PanelBounds, fz_vanishes
+from glid_nb.certificate import EndValues, PanelBounds, fz_vanishes, rounding
+from glid_nb.certificate.panels import modulus
 from glid_nb.certificate.paper import turning
 from glid_nb.energies import Differentials, Energy
 from glid_nb.solvers.discretisation import Matrices
@@ -33,7 +34,8 @@ class Point(NamedTuple):
     energy_iso: Float[Array, ""]
     energy_p2p: Float[Array, ""]
     largest: Float[Array, ""]
-    """Largest modulus of a coefficient since the samples were computed anew."""
+    """What the rounding errors are relative to, the largest since the samples were computed anew;
+    see :func:`reach`."""
 
     @property
     def energy(self) -> Float[Array, ""]:
@@ -52,7 +54,7 @@ class Line(NamedTuple):
 
 def evaluated(problem: Problem, y: Float[Array, " 4c"]) -> Point:
     """The point with the coefficients ``y``, its samples computed anew."""
-    return _point(problem, y, products(problem.matrices, y), largest_modulus(y))
+    return _point(problem, y, products(problem.matrices, y - problem.anchor), reach(problem, y))
 
 
 def line_along(problem: Problem, direction: Float[Array, " 4c"], slope: Float[Array, ""]) -> Line:
@@ -64,7 +66,7 @@ def moved(problem: Problem, point: Point, line: Line, step: Float[Array, ""]) ->
     """The point ``step`` along a line; its samples are carried along (G.11)."""
     samples = Samples(*(a + step * b for a, b in zip(point.samples, line.change, strict=True)))
     y = point.coefficients + step * line.direction
-    largest = jnp.maximum(point.largest, largest_modulus(y))
+    largest = jnp.maximum(point.largest, reach(problem, y))
     return _point(problem, y, samples, largest)
 
 
@@ -110,7 +112,8 @@ def bounds(problem: Problem, point: Point) -> PanelBounds:
     """The certificate's bounds on every panel."""
     matrices, samples = problem.matrices, point.samples
     truncation = _truncation(problem, point.coefficients)
-    remainder = truncation + matrices.rounding * point.largest
+    slack = rounding.allowance(matrices.rounding * point.largest, point.largest)
+    remainder = truncation + matrices.proof.slack_share * slack
     chord = lax.complex(*matrices.chord)
     panels = chord.shape[0]
     f, g = _complex_rows(samples.nodes[:, :panels])
@@ -132,9 +135,12 @@ def tightened_by_splitting(problem: Problem, point: Point) -> Bool[Array, " p"]:
     return jnp.max(truncation, axis=0) > problem.matrices.rounding * point.largest
 
 
-def largest_modulus(coefficients: Float[Array, " 4c"]) -> Float[Array, ""]:
-    """The largest modulus of a coefficient."""
-    return jnp.maximum(*(jnp.abs(part).max() for part in _complex_pair(coefficients)))
+def reach(problem: Problem, y: Float[Array, " 4c"]) -> Float[Array, ""]:
+    """What rounding errors are relative to: the largest coefficient beside the anchor, and of the
+    largest one itself the share that its own rounding has in them."""
+    share = 8 * rounding.UNIT_ROUNDOFF / rounding.slack_factor(y.shape[0] // 4)
+    near = jnp.maximum(*(modulus(part).max() for part in _complex_pair(y - problem.anchor)))
+    return near + share * (near + 2 * jnp.max(jnp.abs(problem.anchor)))
 
 
 def fz_turning(matrices: Matrices, nodes: Float[Array, "4 s"]) -> Float[Array, " p"]:

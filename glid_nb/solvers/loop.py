@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Generator
 from contextlib import nullcontext
@@ -15,7 +16,7 @@ from glid_nb._runtime import compilation_clock, single_blas_thread
 from glid_nb.certificate import Certificate
 from glid_nb.solvers.discretisation import Discretisation
 from glid_nb.solvers.method import Inputs, Method
-from glid_nb.solvers.result import DeformationMap, Iteration, Progress, Result
+from glid_nb.solvers.result import Iteration, Make, Progress, Result
 from glid_nb.solvers.status import BLOCKED, REFUSED, RUNNING, Status
 
 # How often panels are split in a row before a shorter step is tried instead, and in all before a
@@ -64,11 +65,9 @@ class Reached(NamedTuple):
 
     entry: Iteration
     """Without its number and its time."""
-    make_map: Callable[[], DeformationMap]
+    make: Make
     sigma2_lower: Array | None = None
     """(p,) certified bound per panel."""
-    proof: Certificate | None = None
-    """Where the method has proved its map itself."""
 
 
 class Descent:
@@ -140,7 +139,7 @@ class Descent:
             initial=self.initial,
             energy_iso=now.entry.energy_iso,
             energy_p2p=now.entry.energy_p2p,
-            make_map=now.make_map,
+            make=now.make,
             sigma2_lower=now.sigma2_lower,
             discretisation=self.discretisation,
         )
@@ -148,8 +147,12 @@ class Descent:
     def result(self, ending: Ending, compile_time: float, solve_time: float) -> Result:
         """What a solve returns."""
         now = self.reached()
+        made = now.make()
+        harmonic = isinstance(made, Certificate)
+        if ending.status.ok and not math.isfinite(now.entry.energy):
+            ending = Ending(Status.BLOCKED)
         return Result(
-            map=now.make_map(),
+            map=made.map if harmonic else made,
             status=ending.status,
             detail=ending.detail,
             energy_iso=now.entry.energy_iso,
@@ -164,7 +167,7 @@ class Descent:
             solve_time=solve_time,
             discretisation=self.discretisation,
             factor=self.factor if ending.status is Status.CONVERGED else None,
-            proof=now.proof,
+            proof=made if harmonic else None,
         )
 
     def stagnation(self) -> Ending | None:

@@ -27,9 +27,8 @@ SLOW_ITERATIONS = 20
 _SLOW_STEP, _SLOW_GAIN = 0.5, 0.05
 # Steps in a row that together gain less than this fraction of the energy end a solve.
 _STALLED, _STALL_GAIN = 4, 1e-10
-# So many steps in a row that are shorter than this and gain less of the energy creep to where the
-# map folds; each is dearer than the last, for it splits panels there.
-_CREPT, _CREEPING = 3, 1e-6
+# If all of them are shorter than this, it need only be less than this.
+_CREEPING = 1e-6
 # A decrease promised by the Newton decrement that rounding of the energy can hide.
 _ROUNDING = 1e-8
 
@@ -115,15 +114,16 @@ class NewtonDescent(SubspaceDescent):
         self.point, self.coefficients = state.point, state.point.coefficients
         self.decrement = float(state.decrement)
         end, taken = int(state.outcome), int(state.iteration)
-        panels = len(self.discretisation.panels)
-        self.sigma2_lower = np.asarray(state.sigma2_lower)[:panels]
+        panels = self.discretisation.panels
+        if taken:
+            self.prove(state.sigma2_lower, state.turning)
         if not hasattr(self, "initial"):
             iso, p2p = float(state.start_iso), float(state.start_p2p)
             self.initial = Iteration(iteration=0, energy_iso=iso, energy_p2p=p2p, time=0.0)
         columns = {k: np.asarray(v)[:taken].tolist() for k, v in state.records._asdict().items()}
         for values in zip(*columns.values(), strict=True):
             known = dict(zip(columns, values, strict=True), panels_split=self.just_split)
-            self.record(Iteration(iteration=0, time=seconds / taken, panels=panels, **known))
+            self.record(Iteration(iteration=0, time=seconds / taken, panels=len(panels), **known))
             self.just_split = 0
         # After a split the map is still where its Hessian was taken.
         self.reuse = end == status.REFUSED and bool(self.inputs.options.corrections)
@@ -140,8 +140,7 @@ class NewtonDescent(SubspaceDescent):
         if done.outcome == status.INDEFINITE:
             # Rounding or the nodes may have made it so.
             return None if self._take_full_hessian() else self._raise_ridge()
-        recent = self.history[self.full_since or 0 :]
-        stalled = done.iterations and (_has_stalled(recent) or _creeps(recent))
+        stalled = done.iterations and _has_stalled(self.history[self.full_since or 0 :])
         if done.outcome == status.NO_DECREASE or stalled:
             return None if self._take_full_hessian() else self._without_decrease()
         return None
@@ -197,18 +196,16 @@ def _is_slow(history: Sequence[Iteration]) -> bool:
 
 
 def _has_stalled(history: Sequence[Iteration]) -> bool:
-    """Whether the last steps gained nothing: without a barrier, a map can creep to folding."""
-    recent = [entry.energy for entry in history[-1 - _STALLED :]]
-    return len(recent) > _STALLED and recent[0] - recent[-1] <= _STALL_GAIN * abs(recent[-1])
+    """Whether the last steps gained nothing, or were tiny and gained next to nothing.
 
-
-def _creeps(history: Sequence[Iteration]) -> bool:
-    """Whether the last steps were tiny and gained next to nothing."""
-    if len(history) <= _CREPT:
+    Without a barrier, a map can creep to folding, each step proved on twice as many panels.
+    """
+    if len(history) <= _STALLED:
         return False
-    before, *recent = history[-1 - _CREPT :]
-    short = all((entry.step or 0.0) < _CREEPING for entry in recent)
-    return short and before.energy - recent[-1].energy < _CREEPING * abs(recent[-1].energy)
+    before, *recent = history[-1 - _STALLED :]
+    tiny = all((entry.step or 0.0) < _CREEPING for entry in recent)
+    least = (_CREEPING if tiny else _STALL_GAIN) * abs(recent[-1].energy)
+    return before.energy - recent[-1].energy <= least
 
 
 _no_factor = jit(lambda size: jnp.zeros((size, size)), static_argnums=0)

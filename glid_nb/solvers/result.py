@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from glid_nb.solvers.method import Method
 
 DeformationMap = HarmonicMap | MeshMap
+Make = Callable[[], Certificate | MeshMap]
+"""Makes the map of a moment: a harmonic one with its proof, which holds it, or one of a mesh."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,7 +79,7 @@ class Progress:
     """Isometric part of the energy of :attr:`map`."""
     energy_p2p: float
     """Positional part."""
-    make_map: Callable[[], DeformationMap] = field(repr=False)
+    make: Make = field(repr=False)
     sigma2_lower: Array | None = None
     """(p,) certified bound per panel, once a step was taken."""
     discretisation: Discretisation | None = field(default=None, repr=False)
@@ -89,9 +91,18 @@ class Progress:
         return self.energy_iso + self.energy_p2p
 
     @functools.cached_property
+    def _made(self) -> Certificate | MeshMap:
+        return self.make()
+
+    @property
+    def certificate(self) -> Certificate | None:
+        """The proof of :attr:`map`; None for a map of a mesh."""
+        return self._made if isinstance(self._made, Certificate) else None
+
+    @property
     def map(self) -> DeformationMap:
         """The map of this moment; a harmonic one is certified."""
-        return self.make_map()
+        return self._made.map if isinstance(self._made, Certificate) else self._made
 
 
 Callback = Callable[[Progress], bool | None]
@@ -142,7 +153,7 @@ class Result:
     attempts: tuple[Attempt, ...] = ()
     """All ways to a minimum that were tried, when the first was not the only one."""
     proof: Certificate | None = field(default=None, repr=False)
-    """The certificate, where the method has made it itself."""
+    """What the solver proved of a harmonic map; always certified."""
 
     @property
     def energy(self) -> float:
@@ -193,10 +204,12 @@ class Result:
 
     @functools.cached_property
     def certificate(self) -> Certificate | None:
-        """The proof for a harmonic map, from its coefficients alone; computed on first use."""
-        if self.proof is not None or isinstance(self.map, MeshMap):
-            return self.proof
+        """The proof for a harmonic map, with tight bounds from its coefficients alone.
+
+        Computed on first use; where that fails, :attr:`proof` holds all the same.
+        """
         disc = self.discretisation
-        if disc is None:
-            return certify(self.map)
-        return certify(self.map, disc.certificate, disc.panels, refine=disc.can_refine)
+        if disc is None or isinstance(self.map, MeshMap):
+            return self.proof
+        tight = certify(self.map, disc.certificate, disc.panels, refine=disc.can_refine)
+        return tight if tight.certified else self.proof

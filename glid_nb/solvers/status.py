@@ -29,6 +29,12 @@ class Status(Enum):
         "certified map is returned.",
     )
 
+    UNPROVED = (
+        "unproved",
+        "No map that the solver reached could be proved locally injective; the certified map that "
+        "it was to start from is returned.",
+    )
+
     message: str
 
     def __new__(cls, value: str, message: str) -> Self:

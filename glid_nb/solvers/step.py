@@ -85,6 +85,8 @@ class State(NamedTuple):
     """Panels that refused the last preferred step and may allow it once they are split."""
     sigma2_lower: Float[Array, " p"]
     """Certified bound per panel at ``point``, once a step was taken."""
+    turning: Float[Array, " p"]
+    """The proved change of ``arg f_z`` along each panel there."""
     factor: Float[Array, "4u 4u"]
     """Cholesky factor of the last Hessian, in whitened coordinates."""
     corrects: Bool[Array, ""]
@@ -144,6 +146,7 @@ def iterations(
         ),
         refused=jnp.zeros_like(real),
         sigma2_lower=jnp.full(real.shape, jnp.nan),
+        turning=jnp.zeros(real.shape),
         factor=factor,
         corrects=jnp.array(False),
         gain=jnp.array(jnp.inf),
@@ -209,6 +212,7 @@ def _step(call: _Call, state: State) -> State:
         records=jax.tree.map(lambda column, new: column.at[i].set(new), state.records, record),
         refused=jnp.where(corrects, state.refused, refused),
         sigma2_lower=jnp.where(stepped, panel.sigma2_lower, state.sigma2_lower),
+        turning=jnp.where(stepped, panel.turning, state.turning),
         factor=factor,
         corrects=stepped & pays & (record.corrections < settings.corrections),
         gain=gain,

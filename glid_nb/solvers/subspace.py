@@ -9,22 +9,26 @@ import numpy as np
 
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
-from glid_nb.certificate import certify
-from glid_nb.geometry import Domain
+from glid_nb._jax import jit
+from glid_nb.certificate import Certificate, certify, proved_by
+from glid_nb.geometry import Domain, Panels
 from glid_nb.harmonic import HarmonicMap, as_complex
+from glid_nb.solvers import evaluation
 from glid_nb.solvers.discretisation import Discretisation, discretise
 from glid_nb.solvers.evaluation import Point
-from glid_nb.solvers.loop import Descent, Reached
+from glid_nb.solvers.loop import Descent, Ending, Reached
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.pose import Pose, rigid_motion
 from glid_nb.solvers.problem import (
     Problem,
+    anchor_of,
     handle_images,
     map_from,
     positional_energy,
     real_coefficients,
 )
 from glid_nb.solvers.result import Iteration, Result
+from glid_nb.solvers.status import Status
 from glid_nb.solvers.unknowns import canonical, unknowns_of
 
 
@@ -50,8 +54,8 @@ class SubspaceDescent(Descent):
     problem : Problem
     point : Point
         Where it is; known at the latest after the first advance.
-    sigma2_lower : array or None
-        (p,) certified bound per panel there.
+    proved : (Panels, array, array) or None
+        What the last step was proved by: panels, bounds on sigma_2 and turnings.
     just_split : int
         Panels split since the last iteration.
     """
@@ -59,12 +63,12 @@ class SubspaceDescent(Descent):
     uses_lapack = True
     discretisation: Discretisation
     point: Point
-    sigma2_lower: Array | None = None
+    proved: tuple[Panels, Array, Array] | None = None
 
     def __init__(self, method: Method, inputs: Inputs, reduced: bool) -> None:
         super().__init__(method, inputs)
         options, pose = inputs.options, inputs.pose
-        map_, self.discretisation = _starting_point(method, inputs)
+        map_, self.given, self.discretisation = _starting_point(method, inputs)
         basis = self.discretisation.basis
         self.problem = Problem(
             matrices=self.discretisation.matrices,
@@ -80,7 +84,9 @@ class SubspaceDescent(Descent):
         if options.align:
             images = handle_images(self.problem.positional, basis, map_)[: len(pose)]
             map_ = aligned(map_, pose, images)
+        self.start = map_
         self.coefficients: Any = real_coefficients(basis, map_)
+        self.problem = self.problem._replace(anchor=anchor_of(basis, self.coefficients))
         self.just_split = 0
 
     def reached(self) -> Reached:
@@ -88,7 +94,49 @@ class SubspaceDescent(Descent):
         point, domain = self.point, self.inputs.domain
         iso, p2p = float(point.energy_iso), float(point.energy_p2p)
         entry = Iteration(iteration=0, energy_iso=iso, energy_p2p=p2p, time=0.0)
-        return Reached(entry, lambda: map_from(domain, point.coefficients), self.sigma2_lower)
+        if self.proved is None:
+            return Reached(entry, lambda: self.start_proof)
+        proved, kind = self.proved, self.discretisation.certificate
+        return Reached(
+            entry,
+            lambda: proved_by(map_from(domain, point.coefficients), *proved, kind),
+            self.sigma2_lower,
+        )
+
+    @property
+    def sigma2_lower(self) -> Array | None:
+        """(p,) certified bound per panel, once a step was taken."""
+        return None if self.proved is None else self.proved[1]
+
+    def prove(self, sigma2_lower: Any, turning: Any) -> None:
+        """Note what a step was proved by, on the present panels."""
+        panels = self.discretisation.panels
+        bounds, turns = (np.asarray(a)[: len(panels)] for a in (sigma2_lower, turning))
+        self.proved = panels, bounds, turns
+
+    @functools.cached_property
+    def start_proof(self) -> Certificate:
+        """The proof of the start, made only where no step leads away from it.
+
+        Rounding may leave none after the alignment; then that of the map as it was given.
+        """
+        if self.given is not None and self.given.belongs_to(self.start):
+            return self.given
+        certificate = certify(self.start)
+        if not certificate.certified:
+            identity = HarmonicMap.identity(self.inputs.domain)
+            certificate = certify(identity) if self.given is None else self.given
+        if not certificate.certified:
+            raise StartError(f"the identity cannot be proved here: {certificate.reason}")
+        return certificate
+
+    def result(self, ending: Ending, compile_time: float, solve_time: float) -> Result:
+        """What a solve returns; the last proved map where the start itself cannot be proved."""
+        if self.proved is None and not self.start_proof.belongs_to(self.start):
+            ending = Ending(Status.UNPROVED)
+            y = real_coefficients(self.discretisation.basis, self.start_proof.map)
+            self.point = _evaluated(self.problem, y)
+        return super().result(ending, compile_time, solve_time)
 
     def split(self, refused: Array) -> int:
         """Split the panels that refused a step; 0 when none can be."""
@@ -101,27 +149,34 @@ class SubspaceDescent(Descent):
         return count
 
 
-def _starting_point(method: Method, inputs: Inputs) -> tuple[HarmonicMap, Discretisation]:
-    """The map to start from, checked, and panels for it."""
+_evaluated = jit(evaluation.evaluated)
+
+
+def _starting_point(
+    method: Method, inputs: Inputs
+) -> tuple[HarmonicMap, Certificate | None, Discretisation]:
+    """The map to start from, its proof (none for the identity), and panels for it."""
     domain, options, start = inputs.domain, inputs.options, inputs.start
     fresh = functools.partial(discretise, domain, options.sampling, options.certificate)
     map_ = method.harmonic_start(inputs)
     if map_ is None:
-        return HarmonicMap.identity(domain), fresh()
+        return HarmonicMap.identity(domain), None, fresh()
     if options.conformal and np.abs(map_.psi - map_.psi[0]).max() > 0:
         raise StartError(
             "the map to start from is not conformal (psi is not constant); start from a conformal "
             "map or turn the option conformal off"
         )
+    proof = start.proof if isinstance(start, Result) else None
+    if proof is None or not proof.belongs_to(map_):
+        proof = certify(map_)
+    if not proof.certified:
+        raise StartError(f"the map to start from is not certified: {proof.reason}")
     if isinstance(start, Result):
         disc, wanted = start.discretisation, (options.sampling, options.certificate)
         if disc is None or (disc.sampling, disc.certificate) != wanted:
             disc = fresh()
-        return canonical(map_), disc
-    certificate = certify(map_)
-    if not certificate.certified:
-        raise StartError(f"the map to start from is not certified: {certificate.reason}")
-    return canonical(HarmonicMap(domain, map_.phi, map_.psi)), fresh()
+        return canonical(map_), proof, disc
+    return canonical(HarmonicMap(domain, map_.phi, map_.psi)), proof, fresh()
 
 
 def aligned(map: HarmonicMap, pose: Pose, images: Array | None = None) -> HarmonicMap:

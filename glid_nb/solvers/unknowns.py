@@ -39,12 +39,11 @@ def unknowns_of(
     """
     n_holes = basis.n_hole_columns
     if whitening is None:
-        phi, psi = basis.phi_free, basis.psi_free.copy()
+        phi, psi = np.array(basis.phi_free), np.array(basis.psi_free)
     else:
-        phi = np.asarray(whitening).any(axis=(0, 1))
-        psi = phi & (np.arange(len(phi)) > 0)
-        psi[len(psi) - n_holes :] = False
-    phi = phi.copy()
+        phi = np.asarray(np.any(np.asarray(whitening), axis=(0, 1)))
+        psi = phi.copy()
+        psi[[0, *range(len(psi) - n_holes, len(psi))]] = False
     if conformal:
         psi[:] = False
         phi[len(phi) - n_holes :] = False

@@ -10,10 +10,10 @@ import ipywidgets
 import traitlets
 
 from glid_nb._arguments import check_count
+from glid_nb.certificate import certificate_of
 from glid_nb.geometry import Domain
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.document import certificate_of
 from glid_nb.session.edit_state import Moment
 from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.controls import button
@@ -194,7 +194,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     def _panels_of(self, moment: Moment) -> tuple[Any, ...]:
         """The boundary's panels; while the solver works at most `_PANELS_INTERVAL` old."""
         frame, now, domain = moment.frame, time.monotonic(), moment.state.domain
-        if frame is None or frame.panels is None or not len(frame.sigma2_lower):
+        if frame is None or frame.proof is None:
             proof = certificate_of(moment.map).panels
             self._panels = (None, proof, proof.sigma2_lower)
         elif (
@@ -203,7 +203,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             or now - self._panels_at > _PANELS_INTERVAL
         ):
             self._panels_at = now
-            self._panels = (domain, frame.panels, frame.sigma2_lower)
+            self._panels = (domain, frame.proof.panels, frame.proof.panels.sigma2_lower)
         return self._panels[1:]
 
     # From the page

@@ -8,15 +8,11 @@ from collections import deque
 from typing import TYPE_CHECKING, Any
 
 import ipywidgets
-import numpy as np
 
-from glid_nb.certificate import Certificate
-from glid_nb.certificate.certify import PanelCertificate
+from glid_nb.certificate import certificate_of
 from glid_nb.figures.style import BLUE, FAINT, GREEN, GREY, ORANGE, VERMILION
-from glid_nb.geometry.panels import Panels
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.document import certificate_of
-from glid_nb.session.edit_state import Frame, Moment
+from glid_nb.session.edit_state import Moment
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.closing import ClosingWidget
@@ -135,23 +131,14 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         history, starts = (latest.history, latest.starts) if latest is not None else ((), ())
         if moment.comparison is not None:
             proof, map_ = None, None
-        elif moment.busy and frame and frame.panels is not None and len(frame.sigma2_lower):
-            proof, map_ = _live_certificate(frame, frame.panels), None
+        elif moment.busy and frame and frame.proof is not None:
+            proof, map_ = frame.proof, None
         else:
             proof, map_ = certificate_of(moment.map), moment.map
         picture = self._plots.draw(history, proof, map_, starts, moment.busy)
         with self.image.hold_sync():  # format and value in one message
             self.image.format, self.image.value = "png", picture
         self._drawn = new
-
-
-def _live_certificate(frame: Frame, panels: Panels) -> Certificate:
-    """What the solver has proved of a frame, for the plots."""
-    bounds = dict.fromkeys(("sigma1_upper", "k_upper"), np.full(len(panels), np.nan))
-    proof = PanelCertificate(**vars(panels), sigma2_lower=frame.sigma2_lower, **bounds)
-    least = float(frame.sigma2_lower.min())
-    reason = "Certified step by step by the solver."
-    return Certificate(True, least, np.nan, np.nan, (), proof, "hermite", reason, frame.map)
 
 
 def _placeholder(width: int, height: int) -> bytes:

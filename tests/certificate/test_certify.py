@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import functools
 import re
+from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -11,8 +13,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from glid_nb.certificate import Certificate, certify
-from glid_nb.geometry import Cage, Domain, graded_panels, uniform_panels
+from glid_nb.certificate import Certificate, certify, global_injectivity, rounding
+from glid_nb.certificate.certify import CertificateError
+from glid_nb.geometry import (
+    Cage,
+    Domain,
+    GeometryError,
+    Panels,
+    graded_panels,
+    uniform_panels,
+)
 from glid_nb.harmonic import HarmonicMap
 
 from ..domains import dense_check, domain, random_map, reference
@@ -307,7 +317,7 @@ def test_a_nearly_collapsed_map_ends_quickly() -> None:
     """sigma_2 > 0 on all of the boundary, but below what double precision can prove."""
     d = domain("ring")
     identity = HarmonicMap.identity(d).phi
-    c = certify(HarmonicMap(d, identity / 2, identity / 2 * (1 - 1e-13)))
+    c = certify(HarmonicMap(d, identity / 2, identity / 2 * (1 - 1e-15)))
     assert not c.certified
     assert len(c.panels) < 10_000
 
@@ -324,3 +334,74 @@ def test_a_long_thin_domain_with_small_features() -> None:
     check = DenseCheck.on(d.cage.loops_complex, [z], np.empty(0), 20_000)
     truth = check.measure(phi, 0.01 * z)
     check_sound(certify(HarmonicMap(d, phi, 0.01 * z)), truth)
+
+
+def test_panels_must_tile_the_boundary_of_the_map() -> None:
+    map = HarmonicMap.identity(domain("twin"))
+    panels = graded_panels(map.domain)
+    assert certify(map, panels=panels).certified
+    n = len(panels)
+    shifted = panels.start + np.where(np.arange(n) == 5, 1e-9, 0)
+    corner = np.flatnonzero(panels.start == map.domain.cage.loops_complex[0][1])
+    nudged = panels.start.copy()
+    nudged[corner] = panels.middle[corner]
+    wrong = {
+        "of another cage": graded_panels(domain("ring")),
+        "of the exterior alone": Panels.along(map.domain.cage.loops_complex[:1]),
+        "in another order": Panels.along(map.domain.cage.loops_complex[::-1]),
+        "inside": uniform_panels(Cage(0.9 * map.domain.cage.exterior, map.domain.cage.holes)),
+        "backwards": replace(panels, start=panels.end, end=panels.start),
+        "with a gap": replace(panels, end=np.roll(panels.end, 1)),
+        "beside": replace(panels, start=shifted, end=shifted[panels.next]),
+        "skipping a corner": replace(panels, start=nudged, end=nudged[panels.next]),
+    }
+    for name, one in wrong.items():
+        print(name)  # told where this fails
+        with pytest.raises(GeometryError, match="do not tile the boundary"):
+            certify(map, panels=one)
+
+
+def test_the_ends_of_panels_are_beside_the_cage_by_no_more_than_is_allowed() -> None:
+    """In exact arithmetic, on edges of any slope, near the origin and far from it."""
+    rng = np.random.default_rng(0)
+    for shift in (0, 1e3, 1e6):
+        corners = shift + np.exp(2j * np.pi * (np.arange(7) + rng.uniform(0, 0.5, 7)) / 7)
+        panels = Panels.along([corners])
+        for _ in range(40):
+            chosen = np.isin(np.arange(len(panels)), rng.integers(0, len(panels), 6))
+            panels, _ = panels.split(chosen)
+        edge = np.cumsum(np.isin(panels.start, corners)) - 1
+        worst = 0.0
+        for p, a, b in zip(panels.start, corners[edge], np.roll(corners, -1)[edge], strict=True):
+            px, py, ax, ay, bx, by = (Fraction(v) for z in (p, a, b) for v in (z.real, z.imag))
+            cross = (px - ax) * (by - ay) - (py - ay) * (bx - ax)
+            worst = max(worst, abs(float(cross)) / abs(b - a))
+        assert worst <= rounding.BESIDE * np.abs(corners).max()
+
+
+def test_a_certificate_belongs_to_one_map() -> None:
+    map = random_map("ring", 0.05, 1)
+    certificate = certify(map)
+    again = HarmonicMap(map.domain, map.phi, map.psi)
+    assert certificate.belongs_to(map)
+    assert certificate.belongs_to(again)
+    other = HarmonicMap(map.domain, map.phi * (1 + 1e-15), map.psi)
+    assert not certificate.belongs_to(other)
+    elsewhere = Domain(map.domain.cage, map.domain.offset_cage, [[0.0, 0.0]])
+    assert not certificate.belongs_to(HarmonicMap(elsewhere, map.phi, map.psi))
+    psi = map.psi.copy()
+    psi[:8] += 3 * map.domain.offset_cage.loops_complex[0]
+    folded = HarmonicMap(map.domain, map.phi, psi)
+    with pytest.raises(CertificateError, match="belongs to another map"):
+        global_injectivity(folded, certificate)
+    assert global_injectivity(again, certificate).verdict == "yes"
+
+
+def test_what_rounding_hides_is_not_searched_for() -> None:
+    """With a huge logarithm f_z and f_zbar agree to the last digit, on whatever panels."""
+    map = HarmonicMap.identity(domain("twin"))
+    phi, psi = np.array(map.phi), np.array(map.psi)
+    phi[-1] = psi[-1] = 1e60
+    c = certify(HarmonicMap(map.domain, phi, psi))
+    assert not c.certified
+    assert len(c.panels) < 1000

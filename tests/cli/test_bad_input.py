@@ -338,4 +338,4 @@ def test_a_picture_size_that_is_none(
 ) -> None:
     problem.write_text(json.dumps({**problem_data, "image_size_px": [160, "wide"]}))
     outcome = run("solve", problem, "--out", tmp_path / "map.json")
-    assert_refused(outcome, problem, "image_size_px must be [width, height]")
+    assert_refused(outcome, problem, "image_size_px must be [width, height] in pixels")

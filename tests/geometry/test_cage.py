@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 
 import numpy as np
 import pytest
@@ -303,3 +304,13 @@ def test_a_million_points_are_answered() -> None:
     inside = cage.contains(points)
     box_area = (xmax - xmin) * (ymax - ymin)
     assert inside.mean() == pytest.approx(cage.area / box_area, abs=0.005)
+
+
+@pytest.mark.parametrize("kind", ["tangled", "in one place"])
+def test_thousands_of_faults_are_refused_at_the_first(kind: str) -> None:
+    points = np.random.default_rng(0).normal(size=(4000, 2))
+    points = points if kind == "tangled" else np.repeat(points[:4], 1000, axis=0)
+    began = time.process_time()
+    with pytest.raises(GeometryError, match=r"crosses itself|two points in one place"):
+        Cage(points)
+    assert time.process_time() - began < 2.0

@@ -13,6 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import HarmonicMap, MapError, as_complex
 
 from ..domains import NAMES, domain, random_map, real, reference
@@ -203,3 +204,39 @@ def test_a_point_that_is_not_finite_is_refused() -> None:
     identity = HarmonicMap.identity(domain("ell"))
     with pytest.raises(MapError, match="point 1 is"):
         identity([[0.0, 0.0], [np.nan, 1.0]])
+
+
+def test_logarithms_that_are_not_exactly_tied_are_tied_without_changing_the_map() -> None:
+    """Else a proof would be of other coefficients than the map's values are."""
+    exact = random_map("twin", 0.1, 1)
+    psi = exact.psi.copy()
+    psi[-2] += 4e-10 + 2e-10j
+    loose = HarmonicMap(exact.domain, exact.phi, psi)
+    np.testing.assert_array_equal(loose.phi[-2:], loose.psi[-2:].conj())
+    total = exact.phi[-2] + psi[-2].conj()
+    np.testing.assert_allclose(loose.phi[-2] + loose.psi[-2].conj(), total, rtol=1e-15)
+    for kept, before in ((loose.phi[:-2], exact.phi[:-2]), (loose.psi[-1:], exact.psi[-1:])):
+        assert kept.tobytes() == before.tobytes()
+    again = HarmonicMap(loose.domain, loose.phi, loose.psi)
+    assert (again.phi.tobytes(), again.psi.tobytes()) == (loose.phi.tobytes(), loose.psi.tobytes())
+
+
+def test_a_translation_changes_no_derivative() -> None:
+    map = random_map("ring", 0.1, 1)
+    points = graded_panels(map.domain).start
+    phi = map.phi.copy()
+    phi[:8] += 2.0**20
+    far = HarmonicMap(map.domain, phi, map.psi)
+    phi[:8] -= 2.0**20  # the same differences
+    near = HarmonicMap(map.domain, phi, map.psi)
+    for a, b in zip(far.wirtinger(points), near.wirtinger(points), strict=True):
+        np.testing.assert_allclose(a, b, rtol=0, atol=1e-14)
+
+
+def test_coefficients_that_squares_would_overflow_are_refused() -> None:
+    d = domain("ring")
+    phi = HarmonicMap.identity(d).phi.copy()
+    for value in (1e121, complex(0, -1e300), complex(1e308, 1e308), np.inf, np.nan):
+        phi[3] = value
+        with pytest.raises(MapError, match=r"phi\[3\] is .*; it must be finite and at most"):
+            HarmonicMap(d, phi, np.zeros_like(phi))

@@ -143,3 +143,10 @@ def test_a_bad_pose_is_refused_by_name(write: Write, data: Any, message: str) ->
     with pytest.raises(InputFileError, match=message) as caught:
         load_pose(path)
     assert str(caught.value).startswith(str(path))
+
+
+def test_a_file_of_too_many_values_is_refused_unparsed(tmp_path: Path) -> None:
+    path = tmp_path / "flood.json"
+    path.write_bytes(b'{"cage": [' + b"1," * 5_000_000 + b"1]}")
+    with pytest.raises(InputFileError, match=r"flood\.json is not a JSON file: it has over 4,000"):
+        Problem.load(path)

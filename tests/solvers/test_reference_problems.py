@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import glid_check
 from glid_nb.energies import energy_by_name
 from glid_nb.geometry import Domain
 from glid_nb.solvers import Options, Pose, Result, solve
@@ -47,6 +48,18 @@ def test_defaults_reach_the_reference_energy(reference_folder: Path, name: str, 
     # The quadratures differ: graded panels against 10^4 uniform samples.
     assert result.energy <= reference["E"] * (1 + 1e-3)
     assert result.certificate.certified
+
+
+@pytest.mark.parametrize("name", ["colorbar", "giraffe", "rex"])
+def test_an_independent_checker_verifies_the_proof(
+    reference_folder: Path, name: str, tmp_path: Path
+) -> None:
+    result, _ = solved(reference_folder, name, "iso,s=1.0", False)
+    paths = [tmp_path / "map.json", tmp_path / "proof.json"]
+    result.map.save(paths[0])
+    result.certificate.save(paths[1])
+    assert paths[1].stat().st_size < 300_000
+    assert glid_check.main([str(path) for path in paths]) == 0
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -26,6 +26,7 @@ from glid_nb.energies import (
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import (
+    Iteration,
     OptionError,
     Options,
     Pose,
@@ -34,6 +35,7 @@ from glid_nb.solvers import (
     Result,
     StartError,
     Status,
+    newton,
     solve,
 )
 
@@ -393,3 +395,17 @@ def test_another_problem_does_not_take_the_hessian_of_a_result() -> None:
         cold = solve(domain("ring"), pose, None, options, before.map)
         assert warm.energy == pytest.approx(cold.energy, rel=1e-8)
         assert [e.step for e in warm.history] == [e.step for e in cold.history]
+
+
+@pytest.mark.parametrize(
+    ("step", "gain", "ends"), [(1e-7, 0.1, True), (1, 0.1, False), (1e-7, 1e3, False)]
+)
+def test_steps_that_creep_to_a_fold_end_a_solve(step: float, gain: float, ends: bool) -> None:
+    """Each would be proved on twice as many panels as the one before."""
+    energies = 1e6 - gain * np.arange(5)
+    entries = [
+        Iteration(iteration=i, energy_iso=float(e), energy_p2p=0.0, time=0.0, step=step)
+        for i, e in enumerate(energies)
+    ]
+    assert newton._has_stalled(entries) is ends
+    assert not newton._has_stalled(entries[:4])

@@ -36,7 +36,7 @@ def progress(iteration: int, shift: float) -> Progress:
         initial=step(0),
         energy_iso=1.0,
         energy_p2p=0.0,
-        make_map=lambda: MeshMap(MESH, MESH.vertices + np.array([shift, 0])),
+        make=lambda: MeshMap(MESH, MESH.vertices + np.array([shift, 0])),
     )
 
 

@@ -11,11 +11,10 @@ from typing import Any
 
 import pytest
 
-from glid_nb.certificate import certify
+from glid_nb.certificate import certificate_of, certify
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.document import certificate_of
 from glid_nb.session.status_line import rounded_down
 from glid_nb.widgets import SolverMonitor
 from glid_nb.widgets.live_plots import LivePlots

@@ -21,7 +21,7 @@ from glid_nb.certificate import Certificate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods.bdhm.problem import BoundedProblem
 from glid_nb.methods.bdhm.program import MARGIN, ActiveSet, DistortionBounds, Step, solve_program
-from glid_nb.solvers import Iteration, Method, Result, Status
+from glid_nb.solvers import Iteration, Method, MethodError, Result, Status
 from glid_nb.solvers.loop import Ending, GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.method import Inputs
 
@@ -81,6 +81,8 @@ class BDHM(DistortionBounds, Method):
         now: Iterate | Ending = descent.started(identity if start is None else start)
         if not self.hold(now.certificate):
             now = descent.started(identity)
+        if not self.hold(now.certificate):
+            raise MethodError(f"the identity cannot be proved here: {now.certificate.reason}")
         while isinstance(now, Iterate):
             yield functools.partial(descent.reached, now)
             with single_blas_thread():
@@ -123,7 +125,7 @@ class _Descent:
             step=now.step,
             sigma2_lower=now.certificate.sigma2_lower,
         )
-        return Reached(entry, lambda: self.problem.map_of(now.v), proof=now.certificate)
+        return Reached(entry, lambda: now.certificate)
 
     def advance(self, now: Iterate) -> Iterate | Ending:
         """The next map, or why there is none."""

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from glid_nb._jax import AnyArray, jit, jnp
 from glid_nb._runtime import COMPILER_OPTIONS
+from glid_nb.certificate import PanelBounds
 from glid_nb.solvers import evaluation, line_search
 from glid_nb.solvers.evaluation import Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
@@ -30,8 +31,8 @@ class Move(NamedTuple):
     point: Point
     gradient: Float[Array, " 4c"]
     step: Float[AnyArray, ""]
-    sigma2_lower: Float[AnyArray, " p"]
-    """Certified bound per panel."""
+    bounds: PanelBounds
+    """The certificate there."""
     refused: Bool[AnyArray, " p"]
 
 
@@ -90,4 +91,4 @@ def advance(
     y = point.coefficients + end.step * line.direction
     after = evaluation.evaluated(problem, y)
     gradient = restrict_gradient(evaluation.gradient(problem, after), problem.unknowns)
-    return Move(end.outcome, after, gradient, end.step, end.panel.sigma2_lower, end.refused)
+    return Move(end.outcome, after, gradient, end.step, end.panel, end.refused)
