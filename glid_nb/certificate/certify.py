@@ -217,13 +217,18 @@ def certificate_of(map: HarmonicMap) -> Certificate:
 
 
 def proved_by(
-    map: HarmonicMap, panels: Panels, bounds: PanelBounds, kind: CertificateKind
+    map: HarmonicMap, panels: Panels, sigma2_lower: Array, turning: Array, kind: CertificateKind
 ) -> Certificate:
-    """The certificate of a map by bounds that a solver has, rounding included, on its panels."""
-    own: Any = (np.asarray(values)[: len(panels)] for values in bounds)
+    """The certificate of a map by what a solver has proved, rounding included, on its panels.
+
+    A solver bounds neither sigma_1 nor k, of which only ``k < 1`` follows.
+    """
+    known = np.ones(len(panels), dtype=bool)
+    unbounded = np.full(len(panels), np.inf)
+    own: Any = (sigma2_lower, unbounded, np.ones(len(panels)), known, turning)
     bounds = PanelBounds(*own)
-    turns = windings(np.asarray(bounds.turning), panels.loop, 1 + map.domain.n_holes)
-    certified = bool(np.all(bounds.injective)) and sum(turns) == 0
+    turns = windings(turning, panels.loop, 1 + map.domain.n_holes)
+    certified = bool((sigma2_lower > 0).all()) and sum(turns) == 0
     how = "Proved locally injective" if certified else "Undecided: not proved"
     reason = f"{how} by the solver on {len(panels)} panels."
     proof = _assembled(map, panels, bounds, kind, turns, certified, reason)

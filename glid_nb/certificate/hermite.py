@@ -66,14 +66,13 @@ class Hermite(NamedTuple):
         direction = p[0] / modulus(p[0]) + p[3] / modulus(p[3])
         direction = direction / modulus(direction)
         offset = _least([jnp.real(jnp.conj(direction) * point) for point in p])
-        sizes = functools.reduce(jnp.add, [modulus(point) for point in (*p, *q)])
         return PanelBounds(
             _least(sigma2),
             _greatest(sigma1),
             _greatest(k),
             offset > remainder[0],
             turning(fz.start, fz.end),
-        ).where(jnp.isfinite(sizes**2 + remainder[0] + remainder[1]))
+        )
 
 
 def _piece_bounds(
@@ -104,7 +103,11 @@ def _piece_bounds(
     # the bounds on these bound it by less than 1 where sigma_2 is proved positive.
     from_sigma = (sigma1 - sigma2) / (sigma1 + sigma2)
     k = jnp.where(sigma2 > 0, jnp.minimum(k, from_sigma), k)
-    return sigma2, sigma1, k * (1 + rounding.BERNSTEIN)
+    # Nothing is proved where anything overflows.
+    finite = jnp.isfinite(p_off + q_off + e_f + e_g)
+    sigma2 = jnp.where(finite, sigma2, -jnp.inf)
+    sigma1, k = (jnp.where(finite, a, jnp.inf) for a in (sigma1, k * (1 + rounding.BERNSTEIN)))
+    return sigma2, sigma1, k
 
 
 def _control_points(f: EndValues) -> Cubic:

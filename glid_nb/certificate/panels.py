@@ -46,16 +46,6 @@ class PanelBounds(NamedTuple):
         """Where ``|f_z| > |f_zbar|`` is proved and the turning is known (Conditions 4a, 5)."""
         return (self.sigma2_lower > 0) & self.turning_known
 
-    def where(self, finite: Bool[Array, " p"]) -> PanelBounds:
-        """These bounds, and none where something overflows."""
-        return PanelBounds(
-            jnp.where(finite, self.sigma2_lower, -jnp.inf),
-            jnp.where(finite, self.sigma1_upper, jnp.inf),
-            jnp.where(finite, self.k_upper, jnp.inf),
-            finite & self.turning_known,
-            jnp.where(finite, self.turning, 0),
-        )
-
 
 class PanelProof(Protocol):
     """A kind of proof; an instance holds the constants that depend on the panels only.

@@ -38,13 +38,14 @@ def segment_bounds(
     fz_min = mean_fz - variation_fz / 2
     fzb_max = mean_fzb + variation_fzb / 2
     sigma1 = mean_fz + variation_fz / 2 + fzb_max
+    finite = jnp.isfinite(sigma1**2)
     return PanelBounds(
-        fz_min - fzb_max,
-        sigma1,
+        jnp.where(finite, fz_min - fzb_max, -jnp.inf),
+        jnp.where(finite, sigma1, jnp.inf),
         jnp.where(fz_min > 0, fzb_max / fz_min, jnp.inf),
-        2 * mean_fz > variation_fz,
+        finite & (2 * mean_fz > variation_fz),
         turning(fz.start, fz.end),
-    ).where(jnp.isfinite(sigma1**2))
+    )
 
 
 class Lipschitz(NamedTuple):

@@ -54,12 +54,12 @@ class Line(NamedTuple):
 
 def evaluated(problem: Problem, y: Float[Array, " 4c"]) -> Point:
     """The point with the coefficients ``y``, its samples computed anew."""
-    return _point(problem, y, products(problem.matrices, local(problem, y)), reach(problem, y))
+    return _point(problem, y, products(problem.matrices, y - problem.anchor), reach(problem, y))
 
 
 def line_along(problem: Problem, direction: Float[Array, " 4c"], slope: Float[Array, ""]) -> Line:
     """The line in a direction, along which the energy changes by ``slope`` at first."""
-    return Line(direction, products(problem.matrices, local(problem, direction)), -slope)
+    return Line(direction, products(problem.matrices, direction), -slope)
 
 
 def moved(problem: Problem, point: Point, line: Line, step: Float[Array, ""]) -> Point:
@@ -124,12 +124,6 @@ def bounds(problem: Problem, point: Point) -> PanelBounds:
     return matrices.proof.bounds(fz, fzb_conj, remainder)
 
 
-def no_bounds(real: Bool[Array, " p"]) -> PanelBounds:
-    """Nothing proved."""
-    blank = jnp.zeros(real.shape)
-    return PanelBounds(blank, blank, blank, real, blank)
-
-
 def has_zeros(matrices: Matrices, panel: PanelBounds) -> Bool[Array, ""]:
     """Whether ``f_z`` has zeros inside (30)."""
     return fz_vanishes(jnp.where(matrices.real, panel.turning, 0))
@@ -141,27 +135,12 @@ def tightened_by_splitting(problem: Problem, point: Point) -> Bool[Array, " p"]:
     return jnp.max(truncation, axis=0) > problem.matrices.rounding * point.largest
 
 
-def local(problem: Problem, y: Float[Array, " 4c"]) -> Float[Array, " 4c"]:
-    """The coefficients relative to the mean of the exterior's ``phi``: a translated map.
-
-    No derivative knows of a translation, so it shall cost no accuracy.
-    """
-    c, (_, _, preceding, _) = y.shape[0] // 4, problem.singularities
-    exterior = (jnp.arange(c) <= preceding[0]) / (1.0 + preceding[0])
-    re, im = jnp.sum(y[:c] * exterior), jnp.sum(y[c : 2 * c] * exterior)
-    inside, none = exterior > 0, jnp.zeros(2 * c)
-    return y - jnp.concatenate([jnp.where(inside, re, 0), jnp.where(inside, im, 0), none])
-
-
 def reach(problem: Problem, y: Float[Array, " 4c"]) -> Float[Array, ""]:
-    """What rounding errors are relative to: the largest local coefficient, and of the largest
-    one itself the share that its own rounding has in them."""
-    most, farthest = (
-        jnp.maximum(*(modulus(part).max() for part in _complex_pair(a)))
-        for a in (local(problem, y), y)
-    )
-    n_columns = y.shape[0] // 4
-    return most + 8 * rounding.UNIT_ROUNDOFF / rounding.slack_factor(n_columns) * farthest
+    """What rounding errors are relative to: the largest coefficient beside the anchor, and of the
+    largest one itself the share that its own rounding has in them."""
+    share = 8 * rounding.UNIT_ROUNDOFF / rounding.slack_factor(y.shape[0] // 4)
+    near = jnp.maximum(*(modulus(part).max() for part in _complex_pair(y - problem.anchor)))
+    return near + share * (near + 2 * jnp.max(jnp.abs(problem.anchor)))
 
 
 def fz_turning(matrices: Matrices, nodes: Float[Array, "4 s"]) -> Float[Array, " p"]:

@@ -18,7 +18,6 @@ from glid_nb.solvers.evaluation import (
     has_zeros,
     isometric_energy,
     moved,
-    no_bounds,
 )
 from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.status import BLOCKED, NO_DECREASE, PENDING, REFUSED, RUNNING
@@ -149,11 +148,12 @@ def backtrack(
         outcome, index = jnp.where(ended, outcome, PENDING), jnp.where(ended, index, shorter)
         return outcome, index, there, panel, refused
 
+    blank = jnp.zeros(real.shape)
     start = (
         jnp.where(found.acceptable[found.best], PENDING, NO_DECREASE),
         found.best,
         point,
-        no_bounds(real),
+        PanelBounds(blank, blank, blank, real, blank),
         jnp.zeros_like(real),
     )
     outcome, index, there, panel, refused = lax.while_loop(

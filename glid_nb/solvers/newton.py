@@ -116,7 +116,7 @@ class NewtonDescent(SubspaceDescent):
         end, taken = int(state.outcome), int(state.iteration)
         panels = self.discretisation.panels
         if taken:
-            self.proved = panels, state.bounds
+            self.prove(state.sigma2_lower, state.turning)
         if not hasattr(self, "initial"):
             iso, p2p = float(state.start_iso), float(state.start_p2p)
             self.initial = Iteration(iteration=0, energy_iso=iso, energy_p2p=p2p, time=0.0)

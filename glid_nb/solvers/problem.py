@@ -32,6 +32,9 @@ class Problem(NamedTuple):
     unknowns: Unknowns
     positional: Positional
     energy: Energy
+    anchor: Float[AnyArray, " 4c"] | float = 0.0
+    """Coefficients of a constant map, relative to which derivatives are computed: a translation
+    then costs no accuracy."""
 
 
 class Positional(NamedTuple):
@@ -88,6 +91,15 @@ def real_coefficients(basis: Basis, map: HarmonicMap) -> NDArray[Any]:
     """Padded ``[Re phi, Im phi, Re psi, Im psi]`` of a map."""
     phi, psi = basis.pad(map.phi), basis.pad(map.psi)
     return np.concatenate([np.real(phi), np.imag(phi), np.real(psi), np.imag(psi)])
+
+
+def anchor_of(basis: Basis, coefficients: NDArray[Any]) -> NDArray[Any]:
+    """The translation by the mean of the exterior's ``phi``, as coefficients."""
+    c, first = basis.n_columns, basis.n_exterior
+    anchor = np.zeros_like(coefficients)
+    anchor[:first] = coefficients[:first].mean()
+    anchor[c : c + first] = coefficients[c : c + first].mean()
+    return anchor
 
 
 def map_from(domain: Domain, coefficients: Any) -> HarmonicMap:

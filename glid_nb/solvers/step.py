@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from glid_nb._jax import AnyArray, jax, jit, jnp, lax
 from glid_nb._runtime import COMPILER_OPTIONS
-from glid_nb.certificate import PanelBounds
 from glid_nb.solvers import cholesky, evaluation, line_search, whitening
 from glid_nb.solvers.evaluation import Line, Point
 from glid_nb.solvers.hessian import (
@@ -84,8 +83,10 @@ class State(NamedTuple):
     records: Record
     refused: Bool[Array, " p"]
     """Panels that refused the last preferred step and may allow it once they are split."""
-    bounds: PanelBounds
-    """The certificate at ``point``, once a step was taken."""
+    sigma2_lower: Float[Array, " p"]
+    """Certified bound per panel at ``point``, once a step was taken."""
+    turning: Float[Array, " p"]
+    """The proved change of ``arg f_z`` along each panel there."""
     factor: Float[Array, "4u 4u"]
     """Cholesky factor of the last Hessian, in whitened coordinates."""
     corrects: Bool[Array, ""]
@@ -144,7 +145,8 @@ def iterations(
             corrections=jnp.zeros(MOST_PER_CALL, int),
         ),
         refused=jnp.zeros_like(real),
-        bounds=evaluation.no_bounds(real),
+        sigma2_lower=jnp.full(real.shape, jnp.nan),
+        turning=jnp.zeros(real.shape),
         factor=factor,
         corrects=jnp.array(False),
         gain=jnp.array(jnp.inf),
@@ -209,7 +211,8 @@ def _step(call: _Call, state: State) -> State:
         decrement=jnp.where(corrects & ~ends, state.decrement, decrement),
         records=jax.tree.map(lambda column, new: column.at[i].set(new), state.records, record),
         refused=jnp.where(corrects, state.refused, refused),
-        bounds=_where(stepped, panel, state.bounds),
+        sigma2_lower=jnp.where(stepped, panel.sigma2_lower, state.sigma2_lower),
+        turning=jnp.where(stepped, panel.turning, state.turning),
         factor=factor,
         corrects=stepped & pays & (record.corrections < settings.corrections),
         gain=gain,

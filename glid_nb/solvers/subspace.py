@@ -10,7 +10,7 @@ import numpy as np
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
 from glid_nb._jax import jit
-from glid_nb.certificate import Certificate, PanelBounds, certify, proved_by
+from glid_nb.certificate import Certificate, certify, proved_by
 from glid_nb.geometry import Domain, Panels
 from glid_nb.harmonic import HarmonicMap, as_complex
 from glid_nb.solvers import evaluation
@@ -21,6 +21,7 @@ from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.pose import Pose, rigid_motion
 from glid_nb.solvers.problem import (
     Problem,
+    anchor_of,
     handle_images,
     map_from,
     positional_energy,
@@ -53,8 +54,8 @@ class SubspaceDescent(Descent):
     problem : Problem
     point : Point
         Where it is; known at the latest after the first advance.
-    proved : (Panels, PanelBounds) or None
-        What the last step was proved by: all that is known of the map here.
+    proved : (Panels, array, array) or None
+        What the last step was proved by: panels, bounds on sigma_2 and turnings.
     just_split : int
         Panels split since the last iteration.
     """
@@ -62,7 +63,7 @@ class SubspaceDescent(Descent):
     uses_lapack = True
     discretisation: Discretisation
     point: Point
-    proved: tuple[Panels, PanelBounds] | None = None
+    proved: tuple[Panels, Array, Array] | None = None
 
     def __init__(self, method: Method, inputs: Inputs, reduced: bool) -> None:
         super().__init__(method, inputs)
@@ -85,6 +86,7 @@ class SubspaceDescent(Descent):
             map_ = aligned(map_, pose, images)
         self.start = map_
         self.coefficients: Any = real_coefficients(basis, map_)
+        self.problem = self.problem._replace(anchor=anchor_of(basis, self.coefficients))
         self.just_split = 0
 
     def reached(self) -> Reached:
@@ -94,21 +96,23 @@ class SubspaceDescent(Descent):
         entry = Iteration(iteration=0, energy_iso=iso, energy_p2p=p2p, time=0.0)
         if self.proved is None:
             return Reached(entry, lambda: self.start_proof)
-        panels, bounds = self.proved
-        kind = self.discretisation.certificate
+        proved, kind = self.proved, self.discretisation.certificate
         return Reached(
             entry,
-            lambda: proved_by(map_from(domain, point.coefficients), panels, bounds, kind),
+            lambda: proved_by(map_from(domain, point.coefficients), *proved, kind),
             self.sigma2_lower,
         )
 
     @property
     def sigma2_lower(self) -> Array | None:
         """(p,) certified bound per panel, once a step was taken."""
-        if self.proved is None:
-            return None
-        panels, bounds = self.proved
-        return np.asarray(bounds.sigma2_lower)[: len(panels)]
+        return None if self.proved is None else self.proved[1]
+
+    def prove(self, sigma2_lower: Any, turning: Any) -> None:
+        """Note what a step was proved by, on the present panels."""
+        panels = self.discretisation.panels
+        bounds, turns = (np.asarray(a)[: len(panels)] for a in (sigma2_lower, turning))
+        self.proved = panels, bounds, turns
 
     @functools.cached_property
     def start_proof(self) -> Certificate:

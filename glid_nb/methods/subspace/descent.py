@@ -140,7 +140,7 @@ class DirectedDescent(SubspaceDescent):
             return Advance(end, refused=np.asarray(move.refused))
         self.point, self.gradient = move.point, np.asarray(move.gradient)
         self.coefficients, self.step, self._chosen = move.point.coefficients, float(move.step), None
-        self.proved = self.discretisation.panels, move.bounds
+        self.prove(move.bounds.sigma2_lower, move.bounds.turning)
         self.record(self.reached().entry)
         self.just_split, self._seconds = 0, 0.0
         return Advance(iterations=1)

@@ -1,0 +1,141 @@
+"""Every map that leaves as a result has passed the proof and carries it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from glid_nb import methods, solve_batch
+from glid_nb.certificate import certificate_of, certify
+from glid_nb.cli.solving import finish
+from glid_nb.energies import SymmetricDirichlet, energy_by_name
+from glid_nb.geometry import Cage, Domain
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.session.report import build_report
+from glid_nb.solvers import Options, Pose, Progress, Result, Status, solve
+from glid_nb.solvers.subspace import StartError
+
+from ..domains import domain
+
+pytestmark = pytest.mark.slow  # most of the time is compiling
+
+POSE = Pose([(2.2, 0.5), (-2.2, 0.5), (0.96, -2.2)], [(2.9, 1.5), (-2.2, 0.9), (0.9, -2.6)])
+
+
+def check_carries(made: Result | Progress) -> None:
+    """It carries the proof of its very map, and anyone who computes anew finds it certified."""
+    proof = made.proof if isinstance(made, Result) else made.certificate
+    assert proof is not None
+    assert proof.certified
+    assert proof.belongs_to(made.map)
+    assert proof.winding == 0
+    anew = certify(made.map)
+    assert anew.certified
+    assert proof.sigma2_lower <= anew.panels.sigma2_lower.min() * 1.03
+    assert certificate_of(made.map).certified
+    assert made.certificate.certified
+
+
+@pytest.mark.parametrize("method", ["newton", "lbfgs", "newton-staged", "newton-paper"])
+def test_every_map_of_a_solve_carries_its_proof(method: str) -> None:
+    seen: list[Progress] = []
+    options = Options(iterations_per_call=1, max_iterations=2, restarts=0)
+
+    def keep(progress: Progress) -> None:
+        check_carries(progress)
+        seen.append(progress)
+
+    ring = domain("ring")
+    result = solve(ring, POSE, None, options, None, keep, method=methods.by_name(method))
+    check_carries(result)
+    assert len({len(progress.history) for progress in seen}) >= 2
+
+
+def test_the_proof_of_a_step_is_what_the_compiled_call_has_proved() -> None:
+    """Bounds, panels and windings, not made again."""
+    result = solve(domain("ring"), POSE, options=Options(restarts=0))
+    assert result.proof.reason.startswith("Proved locally injective by the solver on")
+    assert len(result.proof.panels) <= (result.n_panels or 0)
+    assert result.proof.sigma2_lower == result.history[-1].sigma2_lower
+    assert result.proof.windings == (0, 0)
+
+
+def test_a_batch_carries_proofs() -> None:
+    targets = np.stack([POSE.targets, POSE.handles])
+    for result in solve_batch(domain("ring"), POSE.handles, targets):
+        check_carries(result)
+
+
+def test_no_step_at_all_is_proved_too() -> None:
+    ring = domain("ring")
+    for limit, start in ((0, None), (0, HarmonicMap.identity(ring))):
+        result = solve(ring, POSE, options=Options(max_iterations=limit), start=start)
+        assert result.iterations == 0
+        check_carries(result)
+
+
+def test_a_result_whose_map_was_replaced_is_proved_again() -> None:
+    ring = domain("ring")
+    result = solve(ring, POSE, options=Options(restarts=0))
+    folded = HarmonicMap(ring, result.map.psi.conj(), result.map.phi.conj())
+    for limit in (0, None):
+        with pytest.raises(StartError, match="not certified"):
+            solve(
+                ring, POSE, start=replace(result, map=folded), options=Options(max_iterations=limit)
+            )
+    other = HarmonicMap.identity(ring)
+    again = solve(ring, POSE, start=replace(result, map=other), options=Options(max_iterations=0))
+    check_carries(again)
+    assert certify(again.map).sigma2_lower > 0.999
+
+
+def _sliver() -> tuple[Domain, Pose]:
+    """A notch of 10^-8 in a bar, to be moved by 10^6."""
+    outline = [[-10, -1], [-9, -1], [-8.99999999, -1.000000003], [10, -1], [10, 1], [-10, 1]]
+    pose = Pose([(-9, 0), (9, 0.3)], [(-9e5, 0), (-899982, 0.3)])
+    return Domain.from_cage(Cage(outline)), pose
+
+
+def test_a_bar_with_a_tiny_notch_far_away() -> None:
+    bar, pose = _sliver()
+    for limit in (0, None):
+        result = solve(bar, pose, options=Options(max_iterations=limit))
+        check_carries(result)
+        assert np.isfinite(result.energy)
+    assert result.status.ok
+    assert result.energy == pytest.approx(2, abs=1e-6)
+
+
+@pytest.mark.parametrize("gap", [1e-6, 1e-12])
+def test_a_nearly_folded_start_never_converges_at_infinity(gap: float) -> None:
+    """After the alignment far away rounding may have folded it: then it is returned as given."""
+    bar, pose = _sliver()
+    identity = HarmonicMap.identity(bar).phi
+    start = HarmonicMap(bar, identity / 2, identity / 2 * (1 - gap))
+    assert certify(start).certified
+    for energy in (SymmetricDirichlet(), energy_by_name("exp", 1.0)):
+        options = Options(restarts=0, max_iterations=5)
+        result = solve(bar, pose, energy, options, start)
+        assert result.proof.certified
+        assert result.certificate.certified
+        assert result.proof.belongs_to(result.map)
+        assert np.isfinite(result.energy) or not result.status.ok
+        if result.status is Status.UNPROVED:
+            np.testing.assert_array_equal(result.map.phi, start.phi)
+            assert "is returned" in result.message
+
+
+def test_the_shell_does_not_succeed_where_nothing_was_proved(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    result = solve(domain("ring"), POSE, options=Options(restarts=0))
+    report = build_report(result)
+    finish(result, report, {}, json=True)
+    unproved = replace(result, status=Status.UNPROVED)
+    with pytest.raises(ValueError, match="could be proved"):
+        finish(unproved, report, {}, json=True)
+    with pytest.raises(ValueError, match="The solver converged"):
+        finish(result, {**report, "certified": False, "proof": "Undecided"}, {}, json=True)
+    assert '"certified": true' in capsys.readouterr().out
