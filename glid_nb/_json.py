@@ -115,11 +115,12 @@ def check_positive(value: Any, key: str) -> None:
         raise InputFileError(f'"{key}" must be a positive number, not {_shown(value)}')
 
 
-def check_size(value: Any, key: str) -> None:
-    """The pixels of a picture, ``[width, height]``: whole numbers above 0."""
+def picture_size(value: Any, key: str) -> tuple[int, int]:
+    """The pixels of a picture, ``[width, height]``: whole numbers above 0, ``640.0`` too."""
     pair = isinstance(value, list) and len(value) == 2
-    if not pair or not all(type(n) is int and n > 0 for n in value):
+    if not pair or not all(_is_number(n) and n > 0 and n % 1 == 0 for n in value):
         raise InputFileError(f"{key} must be [width, height] in pixels, not {_shown(value)}")
+    return int(value[0]), int(value[1])
 
 
 def check_points(value: Any, key: str) -> None:

@@ -39,7 +39,7 @@ pytestmark = pytest.mark.slow
 SOURCE = Path(glid_check.__file__)
 COUNT = 20_000  # dense points
 # Claims are this close to what dense evaluation finds, so that one 1 % tighter is false.
-SLACK = 5e-3
+SLACK = 8e-3
 BOUNDS = ("sigma2_lower", "sigma1_upper", "k_upper")
 LISTS = ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "phi", "psi")
 
@@ -217,7 +217,7 @@ def numbers(*keys: str) -> list[Place]:
 
 
 @given(data=st.data(), bit=st.integers(0, 63))
-@settings(max_examples=60)
+@settings(max_examples=80)
 def test_a_proof_of_a_map_that_differs_in_one_bit_is_refused(data: st.DataObject, bit: int) -> None:
     files, place = mutable(), data.draw(st.sampled_from(numbers(*LISTS)))
     changed = flipped(files.get(place), bit)
@@ -228,7 +228,7 @@ def test_a_proof_of_a_map_that_differs_in_one_bit_is_refused(data: st.DataObject
 
 
 @given(data=st.data(), bit=st.integers(0, 63))
-@settings(max_examples=150)
+@settings(max_examples=120)
 def test_a_changed_coefficient_is_verified_only_if_the_claims_still_hold(
     data: st.DataObject, bit: int
 ) -> None:
@@ -249,7 +249,7 @@ def test_a_changed_coefficient_is_verified_only_if_the_claims_still_hold(
     panel=st.integers(0, 3),
     kind=st.sampled_from(["dropped", "twice", "moved", "longer", "shorter", "swapped", "no edge"]),
 )
-@settings(max_examples=80)
+@settings(max_examples=120)
 def test_panels_that_do_not_tile_the_boundary_are_refused(edge: int, panel: int, kind: str) -> None:
     files = mutable()
     own = files.proof["panels"][edge]
@@ -308,7 +308,7 @@ def test_other_windings_are_refused(turns: list[int]) -> None:
     radius=st.floats(-3, 1).map(lambda e: 10.0**e),
     angle=st.floats(0, 6.3),
 )
-@settings(max_examples=100)
+@settings(max_examples=90)
 def test_a_moved_vertex_is_verified_only_if_the_claims_hold_there(
     data: st.DataObject, radius: float, angle: float
 ) -> None:

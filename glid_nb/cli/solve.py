@@ -13,7 +13,7 @@ from pathlib import Path
 
 import glid_nb
 from glid_nb._errors import about
-from glid_nb._json import check_size, json_text, read_object
+from glid_nb._json import json_text, picture_size, read_object
 from glid_nb.certificate.proof import proof_text
 from glid_nb.cli.flags import add_solver_flags, energy_of, options_of
 from glid_nb.cli.output import check_files
@@ -40,7 +40,7 @@ def run(chosen: argparse.Namespace) -> None:
         problem = glid_nb.Problem.from_dict(data)
         size = data.get("image_size_px")
         if size is not None:
-            check_size(size, "image_size_px")
+            size = picture_size(size, "image_size_px")
     energy, options = energy_of(chosen), options_of(chosen)
     start = glid_nb.HarmonicMap.load(chosen.start) if chosen.start else None
     with about(chosen.start or chosen.problem):

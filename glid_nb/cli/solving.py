@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -46,7 +46,7 @@ def run_solver(
         return result, glid_nb.build_report(result)
 
 
-def map_text(map: glid_nb.HarmonicMap, image_size: list[int] | None) -> str:
+def map_text(map: glid_nb.HarmonicMap, image_size: Sequence[int] | None) -> str:
     """The content of map.json, with the pixels of the picture for `glid-nb render` if known."""
     size = {} if image_size is None else {"image_size_px": image_size}
     return json_text({**map.to_dict(), **size})

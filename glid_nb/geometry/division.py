@@ -11,8 +11,9 @@ import numpy as np
 from glid_nb._arrays import Array
 from glid_nb.geometry.cage import Cage
 
-# Edges of more widths are divided; traced cages have none.
-_LONG = 3.0
+# Edges are divided that are longer than so many widths, and than this share of the cage's longer
+# side or than so many times the greatest width. Traced cages follow their limbs with shorter ones.
+_LONG, _LONG_SHARE, _VERY_LONG = 3.0, 0.3, 10.0
 # The pieces' length in widths, and their least length as a share of the cage's longer side.
 _PIECE, _LEAST_PIECE = 0.5, 0.02
 # At so many points of an edge the width is taken.
@@ -33,7 +34,8 @@ def divided(offset_cage: Cage, cage: Cage) -> Cage:
     shares = [np.zeros(1)] * len(start)
     for i in np.flatnonzero(length > 2 * least):
         widths = _widths(start[i], end[i], start, end)
-        if length[i] * np.mean(1 / widths) <= _LONG:
+        long = length[i] > max(_LONG * np.median(widths), _LONG_SHARE * cage.longer_side)
+        if not (long or length[i] > _VERY_LONG * widths.max()):
             continue
         wanted = np.cumsum(1 / np.maximum(_PIECE * widths, least)) * length[i] / _SAMPLES
         pieces = np.arange(np.ceil(wanted[-1])) * (wanted[-1] / np.ceil(wanted[-1]))

@@ -119,9 +119,8 @@ def _checked_version(data: Any) -> int:
 
 
 def _checked_size(value: Any) -> tuple[int, int]:
-    _json.check_size(value, "image_size_px")
-    width, height = value
-    if max(value) > MAX_SIDE:
+    width, height = _json.picture_size(value, "image_size_px")
+    if max(width, height) > MAX_SIDE:
         raise DocumentError(f"image_size_px is {width} x {height}; {MAX_SIDE} is the most")
     return width, height
 

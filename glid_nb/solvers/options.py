@@ -54,7 +54,8 @@ class Options:
         neither distortion nor certificate and often saves half of the iterations.
     restarts : int
         How many other ways to a minimum (see :mod:`glid_nb.solvers.restarts`) a solve from the
-        identity may try when its first one ends blocked or at a high energy; 0 tries none.
+        identity may try when its first one does not converge or ends at a high energy; 0 tries
+        none. The result's ``attempts`` tell what each of them reached.
     max_iterations : int, optional
         Most iterations of one attempt, at least 0; by default the method's own, 200 for Newton's.
     tolerance : float
@@ -101,7 +102,7 @@ class Options:
     )
     conformal: bool = _option(False, "Conformal maps only", "No shear anywhere")
     align: bool = _option(True, "Align", "Begin at the best rigid motion to the targets")
-    restarts: int = _option(3, "Restarts", "Other ways to try after a high energy")
+    restarts: int = _option(8, "Restarts", "Other ways to try after a high energy")
     max_iterations: int | None = _option(
         None, "Iterations", "Most iterations of one attempt; Newton's method makes 200"
     )

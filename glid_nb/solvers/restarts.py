@@ -1,16 +1,18 @@
 """Other ways to a minimum, for poses on which the first one ends badly.
 
 The energy has many local minima, and with the usual weight ``lambda = 1e5`` the first Newton steps
-rush the handles to their targets, whatever that does to the shape. Two remedies are tried: to
-raise ``lambda`` in stages, which lets the shape turn before it bends, and to start at the identity
-itself instead of at the rigidly aligned one. On hard poses of the reference shapes one of them
-often ends at a fraction of the first energy; on ordinary poses they find the same minimum, which
-is why they are not tried there. An energy that is no barrier (ARAP) can run against the limit of
-local injectivity far from its targets; it then starts at the symmetric Dirichlet minimum.
+rush the handles to their targets, whatever that does to the shape. Three remedies are tried: to let
+the targets turn into place in stages, either way round (:mod:`glid_nb.solvers.turning`); to raise
+``lambda`` in stages, which lets the shape turn before it bends; and to start at the identity itself
+instead of at the rigidly aligned one. No single one is best on all hard poses, so all are tried and
+the best is kept; on ordinary poses they find the same minimum, which is why they are not tried
+there. An energy that is no barrier (ARAP) can run against the limit of local injectivity far from
+its targets; it then starts at the symmetric Dirichlet minimum.
 """
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -21,18 +23,23 @@ from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.result import Attempt, Result
 from glid_nb.solvers.status import Status
+from glid_nb.solvers.turning import Turning, turning_of
 
 Descend = Callable[[Inputs], Result]
 """Follows one way down."""
 
-# Energies above this multiple of an isometry's, if that is at least the second number, are worth
-# another attempt.
-HIGH_ENERGY, LEAST_ISOMETRY = 2.0, 0.5
-AGREEMENT = 1e-3
+# Energies above this multiple of an isometry's, if that is at least the last number, are worth all
+# other ways; those above the second are worth turning where several joints may turn either way.
+HIGH_ENERGY, HIGH_ENERGY_OF_JOINTS, LEAST_ISOMETRY = 2.0, 1.5, 0.5
 SAME_ENERGY = 1e-6
 # The stages' fractions of lambda, and how far each is followed.
 STAGES = (1e-5, 1e-3, 1e-1)
 STAGE_ITERATIONS, STAGE_TOLERANCE = 8, 1e-3
+TURNING_ITERATIONS = 4
+# A stage that distorts the shape by more than so many times the first way's energy is the last.
+HOPELESS = 1.5
+# Fewer most iterations than these ask for a look at them, not for the minimum.
+FEW_ITERATIONS = 20
 
 
 def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
@@ -40,32 +47,21 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
 
     ``inputs`` are those of ``first``.
     """
-    from_identity = _with(inputs, align=False)
-    ways = [
-        ("staged weights", lambda: _staged(inputs, descend)),
-        ("staged weights from the identity", lambda: _staged(from_identity, descend)),
-        ("from the identity", lambda: descend(from_identity)),
-    ]
-    if not inputs.options.align:
-        del ways[1:]
-    if not inputs.energy.is_barrier:
-        barrier = lambda: _from_barrier(first, inputs, descend)  # noqa: E731
-        ways.insert(0, ("from the symmetric Dirichlet minimum", barrier))
+    if not (inputs.options.restarts and len(inputs.pose)):
+        return first
+    turning = turning_of(inputs.pose)
+    ways = _ways(first, inputs, descend, turning)[: inputs.options.restarts]
     best, tried = first, [("direct", first)]
-    for name, way in ways[: inputs.options.restarts]:
-        if not _is_poor(best):
-            break
+    for name, way, joints in ways:
+        if not _is_poor(best, joints):
+            continue
         result = way()
         tried.append((name, result))
         if result.status is Status.STOPPED:
             best = replace(min(best, result, key=lambda r: r.energy), status=Status.STOPPED)
             break
-        # Two ways that agree are taken for the answer.
-        agree = best.status.ok and abs(best.energy - result.energy) <= AGREEMENT * best.energy
         if result.energy < best.energy * (1 - SAME_ENERGY):
             best = result
-        if agree:
-            break
     if len(tried) == 1:
         return first
     attempts = tuple(Attempt(name, r.status, r.energy, r.iterations) for name, r in tried)
@@ -74,11 +70,34 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
     )
 
 
-def _is_poor(result: Result) -> bool:
-    if result.status in (Status.STOPPED, Status.MAX_ITERATIONS, Status.INDEFINITE):
+def _ways(
+    first: Result, inputs: Inputs, descend: Descend, turning: Turning
+) -> list[tuple[str, Callable[[], Result], int]]:
+    """All other ways by name, those first that help most, and the joints that they turn."""
+    ways: list[tuple[str, Callable[[], Result], int]] = []
+    if not inputs.energy.is_barrier:
+        barrier = functools.partial(_from_barrier, first, inputs, descend)
+        ways.append(("from the symmetric Dirichlet minimum", barrier, 0))
+    for name, way in turning.ways.items():
+        turned = functools.partial(_turned, first, inputs, descend, turning, way)
+        ways.append((name, turned, len(turning.joints)))
+    if inputs.options.align:
+        still = _with(inputs, align=False)
+        staged = functools.partial(_staged, still, descend)
+        ways.append(("staged weights from the identity", staged, 0))
+        ways.append(("from the identity", functools.partial(descend, still), 0))
+    return [*ways, ("staged weights", functools.partial(_staged, inputs, descend), 0)]
+
+
+def _is_poor(result: Result, joints: int) -> bool:
+    """Whether a way that turns so many joints may well end lower."""
+    if result.status in (Status.STOPPED, Status.INDEFINITE):
+        return False
+    if result.status is Status.MAX_ITERATIONS and result.iterations < FEW_ITERATIONS:
         return False
     isometry = max(isometry_energy(result.energy_measure), LEAST_ISOMETRY)
-    return result.status is Status.BLOCKED or result.energy > HIGH_ENERGY * isometry
+    high = HIGH_ENERGY_OF_JOINTS if joints > 1 else HIGH_ENERGY
+    return not result.status.ok or result.energy > high * isometry
 
 
 @double_precision
@@ -105,6 +124,28 @@ def _staged(inputs: Inputs, descend: Descend) -> Result:
             return _joined(done)
     done.append(descend(replace(_with(inputs, align=False), start=done[-1])))
     return _joined(done)
+
+
+def _turned(
+    first: Result, inputs: Inputs, descend: Descend, turning: Turning, way: tuple[int, ...]
+) -> Result:
+    """Descend along the stages of a way to turn; their own history is left out."""
+    options, done = inputs.options, list[Result]()
+    most = TURNING_ITERATIONS if options.max_iterations is None else options.max_iterations
+    loose = _with(
+        inputs,
+        max_iterations=min(TURNING_ITERATIONS, most),
+        tolerance=STAGE_TOLERANCE,
+        align=False,
+    )
+    for pose in turning.stages(way):
+        done.append(descend(replace(loose, pose=pose, start=done[-1] if done else None)))
+        if done[-1].status is Status.STOPPED:
+            return replace(first, status=Status.STOPPED)
+        if done[-1].energy_iso > HOPELESS * first.energy:
+            return replace(done[-1], **_times(done))
+    done.append(descend(replace(_with(inputs, align=False), start=done[-1])))
+    return replace(done[-1], **_times(done))
 
 
 def _from_barrier(first: Result, inputs: Inputs, descend: Descend) -> Result:

@@ -86,7 +86,7 @@ def test_trace_takes_scribbles(run, picture: Path, tmp_path: Path) -> None:
 def test_solve_writes_a_map_and_a_report(
     run, problem: Path, problem_data: dict[str, Any], tmp_path: Path
 ) -> None:
-    problem.write_text(json.dumps({**problem_data, "image_size_px": [160, 120]}))
+    problem.write_text(json.dumps({**problem_data, "image_size_px": [160.0, 120]}))
     out, proof, report_path = (tmp_path / f"{name}.json" for name in ("map", "proof", "report"))
     outcome = run("solve", problem, "--out", out, "--proof", proof, "--report", report_path)
     assert outcome.code == 0

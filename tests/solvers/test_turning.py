@@ -1,0 +1,74 @@
+"""Paths of targets along which the parts of a shape turn rigidly, either way round."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from glid_nb.solvers import Pose
+from glid_nb.solvers.turning import turning_of
+
+BAR = np.array([[-9, -0.5], [-9, 0.5], [0, -0.5], [0, 0.5], [9, -0.5], [9, 0.5]])
+
+
+def turned(points: np.ndarray, degrees: float, centre: complex = 0) -> np.ndarray:
+    z = (points @ np.array([1, 1j]) - centre) * np.exp(1j * np.deg2rad(degrees)) + centre
+    return np.stack([z.real, z.imag], axis=1)
+
+
+@given(degrees=st.floats(-179, 179), x=st.floats(-20, 20))
+def test_a_rigid_motion_has_no_joints_and_stays_rigid(degrees: float, x: float) -> None:
+    turning = turning_of(Pose(BAR, turned(BAR, degrees) + np.array([x, 0])))
+    assert turning.joints == []
+    assert list(turning.ways) == ["staged targets"]
+    distances = [np.linalg.norm(BAR - BAR[i], axis=1) for i in range(len(BAR))]
+    for stage in turning.stages((1,)):
+        for i, expected in enumerate(distances):
+            there = np.linalg.norm(stage.targets - stage.targets[i], axis=1)
+            np.testing.assert_allclose(there, expected, atol=1e-9)
+
+
+def test_an_end_turns_rigidly_in_either_direction() -> None:
+    targets = BAR.copy()
+    targets[4:] = turned(BAR[4:], 150, 9)
+    turning = turning_of(Pose(BAR, targets))
+    assert len(turning.joints) == 1
+    assert list(turning.ways) == ["staged targets, left", "staged targets, right"]
+    for way, whole in (((1,), 150), ((-1,), -210)):
+        stages = turning.stages(way)
+        z = np.array([s.targets @ np.array([1, 1j]) for s in stages])
+        end = (z[:, 5] - z[:, 4]) / 1j
+        np.testing.assert_allclose(np.abs(end), 1, atol=1e-9)
+        even = whole * np.arange(1, len(stages) + 1) / (len(stages) + 1)
+        np.testing.assert_allclose(end, np.exp(1j * np.deg2rad(even)), atol=1e-9)
+        np.testing.assert_allclose(z[:, :4], np.tile(BAR[:4] @ np.array([1, 1j]), (len(z), 1)))
+
+
+@given(seed=st.integers(0, 10**6), count=st.integers(1, 9))
+def test_stages_lead_evenly_to_the_targets(seed: int, count: int) -> None:
+    rng = np.random.default_rng(seed)
+    pose = Pose(rng.normal(size=(count, 2)), rng.normal(size=(count, 2)))
+    turning = turning_of(pose)
+    for way in turning.ways.values():
+        stages = turning.stages(way)
+        line = np.array([pose.handles, *(s.targets for s in stages), pose.targets])
+        assert np.isfinite(line).all()
+        # No stage turns any line by more than 40 degrees.
+        for i, j in zip(turning.order[1:], turning.parents[1:], strict=True):
+            z = (line[:, i] - line[:, j]) @ np.array([1, 1j])
+            assert np.abs(np.angle(z[1:] / z[:-1])).max() < np.deg2rad(40.1)
+
+
+def test_targets_that_coincide_are_no_division_by_zero() -> None:
+    turning = turning_of(Pose([[0, 0], [1, 0], [2, 0]], [[0, 0], [0, 0], [0, 0]]))
+    assert all(np.isfinite(s.targets).all() for s in turning.stages((1,)))
+
+
+@pytest.mark.parametrize("count", [2, 3])
+def test_several_joints_turn_alike_or_in_turn(count: int) -> None:
+    targets = BAR.copy()
+    for k in range(count):
+        targets[2 * k : 2 * k + 2] = targets[2 * k : 2 * k + 2][::-1]
+    assert len(turning_of(Pose(BAR, targets)).ways) == 4
