@@ -68,7 +68,7 @@ class HarmonicMap:
                     f"{name} has shape {values.shape}, but the domain has {n} coefficients "
                     f"(offset-cage vertices and holes); pass an array of shape ({n},)"
                 )
-            largest = np.maximum(np.abs(values.real), np.abs(values.imag))
+            largest = np.maximum(np.abs(np.real(values)), np.abs(np.imag(values)))
             bad = np.flatnonzero(~(largest <= _LARGEST))
             if bad.size:
                 wanted = f"it must be finite and at most {_LARGEST:g}"

@@ -76,7 +76,7 @@ class Turning:
         for k, (i, j) in enumerate(zip(self.order[1:], self.parents[1:], strict=True), start=1):
             turned = np.exp(1j * time * angles[i]) * self.stretches[k] ** time
             at[i] = at[j] + turned * (z[i] - z[j])
-        return self.pose.with_targets(np.stack([at.real, at.imag], axis=1))
+        return self.pose.with_targets(np.stack([np.real(at), np.imag(at)], axis=1))
 
 
 def turning_of(pose: Pose) -> Turning:
