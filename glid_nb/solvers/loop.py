@@ -149,7 +149,7 @@ class Descent:
         now = self.reached()
         made = now.make()
         harmonic = isinstance(made, Certificate)
-        if ending.status.ok and not math.isfinite(now.entry.energy):
+        if harmonic and ending.status.ok and not math.isfinite(now.entry.energy):
             ending = Ending(Status.BLOCKED)
         return Result(
             map=made.map if harmonic else made,
