@@ -45,8 +45,8 @@ bench: $(VENV)/.studies
 	$(VENV)/bin/python -m studies bench $(ARGUMENTS)
 
 docs: $(VENV)/.docs
-	rm -rf site
-	$(VENV)/bin/sphinx-build -q -b html -W --keep-going -c docs . site
+	rm -rf site build/doctrees
+	$(VENV)/bin/sphinx-build -q -b html -W --keep-going -c docs -d build/doctrees . site
 	tools/chromium.sh
 	$(VENV)/bin/python tools/check_site.py site
 

@@ -1,4 +1,4 @@
-"""How Sphinx builds the site: `make docs`, or `sphinx-build -b html -c docs . site`.
+"""How Sphinx builds the site; `make docs` calls it.
 
 The source folder is the repository's root, so that the links from pages to code, notebooks and
 ARCHITECTURE.md are the same here as on the page of the repository.
@@ -28,6 +28,7 @@ extensions = [
     "course",
     "front_page",
     "mathml",
+    "reference",
     "source_pages",
 ]
 
@@ -48,8 +49,6 @@ exclude_patterns = [
 ]
 default_role = "py:obj"
 pygments_style = "tango"
-# A page that is out of date says nothing wrong twice: everything else is an error by -W.
-suppress_warnings = ["mystnb.unknown_mime_type"]
 
 html_math_renderer = "mathml"
 # Notebooks show what they were saved with.
@@ -68,7 +67,8 @@ autodoc_typehints = "none"
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 python_use_unqualified_type_names = True
-python_maximum_signature_line_length = 72
+python_maximum_signature_line_length = 110
+toc_object_entries = False
 add_module_names = False
 
 copybutton_prompt_text = r">>> |\.\.\. |\$ "
