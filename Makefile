@@ -13,6 +13,9 @@ PYTEST := $(VENV)/bin/python -m pytest
 # One more than there are processors: a test that waits for the browser leaves its own idle.
 WORKERS = $(shell expr $$(nproc) + 1)
 
+# Without bytecode every process of the tests compiles the package and the test files anew.
+unexport PYTHONDONTWRITEBYTECODE
+
 .PHONY: demo test unit lint format dev compare bench docs browser clean
 .DEFAULT_GOAL := demo
 
