@@ -142,7 +142,7 @@ class DenseCheck:
     def measure(self, phi: Points, psi: Points) -> Measured:
         phi, psi = phi.copy(), psi.copy()
         first = 0
-        # The columns of a loop sum to zero; with its mean taken off, far translations round nothing.
+        # A loop's columns sum to zero; without its mean, far translations round nothing.
         for size in map(len, self.loops):
             for part in (phi, psi):
                 part[first : first + size] -= part[first : first + size].mean()
