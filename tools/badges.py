@@ -1,9 +1,9 @@
 """Put the way to run it into every notebook: ``python tools/badges.py [OWNER/NAME]``.
 
-Below the title a line with Binder, Colab and a download; below that a cell that installs the package
-on Colab and does nothing elsewhere. With the address of the public repository on GitHub the links
-open the notebook there; without it, the line leads to the page about hosts. Running it again replaces
-what it wrote. The links are words, not pictures from a server: pages need no network when read.
+Below the title a line with Binder, Colab and a download; below that a cell that installs the
+package on Colab and does nothing elsewhere. With the address of the public repository on GitHub the
+links open the notebook there; without it, the line leads to the page about hosts. Running it again
+replaces what it wrote. The links are words: pictures of a server would need a network when read.
 """
 
 from __future__ import annotations
