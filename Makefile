@@ -5,6 +5,7 @@
 # make dev    the development environment with everything
 # make compare  the paper's comparisons measured anew (half an hour); ARGUMENTS=--help tells more
 # make bench  the solver's speed on this machine (a quarter of an hour); ARGUMENTS=--help likewise
+# make docs   the site in site/, checked: pages, links, and each page in Chromium
 # make browser  Chromium for the browser tests, by apt
 SHELL := /bin/sh
 VENV := .venv
@@ -12,7 +13,10 @@ PYTEST := $(VENV)/bin/python -m pytest
 # One more than there are processors: a test that waits for the browser leaves its own idle.
 WORKERS = $(shell expr $$(nproc) + 1)
 
-.PHONY: demo test unit lint format dev compare bench browser clean
+# Without bytecode every process of the tests compiles the package and the test files anew.
+unexport PYTHONDONTWRITEBYTECODE
+
+.PHONY: demo test unit lint format dev compare bench docs browser clean
 .DEFAULT_GOAL := demo
 
 demo: $(VENV)/.demo
@@ -43,6 +47,12 @@ compare: $(VENV)/.studies
 bench: $(VENV)/.studies
 	$(VENV)/bin/python -m studies bench $(ARGUMENTS)
 
+docs: $(VENV)/.docs
+	rm -rf site build/doctrees
+	$(VENV)/bin/sphinx-build -q -b html -W --keep-going -c docs -d build/doctrees . site
+	tools/chromium.sh
+	$(VENV)/bin/python tools/check_site.py site
+
 browser:
 	tools/chromium.sh
 
@@ -59,9 +69,13 @@ $(VENV)/.test: pyproject.toml tools/environment.sh
 	tools/environment.sh test
 	touch $@ $(VENV)/.studies $(VENV)/.demo
 
+$(VENV)/.docs: pyproject.toml tools/environment.sh
+	tools/environment.sh docs
+	touch $@ $(VENV)/.demo
+
 $(VENV)/.dev: pyproject.toml tools/environment.sh
 	tools/environment.sh dev
-	touch $@ $(VENV)/.test $(VENV)/.studies $(VENV)/.demo
+	touch $@ $(VENV)/.test $(VENV)/.docs $(VENV)/.studies $(VENV)/.demo
 
 clean:
-	rm -rf $(VENV) glid-nb-demo artefacts dist
+	rm -rf $(VENV) glid-nb-demo artefacts dist site

@@ -140,15 +140,7 @@ class DenseCheck:
         )
 
     def measure(self, phi: Points, psi: Points) -> Measured:
-        phi, psi = phi.copy(), psi.copy()
-        first = 0
-        # A loop's columns sum to zero; without its mean, far translations round nothing.
-        for size in map(len, self.loops):
-            for part in (phi, psi):
-                part[first : first + size] -= part[first : first + size].mean()
-            first += size
-        fz = [d @ phi for d in [*self.d_boundary, self.d_inside]]
-        fzb = [d @ psi for d in [*self.d_boundary, self.d_inside]]
+        fz, fzb = self.derivative(phi), self.derivative(psi)
         f, g = np.abs(np.concatenate(fz)), np.abs(np.concatenate(fzb))
         turns = [np.angle(np.roll(v, -1) / v).sum() / (2 * np.pi) for v in fz[:-1]]
         sizes = [len(v) for v in fz[:-1]]
@@ -160,6 +152,22 @@ class DenseCheck:
             tuple(round(t) for t in turns),
             float((f - g)[:n_boundary].min()),
         )
+
+    def derivative(self, coefficients: Points) -> list[Points]:
+        """`D` times the coefficients, loop by loop and inside.
+
+        A linear function's coefficients on a loop are its values, and its derivative is that of the
+        exterior's alone. Without that part little is left to round: a motion is exact.
+        """
+        rest, slope, first = coefficients.copy(), 0.0 + 0.0j, 0
+        for k, loop in enumerate(self.loops):
+            part = slice(first, first + len(loop))
+            ones = np.stack([loop - loop.mean(), np.ones(len(loop))], axis=1)
+            fitted = np.linalg.lstsq(ones, rest[part])[0]
+            rest[part] -= ones @ fitted
+            slope = fitted[0] if k == 0 else slope
+            first += len(loop)
+        return [slope + d @ rest for d in [*self.d_boundary, self.d_inside]]
 
 
 @dataclass(frozen=True)

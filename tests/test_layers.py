@@ -24,7 +24,7 @@ LAYERS = (
     ("samples", "export"),
     ("session",),
     ("widgets",),
-    ("cli",),
+    ("cli", "course"),
     ("__main__",),
 )
 HEIGHT = {name: height for height, row in enumerate(LAYERS) for name in row}

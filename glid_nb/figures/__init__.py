@@ -1,4 +1,4 @@
-"""Figures of results: the overview, and the plots that it shares with the editor.
+"""Figures of maps, proofs and solves: what notebooks draw, and the plots of the editor.
 
 Names are loaded on first use: `glid_nb.figures.style` must not import matplotlib.
 """

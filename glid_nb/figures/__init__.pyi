@@ -1,2 +1,10 @@
-from .overview_figure import figure_png as figure_png
+from .curves import convergence as convergence
+from .curves import derivative_curve as derivative_curve
+from .curves import energy_levels as energy_levels
+from .curves import function as function
+from .drawing import figure_png as figure_png
 from .overview_figure import overview as overview
+from .shapes import basis as basis
+from .shapes import distortion as distortion
+from .shapes import panels as panels
+from .shapes import picture as picture

@@ -2,33 +2,36 @@
 
 from __future__ import annotations
 
-import io
-from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import shapely
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.collections import LineCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, NullLocator
+from matplotlib.ticker import FixedLocator
 from matplotlib.tri import Triangulation
-from numpy.typing import ArrayLike, NDArray
-from PIL import Image
+from numpy.typing import ArrayLike
 
+from glid_nb.figures.drawing import (
+    Floats,
+    NotebookFigure,
+    box_around,
+    color_bar,
+    draw_dots,
+    draw_loops,
+    draw_picture,
+    draw_targets,
+    enlarged,
+    log_ticks,
+)
 from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot
 from glid_nb.figures.style import (
     BLUE,
-    CYAN,
     FONT_SIZE,
     GREY,
-    HAIRLINE,
     INK,
     LEGEND,
-    SMALL,
-    VERMILION,
     distortion_colors,
 )
 from glid_nb.harmonic import HarmonicMap
@@ -52,10 +55,6 @@ _NAMES = ("Source", "Deformation", "Distortion", "Energy", "Newton steps", "Cert
 _SHRINK = 1.7  # a common scale may make a picture smaller by this factor
 _DPI = 300
 _OVERSAMPLING = 2  # of the deformed picture
-_TICKS = (1.1, 1.2, 1.5, 2, 3, 5, 10, 20, 50, 100, 1000, 10_000)
-_MISS = 0.004  # handles farther from their target, relative to the shape's size, get a line
-
-Floats = NDArray[np.float64]
 
 
 def overview(
@@ -83,8 +82,8 @@ def overview(
     Returns
     -------
     matplotlib.figure.Figure
-        With its own Agg canvas and 300 dots per inch, unknown to pyplot. ``figure.savefig(path)``
-        writes it to a file, `figure_png` to memory.
+        With its own Agg canvas and 300 dots per inch, unknown to pyplot. A notebook shows it,
+        ``figure.savefig(path)`` writes it to a file, `figure_png` to memory.
 
     Raises
     ------
@@ -101,14 +100,13 @@ def overview(
         raise TypeError("the overview shows a certified map; the result's is one of a mesh")
     pose = result.pose if pose is None else pose
     cage, outline = map.domain.cage, deformed_loops(map)
-    target = _enlarged(_box(np.concatenate(outline)), pose.targets)
-    views = _common_scale(_box(map.domain.offset_cage.exterior), target)
+    target = enlarged(box_around(np.concatenate(outline)), pose.targets)
+    views = _common_scale(box_around(map.domain.offset_cage.exterior), target)
 
     across, up = np.ptp(views[0], axis=0)
     tall = min(width / 3 * up / across, _TALLEST)
-    figure = Figure((width, tall + _WRITTEN + _PLOTS), _DPI, facecolor="white")
+    figure = NotebookFigure(width, tall + _WRITTEN + _PLOTS, _DPI)
     figure.set_layout_engine("constrained", w_pad=0.08, h_pad=0.04)
-    FigureCanvasAgg(figure)
     halves: Any = figure.subfigures(2, 1, height_ratios=[tall + _WRITTEN, _PLOTS])
     pictures, plots = (half.subplots(1, 3) for half in halves)
     for axes in pictures:
@@ -119,12 +117,12 @@ def overview(
     pixels = _OVERSAMPLING * _DPI * width / 3
     frame = PixelFrame(round(pixels), round(pixels * up / across)).showing(views[1])
     mesh = deformed_mesh(map, 4000, 0.25 * _OVERSAMPLING * frame.units_per_pixel)
-    _show(pictures[0], picture, PixelFrame(picture.shape[1], picture.shape[0]))
-    _show(pictures[1], draw_mesh(Texture.from_image(picture), mesh, frame), frame)
+    draw_picture(pictures[0], picture, PixelFrame(picture.shape[1], picture.shape[0]))
+    draw_picture(pictures[1], draw_mesh(Texture.from_image(picture), mesh, frame), frame)
     _draw_distortion(pictures[2], map, mesh)
     _mark_source(pictures[0], map, pose)
     _mark_result(pictures[1], map, pose, outline)
-    _draw_loops(pictures[2], outline, color=INK, linewidth=0.5)
+    draw_loops(pictures[2], outline, color=INK, linewidth=0.5)
     for axes, view in zip(pictures, views[[0, 1, 1]], strict=True):
         axes.set(xlim=view[:, 0], ylim=view[:, 1], aspect="equal")
     EnergyPlot(plots[0]).update(result.history, result.start_energy)
@@ -132,28 +130,6 @@ def overview(
     CertificatePlot(plots[2], cage).update(certificate, map)
     figure.draw_without_rendering()  # lays out the axes
     return figure
-
-
-def figure_png(figure: Figure) -> bytes:
-    """The figure as a PNG file at its own resolution."""
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=figure.dpi)
-    return buffer.getvalue()
-
-
-def _box(points: Floats) -> Floats:
-    """(2, 2) lower and upper corner of the points' bounding box, with a margin."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    room = 0.02 * (high - low).max()
-    return np.stack([low - room, high + room])
-
-
-def _enlarged(box: Floats, points: Floats) -> Floats:
-    """The box enlarged to hold the points, by at most a quarter of its size on each side."""
-    size = np.ptp(box, axis=0).max()
-    held = points.clip(box[0] - 0.22 * size, box[1] + 0.22 * size)
-    corners = np.concatenate([box, held - 0.03 * size, held + 0.03 * size])
-    return np.stack([corners.min(axis=0), corners.max(axis=0)])
 
 
 def _common_scale(*boxes: Floats) -> Floats:
@@ -181,33 +157,17 @@ def _label(axes: Axes, letter: str, name: str, shift: tuple[float, float]) -> No
         )
 
 
-def _show(axes: Axes, picture: NDArray[np.uint8], frame: PixelFrame) -> None:
-    """Put an RGBA picture behind everything else, on white."""
-    white = Image.new("RGBA", picture.shape[1::-1], "white")
-    white.alpha_composite(Image.fromarray(picture))
-    xmin, ymin, xmax, ymax = frame.bounds
-    axes.imshow(white, extent=(xmin, xmax, ymin, ymax), zorder=0)
-
-
 def _mark_source(axes: Axes, map: HarmonicMap, pose: Pose) -> None:
     cage, outer = map.domain.cage.loops, map.domain.offset_cage.loops
-    _draw_loops(axes, [*outer, *cage], color="white", linewidth=1.4, alpha=0.7)
-    _draw_loops(axes, cage, color=BLUE, linewidth=0.6, label="cage")
-    _draw_loops(axes, outer, color=GREY, linewidth=0.4, label="offset cage")
-    _draw_dots(axes, pose.handles, INK, 3.4, edge=0.6, label="handles")
+    draw_loops(axes, [*outer, *cage], color="white", linewidth=1.4, alpha=0.7)
+    draw_loops(axes, cage, color=BLUE, linewidth=0.6, label="cage")
+    draw_loops(axes, outer, color=GREY, linewidth=0.4, label="offset cage")
+    draw_dots(axes, pose.handles, INK, 3.4, edge=0.6, label="handles")
     _add_legend(axes)
 
 
 def _mark_result(axes: Axes, map: HarmonicMap, pose: Pose, outline: list[Floats]) -> None:
-    images = map(pose.handles) if len(pose) else pose.handles
-    size = float(np.ptp(np.concatenate(outline), axis=0).max())
-    apart = np.linalg.norm(images - pose.targets, axis=1) > _MISS * size
-    segments = np.stack([images[apart], pose.targets[apart]], axis=1)
-    axes.add_collection(
-        LineCollection(list(segments), colors=VERMILION, linewidths=0.9, zorder=3), autolim=False
-    )
-    _draw_dots(axes, pose.targets, CYAN, 5.0, edge=0.6, label="targets")
-    _draw_dots(axes, images, "black", 2.2, edge=0.0, label="handles' images")
+    draw_targets(axes, map, pose, float(np.ptp(np.concatenate(outline), axis=0).max()))
     _add_legend(axes)
 
 
@@ -221,10 +181,6 @@ def _draw_distortion(axes: Axes, map: HarmonicMap, mesh: DeformedMesh) -> None:
     area = shapely.area(shapely.polygons(mesh.vertices[mesh.triangles]))
     most = np.quantile(values, 0.995, weights=area, method="inverted_cdf")
     highest = max(1.25, min(float(most), 1e4))
-    ticks = [1.0]
-    for tick in _TICKS:  # at least a tenth of the colour bar apart
-        if tick <= highest * 1.001 and np.log(tick / ticks[-1]) > 0.1 * np.log(highest):
-            ticks.append(tick)
     colors = axes.tripcolor(
         Triangulation(*mesh.images.T, triangles=mesh.triangles),
         np.clip(distortion, 1.0, highest),
@@ -234,39 +190,15 @@ def _draw_distortion(axes: Axes, map: HarmonicMap, mesh: DeformedMesh) -> None:
         rasterized=True,
         zorder=0,
     )
-    scale = axes.figure.colorbar(
+    color_bar(
+        axes,
         colors,
-        ax=axes,
-        location="bottom",
-        shrink=0.8,
-        aspect=24,
-        pad=0.02,
+        "max(σ₁, 1/σ₂)",
         extend="max" if float(distortion.max()) > 1.02 * highest else "neither",
         extendfrac=0.04,
-        ticks=FixedLocator(ticks),
+        ticks=FixedLocator(log_ticks(1.0, highest)),
         format="{x:g}",
-        panchor=False,
     )
-    scale.set_label("max(σ₁, 1/σ₂)", fontsize=SMALL, labelpad=1, color=INK)
-    scale.ax.xaxis.set_minor_locator(NullLocator())
-    scale.ax.tick_params(labelsize=SMALL, length=2, width=HAIRLINE, pad=1.5, colors=INK)
-    scale.outline.set(linewidth=HAIRLINE, edgecolor=INK)  # type: ignore[operator]
-
-
-def _draw_loops(axes: Axes, loops: Iterable[Floats], label: str = "", **style: Any) -> None:
-    """Closed lines with one entry in the legend."""
-    for loop in loops:
-        points = np.concatenate([loop, loop[:1]]).T
-        axes.plot(*points, solid_joinstyle="round", zorder=2, label=label, **style)
-        label = ""
-
-
-def _draw_dots(
-    axes: Axes, points: Floats, color: str, size: float, edge: float, label: str
-) -> None:
-    line = "white" if color != CYAN else INK
-    style: dict[str, Any] = {"markersize": size, "markeredgewidth": edge, "markeredgecolor": line}
-    axes.plot(*points.T, "o", color=color, zorder=4, label=label, **style)
 
 
 def _add_legend(axes: Axes) -> None:

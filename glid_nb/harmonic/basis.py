@@ -17,8 +17,16 @@ if TYPE_CHECKING:
     from glid_nb.geometry import Domain
 
 
-BUCKET = 8
 _HOLE_BUCKETS = (0, 1, 2, 4, 8, 16, 32, 64)
+
+
+def column_bucket(count: int) -> int:
+    """The padded number of columns: at least 32, 48, 64, then multiples of 8, from 256 on of 16.
+
+    Compiling another program takes longer than thousands of iterations with a few columns more.
+    """
+    step = 16 if count <= 64 or count > 256 else 8
+    return max(-(-count // step) * step, 32)
 
 
 class Basis(NamedTuple):
@@ -77,9 +85,10 @@ def basis_of(domain: Domain) -> Basis:
     m, n_holes = len(vertices), len(rho)
 
     hole_padding = next(b for b in (*_HOLE_BUCKETS, n_holes) if b >= n_holes) - n_holes
-    padding = -(m + n_holes + hole_padding) % BUCKET
+    own = m + n_holes + hole_padding
+    padding = column_bucket(own) - own
     if padding in (1, 2):  # a loop has at least 3 vertices
-        padding += BUCKET
+        padding = column_bucket(own + 3) - own
     center = vertices.mean()
     far = 1e3 * np.abs(vertices - center).max()
     ring = center + far * np.exp(2j * np.pi * np.arange(padding) / max(padding, 1))

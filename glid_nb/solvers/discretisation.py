@@ -285,11 +285,11 @@ def _transposed(rows: np.ndarray) -> np.ndarray:
 def bucket(count: int) -> int:
     """The padded size for ``count`` items.
 
-    At least 128, up to 256 multiples of 64, then of 32, from 512 on 16 sizes an octave: compiling
-    another program takes longer than hundreds of iterations of a small problem.
+    Multiples of 128, from 512 on 16 sizes an octave: compiling another program takes longer than
+    hundreds of iterations of a small problem.
     """
     wanted = count + count // 64
-    step = 64 if wanted <= 256 else max(32, 1 << (wanted.bit_length() - 5))
+    step = 128 if wanted <= 512 else 1 << (wanted.bit_length() - 5)
     return max(-(-wanted // step) * step, 128)
 
 
@@ -297,7 +297,8 @@ def _rung(count: int) -> int:
     """The padded size for panels that were split: two sizes an octave, with room for more."""
     wanted = int(_GROWTH * count)
     octave = 1 << wanted.bit_length()
-    return max(octave if wanted > 3 * octave // 4 else 3 * octave // 4, 128)
+    size = octave if wanted > 3 * octave // 4 else 3 * octave // 4
+    return -(-size // 128) * 128
 
 
 def padded(array: np.ndarray, size: int, fill: float | None = None) -> np.ndarray:

@@ -30,7 +30,7 @@ import numpy as np
 import scipy
 
 from glid_nb._jax import AnyArray, jit, jnp
-from glid_nb.harmonic.basis import BUCKET, Basis
+from glid_nb.harmonic.basis import Basis, column_bucket
 
 if TYPE_CHECKING:
     from jaxtyping import Array, Complex, Float, Int
@@ -75,7 +75,7 @@ def whitening(
     inverse = _without_steep(inverse, single_valued, basis)
 
     kept, n_holes = len(inverse), basis.n_hole_columns
-    u = -(-(1 + kept + n_holes) // BUCKET) * BUCKET
+    u = column_bucket(1 + kept + n_holes)
     t = np.zeros((c, u), dtype=complex)
     t[: basis.n_exterior, 0] = 1
     t[single_valued, 1 : 1 + kept] = inverse.conj().T

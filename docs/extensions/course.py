@@ -1,0 +1,70 @@
+"""The directive ``course``: a table of the chapters, read from the notebooks themselves."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+from docutils import nodes
+from docutils.statemachine import StringList
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+
+
+def chapter(path: Path) -> tuple[str, str, str]:
+    """Title, question and minutes, as the first cells of a notebook state them."""
+    cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+    text = "\n".join("".join(c["source"]) for c in cells[:3] if c["cell_type"] == "markdown")
+
+    def stated(pattern: str) -> str:
+        found = re.search(pattern, text, re.MULTILINE)
+        return found[1].strip(" *_.") if found else ""
+
+    question = stated(r"(?i)^\W*the question:?\W*:?\s*(.+?)$")
+    title = re.sub(r"^\d+\W+", "", stated(r"^# +(.+)$"))
+    return (
+        title,
+        question[:1].upper() + question[1:],
+        stated(r"(?i)minutes:?\W*\s*(\d+(?: ?(?:to|-|–) ?\d+)?)"),
+    )
+
+
+def hide_live_widgets(_app: Sphinx, document: nodes.document) -> None:
+    """A widget's text says nothing; a page without a kernel shows its scripted twin beside it."""
+    for block in list(document.findall(nodes.literal_block)):
+        if re.match(r"(interactive|Editor|CageTracer)\(", block.astext()):
+            words = "In the running notebook there is something to move here."
+            block.replace_self(nodes.paragraph("", words, classes=["widget"]))
+
+
+def number_chapters(app: Sphinx, document: nodes.document) -> None:
+    """The number of a notebook's file before its title, where the title has none."""
+    folder, _, name = app.env.docname.partition("/")
+    title = next(document.findall(nodes.title), None)
+    if folder == "notebooks" and title and not title.astext()[:1].isdigit():
+        title.insert(0, nodes.Text(f"{int(name[:2])}. "))
+
+
+class Course(SphinxDirective):
+    """A table of all notebooks: title, question, minutes."""
+
+    def run(self) -> list[nodes.Node]:
+        lines = ["| | chapter | minutes |", "| --- | --- | ---: |"]
+        for path in sorted(Path(self.env.srcdir, "notebooks").glob("*.ipynb")):
+            self.env.note_dependency(str(path))
+            title, question, minutes = chapter(path)
+            question = f"<br>{question}" if question else ""
+            link = f"[{title or path.stem}](/notebooks/{path.name})"
+            lines.append(f"| {path.stem[:2]} | {link}{question} | {minutes} |")
+        self.content = StringList(lines)
+        return self.parse_content_to_nodes()
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    app.add_directive("course", Course)
+    # Before the titles are collected.
+    app.connect("doctree-read", number_chapters, priority=300)
+    app.connect("doctree-read", hide_live_widgets)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,152 @@
+"""Links from pages to the repository's files, each to a page of this site.
+
+- A link to a Python file, or its path in code type (`glid_nb/certificate/paper.py`), leads to a
+  page with that source, at the first name in the link's text that the file defines.
+- A link to a folder leads to a list of its files, to be downloaded.
+- A public name in code type (`glid.solve`) leads to its place in the reference.
+
+A path of a Python file that does not exist is a warning, so that no page outlives the code.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections.abc import Iterator
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from docutils import nodes
+from sphinx import addnodes
+from sphinx.application import Sphinx
+from sphinx.builders.html import StandaloneHTMLBuilder
+from sphinx.environment import BuildEnvironment
+from sphinx.transforms import SphinxTransform
+from sphinx.util import logging
+
+logger = logging.getLogger(__name__)
+
+FOLDER = "files"
+_PATH = re.compile(r"((?:glid_nb|studies|tests|tools)/[\w/.]+\.py|glid_check\.py)(?:::(\w+).*)?")
+_NAME = re.compile(r"(?:glid|glid_nb)\.([A-Za-z][\w.]*)(?:\(.*\))?", re.DOTALL)
+
+
+def definition(source: str, name: str) -> int | None:
+    """The line, from 1, on which a name is defined."""
+    last = re.escape(name.split("(", maxsplit=1)[0].rsplit(".", maxsplit=1)[-1])
+    pattern = rf"^\s*(?:(?:async )?def|class) {last}\b|^{last}\s*[:=]"
+    found = re.search(pattern, source, re.MULTILINE) if last else None
+    return source.count("\n", 0, found.end()) + 1 if found else None
+
+
+class RepositoryLinks(SphinxTransform):
+    """Replaces references to files by links to their pages."""
+
+    default_priority = 400
+
+    def apply(self, **_: Any) -> None:
+        self.root = Path(self.env.srcdir)
+        self.seen: set[str] = set()
+        for node in list(self.document.findall(addnodes.download_reference)):
+            # MyST gives targets from the folder of the page.
+            self._link(node, self._repository_path(node["reftarget"]))
+        for node in list(self.document.findall(addnodes.pending_xref)):
+            if node.get("reftype") == "myst":
+                path = self._repository_path(node["reftarget"])
+                if path and (self.root / path).is_dir():
+                    self._link(node, path)
+        for node in list(self.document.findall(nodes.literal)):
+            self._literal(node)
+        links(self.env)[self.env.docname] = self.seen
+
+    def _repository_path(self, target: str) -> str:
+        base = self.root if target.startswith("/") else self.root / Path(self.env.docname).parent
+        path = (base / target.lstrip("/")).resolve()
+        return path.relative_to(self.root).as_posix() if path.is_relative_to(self.root) else ""
+
+    def _link(self, node: nodes.Element, path: str) -> None:
+        file = self.root / path
+        if not (path and (file.suffix == ".py" or file.is_dir())):
+            return
+        names = [literal.astext() for literal in node.findall(nodes.literal)]
+        node.replace_self(self._reference(path, names, list(node.children)))
+
+    def _reference(self, path: str, names: list[str], children: list[Any]) -> nodes.reference:
+        self.seen.add(path)
+        uri = self.app.builder.get_relative_uri(self.env.docname, f"{FOLDER}/{path}")
+        if names and path.endswith(".py"):
+            source = (self.root / path).read_text(encoding="utf-8")
+            lines = [line for name in names if (line := definition(source, name))]
+            uri += f"#L-{lines[0]}" if lines else ""
+        return nodes.reference("", "", *children, refuri=uri, internal=True)
+
+    def _literal(self, node: nodes.literal) -> None:
+        parent = node.parent
+        while parent is not None and not isinstance(parent, nodes.section):
+            if isinstance(parent, nodes.reference | addnodes.pending_xref | nodes.title):
+                return
+            parent = parent.parent
+        text = node.astext()
+        if found := _PATH.fullmatch(text):
+            if (self.root / found[1]).is_file():
+                node.replace_self(self._reference(found[1], [found[2] or ""], [node.deepcopy()]))
+            else:
+                logger.warning("there is no file %s", found[1], location=node)
+        elif found := _NAME.fullmatch(text):
+            target = f"glid_nb.{found[1]}"
+            node.replace_self(
+                addnodes.pending_xref(
+                    "",
+                    node.deepcopy(),
+                    refdomain="py",
+                    reftype="obj",
+                    reftarget=target,
+                    refdoc=self.env.docname,
+                    refexplicit=True,
+                )
+            )
+
+
+def links(env: BuildEnvironment) -> dict[str, set[str]]:
+    """Which files each page links to."""
+    if not hasattr(env, "repository_links"):
+        env.repository_links = {}  # type: ignore[attr-defined]
+    return env.repository_links  # type: ignore[attr-defined]
+
+
+def purge(_app: Sphinx, env: BuildEnvironment, docname: str) -> None:
+    links(env).pop(docname, None)
+
+
+def pages(app: Sphinx) -> Iterator[tuple[str, dict[str, Any], str]]:
+    """A page for every file or folder that is linked to."""
+    assert isinstance(app.builder, StandaloneHTMLBuilder)
+    for path in sorted(set().union(*links(app.env).values())):
+        file = Path(app.srcdir, path)
+        if file.is_dir():
+            body = "\n".join(_listed(app, file, path))
+        else:
+            source = file.read_text(encoding="utf-8")
+            body = app.builder.highlighter.highlight_block(source, "python", lineanchors="L")
+        title = f"<h1><code>{escape(path)}</code></h1>"
+        yield f"{FOLDER}/{path}", {"title": path, "body": title + body, "parents": []}, "page.html"
+
+
+def _listed(app: Sphinx, folder: Path, path: str) -> Iterator[str]:
+    into = Path(app.outdir, FOLDER, path)
+    into.mkdir(parents=True, exist_ok=True)
+    yield "<ul>"
+    for file in sorted(folder.iterdir()):
+        if file.suffix in (".csv", ".json", ".png"):
+            shutil.copy(file, into)
+            name = escape(file.name)
+            yield f'<li><a class="reference" href="{escape(folder.name)}/{name}">{name}</a></li>'
+    yield "</ul>"
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    app.add_transform(RepositoryLinks)
+    app.connect("env-purge-doc", purge)
+    app.connect("html-collect-pages", pages)
+    return {"parallel_read_safe": False, "parallel_write_safe": True, "env_version": 1}

@@ -1,0 +1,183 @@
+"""Figures of functions: levels of an energy, the curve of f_z, convergence, any line plot."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
+from numpy.typing import ArrayLike
+
+from glid_nb._runtime import double_precision
+from glid_nb.energies import Energy
+from glid_nb.energies.energy import as_energy
+from glid_nb.figures import style
+from glid_nb.figures.drawing import NotebookFigure
+from glid_nb.figures.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, VERMILION
+from glid_nb.geometry import as_points, loop_name, uniform_panels
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.solvers import Result
+
+# Different in grey too.
+_LOOKS = [
+    {"color": color, "linestyle": line}
+    for line in ("-", (0, (4, 1.5)))
+    for color in (BLUE, VERMILION, GREEN, ORANGE, INK, SKY)
+]
+_WIDTH = 7.4  # inches
+_SAMPLES = 8000  # of the boundary
+
+
+@double_precision
+def energy_levels(*energies: Energy | str) -> NotebookFigure:
+    """Level sets of energies' densities over (sigma_1, sigma_2), side by side.
+
+    The cross is the isometry (1, 1). On and below the line sigma_2 = 0 a map folds; above the
+    diagonal there is nothing, since sigma_2 <= sigma_1.
+
+    Parameters
+    ----------
+    energies : Energy or str
+        Such as `SymmetricDirichlet()` or "amips".
+    """
+    chosen = [as_energy(energy) for energy in energies]
+    if not chosen:
+        raise ValueError("there is no energy to draw; give one, such as 'iso'")
+    width = min(_WIDTH, 3.6 * len(chosen))
+    figure = NotebookFigure(width, 0.95 * (width / len(chosen)) + 0.3)
+    sigma1, sigma2 = np.meshgrid(np.linspace(0.02, 3, 240), np.linspace(0.0, 2.4, 240) + 0.004)
+    x: Any = ((sigma1 + sigma2) / 2) ** 2
+    y: Any = ((sigma1 - sigma2) / 2) ** 2
+    isometry: Any = np.ones(1), np.zeros(1)
+    grid = figure.subplots(1, len(chosen), squeeze=False)[0]
+    for axes, energy in zip(grid, chosen, strict=True):
+        density = np.asarray(energy.density(x, y))
+        least = float(energy.density(*isometry)[0])
+        above = np.where((sigma2 <= sigma1) & np.isfinite(density), density - least, np.nan)
+        levels = 0.02 * 3.0 ** np.arange(10)
+        norm = LogNorm(levels[0], levels[-1])
+        look: Any = {"levels": levels, "norm": norm}
+        axes.contourf(sigma1, sigma2, above, cmap=style.distortion_colors(), extend="both", **look)
+        lines = axes.contour(sigma1, sigma2, above, colors=INK, linewidths=0.4, **look)
+        labels = {level: f"{level + least:.3g}" for level in levels[2:8:2]}
+        axes.clabel(lines, [*labels], fmt=labels, fontsize=style.SMALL - 1, inline_spacing=2)
+        axes.axhspan(-0.4, 0.0, facecolor="white", edgecolor=VERMILION, hatch="////", linewidth=0)
+        axes.axhline(0.0, color=VERMILION, linewidth=style.LINE)
+        axes.plot([0, 2.4], [0, 2.4], color=GREY, linewidth=0.6)
+        axes.plot(1, 1, "+", color=BLUE, markersize=8, markeredgewidth=1.5)
+        axes.set(xlim=(0, 3), ylim=(-0.4, 2.4), aspect="equal")
+        _named(axes, "σ₁", "σ₂", energy.label)
+    return figure
+
+
+def derivative_curve(map: HarmonicMap, which: Literal["fz", "fzb"] = "fz") -> NotebookFigure:
+    """The curve that a derivative runs through along the boundary, loop by loop, around 0.
+
+    A legend tells how often each loop's curve winds around 0, counted from samples, each loop
+    walked in its own direction (holes clockwise). For f_z the sum of all windings is the number of
+    its zeros in the domain (Section 8). A dot marks each loop's start.
+    """
+    if which not in ("fz", "fzb"):
+        raise ValueError(f"which is {which!r}; choose 'fz' or 'fzb'")
+    boundary = uniform_panels(map.domain.cage, _SAMPLES)
+    values = map.wirtinger(boundary.start)[0 if which == "fz" else 1]
+    figure = NotebookFigure(4.6, 4.2)
+    axes = figure.add_subplot()
+    axes.axhline(0, color=FAINT, linewidth=0.6)
+    axes.axvline(0, color=FAINT, linewidth=0.6)
+    for loop in range(len(map.domain.cage.loops)):
+        curve = values[boundary.loop == loop]
+        closed = np.append(curve, curve[0])
+        turns = round(float(np.angle(closed[1:] / closed[:-1]).sum()) / (2 * np.pi))
+        look = _LOOKS[loop % len(_LOOKS)]
+        label = f"{loop_name(loop)}: {turns} turn{'' if abs(turns) == 1 else 's'}"
+        axes.plot(*as_points(closed).T, linewidth=style.LINE, label=label, **look)
+        axes.plot(*as_points(curve[:1]).T, "o", color=look["color"], markersize=3.5)
+    axes.plot(0, 0, "+", color=INK, markersize=12, markeredgewidth=1.5, zorder=4)
+    axes.set_aspect("equal", adjustable="datalim")
+    name = "f_z" if which == "fz" else "f_z̄"
+    _named(axes, f"Re {name}", f"Im {name}", "")
+    axes.legend(loc="best", **style.LEGEND)
+    return figure
+
+
+def convergence(
+    results: Mapping[str, Result],
+    against: Literal["iterations", "seconds"] = "iterations",
+    gap_to: float | None = None,
+) -> NotebookFigure:
+    """Total energies of several results, on a logarithmic axis.
+
+    Parameters
+    ----------
+    results : dict of name: Result
+    against : "iterations" or "seconds"
+        Seconds are those of `Iteration.time`: without compilation.
+    gap_to : float, optional
+        Draw (E - gap_to) / gap_to instead, such as to the lowest energy known.
+    """
+    if against not in ("iterations", "seconds"):
+        raise ValueError(f"against is {against!r}; choose 'iterations' or 'seconds'")
+    figure = NotebookFigure(_WIDTH * 0.75, 3.2)
+    axes = figure.add_subplot()
+    for (name, result), look in zip(results.items(), _LOOKS * len(results), strict=False):
+        steps = [result.initial, *result.history]
+        x = [s.iteration for s in steps]
+        x = np.cumsum([s.time for s in steps]) if against == "seconds" else np.array(x)
+        y = np.array([s.energy for s in steps])
+        y = y if gap_to is None else (y - gap_to) / gap_to
+        mark = "o" if len(x) <= 40 else ""
+        axes.plot(x, np.where(y > 0, y, np.nan), label=name, marker=mark, markersize=2.5, **look)
+    axes.set_yscale("log")
+    _named(axes, against, "energy" if gap_to is None else "(E − E*) / E*", "")
+    axes.legend(**style.LEGEND)
+    return figure
+
+
+def function(
+    x: ArrayLike,
+    curves: Mapping[str, ArrayLike],
+    x_name: str = "",
+    y_name: str = "",
+    *,
+    title: str = "",
+    log: Literal["", "x", "y", "xy"] = "",
+    dots: bool = False,
+    vertical: Mapping[str, float] | None = None,
+    horizontal: Mapping[str, float] | None = None,
+) -> NotebookFigure:
+    """A labelled line plot of some functions.
+
+    Parameters
+    ----------
+    x : (n,) array
+    curves : dict of name: (n,) array
+    x_name, y_name, title : str
+    log : axes that are logarithmic
+    dots : whether to mark the points themselves
+    vertical, horizontal : dict of name: value
+        Straight lines across the plot.
+    """
+    figure = NotebookFigure(_WIDTH * 0.75, 3.0)
+    axes = figure.add_subplot()
+    for (name, y), look in zip(curves.items(), _LOOKS * len(curves), strict=False):
+        axes.plot(x, y, linewidth=style.LINE, label=name, marker="o" * dots, markersize=3, **look)
+    lines = [(axes.axvline, *line) for line in (vertical or {}).items()]
+    lines += [(axes.axhline, *line) for line in (horizontal or {}).items()]
+    for (draw, name, at), dash in zip(lines, (":", "--", "-.") * len(lines), strict=False):
+        draw(at, color=GREY, linewidth=1.0, linestyle=dash, label=name)
+    for axis in log:
+        getattr(axes, f"set_{axis}scale")("log")
+    _named(axes, x_name, y_name, title)
+    if len(curves) + len(lines) > 1:
+        axes.legend(**style.LEGEND)
+    return figure
+
+
+def _named(axes: Axes, x: str, y: str, title: str) -> None:
+    style.tidy(axes)
+    axes.set_xlabel(x, fontsize=style.FONT_SIZE, color=INK)
+    axes.set_ylabel(y, fontsize=style.FONT_SIZE, color=INK)
+    axes.set_title(title, fontsize=style.FONT_SIZE, color=INK)

@@ -1,0 +1,127 @@
+"""What figures of shapes are made of: the figure itself, loops, dots, pictures, colour bars."""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator
+from numpy.typing import NDArray
+from PIL import Image
+
+from glid_nb.figures.style import CYAN, HAIRLINE, INK, SMALL, VERMILION
+from glid_nb.imaging import PixelFrame
+from glid_nb.solvers import Pose
+
+_MISS = 0.004  # handles farther from their target, relative to the shape's size, get a line
+_SHOWN_DPI = 150.0  # in a notebook, at
+_CSS_DPI = 108.0  # this many of the page's pixels per inch
+_ROUND, _COARSE = (1, 1.1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 7), (1, 2, 5)  # ticks of a decade
+
+Floats = NDArray[np.float64]
+
+
+class NotebookFigure(Figure):
+    """A matplotlib figure unknown to pyplot, which a notebook shows as a picture."""
+
+    def __init__(self, width: float, height: float, dpi: float = _SHOWN_DPI) -> None:
+        super().__init__((width, height), dpi, facecolor="white", layout="constrained")
+        FigureCanvasAgg(self)
+
+    def _repr_png_(self) -> tuple[bytes, dict[str, int]]:
+        width, height = (_CSS_DPI * self.get_size_inches()).round().astype(int).tolist()
+        picture = Image.open(io.BytesIO(figure_png(self, _SHOWN_DPI))).convert("RGB")
+        buffer = io.BytesIO()
+        # With a palette it is a third as large: notebooks keep their figures.
+        picture.quantize(256, Image.Quantize.MEDIANCUT).save(buffer, "png", optimize=True)
+        return buffer.getvalue(), {"width": width, "height": height}
+
+
+def figure_png(figure: Figure, dpi: float | None = None) -> bytes:
+    """The figure as a PNG file, by default at its own resolution."""
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", dpi=dpi or figure.dpi)
+    return buffer.getvalue()
+
+
+def box_around(points: Floats, margin: float = 0.02) -> Floats:
+    """(2, 2) lower and upper corner of the points' bounding box, with a margin."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    room = margin * (high - low).max()
+    return np.stack([low - room, high + room])
+
+
+def enlarged(box: Floats, points: Floats) -> Floats:
+    """The box enlarged to hold the points, by at most a quarter of its size on each side."""
+    size = np.ptp(box, axis=0).max()
+    held = points.clip(box[0] - 0.22 * size, box[1] + 0.22 * size)
+    corners = np.concatenate([box, held - 0.03 * size, held + 0.03 * size])
+    return np.stack([corners.min(axis=0), corners.max(axis=0)])
+
+
+def draw_picture(axes: Axes, picture: NDArray[np.uint8], frame: PixelFrame) -> None:
+    """Put an RGBA picture behind everything else, on white."""
+    white = Image.new("RGBA", picture.shape[1::-1], "white")
+    white.alpha_composite(Image.fromarray(picture))
+    xmin, ymin, xmax, ymax = frame.bounds
+    axes.imshow(white, extent=(xmin, xmax, ymin, ymax), zorder=0)
+
+
+def draw_loops(axes: Axes, loops: Iterable[Floats], label: str = "", **style: Any) -> None:
+    """Closed lines with one entry in the legend."""
+    for loop in loops:
+        points = np.concatenate([loop, loop[:1]]).T
+        axes.plot(*points, solid_joinstyle="round", zorder=2, label=label, **style)
+        label = ""
+
+
+def draw_dots(axes: Axes, points: Floats, color: str, size: float, edge: float, label: str) -> None:
+    """Round dots with one entry in the legend; those in cyan have a dark edge."""
+    line = "white" if color != CYAN else INK
+    style: dict[str, Any] = {"markersize": size, "markeredgewidth": edge, "markeredgecolor": line}
+    axes.plot(*points.T, "o", color=color, zorder=4, label=label, **style)
+
+
+def draw_targets(axes: Axes, map: Any, pose: Pose, size: float) -> None:
+    """Targets, the handles' images, and lines between those farther apart than they seem.
+
+    ``size`` is that of the shape, world units.
+    """
+    images = map(pose.handles) if len(pose) else pose.handles
+    apart = np.linalg.norm(images - pose.targets, axis=1) > _MISS * size
+    segments = np.stack([images[apart], pose.targets[apart]], axis=1)
+    axes.add_collection(
+        LineCollection(list(segments), colors=VERMILION, linewidths=0.9, zorder=3), autolim=False
+    )
+    draw_dots(axes, pose.targets, CYAN, 5.0, edge=0.6, label="targets")
+    draw_dots(axes, images, "black", 2.2, edge=0.0, label="handles' images")
+
+
+def log_ticks(low: float, high: float) -> list[float]:
+    """Round numbers from ``low`` to ``high``, at least a tenth of a logarithmic scale apart."""
+    ticks: list[float] = []
+    steps = _COARSE if high > 8 * low else _ROUND
+    for decade in range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1):
+        for tick in (m * 10.0**decade for m in steps):
+            inside = low / 1.001 <= tick <= high * 1.001
+            if inside and (not ticks or math.log(tick / ticks[-1]) > 0.1 * math.log(high / low)):
+                ticks.append(tick)
+    return ticks
+
+
+def color_bar(axes: Any, colors: Any, label: str, **look: Any) -> None:
+    """A slim colour bar below axes."""
+    figure = np.ravel(axes)[0].figure
+    place = {"location": "bottom", "shrink": 0.8, "aspect": 24, "pad": 0.02, "panchor": False}
+    scale = figure.colorbar(colors, ax=axes, **{**place, **look})
+    scale.set_label(label, fontsize=SMALL, labelpad=1, color=INK)
+    scale.ax.xaxis.set_minor_locator(NullLocator())
+    scale.ax.tick_params(labelsize=SMALL, length=2, width=HAIRLINE, pad=1.5, colors=INK)
+    scale.outline.set(linewidth=HAIRLINE, edgecolor=INK)

@@ -1,0 +1,348 @@
+"""Figures of maps, drawn on the shapes: distortion, pictures, basis functions, panels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import LogNorm, Normalize
+from matplotlib.tri import Triangulation as Drawn
+from numpy.typing import ArrayLike, NDArray
+
+from glid_nb._runtime import double_precision
+from glid_nb.certificate import Certificate
+from glid_nb.energies import Energy, SymmetricDirichlet
+from glid_nb.figures import style
+from glid_nb.figures.drawing import (
+    Floats,
+    NotebookFigure,
+    box_around,
+    color_bar,
+    draw_dots,
+    draw_loops,
+    draw_picture,
+    draw_targets,
+    enlarged,
+    log_ticks,
+)
+from glid_nb.figures.plots import CertificatePlot
+from glid_nb.figures.style import BLUE, GREY, INK, VERMILION, distortion_colors
+from glid_nb.geometry import Domain, MeshMap, as_points, triangulate
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging import PixelFrame
+from glid_nb.imaging.mesh import deformed_loops, deformed_mesh
+from glid_nb.imaging.rasterise import render_mesh
+from glid_nb.imaging.texture import Texture
+from glid_nb.methods.mesh.operators import MeshOperators
+from glid_nb.solvers import Pose
+
+Quantity = Literal["sigma1", "sigma2", "k", "energy"]
+AnyMap = HarmonicMap | MeshMap
+
+_LABELS = {"sigma1": "σ₁", "sigma2": "σ₂", "k": "k = |f_z̄| / |f_z|", "energy": "energy density"}
+_VERTICES = 3000
+_PIXELS = 600  # of the longer side of one drawn picture
+_WIDTH, _WIDTH_OF_ONE, _TALLEST = 7.4, 4.6, 3.8  # inches
+_ABREAST = 4
+_CHECKS = 24  # along the longer side of a shape
+_FULL_MARGIN = 0.5  # from this certified sigma_2 on panels have one colour
+
+_MANY = 400  # panels, among which the dots at their ends would hide the colours
+
+
+class _Sheet(NamedTuple):
+    """A map as triangles: (v, 2) at rest and their images, (t,) |f_z| and |f_zbar| on each."""
+
+    rest: Floats
+    images: Floats
+    triangles: NDArray[Any]
+    heights: Floats
+    abs_fz: Floats
+    abs_fzb: Floats
+    outline: list[Floats]
+    counted: bool
+
+    @classmethod
+    def of(cls, map: AnyMap) -> _Sheet:
+        if isinstance(map, HarmonicMap):
+            mesh = deformed_mesh(map, _VERTICES, 0.03)
+            fz, fzb = map.wirtinger(mesh.vertices[mesh.triangles].mean(axis=1))
+            shape = mesh.vertices, mesh.images, mesh.triangles, mesh.heights
+            return cls(*shape, np.abs(fz), np.abs(fzb), deformed_loops(map, 0.01), False)
+        mesh = map.triangulation
+        order = np.argsort(mesh.vertices[mesh.triangles, 0].mean(axis=1), kind="stable")
+        w = map.images @ np.array([1, 1j])
+        fz, fzb = (np.abs(v)[order] for v in MeshOperators(mesh).wirtinger(w))
+        shape = mesh.vertices, map.images, mesh.triangles[order], mesh.vertices[:, 0]
+        return cls(*shape, fz, fzb, [], True)
+
+    @property
+    def folded(self) -> NDArray[np.bool_]:
+        """(t,) bool: where the map turns over."""
+        return ~(self.abs_fz > self.abs_fzb)
+
+    @double_precision
+    def values(self, quantity: Quantity | Energy) -> Floats:
+        """(t,) values; an energy is infinite where the map folds."""
+        if quantity == "sigma1":
+            return self.abs_fz + self.abs_fzb
+        if quantity == "sigma2":
+            return self.abs_fz - self.abs_fzb
+        if quantity == "k":
+            return self.abs_fzb / np.maximum(self.abs_fz, 1e-300)
+        energy = SymmetricDirichlet() if quantity == "energy" else quantity
+        if not isinstance(energy, Energy):
+            raise ValueError(f"unknown quantity {quantity!r}; choose one of {', '.join(_LABELS)}")
+        xy: Any = np.where(self.folded, [[1], [0]], [self.abs_fz**2, self.abs_fzb**2])
+        return np.where(self.folded, np.inf, np.asarray(energy.density(*xy)))
+
+
+def distortion(
+    maps: AnyMap | Sequence[AnyMap],
+    quantity: Quantity | Energy = "sigma1",
+    pose: Pose | None = None,
+    *,
+    titles: Sequence[str] = (),
+) -> NotebookFigure:
+    """Fields of distortion on the deformed shapes, side by side, with one scale of colours.
+
+    Dark is distorted, vermilion is folded; under the title stands how many triangles a MeshMap
+    turns over.
+
+    Parameters
+    ----------
+    maps : HarmonicMap or MeshMap, or several
+    quantity : "sigma1", "sigma2", "k" or "energy", or an Energy
+        The singular values (Equation (2)), the little dilatation, the symmetric Dirichlet density,
+        or the density of this energy.
+    pose : Pose, optional
+        Targets (cyan) and the handles' images (black) to draw.
+    titles : one for each map
+    """
+    maps, sheets = _listed(maps)
+    values = [sheet.values(quantity) for sheet in sheets]
+    known = np.concatenate([v[~s.folded] for v, s in zip(values, sheets, strict=True)])
+    known = known if len(known) else np.ones(1)  # a map that folds everywhere
+    norm, colors = _scale(quantity, known)
+    figure, grid = _side_by_side(maps, sheets, pose, titles, 1.0)
+    look: Any = {"norm": norm, "cmap": colors, "edgecolors": "face", "linewidth": 0.2}
+    for axes, sheet, field in zip(grid, sheets, values, strict=True):
+        shape = Drawn(*sheet.images.T, triangles=sheet.triangles)
+        field = np.clip(field, norm.vmin, norm.vmax)
+        drawn = axes.tripcolor(shape, facecolors=field, rasterized=True, zorder=0, **look)
+        draw_loops(axes, sheet.outline, color=INK, linewidth=0.4)
+    below, above = known.min() < 0.98 * norm.vmin, known.max() > 1.02 * norm.vmax
+    ends = ("both" if above else "min") if below else ("max" if above else "neither")
+    label = _LABELS[quantity] if isinstance(quantity, str) else quantity.label
+    ticks = log_ticks(norm.vmin, norm.vmax) if isinstance(norm, LogNorm) else None
+    look = {"extend": ends, "shrink": 0.5, "aspect": 36, "ticks": ticks}
+    color_bar(grid, drawn, label, format="{x:g}", **look)
+    figure.draw_without_rendering()  # a second layout, at drawing, settles the titles
+    return figure
+
+
+def picture(
+    image: ArrayLike | None,
+    maps: AnyMap | Sequence[AnyMap],
+    pose: Pose | None = None,
+    *,
+    titles: Sequence[str] = (),
+) -> NotebookFigure:
+    """A picture under each map, side by side; turned-over triangles are vermilion.
+
+    Parameters
+    ----------
+    image : picture that the cage was traced from, or None for a chequered one
+    maps : HarmonicMap or MeshMap, or several
+    pose : Pose, optional
+        Targets (cyan) and the handles' images (black) to draw.
+    titles : one for each map
+    """
+    maps, sheets = _listed(maps)
+    figure, grid = _side_by_side(maps, sheets, pose, titles, 0.4)
+    for axes, sheet in zip(grid, sheets, strict=True):
+        view = np.transpose([axes.get_xlim(), axes.get_ylim()])
+        sides = np.ptp(view, axis=0)
+        width, height = (_PIXELS * sides / sides.max()).round().astype(int).clip(1).tolist()
+        frame = PixelFrame(width, height).showing(view)
+        texture, places = _texture(image, sheet.rest)
+        positions, size = frame.to_pixel(sheet.images), (width, height)
+        drawn = render_mesh(texture, places, positions, sheet.triangles, size, sheet.heights)
+        draw_picture(axes, drawn, frame)
+        axes.set(xlim=view[:, 0], ylim=view[:, 1])
+    return figure
+
+
+def basis(domain: Domain, j: int, part: Literal["re", "im", "abs"] = "re") -> NotebookFigure:
+    """One basis function inside the offset cage, and the cage on which maps are certified.
+
+    The offset cage's vertices, where the functions are singular, are dots, the hole points
+    crosses; the one of this function is vermilion.
+
+    Parameters
+    ----------
+    j : int
+        Column of the basis: the Cauchy coordinate C_j (Equation (8)) of the offset cage's vertex
+        j, counted loop by loop from 0; after the last vertex, the logarithm ln|z - rho| of each
+        hole.
+    part : "re", "im" or "abs"
+    """
+    n, n_vertices = domain.n_coefficients, domain.n_coefficients - domain.n_holes
+    if not 0 <= j < n:
+        raise ValueError(f"j is {j}; the domain has {n} basis functions, from 0 to {n - 1}")
+    mesh, unit = triangulate(domain.offset_cage, 2 * _VERTICES), np.eye(n)[j]
+    points = mesh.vertices.copy()
+    # A little inside the offset cage: the function is singular at its vertices.
+    middles = np.repeat(mesh.vertices[mesh.triangles].mean(axis=1), 3, axis=0)
+    points[mesh.triangles.ravel()] = 0.999 * mesh.vertices[mesh.triangles.ravel()] + 0.001 * middles
+    is_log = j >= n_vertices  # its coefficient belongs to phi and psi by halves
+    map = HarmonicMap(domain, unit / 2, unit / 2) if is_log else HarmonicMap(domain, unit, 0 * unit)
+    re, im = map(points).T
+    values = {"re": re, "im": im, "abs": np.hypot(re, im)}[part]
+    most, low = float(np.abs(values).max()) or 1.0, 0.0 if part == "abs" else -1.0
+    figure, (axes,) = _shape_axes(1, box_around(domain.offset_cage.exterior, 0.04))
+    shape: Any = Drawn(*mesh.vertices.T, triangles=mesh.triangles)
+    drawn = axes.tripcolor(
+        shape,
+        values,
+        shading="gouraud",
+        cmap=distortion_colors() if part == "abs" else "PuOr_r",
+        norm=Normalize(low * most, most),
+        rasterized=True,
+        zorder=0,
+    )
+    axes.tricontour(shape, values, 14, colors=INK, linewidths=0.3)
+    draw_loops(axes, domain.offset_cage.loops, color=GREY, linewidth=0.7, label="offset cage")
+    draw_loops(axes, domain.cage.loops, color=BLUE, linewidth=1.0, label="cage")
+    singular = np.concatenate([*domain.offset_cage.loops, domain.hole_points])
+    draw_dots(axes, singular[:n_vertices], GREY, 3.2, edge=0.4, label="singularities")
+    axes.plot(*singular[n_vertices:].T, "x", color=INK, markersize=4, zorder=4)
+    axes.plot(*singular[j], "X" if is_log else "o", color=VERMILION, markersize=6, zorder=5)
+    figure.legend(loc="outside lower center", ncols=3, **style.LEGEND)
+    name = "ln|z − ρ|" if is_log else f"C_{j}(z)"
+    color_bar(axes, drawn, {"re": "Re ", "im": "Im ", "abs": "modulus of "}[part] + name)
+    return figure
+
+
+def panels(certificate: Certificate) -> NotebookFigure:
+    """The boundary's panels with what is proved on each: on the shape, and along arc length.
+
+    On the shape a panel is dark where the certified lower bound of sigma_2 is small, and vermilion
+    where nothing is proved; up to 400 panels end at dots. The plot beside it has the bounds and the
+    sampled sigma_2.
+    """
+    proved, cage = certificate.panels, certificate.map.domain.cage
+    bound = np.nan_to_num(proved.sigma2_lower, nan=-1.0)
+    figure = NotebookFigure(_WIDTH, 3.4)
+    axes, plot = figure.subplots(1, 2, width_ratios=[1, 1.15])
+    figure.get_layout_engine().set(wspace=0.08)  # type: ignore[union-attr]
+    _hold(axes, box_around(cage.exterior, 0.04))
+    start, end = as_points(proved.start), as_points(proved.end)
+    segments = np.stack([start, end], axis=1)
+    axes.add_collection(LineCollection(list(segments[bound <= 0]), colors=VERMILION, linewidths=4))
+    lines = LineCollection(
+        list(segments[bound > 0]),
+        array=bound[bound > 0],
+        cmap=distortion_colors().reversed(),
+        norm=Normalize(0.0, _FULL_MARGIN),
+        linewidths=3,
+    )
+    axes.add_collection(lines)
+    if len(bound) <= _MANY:
+        axes.plot(*start.T, "o", color=INK, markersize=1.4, zorder=3)
+    color_bar(axes, lines, "certified lower bound of σ₂", extend="max", format="{x:g}")
+    title = f"{len(bound)} panels, {int((bound <= 0).sum())} of them not proved"
+    axes.set_title(title, fontsize=style.FONT_SIZE, color=INK)
+    plot.set_title(" \n ", fontsize=style.FONT_SIZE)  # room for the legend
+    figure.draw_without_rendering()  # lays out the axes
+    CertificatePlot(plot, cage).update(certificate, certificate.map)
+    return figure
+
+
+def _listed(maps: Any) -> tuple[list[AnyMap], list[_Sheet]]:
+    found = [*maps] if isinstance(maps, Iterable) else [maps]
+    for map in found:
+        if not isinstance(map, HarmonicMap | MeshMap):
+            raise TypeError(f"{type(map).__name__} is not a map; a result's map is result.map")
+    if not found:
+        raise ValueError("there is no map to draw")
+    return found, [_Sheet.of(map) for map in found]
+
+
+def _scale(quantity: Quantity | Energy, known: Floats) -> tuple[Any, Any]:
+    """Norm and colours; a hundredth of the triangles, at the cage's corners, may lie beyond."""
+    least, high, colors = float(known.min()), float(np.quantile(known, 0.99)), distortion_colors()
+    if quantity == "sigma1":
+        return Normalize(1.0, float(np.clip(high, 1.5, 6.0))), colors
+    if quantity in ("sigma2", "k"):
+        return Normalize(0.0, 1.0), colors.reversed() if quantity == "sigma2" else colors
+    low = max(least, 1e-3)
+    return LogNorm(low, float(np.clip(high, 2 * low, 100 * low))), colors
+
+
+def _side_by_side(
+    maps: Sequence[AnyMap],
+    sheets: Sequence[_Sheet],
+    pose: Pose | None,
+    titles: Sequence[str],
+    room: float,
+) -> tuple[NotebookFigure, list[Axes]]:
+    """Axes with one scale, titles, folds and targets, one for each map; ``room`` is below them."""
+    if len(titles) not in (0, len(maps)):
+        raise ValueError(f"there are {len(titles)} titles for {len(maps)} maps")
+    box = box_around(np.concatenate([sheet.images for sheet in sheets]))
+    box = box if pose is None else enlarged(box, pose.targets)
+    figure, grid = _shape_axes(len(maps), box, room)
+    for i, (axes, map, sheet) in enumerate(zip(grid, maps, sheets, strict=True)):
+        lines = [*titles[i : i + 1]]
+        count = int(sheet.folded.sum())
+        if sheet.counted:
+            lines.append(f"{count} triangle{'' if count == 1 else 's'} turned over")
+        text, color = "\n".join(lines or [" "]), VERMILION if count else INK
+        axes.set_title(text, fontsize=style.FONT_SIZE, color=color)
+        folded = sheet.images[sheet.triangles[sheet.folded]]
+        axes.add_collection(
+            PolyCollection(list(folded), facecolors=VERMILION, edgecolors="face", linewidths=0.6)
+        )
+        if pose is not None:
+            draw_targets(axes, map, pose, float(np.ptp(box, axis=0).max()))
+    if pose is not None:
+        marks = grid[0].get_legend_handles_labels()[0]
+        figure.legend(handles=marks, loc="outside lower center", ncols=2, **style.LEGEND)
+    return figure, grid
+
+
+def _shape_axes(n: int, box: Floats, room: float = 1.0) -> tuple[NotebookFigure, list[Axes]]:
+    columns = min(n, _ABREAST)
+    rows, width = -(-n // columns), _WIDTH if n > 1 else _WIDTH_OF_ONE
+    across, up = np.ptp(box, axis=0)
+    tall = min((width / columns - 0.1) * up / across, _TALLEST)
+    figure = NotebookFigure(width, rows * (tall + 0.4) + room)
+    grid = [figure.add_subplot(rows, columns, i + 1) for i in range(n)]
+    for axes in grid:
+        _hold(axes, box)
+    return figure, grid
+
+
+def _hold(axes: Axes, box: Floats) -> None:
+    axes.set_axis_off()
+    axes.set(xlim=box[:, 0], ylim=box[:, 1], aspect="equal", autoscale_on=False)
+
+
+def _texture(image: ArrayLike | None, rest: Floats) -> tuple[Texture, Floats]:
+    """A picture, or a chequered one, and the places (v, 2) of a shape's vertices in it, pixels."""
+    if image is not None:
+        texture = Texture.from_image(image)
+        return texture, PixelFrame(*texture.size).to_pixel(rest)
+    low, side, cell = rest.min(axis=0), float(np.ptp(rest, axis=0).max()), 16
+    i, j = np.indices((_CHECKS * cell + 2 * cell, _CHECKS * cell + 2 * cell)) // cell
+    colors = np.array([np.append(_rgb(color), 255) for color in ("#f4ead2", "#7fa6c9")], np.uint8)
+    texture = Texture.from_image(colors[(i + j) % 2])
+    return texture, (rest - low) / side * _CHECKS * cell + cell
+
+
+def _rgb(color: str) -> list[int]:
+    return [int(color[i : i + 2], 16) for i in (1, 3, 5)]

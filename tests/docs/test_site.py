@@ -1,0 +1,33 @@
+"""What can be said of the site's pages without building them."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from ..test_public_face import public_names
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+DOCS = REPOSITORY / "docs"
+REFERENCE = "\n".join(p.read_text(encoding="utf-8") for p in (DOCS / "reference").glob("*.md"))
+
+
+def test_the_course_lists_every_notebook() -> None:
+    course = (DOCS / "course.md").read_text(encoding="utf-8")
+    assert "```{course}" in course
+    assert ":glob:\n\n/notebooks/*\n" in course
+
+
+@pytest.mark.parametrize("name", public_names())
+def test_the_reference_has_every_public_name(name: str) -> None:
+    directive = rf"^\.\. auto(?:function|class|module|exception):: glid_nb\.{name}$"
+    assert re.search(directive, REFERENCE, re.MULTILINE)
+
+
+@pytest.mark.parametrize("page", sorted((DOCS / "reference").glob("*.md")), ids=lambda p: p.stem)
+def test_an_example_ends_with_an_empty_line(page: Path) -> None:
+    """Else doctest takes the fence for expected output."""
+    for fence in re.findall(r"```pycon\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL):
+        assert fence.endswith("\n\n")

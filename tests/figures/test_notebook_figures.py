@@ -1,0 +1,117 @@
+"""The figures of the course: what they show, on small domains that other tests use too."""
+
+from __future__ import annotations
+
+import io
+from types import SimpleNamespace
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import to_rgba
+from matplotlib.text import Text
+from PIL import Image
+
+from glid_nb import figures
+from glid_nb.certificate import certify
+from glid_nb.energies import AMIPS
+from glid_nb.figures.style import VERMILION
+from glid_nb.geometry import MeshMap, triangulate
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.solvers import Pose
+
+from ..domains import domain
+
+pytestmark = pytest.mark.slow
+
+RING = HarmonicMap.identity(domain("ring"))
+POSE = Pose([[2.2, 0.1], [-2.2, 0.0]], [[2.2, 0.1], [-2.2, 1.0]])
+
+
+def mirrored() -> MeshMap:
+    mesh = triangulate(domain("ring").cage, 100)
+    return MeshMap(mesh, mesh.vertices * np.where(mesh.vertices[:, :1] > 2.0, [-1, 1], [1, 1]))
+
+
+def texts(figure: Any) -> str:
+    figure.draw_without_rendering()
+    return "\n".join(t.get_text() for t in figure.findobj(Text))
+
+
+def test_a_figure_shows_itself_as_a_picture_and_pyplot_does_not_know_it() -> None:
+    figure = figures.function([0, 1], {"line": [0, 1]})
+    png, size = figure._repr_png_()
+    with Image.open(io.BytesIO(png)) as picture:
+        assert abs(picture.width / picture.height - size["width"] / size["height"]) < 0.02
+    assert plt.get_fignums() == []
+
+
+@pytest.mark.parametrize("quantity", ["sigma1", "sigma2", "k", "energy", AMIPS()])
+def test_distortion_draws_maps_side_by_side_and_counts_what_is_turned_over(quantity: Any) -> None:
+    folded = mirrored()
+    count = int(folded.flipped.sum())
+    figure = figures.distortion([RING, folded], quantity, POSE, titles=["ours", "theirs"])
+    assert f"theirs\n{count} triangles turned over" in texts(figure)
+    vermilion = [
+        len(shapes.get_paths())
+        for shapes in figure.findobj(PolyCollection)
+        if tuple(np.ravel(shapes.get_facecolor())) == to_rgba(VERMILION)
+    ]
+    assert vermilion == [0, count]
+    assert count > 0
+
+
+def test_unknown_quantities_and_things_that_are_no_maps_are_refused() -> None:
+    with pytest.raises(ValueError, match="unknown quantity 'sigma3'"):
+        figures.distortion(RING, "sigma3")  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match=r"result\.map"):
+        figures.distortion(SimpleNamespace(map=RING))  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="1 titles for 2 maps"):
+        figures.distortion([RING, RING], titles=["one"])
+
+
+def test_without_a_picture_the_shape_is_chequered() -> None:
+    figure = figures.picture(None, [RING, mirrored()], POSE)
+    pixels = np.asarray(figure.axes[0].images[0].get_array())
+    assert len(np.unique(pixels[200:-200, 60:90, :3].reshape(-1, 3), axis=0)) >= 2
+    middle = pixels[len(pixels) // 2, pixels.shape[1] // 2]
+    assert (middle[:3] == 255).all()  # the hole
+
+
+def test_a_basis_function_is_what_the_map_with_this_one_coefficient_is() -> None:
+    shape = domain("ring")
+    n = shape.n_coefficients
+    for j in (2, n - 1):
+        assert figures.basis(shape, j, "abs").axes
+    with pytest.raises(ValueError, match=f"from 0 to {n - 1}"):
+        figures.basis(shape, n)
+
+
+def test_the_curve_of_fz_tells_each_loops_winding() -> None:
+    # f = z^2 / 2 has the zero of f_z in the hole: seen from the hole's clockwise loop, -1 turn.
+    shape = domain("ring")
+    vertices = np.concatenate(shape.offset_cage.loops_complex)
+    phi = np.append(vertices**2 / 2, 0)
+    text = texts(figures.derivative_curve(HarmonicMap(shape, phi, 0 * phi)))
+    assert "exterior loop: 1 turn" in text
+    assert "hole 1: -1 turn" in text
+
+
+def test_panels_are_counted_and_the_unproved_ones_too() -> None:
+    assert "of them not proved" in texts(figures.panels(certify(RING)))
+    psi = np.zeros_like(RING.phi)
+    psi[1:4] = 40
+    failed = certify(HarmonicMap(RING.domain, RING.phi, psi))
+    assert not failed.certified
+    assert " 0 of them" not in texts(figures.panels(failed))
+
+
+def test_level_sets_and_convergence_are_labelled() -> None:
+    assert "Symmetric Dirichlet" in texts(figures.energy_levels("iso", AMIPS()))
+    steps = [SimpleNamespace(iteration=i, energy=2 + 0.1**i, time=0.1) for i in range(4)]
+    result: Any = SimpleNamespace(initial=steps[0], history=tuple(steps[1:]))
+    for against in ("iterations", "seconds"):
+        figure = figures.convergence({"ours": result}, against, gap_to=2.0)
+        assert {"ours", against} <= set(texts(figure).split("\n"))

@@ -1,0 +1,38 @@
+"""What a reader sees who runs the check of an exercise."""
+
+from __future__ import annotations
+
+import pytest
+
+from glid_nb.course import check
+
+
+def test_an_exercise_whose_assertions_hold_is_right(capsys: pytest.CaptureFixture[str]) -> None:
+    with check("exercise 1"):
+        assert True
+    assert capsys.readouterr().out == "exercise 1: right\n"
+
+
+def test_a_failed_assertion_says_what_is_missing(capsys: pytest.CaptureFixture[str]) -> None:
+    with check("exercise 1"):
+        raise AssertionError("the map folds")
+    assert capsys.readouterr().out == "exercise 1: not yet: the map folds\n"
+
+
+def test_an_error_of_the_readers_code_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    with check("exercise 2"):
+        raise TypeError("a None\nand more")
+    expected = "exercise 2: not yet: your code raises TypeError: a None\n"
+    assert capsys.readouterr().out == expected
+
+
+def test_silent_failures_are_not_right(capsys: pytest.CaptureFixture[str]) -> None:
+    for failure in (AssertionError(), ValueError()):
+        with check("exercise 3"):
+            raise failure
+    assert capsys.readouterr().out.count("exercise 3: not yet: ") == 2
+
+
+def test_an_interrupt_passes() -> None:
+    with pytest.raises(KeyboardInterrupt), check("exercise 1"):
+        raise KeyboardInterrupt

@@ -1,0 +1,139 @@
+"""Checks a built site: ``python tools/check_site.py site``.
+
+Every link and anchor between its pages resolves, and in Chromium every page opens, at a phone's
+width and at a desk's, without an error in the console, a request that leaves the folder, or
+sideways scrolling. Searching finds a page. Pages are opened as files, without a server.
+``--links`` leaves the browser out.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator, Sequence
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+from playwright.sync_api import Browser, ConsoleMessage, Request
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from tests.browser import launched_chromium
+
+WIDTHS = {390: 844, 1280: 800}
+SEARCH = "winding"
+
+_OVERFLOW = """() => {
+  const width = document.documentElement.clientWidth;
+  if (document.documentElement.scrollWidth <= width) return [];
+  const clipped = (e) => {
+    for (let p = e.parentElement; p && p !== document.body; p = p.parentElement)
+      if (getComputedStyle(p).overflowX !== 'visible') return true;
+    return false;
+  };
+  return [...document.querySelectorAll('body *')]
+    .filter((e) => e.getBoundingClientRect().right > width + 1 && !clipped(e))
+    .slice(0, 3).map((e) => e.outerHTML.slice(0, 120));
+}"""
+
+
+class Links(HTMLParser):
+    """What a page offers to link to, and what it links to."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.anchors = {"", "top"}
+        self.targets: list[str] = []
+        self.feed(text)
+
+    def handle_starttag(self, _tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        given = dict(attrs)
+        self.anchors |= {value for key in ("id", "name") if (value := given.get(key))}
+        self.targets += [value for key in ("href", "src") if (value := given.get(key))]
+
+
+def html_pages(site: Path) -> list[Path]:
+    """All but the theme's own templates."""
+    return sorted(p for p in site.rglob("*.html") if "_static" not in p.parts)
+
+
+def broken_links(site: Path) -> Iterator[str]:
+    """One sentence for every link whose file or anchor is not there."""
+    pages = {path.resolve(): Links(path.read_text(encoding="utf-8")) for path in html_pages(site)}
+    for page, links in pages.items():
+        for target in links.targets:
+            parts = urlsplit(target)
+            if parts.scheme or parts.netloc:
+                continue
+            path = (page.parent / unquote(parts.path)).resolve() if parts.path else page
+            name = page.relative_to(site.resolve())
+            if not path.is_file():
+                yield f"{name}: {target} is no file"
+            elif path in pages and unquote(parts.fragment) not in pages[path].anchors:
+                yield f"{name}: {target} has no such anchor"
+
+
+class Visitor:
+    """A page of the browser that notes what goes wrong in it."""
+
+    def __init__(self, browser: Browser, home: str, width: int, height: int) -> None:
+        self.page = browser.new_page(viewport={"width": width, "height": height})
+        self.home, self.notes = home, list[str]()
+        self.page.on("console", self._console)
+        self.page.on("pageerror", lambda error: self.notes.append(str(error)))
+        self.page.on("request", self._request)
+
+    def _console(self, message: ConsoleMessage) -> None:
+        if message.type == "error":
+            self.notes.append(message.text)
+
+    def _request(self, request: Request) -> None:
+        if not request.url.startswith((self.home, "data:", "blob:")):
+            self.notes.append(f"asks for {request.url}")
+
+    def visit(self, name: str) -> list[str]:
+        """What is wrong with a page."""
+        self.notes.clear()
+        self.page.goto(self.home + name)
+        if name == "index.html":  # leads on to the start page
+            self.page.wait_for_url(f"{self.home}docs/**")
+        wide = self.page.evaluate(_OVERFLOW)
+        return [*self.notes, *(f"wider than the page: {element}" for element in wide)]
+
+    def search(self, word: str) -> list[str]:
+        """What is wrong with searching for a word that is there; raises if nothing is found."""
+        self.notes.clear()
+        self.page.goto(f"{self.home}search.html?q={word}")
+        self.page.wait_for_selector("#search-results li a", timeout=20_000)
+        return list(self.notes)
+
+
+def faults_in_browser(site: Path) -> Iterator[str]:
+    """One sentence for every page that does not open well."""
+    with launched_chromium() as browser:
+        for width, height in WIDTHS.items():
+            visitor = Visitor(browser, f"{site.resolve().as_uri()}/", width, height)
+            for path in html_pages(site):
+                name = path.relative_to(site).as_posix()
+                yield from (f"{name} at {width} px: {fault}" for fault in visitor.visit(name))
+            yield from (f"search at {width} px: {fault}" for fault in visitor.search(SEARCH))
+            visitor.page.close()
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("site", type=Path)
+    parser.add_argument("--links", action="store_true", help="leave the browser out")
+    given = parser.parse_args(arguments)
+    found = list(broken_links(given.site))
+    if not given.links:
+        found += faults_in_browser(given.site)
+    print(*found, sep="\n" if found else "", file=sys.stderr)
+    pages = len(html_pages(given.site))
+    print(f"{pages} pages, {len(found)} faults")
+    return bool(found)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
