@@ -78,6 +78,9 @@ html_theme = "pydata_sphinx_theme"
 html_title = "glid_nb"
 html_static_path = ["static"]
 html_css_files = ["site.css"]
+# Read from disk, a page may not fetch others for the summaries of search results.
+_NO_SUMMARY = "DOCUMENTATION_OPTIONS.SHOW_SEARCH_SUMMARY = false"
+html_js_files = [(None, {"body": f"if (location.protocol === 'file:') {_NO_SUMMARY};"})]
 html_favicon = "static/mark.svg"
 html_logo = "static/mark.svg"
 html_show_sourcelink = False

@@ -2,16 +2,14 @@
 
 Every link and anchor between its pages resolves, and in Chromium every page opens, at a phone's
 width and at a desk's, without an error in the console, a request that leaves the folder, or
-sideways scrolling. Searching finds a page. ``--links`` leaves the browser out.
+sideways scrolling. Searching finds a page. Pages are opened as files, without a server.
+``--links`` leaves the browser out.
 """
 
 from __future__ import annotations
 
 import argparse
-import functools
-import http.server
 import sys
-import threading
 from collections.abc import Iterator, Sequence
 from html.parser import HTMLParser
 from pathlib import Path
@@ -76,11 +74,6 @@ def broken_links(site: Path) -> Iterator[str]:
                 yield f"{name}: {target} has no such anchor"
 
 
-class _Quiet(http.server.SimpleHTTPRequestHandler):
-    def log_message(self, *_: object) -> None:
-        pass
-
-
 class Visitor:
     """A page of the browser that notes what goes wrong in it."""
 
@@ -108,28 +101,24 @@ class Visitor:
         wide = self.page.evaluate(_OVERFLOW)
         return [*self.notes, *(f"wider than the page: {element}" for element in wide)]
 
-    def search(self, word: str) -> None:
-        """Fails if nothing is found."""
+    def search(self, word: str) -> list[str]:
+        """What is wrong with searching for a word that is there; raises if nothing is found."""
+        self.notes.clear()
         self.page.goto(f"{self.home}search.html?q={word}")
         self.page.wait_for_selector("#search-results li a", timeout=20_000)
+        return list(self.notes)
 
 
 def faults_in_browser(site: Path) -> Iterator[str]:
     """One sentence for every page that does not open well."""
-    handler = functools.partial(_Quiet, directory=str(site))
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    home = f"http://127.0.0.1:{server.server_port}/"
-    try:
-        with launched_chromium() as browser:
-            for width, height in WIDTHS.items():
-                visitor = Visitor(browser, home, width, height)
-                for path in html_pages(site):
-                    name = path.relative_to(site).as_posix()
-                    yield from (f"{name} at {width} px: {fault}" for fault in visitor.visit(name))
-                visitor.search(SEARCH)
-    finally:
-        server.shutdown()
+    with launched_chromium() as browser:
+        for width, height in WIDTHS.items():
+            visitor = Visitor(browser, f"{site.resolve().as_uri()}/", width, height)
+            for path in html_pages(site):
+                name = path.relative_to(site).as_posix()
+                yield from (f"{name} at {width} px: {fault}" for fault in visitor.visit(name))
+            yield from (f"search at {width} px: {fault}" for fault in visitor.search(SEARCH))
+            visitor.page.close()
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -23,7 +23,20 @@ def chapter(path: Path) -> tuple[str, str, str]:
         return found[1].strip(" *_.") if found else ""
 
     question = stated(r"(?i)^\W*the question:?\W*:?\s*(.+?)$")
-    return stated(r"^# +(.+)$"), question, stated(r"(?i)minutes:?\W*\s*(\d+(?: ?(?:to|-|–) ?\d+)?)")
+    title = re.sub(r"^\d+\W+", "", stated(r"^# +(.+)$"))
+    return (
+        title,
+        question[:1].upper() + question[1:],
+        stated(r"(?i)minutes:?\W*\s*(\d+(?: ?(?:to|-|–) ?\d+)?)"),
+    )
+
+
+def hide_live_widgets(_app: Sphinx, document: nodes.document) -> None:
+    """A widget's text says nothing; a page without a kernel shows its scripted twin beside it."""
+    for block in list(document.findall(nodes.literal_block)):
+        if re.match(r"(interactive|Editor|CageTracer)\(", block.astext()):
+            words = "In the running notebook there is something to move here."
+            block.replace_self(nodes.paragraph("", words, classes=["widget"]))
 
 
 class Course(SphinxDirective):
@@ -43,4 +56,5 @@ class Course(SphinxDirective):
 
 def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("course", Course)
+    app.connect("doctree-read", hide_live_widgets)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

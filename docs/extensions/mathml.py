@@ -12,15 +12,20 @@ from sphinx.application import Sphinx
 from sphinx.errors import SphinxError
 from sphinx.writers.html5 import HTML5Translator
 
+_ARG = re.compile(r"\\arg\b")  # which latex2mathml does not know
+_BAR = '<mo stretchy="false">&#x0007C;</mo>'  # of a modulus, without an operator's spaces
 _TAG = re.compile(r"\\tag\*?\{([^{}]*)\}")
 
 
 def mathml(latex: str, display: str) -> str:
     """The element ``math``; ``display`` is "inline" or "block"."""
     try:
-        return convert(latex, display=display)
+        made = convert(_ARG.sub(r"\\operatorname{arg}", latex), display=display)
     except Exception as error:  # whatever its parser raises, the equation is at fault
         raise SphinxError(f"latex2mathml cannot read {latex!r}: {error!r}") from error
+    if unknown := re.findall(r">(\\\w+)", made):
+        raise SphinxError(f"latex2mathml does not know {', '.join(unknown)} in {latex!r}")
+    return made.replace(_BAR, _BAR.replace(">", ' lspace="0" rspace="0">', 1))
 
 
 def visit_inline(self: HTML5Translator, node: nodes.math) -> None:

@@ -127,7 +127,7 @@ def distortion(
     known = np.concatenate([v[~s.folded] for v, s in zip(values, sheets, strict=True)])
     known = known if len(known) else np.ones(1)  # a map that folds everywhere
     norm, colors = _scale(quantity, known)
-    figure, grid = _side_by_side(maps, sheets, pose, titles)
+    figure, grid = _side_by_side(maps, sheets, pose, titles, 1.0)
     look: Any = {"norm": norm, "cmap": colors, "edgecolors": "face", "linewidth": 0.2}
     for axes, sheet, field in zip(grid, sheets, values, strict=True):
         shape = Drawn(*sheet.images.T, triangles=sheet.triangles)
@@ -162,7 +162,7 @@ def picture(
     titles : one for each map
     """
     maps, sheets = _listed(maps)
-    figure, grid = _side_by_side(maps, sheets, pose, titles)
+    figure, grid = _side_by_side(maps, sheets, pose, titles, 0.4)
     for axes, sheet in zip(grid, sheets, strict=True):
         view = np.transpose([axes.get_xlim(), axes.get_ylim()])
         sides = np.ptp(view, axis=0)
@@ -284,19 +284,23 @@ def _scale(quantity: Quantity | Energy, known: Floats) -> tuple[Any, Any]:
 
 
 def _side_by_side(
-    maps: Sequence[AnyMap], sheets: Sequence[_Sheet], pose: Pose | None, titles: Sequence[str]
+    maps: Sequence[AnyMap],
+    sheets: Sequence[_Sheet],
+    pose: Pose | None,
+    titles: Sequence[str],
+    room: float,
 ) -> tuple[NotebookFigure, list[Axes]]:
-    """Axes with one scale, titles, outlines, folds and targets, one for each map."""
+    """Axes with one scale, titles, folds and targets, one for each map; ``room`` is below them."""
     if len(titles) not in (0, len(maps)):
         raise ValueError(f"there are {len(titles)} titles for {len(maps)} maps")
     box = box_around(np.concatenate([sheet.images for sheet in sheets]))
     box = box if pose is None else enlarged(box, pose.targets)
-    figure, grid = _shape_axes(len(maps), box)
+    figure, grid = _shape_axes(len(maps), box, room)
     for i, (axes, map, sheet) in enumerate(zip(grid, maps, sheets, strict=True)):
         lines = [*titles[i : i + 1]]
         count = int(sheet.folded.sum())
         if sheet.counted:
-            lines.append(f"{count} of {len(sheet.triangles)} triangles turned over")
+            lines.append(f"{count} triangle{'' if count == 1 else 's'} turned over")
         text, color = "\n".join(lines or [" "]), VERMILION if count else INK
         axes.set_title(text, fontsize=style.FONT_SIZE, color=color)
         folded = sheet.images[sheet.triangles[sheet.folded]]
@@ -311,12 +315,12 @@ def _side_by_side(
     return figure, grid
 
 
-def _shape_axes(n: int, box: Floats) -> tuple[NotebookFigure, list[Axes]]:
+def _shape_axes(n: int, box: Floats, room: float = 1.0) -> tuple[NotebookFigure, list[Axes]]:
     columns = min(n, _ABREAST)
     rows, width = -(-n // columns), _WIDTH if n > 1 else _WIDTH_OF_ONE
     across, up = np.ptp(box, axis=0)
     tall = min((width / columns - 0.1) * up / across, _TALLEST)
-    figure = NotebookFigure(width, rows * (tall + 0.4) + 1.0)
+    figure = NotebookFigure(width, rows * (tall + 0.4) + room)
     grid = [figure.add_subplot(rows, columns, i + 1) for i in range(n)]
     for axes in grid:
         _hold(axes, box)

@@ -1,0 +1,134 @@
+"""The course: what is saved in its notebooks, and whether the checks of its exercises can tell.
+
+A chapter's cells are run once, in one namespace and without figures; where a check stands, it is
+run on the skeleton, on the solution and on the wrong answers of `notebooks/solutions`.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import re
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import nbformat
+import pytest
+
+from glid_nb import figures
+
+FOLDER = Path(__file__).parents[2] / "notebooks"
+NOTEBOOKS = sorted(FOLDER.glob("[0-9][0-9]_*.ipynb"))
+CHAPTERS = [path for path in NOTEBOOKS if path.stem >= "03"]
+_HEADING = re.compile(r"^# %% exercise (\d+): (.+)$", re.MULTILINE)
+_FENCE = re.compile(r"<details>.*?```python\n(.*?)\n```.*?</details>", re.DOTALL)
+
+pytestmark = pytest.mark.slow  # each chapter solves a few problems
+
+
+class Outcome(NamedTuple):
+    """What the check of an exercise prints for an answer."""
+
+    exercise: int
+    answer: str
+    printed: str
+
+
+def cells(path: Path) -> list[Any]:
+    return nbformat.read(path, as_version=4).cells
+
+
+def has(cell: Any, tag: str) -> bool:
+    return tag in cell.metadata.get("tags", ())
+
+
+def answers(path: Path) -> dict[tuple[int, str], str]:
+    """The code of each answer by the exercise's number and the answer's name."""
+    text = (path.parent / "solutions" / path.stem).with_suffix(".py").read_text(encoding="utf-8")
+    _, *parts = _HEADING.split(text)
+    triples = zip(parts[::3], parts[1::3], parts[2::3], strict=True)
+    return {(int(number), name): code.strip() for number, name, code in triples}
+
+
+def printed(code: str, name: str, namespace: dict[str, Any]) -> str:
+    with contextlib.redirect_stdout(io.StringIO()) as out:
+        exec(compile(code, name, "exec"), namespace)
+    return out.getvalue().strip()
+
+
+def outcomes(path: Path) -> tuple[Outcome, ...]:
+    """Run a chapter up to its last check, and each check on the skeleton and all answers."""
+    namespace: dict[str, Any] = {"__name__": "__main__", "display": lambda *_: None}
+    book = [cell for cell in cells(path) if cell.cell_type == "code"]
+    last = max(i for i, cell in enumerate(book) if has(cell, "check"))
+    known, found, exercise = answers(path), [], 0
+    for cell in book[: last + 1]:
+        if has(cell, "nbval-skip"):
+            continue
+        text = printed(cell.source, path.name, namespace)
+        if not has(cell, "check"):
+            continue
+        exercise += 1
+        found.append(Outcome(exercise, "skeleton", text))
+        for (number, name), code in known.items():
+            if number == exercise:
+                tried = dict(namespace)
+                for (earlier, kind), solved in known.items():
+                    if earlier < exercise and kind == "solution":
+                        printed(solved, path.name, tried)
+                printed(code, path.name, tried)
+                found.append(Outcome(exercise, name, printed(cell.source, path.name, tried)))
+    return tuple(found)
+
+
+@pytest.fixture
+def without_figures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Figures and sliders draw nothing: nbval runs the notebooks with them."""
+    import ipywidgets
+
+    for name in figures.__all__:
+        monkeypatch.setattr(figures, name, lambda *_, **__: None)
+    monkeypatch.setattr(ipywidgets, "interact", lambda *_, **__: None)
+
+
+@pytest.mark.usefixtures("without_figures")
+@pytest.mark.parametrize("path", CHAPTERS, ids=lambda p: p.stem)
+def test_a_check_tells_a_solution_from_a_skeleton_and_from_wrong_answers(path: Path) -> None:
+    for exercise, answer, text in outcomes(path):
+        right, wrong = f"exercise {exercise}: right", f"exercise {exercise}: not yet: "
+        if answer == "solution":
+            assert text == right
+        else:
+            assert text.startswith(wrong), f"exercise {exercise}, {answer}: {text}"
+
+
+@pytest.mark.parametrize("path", CHAPTERS, ids=lambda p: p.stem)
+def test_a_chapter_has_two_or_three_exercises_each_with_a_wrong_answer(path: Path) -> None:
+    book = cells(path)
+    n = sum(has(cell, "check") for cell in book)
+    assert 2 <= n <= 3
+    assert sum(has(cell, "exercise") for cell in book) == n
+    names = [[name for number, name in answers(path) if number == i] for i in range(1, n + 1)]
+    assert all("solution" in of and len(of) >= 2 for of in names)
+
+
+@pytest.mark.parametrize("path", CHAPTERS, ids=lambda p: p.stem)
+def test_the_collapsed_solutions_are_those_that_are_run(path: Path) -> None:
+    text = "\n".join(cell.source for cell in cells(path) if cell.cell_type == "markdown")
+    shown = [code.strip() for code in _FENCE.findall(text)]
+    assert shown == [code for (_, name), code in answers(path).items() if name == "solution"]
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.stem)
+def test_a_notebook_is_saved_with_pictures_and_without_widgets(path: Path) -> None:
+    book = nbformat.read(path, as_version=4)
+    assert "widgets" not in book.metadata  # without its state GitHub refuses to show the notebook
+    outputs = [out for cell in book.cells if cell.cell_type == "code" for out in cell.outputs]
+    assert any("image/png" in out.get("data", ()) for out in outputs)
+    assert not [out for out in outputs if out.output_type == "error" or out.get("name") == "stderr"]
+
+
+@pytest.mark.parametrize("path", CHAPTERS, ids=lambda p: p.stem)
+def test_what_is_saved_is_the_skeletons_check(path: Path) -> None:
+    saved = [c.outputs[0].text.strip() for c in cells(path) if has(c, "check")]
+    assert all(": not yet: " in text for text in saved)
