@@ -37,8 +37,8 @@ def two_loop(gradient, pairs):
 # %% exercise 3: solution
 def area_mean(map, points, h=1e-6):
     """The mean of E_iso over points inside, by finite differences of the map itself."""
-    across = (map(points + [h, 0]) - map(points - [h, 0])) / (2 * h)
-    up = (map(points + [0, h]) - map(points - [0, h])) / (2 * h)
+    across = (map(points + np.array([h, 0])) - map(points - np.array([h, 0]))) / (2 * h)
+    up = (map(points + np.array([0, h])) - map(points - np.array([0, h]))) / (2 * h)
     squares = np.sum(across**2 + up**2, axis=1)
     det = across[:, 0] * up[:, 1] - across[:, 1] * up[:, 0]
     return np.mean(squares * (1 + det**-2) / 2)
@@ -47,6 +47,6 @@ def area_mean(map, points, h=1e-6):
 # %% exercise 3: a typical wrong answer
 # It forgets the inverse's half of E_iso, so that shrinking looks free.
 def area_mean(map, points, h=1e-6):
-    across = (map(points + [h, 0]) - map(points - [h, 0])) / (2 * h)
-    up = (map(points + [0, h]) - map(points - [0, h])) / (2 * h)
+    across = (map(points + np.array([h, 0])) - map(points - np.array([h, 0]))) / (2 * h)
+    up = (map(points + np.array([0, h])) - map(points - np.array([0, h]))) / (2 * h)
     return np.mean(np.sum(across**2 + up**2, axis=1))
