@@ -24,6 +24,7 @@ MADE_BY_THE_PACKAGE = {
         "Tracing",
     ]
 }
+KEPT = {"name", "triangulation", "images", "areas", "flipped", "layered"}
 
 
 def strip_examples(_app: Sphinx, document: nodes.document) -> None:
@@ -52,6 +53,15 @@ def signature(
         if p.name not in ("self", "kwargs")
     ]
     return str(own.replace(parameters=parameters, return_annotation=own.empty)), ""
+
+
+def skip_inner(
+    app: Sphinx, what: str, name: str, _value: Any, _skip: bool, _options: Any
+) -> bool | None:
+    """Of a method its name and its settings are for users; the rest is how it runs."""
+    if app.env.docname.endswith("reference/methods") and what == "class":
+        return name not in KEPT or None
+    return None
 
 
 def closing_words(
@@ -84,6 +94,7 @@ def keep_notebooks_out(app: Sphinx) -> None:
 def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("doctree-read", strip_examples)
     app.connect("autodoc-process-signature", signature)
+    app.connect("autodoc-skip-member", skip_inner)
     app.connect("autodoc-process-docstring", closing_words, priority=400)  # before napoleon
     app.connect("builder-inited", keep_notebooks_out, priority=900)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
