@@ -66,6 +66,7 @@ autodoc_preserve_defaults = True
 autodoc_typehints = "none"
 napoleon_google_docstring = False
 napoleon_use_rtype = False
+napoleon_attr_annotations = False
 python_use_unqualified_type_names = True
 python_maximum_signature_line_length = 110
 toc_object_entries = False
@@ -82,7 +83,6 @@ html_css_files = ["site.css"]
 _NO_SUMMARY = "DOCUMENTATION_OPTIONS.SHOW_SEARCH_SUMMARY = false"
 html_js_files = [(None, {"body": f"if (location.protocol === 'file:') {_NO_SUMMARY};"})]
 html_favicon = "static/mark.svg"
-html_logo = "static/mark.svg"
 html_show_sourcelink = False
 html_copy_source = False
 html_show_sphinx = False
@@ -90,7 +90,12 @@ html_last_updated_fmt = None
 html_sidebars = {"docs/index": []}
 html_context = {"default_mode": "auto"}
 html_theme_options = {
-    "logo": {"text": "glid_nb", "alt_text": "glid_nb, to the start page"},
+    "logo": {
+        "text": "glid_nb",
+        "alt_text": "glid_nb, to the start page",
+        "image_light": "_static/mark.svg",
+        "image_dark": "_static/mark-dark.svg",
+    },
     "header_links_before_dropdown": 6,
     "navbar_align": "left",
     "navigation_depth": 3,

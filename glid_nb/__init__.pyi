@@ -42,6 +42,7 @@ from .solvers import Pose as Pose
 from .solvers import Progress as Progress
 from .solvers import Result as Result
 from .solvers import Status as Status
+from .solvers import refine as refine
 from .solvers import solve as solve
 from .solvers import solve_batch as solve_batch
 from ._runtime import enable_compilation_cache as enable_compilation_cache

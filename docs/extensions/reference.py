@@ -3,12 +3,28 @@
 from __future__ import annotations
 
 import inspect
+import itertools
+import re
 from pathlib import Path
 from typing import Any
 
 from docutils import nodes
 from sphinx.application import Sphinx
 from traitlets import HasTraits
+
+MADE_BY_THE_PACKAGE = {
+    f"glid_nb.{name}"
+    for name in [
+        "Certificate",
+        "GlobalInjectivity",
+        "Iteration",
+        "Progress",
+        "Result",
+        "Status",
+        "Tracing",
+    ]
+}
+KEPT = {"name", "triangulation", "images", "areas", "flipped", "layered"}
 
 
 def strip_examples(_app: Sphinx, document: nodes.document) -> None:
@@ -19,10 +35,15 @@ def strip_examples(_app: Sphinx, document: nodes.document) -> None:
             block.replace_self(nodes.literal_block(text, text, **block.attributes))
 
 
-def widget_signature(
-    _app: Sphinx, what: str, _name: str, value: Any, _options: Any, *_: str | None
+def signature(
+    _app: Sphinx, what: str, name: str, value: Any, _options: Any, *_: str | None
 ) -> tuple[str, str] | None:
-    """Of a widget's constructor, which traitlets hides behind ``*args, **kwargs``."""
+    """None for what only the package makes, and a widget's own.
+
+    Traitlets hides a widget's constructor behind ``*args, **kwargs``.
+    """
+    if name in MADE_BY_THE_PACKAGE:
+        return "", ""
     if what != "class" or not issubclass(value, HasTraits):
         return None
     own = inspect.signature(value.__init__)
@@ -32,6 +53,33 @@ def widget_signature(
         if p.name not in ("self", "kwargs")
     ]
     return str(own.replace(parameters=parameters, return_annotation=own.empty)), ""
+
+
+def skip_inner(
+    app: Sphinx, what: str, name: str, _value: Any, _skip: bool, _options: Any
+) -> bool | None:
+    """Of a method its name and its settings are for users; the rest is how it runs."""
+    if app.env.docname.endswith("reference/methods") and what == "class":
+        return name not in KEPT or None
+    return None
+
+
+def closing_words(
+    _app: Sphinx, _what: str, _name: str, _value: Any, _options: Any, lines: list[str]
+) -> None:
+    """Moves what a docstring says after its parameters in front of them.
+
+    The numpy style has no place for it there: it would be taken for one more parameter.
+    """
+    heads = [i for i in range(len(lines) - 1) if re.fullmatch("-{3,}", lines[i + 1].strip())]
+    for head, end in reversed(list(itertools.pairwise([*heads, len(lines)]))):
+        if lines[head] in ("Parameters", "Returns"):
+            blanks = (i for i in range(head, end) if not lines[i].strip())
+            first = next(blanks, end)
+            words = lines[first:end]
+            if any(words):
+                lines[first:end] = [""]
+                lines[heads[0] : heads[0]] = [*words[1:], ""]
 
 
 def keep_notebooks_out(app: Sphinx) -> None:
@@ -45,6 +93,8 @@ def keep_notebooks_out(app: Sphinx) -> None:
 
 def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("doctree-read", strip_examples)
-    app.connect("autodoc-process-signature", widget_signature)
+    app.connect("autodoc-process-signature", signature)
+    app.connect("autodoc-skip-member", skip_inner)
+    app.connect("autodoc-process-docstring", closing_words, priority=400)  # before napoleon
     app.connect("builder-inited", keep_notebooks_out, priority=900)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

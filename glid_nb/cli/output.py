@@ -14,7 +14,7 @@ from glid_nb._files import write_bytes_atomically, write_text_atomically
 from glid_nb.certificate.rounding import rounded_down, rounded_up
 
 _TIMES = {"compile": 2, "solve": 3, "certify": 3}
-_LONG = ("history", "options", "versions", "machine")
+_LONG = ("history", "attempts", "refinements", "options", "versions", "machine")
 _INJECTIVE = {
     "yes": "locally and globally",
     "no": "locally only",
@@ -108,6 +108,8 @@ def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("panels", panels),
         ("iterations", f"{report['iterations']}"),
         ("energy", f"{e}  ({energy}: {e_iso}, targets: {e_p2p})"),
+        *(("ways", _attempt(one)) for one in report["attempts"]),
+        *(("bases", _refinement(one)) for one in report["refinements"]),
         ("certified", "yes" if report["certified"] else "no"),
         ("sigma_2", f">= {_bounded(report['sigma2_lower'], rounded_down, 6)}"),
         ("sigma_1", f"<= {_bounded(report['sigma1_upper'], rounded_up, 6)}"),
@@ -116,6 +118,15 @@ def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("injective", injective if report["certified"] else "not proved"),
         ("times", ", ".join(seconds)),
     ]
+
+
+def _attempt(one: Mapping[str, Any]) -> str:
+    energy = _bounded(one["energy"], "{:.6g}".format)
+    return f"{one['name']}: " + ("given up" if one["given_up"] else f"{energy}, {one['status']}")
+
+
+def _refinement(one: Mapping[str, Any]) -> str:
+    return f"{one['unknowns']} unknowns: {one['energy']:.6g}, {one['solve_time']:.3f} s"
 
 
 def _bounded(value: float | None, written: Any, *digits: int) -> str:

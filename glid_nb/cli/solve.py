@@ -29,6 +29,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--report", type=Path, metavar="report.json", help="where the report goes")
     start = "a certified map of the same domain to start from (default: see --align)"
     add("--start", type=Path, metavar="map.json", help=start)
+    refine = "solve again with finer bases until that lowers the energy by less than 1 %"
+    add("--refine", action="store_true", help=refine)
     add("--json", action="store_true", help="print the summary as JSON")
     add_solver_flags(parser)
 
@@ -44,7 +46,9 @@ def run(chosen: argparse.Namespace) -> None:
     energy, options = energy_of(chosen), options_of(chosen)
     start = glid_nb.HarmonicMap.load(chosen.start) if chosen.start else None
     with about(chosen.start or chosen.problem):
-        result, report = run_solver(problem.domain, problem.pose, energy, options, start)
+        result, report = run_solver(
+            problem.domain, problem.pose, energy, options, start, chosen.refine
+        )
     assert isinstance(result.map, glid_nb.HarmonicMap)
     files: dict[Path, bytes | str] = {}
     if chosen.out:

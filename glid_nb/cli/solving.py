@@ -22,8 +22,9 @@ def run_solver(
     energy: glid_nb.Energy,
     options: glid_nb.Options,
     start: glid_nb.HarmonicMap | None = None,
+    refine: bool = False,
 ) -> tuple[glid_nb.Result, dict[str, Any]]:
-    """The result and its report.
+    """The result, with ``refine`` that of the finest basis worth it, and its report.
 
     Ctrl-C ends the solve with the last certified map; a second Ctrl-C raises KeyboardInterrupt.
     """
@@ -42,6 +43,8 @@ def run_solver(
             return interrupted()
 
         result = glid_nb.solve(domain, pose, energy, options, start=start, callback=show)
+        if refine:
+            result = glid_nb.refine(result, callback=show)
     with step("proving the result"):
         return result, glid_nb.build_report(result)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 from collections.abc import Iterable
 from typing import Any
 
@@ -22,6 +23,7 @@ from glid_nb.solvers import Pose
 _MISS = 0.004  # handles farther from their target, relative to the shape's size, get a line
 _SHOWN_DPI = 150.0  # in a notebook, at
 _CSS_DPI = 108.0  # this many of the page's pixels per inch
+_ROUND, _COARSE = (1, 1.1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 7), (1, 2, 5)  # ticks of a decade
 
 Floats = NDArray[np.float64]
 
@@ -100,6 +102,18 @@ def draw_targets(axes: Axes, map: Any, pose: Pose, size: float) -> None:
     )
     draw_dots(axes, pose.targets, CYAN, 5.0, edge=0.6, label="targets")
     draw_dots(axes, images, "black", 2.2, edge=0.0, label="handles' images")
+
+
+def log_ticks(low: float, high: float) -> list[float]:
+    """Round numbers from ``low`` to ``high``, at least a tenth of a logarithmic scale apart."""
+    ticks: list[float] = []
+    steps = _COARSE if high > 8 * low else _ROUND
+    for decade in range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1):
+        for tick in (m * 10.0**decade for m in steps):
+            inside = low / 1.001 <= tick <= high * 1.001
+            if inside and (not ticks or math.log(tick / ticks[-1]) > 0.1 * math.log(high / low)):
+                ticks.append(tick)
+    return ticks
 
 
 def color_bar(axes: Any, colors: Any, label: str, **look: Any) -> None:

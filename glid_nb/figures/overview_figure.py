@@ -23,6 +23,7 @@ from glid_nb.figures.drawing import (
     draw_picture,
     draw_targets,
     enlarged,
+    log_ticks,
 )
 from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot
 from glid_nb.figures.style import (
@@ -54,7 +55,6 @@ _NAMES = ("Source", "Deformation", "Distortion", "Energy", "Newton steps", "Cert
 _SHRINK = 1.7  # a common scale may make a picture smaller by this factor
 _DPI = 300
 _OVERSAMPLING = 2  # of the deformed picture
-_TICKS = (1.1, 1.2, 1.5, 2, 3, 5, 10, 20, 50, 100, 1000, 10_000)
 
 
 def overview(
@@ -181,10 +181,6 @@ def _draw_distortion(axes: Axes, map: HarmonicMap, mesh: DeformedMesh) -> None:
     area = shapely.area(shapely.polygons(mesh.vertices[mesh.triangles]))
     most = np.quantile(values, 0.995, weights=area, method="inverted_cdf")
     highest = max(1.25, min(float(most), 1e4))
-    ticks = [1.0]
-    for tick in _TICKS:  # at least a tenth of the colour bar apart
-        if tick <= highest * 1.001 and np.log(tick / ticks[-1]) > 0.1 * np.log(highest):
-            ticks.append(tick)
     colors = axes.tripcolor(
         Triangulation(*mesh.images.T, triangles=mesh.triangles),
         np.clip(distortion, 1.0, highest),
@@ -200,7 +196,7 @@ def _draw_distortion(axes: Axes, map: HarmonicMap, mesh: DeformedMesh) -> None:
         "max(σ₁, 1/σ₂)",
         extend="max" if float(distortion.max()) > 1.02 * highest else "neither",
         extendfrac=0.04,
-        ticks=FixedLocator(ticks),
+        ticks=FixedLocator(log_ticks(1.0, highest)),
         format="{x:g}",
     )
 

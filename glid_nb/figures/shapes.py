@@ -26,6 +26,7 @@ from glid_nb.figures.drawing import (
     draw_picture,
     draw_targets,
     enlarged,
+    log_ticks,
 )
 from glid_nb.figures.plots import CertificatePlot
 from glid_nb.figures.style import BLUE, GREY, INK, VERMILION, distortion_colors
@@ -47,7 +48,6 @@ _PIXELS = 600  # of the longer side of one drawn picture
 _WIDTH, _WIDTH_OF_ONE, _TALLEST = 7.4, 4.6, 3.8  # inches
 _ABREAST = 4
 _CHECKS = 24  # along the longer side of a shape
-_TICKS = np.array([0.1, 0.2, 0.5, 1, 2, 3, 5, 10, 20, 50, 100, 200, 500, 1000])  # of colour bars
 _FULL_MARGIN = 0.5  # from this certified sigma_2 on panels have one colour
 
 _MANY = 400  # panels, among which the dots at their ends would hide the colours
@@ -137,7 +137,7 @@ def distortion(
     below, above = known.min() < 0.98 * norm.vmin, known.max() > 1.02 * norm.vmax
     ends = ("both" if above else "min") if below else ("max" if above else "neither")
     label = _LABELS[quantity] if isinstance(quantity, str) else quantity.label
-    ticks = _TICKS[(norm.vmin <= _TICKS) & (norm.vmax >= _TICKS)] if norm.vmax > 2 else None
+    ticks = log_ticks(norm.vmin, norm.vmax) if isinstance(norm, LogNorm) else None
     look = {"extend": ends, "shrink": 0.5, "aspect": 36, "ticks": ticks}
     color_bar(grid, drawn, label, format="{x:g}", **look)
     figure.draw_without_rendering()  # a second layout, at drawing, settles the titles

@@ -17,6 +17,7 @@ from glid_nb._jax import jax
 from glid_nb.certificate import global_injectivity
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Result
+from glid_nb.solvers.result import Attempt, Refinement
 
 _LIBRARIES = ("jax", "jaxlib", "numpy", "scipy")
 
@@ -29,8 +30,10 @@ def build_report(result: Result) -> dict[str, Any]:
     ``sigma2_lower``, ``sigma1_upper`` and ``k_upper``; ``windings`` of f_z per loop (exterior
     first) and their sum ``winding``; ``globally_injective`` ("yes", "no" or "undecided") and a
     ``crossing`` if not; counts (``panels`` and ``panels_split`` are the solver's, ``proof_panels``
-    those on which the final proof ended); times in seconds; and the ``history``, one object per
-    iteration. Numbers that are not finite are null.
+    those on which the final proof ended); times in seconds; ``attempts``, what each way to a
+    minimum reached, the first too, where that was not the only one; ``refinements``, the same for
+    bases (:func:`glid_nb.refine`); and the ``history``, one object per iteration. Numbers that are
+    not finite are null.
     """
     began = time.perf_counter()
     map_, certificate = result.map, result.certificate
@@ -66,6 +69,8 @@ def build_report(result: Result) -> dict[str, Any]:
         "compile_time": result.compile_time,
         "solve_time": result.solve_time,
         "certify_time": certify_time,
+        "attempts": [_entry(one) for one in result.attempts],
+        "refinements": [_entry(one) for one in result.refinements],
         "options": dataclasses.asdict(options),
         "history": [{**dataclasses.asdict(one), "energy": one.energy} for one in result.history],
         "versions": {
@@ -81,6 +86,10 @@ def build_report(result: Result) -> dict[str, Any]:
         },
     }
     return _plain(report)
+
+
+def _entry(one: Attempt | Refinement) -> dict[str, Any]:
+    return {**dataclasses.asdict(one), "status": one.status.value}
 
 
 def _plain(value: Any) -> Any:

@@ -5,6 +5,7 @@ from glid_nb.solvers.method import Method, MethodError
 from glid_nb.solvers.newton import Newton
 from glid_nb.solvers.options import OptionError, Options
 from glid_nb.solvers.pose import Pose, PoseError
+from glid_nb.solvers.refinement import refine
 from glid_nb.solvers.result import DeformationMap, Iteration, Progress, Result
 from glid_nb.solvers.solve import solve
 from glid_nb.solvers.status import Status
@@ -24,6 +25,7 @@ __all__ = [
     "Result",
     "StartError",
     "Status",
+    "refine",
     "solve",
     "solve_batch",
 ]

@@ -29,8 +29,8 @@ Descend = Callable[[Inputs], Result]
 """Follows one way down."""
 
 # Energies above this multiple of an isometry's, if that is at least the last number, are worth all
-# other ways; those above the second are worth turning where several joints may turn either way.
-HIGH_ENERGY, HIGH_ENERGY_OF_JOINTS, LEAST_ISOMETRY = 2.0, 1.5, 0.5
+# other ways; those above the second are worth turning where joints may turn either way.
+HIGH_ENERGY, HIGH_ENERGY_OF_JOINTS, LEAST_ISOMETRY = 2.0, 1.15, 0.5
 SAME_ENERGY = 1e-6
 # The stages' fractions of lambda, and how far each is followed.
 STAGES = (1e-5, 1e-3, 1e-1)
@@ -64,7 +64,10 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
             best = result
     if len(tried) == 1:
         return first
-    attempts = tuple(Attempt(name, r.status, r.energy, r.iterations) for name, r in tried)
+    attempts = tuple(
+        Attempt(name, r.status, r.energy, r.iterations, given_up=r.pose is not inputs.pose)
+        for name, r in tried
+    )
     return replace(
         best, options=inputs.options, attempts=attempts, **_times([result for _, result in tried])
     )
@@ -96,7 +99,7 @@ def _is_poor(result: Result, joints: int) -> bool:
     if result.status is Status.MAX_ITERATIONS and result.iterations < FEW_ITERATIONS:
         return False
     isometry = max(isometry_energy(result.energy_measure), LEAST_ISOMETRY)
-    high = HIGH_ENERGY_OF_JOINTS if joints > 1 else HIGH_ENERGY
+    high = HIGH_ENERGY_OF_JOINTS if joints else HIGH_ENERGY
     return not result.status.ok or result.energy > high * isometry
 
 

@@ -116,6 +116,21 @@ class Attempt:
     status: Status
     energy: float
     iterations: int
+    given_up: bool = False
+    """Whether it was left on the way, for it distorted the shape far more than the best so far; its
+    energy is that of the stage that it had come to."""
+
+
+@dataclass(frozen=True)
+class Refinement:
+    """One of several bases, each finer than the one before."""
+
+    unknowns: int
+    status: Status
+    energy: float
+    iterations: int
+    solve_time: float
+    """Seconds without compilation."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -152,6 +167,8 @@ class Result:
     """Cholesky factor of the last Hessian, for a solve that goes on from here."""
     attempts: tuple[Attempt, ...] = ()
     """All ways to a minimum that were tried, when the first was not the only one."""
+    refinements: tuple[Refinement, ...] = ()
+    """All bases by :func:`glid_nb.refine`, the first one's too; empty without it."""
     proof: Certificate | None = field(default=None, repr=False)
     """What the solver proved of a harmonic map; always certified."""
 

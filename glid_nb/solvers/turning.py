@@ -3,7 +3,8 @@
 Handles hang together in a tree, each at the nearest one that is in it already. From parent to child
 a pose turns and stretches the line between them; a path does that evenly, so that handles that move
 rigidly together do so all the way. A joint is a line that turns, against that of its parent, by so
-much that either way round may lead to the better minimum.
+much that either way round may lead to the better minimum, or one whose ends come so close that what
+lies between has to turn.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from glid_nb._arrays import Array
 from glid_nb.harmonic import as_complex
 from glid_nb.solvers.pose import Pose, rigid_motion
 
-_JOINT = np.deg2rad(100)
+_JOINT, _CLOSE = np.deg2rad(100), 0.5
 # Where two targets of one line nearly coincide, of its length.
 _LEAST_STRETCH = 1e-3
 # Greatest turn of a stage.
@@ -49,8 +50,9 @@ class Turning:
 
     @property
     def joints(self) -> list[int]:
-        """Places in the order of the lines that turn by over 100 degrees."""
-        return [k for k, turn in enumerate(self.turns) if abs(turn) > _JOINT]
+        """Places in the order of the lines that turn by over 100 degrees or shrink to half."""
+        lines = enumerate(zip(self.turns, self.stretches, strict=True))
+        return [k for k, (turn, stretch) in lines if abs(turn) > _JOINT or stretch < _CLOSE]
 
     @property
     def ways(self) -> dict[str, tuple[int, ...]]:
@@ -74,7 +76,7 @@ class Turning:
         at, root = np.empty_like(z), self.order[0]
         at[root] = z[root] + time * (w[root] - z[root])
         for k, (i, j) in enumerate(zip(self.order[1:], self.parents[1:], strict=True), start=1):
-            turned = np.exp(1j * time * angles[i]) * self.stretches[k] ** time
+            turned = np.exp(1j * time * angles[i]) * (1 + time * (self.stretches[k] - 1))
             at[i] = at[j] + turned * (z[i] - z[j])
         return self.pose.with_targets(np.stack([np.real(at), np.imag(at)], axis=1))
 

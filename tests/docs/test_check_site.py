@@ -1,0 +1,51 @@
+"""The check of the built site finds what it is there for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tools.check_site import broken_links, faults_in_browser
+
+GOOD = '<link rel="icon" href="data:,"><h1 id="a">A page</h1><a href="index.html#a">a</a>'
+
+
+def site(folder: Path, **pages: str) -> Path:
+    for name, body in pages.items():
+        text = f'<!doctype html><meta name="viewport" content="width=device-width">{body}'
+        (folder / f"{name}.html").write_text(text, encoding="utf-8")
+    return folder
+
+
+def test_links_that_resolve_are_no_fault(tmp_path: Path) -> None:
+    more = '<a href="#b">b</a><a name="b"></a><a href="https://a.example/b#c">elsewhere</a>'
+    assert list(broken_links(site(tmp_path, index=GOOD, other=GOOD + more))) == []
+
+
+@pytest.mark.parametrize("target", ["gone.html", "index.html#b", "#b", "gone.png", "../index.html"])
+def test_a_link_to_nothing_is_found(tmp_path: Path, target: str) -> None:
+    for tag in (f'<a href="{target}">', f'<img src="{target}">'):
+        (fault,) = broken_links(site(tmp_path, index=GOOD, other=GOOD + tag))
+        assert fault.startswith(f"other.html: {target}")
+
+
+@pytest.mark.browser
+@pytest.mark.slow
+def test_a_browser_sees_errors_requests_and_wide_pages(tmp_path: Path) -> None:
+    bodies = {
+        "plain": "",
+        "error": "<script>throw Error('as it must')</script>",
+        "request": '<img src="https://a.example/b.png">',
+        "wide": '<div style="width: 2000px">wide</div>',
+    }
+    pages = site(tmp_path, **{name: GOOD + body for name, body in bodies.items()})
+    results = '<ul id="search-results"><li><a href="plain.html">found</a></li></ul>'
+    found = list(faults_in_browser(site(pages, search=GOOD + results)))
+    for name, words in {
+        "error": "as it must",
+        "request": "asks for https://a.example/b.png",
+        "wide": "wider than the page: <div",
+    }.items():
+        assert sum(fault.startswith(f"{name}.html") and words in fault for fault in found) == 2
+    assert not any(fault.startswith("plain") for fault in found)

@@ -1,0 +1,60 @@
+"""Put the way to run it into every notebook: ``python tools/badges.py [OWNER/NAME]``.
+
+Below the title a line with Binder, Colab and a download; below that a cell that installs the
+package on Colab and does nothing elsewhere. With the address of the public repository on GitHub the
+links open the notebook there; without it, the line leads to the page about hosts. Running it again
+replaces what it wrote. The links are words: pictures of a server would need a network when read.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import nbformat
+
+FOLDER = Path(__file__).resolve().parent.parent / "notebooks"
+
+COLAB = """\
+# On Google Colab (untested there): install the package and allow its widgets. Elsewhere: nothing.
+import sys
+
+if "google.colab" in sys.modules:
+    from google.colab import output
+
+    get_ipython().run_line_magic("pip", "install -q glid-nb")
+    output.enable_custom_widget_manager()"""
+
+
+def line(notebook: str, repository: str | None = None) -> str:
+    """The line of links of a notebook, given its file's name."""
+    if repository is None:
+        return (
+            "Run it in JupyterLab or Notebook 7, on Binder, or on Colab (untested): "
+            "[how to](../docs/howto/hosts.md)."
+        )
+    path = f"notebooks/{notebook}"
+    binder = f"https://mybinder.org/v2/gh/{repository}/HEAD?labpath={path}"
+    colab = f"https://colab.research.google.com/github/{repository}/blob/HEAD/{path}"
+    download = f"https://raw.githubusercontent.com/{repository}/HEAD/{path}"
+    return f"Run it: **[Binder]({binder})** · [Colab]({colab}) (untested) · [download]({download})"
+
+
+def with_badges(book: nbformat.NotebookNode, notebook: str, repository: str | None = None) -> None:
+    """Put the two cells below the title, in place of those that are there."""
+    book.cells = [cell for cell in book.cells if cell.id not in ("run-it", "colab")]
+    text = nbformat.v4.new_markdown_cell(line(notebook, repository), id="run-it")
+    install = nbformat.v4.new_code_cell(COLAB, id="colab", metadata={"tags": ["remove-cell"]})
+    book.cells[1:1] = [text, install]
+
+
+def main() -> None:
+    repository = sys.argv[1] if len(sys.argv) > 1 else None
+    for path in sorted(FOLDER.glob("[0-9][0-9]_*.ipynb")):
+        book = nbformat.read(path, as_version=4)
+        with_badges(book, path.name, repository)
+        nbformat.write(book, path)
+
+
+if __name__ == "__main__":
+    main()
