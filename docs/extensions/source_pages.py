@@ -3,7 +3,7 @@
 - A link to a Python file, or its path in code type (`glid_nb/certificate/paper.py`), leads to a
   page with that source, at the first name in the link's text that the file defines.
 - A link to a folder leads to a list of its files, to be downloaded.
-- A public name in code type (`glid.solve`) leads to its place in the reference.
+- A public name in code type (`glid.solve`, `HarmonicMap.sigma1`) leads to the reference.
 
 A path of a Python file that does not exist is a warning, so that no page outlives the code.
 """
@@ -25,11 +25,16 @@ from sphinx.environment import BuildEnvironment
 from sphinx.transforms import SphinxTransform
 from sphinx.util import logging
 
+import glid_nb
+
 logger = logging.getLogger(__name__)
 
 FOLDER = "files"
 _PATH = re.compile(r"((?:glid_nb|studies|tests|tools)/[\w/.]+\.py|glid_check\.py)(?:::(\w+).*)?")
-_NAME = re.compile(r"(?:glid|glid_nb)\.([A-Za-z][\w.]*)(?:\(.*\))?", re.DOTALL)
+_CLASSES = "|".join(name for name in dir(glid_nb) if name[0].isupper())
+_NAME = re.compile(
+    rf"(?:(?:glid|glid_nb)\.(?=\w)|(?=(?:{_CLASSES})\b))([\w.]+)(?:\(.*\))?", re.DOTALL
+)
 
 
 def definition(source: str, name: str) -> int | None:
