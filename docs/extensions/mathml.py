@@ -14,6 +14,8 @@ from sphinx.writers.html5 import HTML5Translator
 
 _ARG = re.compile(r"\\arg\b")  # which latex2mathml does not know
 _BAR = '<mo stretchy="false">&#x0007C;</mo>'  # of a modulus, without an operator's spaces
+# Over a conjugate: latex2mathml's line is as wide as a letter, this one as what is below it.
+_LINE, _WIDE_LINE = '<mo accent="true">&#x02015;</mo>', '<mo stretchy="true">&#x0203E;</mo>'
 _TAG = re.compile(r"\\tag\*?\{([^{}]*)\}")
 
 
@@ -25,6 +27,7 @@ def mathml(latex: str, display: str) -> str:
         raise SphinxError(f"latex2mathml cannot read {latex!r}: {error!r}") from error
     if unknown := re.findall(r">(\\\w+)", made):
         raise SphinxError(f"latex2mathml does not know {', '.join(unknown)} in {latex!r}")
+    made = made.replace(_LINE, _WIDE_LINE)
     return made.replace(_BAR, _BAR.replace(">", ' lspace="0" rspace="0">', 1))
 
 
