@@ -24,8 +24,8 @@ demo: $(VENV)/.demo
 
 # --no-skip: a test that would be skipped because something is missing fails instead.
 test: $(VENV)/.test browser
-	$(PYTEST) -p no:nbval --no-skip -n $(WORKERS) --dist worksteal --durations 25
-	$(PYTEST) --nbval --nbval-current-env notebooks
+	$(PYTEST) -p no:nbval --no-skip -n $(WORKERS) --dist worksteal --durations 25 --ignore tests/notebooks
+	$(PYTEST) --nbval --nbval-current-env --no-skip -n $(WORKERS) --dist loadfile notebooks tests/notebooks
 
 unit: $(VENV)/.test
 	$(PYTEST) -p no:nbval --no-skip -m "not slow and not browser" -n auto tests

@@ -35,6 +35,10 @@ class NotebookFigure(Figure):
         super().__init__((width, height), dpi, facecolor="white", layout="constrained")
         FigureCanvasAgg(self)
 
+    def __repr__(self) -> str:
+        """Without the size, which depends on fonts, so that saved outputs stay comparable."""
+        return f"<{type(self).__name__}>"
+
     def _repr_png_(self) -> tuple[bytes, dict[str, int]]:
         width, height = (_CSS_DPI * self.get_size_inches()).round().astype(int).tolist()
         picture = Image.open(io.BytesIO(figure_png(self, _SHOWN_DPI))).convert("RGB")
