@@ -137,7 +137,7 @@ def distortion(
     below, above = known.min() < 0.98 * norm.vmin, known.max() > 1.02 * norm.vmax
     ends = ("both" if above else "min") if below else ("max" if above else "neither")
     label = _LABELS[quantity] if isinstance(quantity, str) else quantity.label
-    ticks = log_ticks(norm.vmin, norm.vmax) if isinstance(norm, LogNorm) else None
+    ticks = log_ticks(*drawn.get_clim()) if isinstance(norm, LogNorm) else None
     look = {"extend": ends, "shrink": 0.5, "aspect": 36, "ticks": ticks}
     color_bar(grid, drawn, label, format="{x:g}", **look)
     figure.draw_without_rendering()  # a second layout, at drawing, settles the titles

@@ -1,6 +1,6 @@
 """Draws docs/howto/photograph.png: strokes where colours do not tell the shape from its background.
 
-``python -m studies.draw_photograph``
+``python docs/howto/draw_photograph.py``
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from scipy.ndimage import gaussian_filter
 import glid_nb as glid
 from glid_nb.figures.style import ORANGE, SKY, VERMILION
 
-OUT = Path(__file__).resolve().parent.parent / "docs" / "howto" / "photograph.png"
+OUT = Path(__file__).with_name("photograph.png")
 
 # Pixels (x, y) of a picture of 700 by 700.
 OVER_THE_SHAPE = [
