@@ -29,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--report", type=Path, metavar="report.json", help="where the report goes")
     start = "a certified map of the same domain to start from (default: see --align)"
     add("--start", type=Path, metavar="map.json", help=start)
-    refine = "solve again with finer bases until that lowers the energy by less than 1 %"
+    refine = "solve again with finer bases until that lowers the energy by less than 1 %%"
     add("--refine", action="store_true", help=refine)
     add("--json", action="store_true", help="print the summary as JSON")
     add_solver_flags(parser)
