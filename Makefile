@@ -10,8 +10,8 @@
 SHELL := /bin/sh
 VENV := .venv
 PYTEST := $(VENV)/bin/python -m pytest
-# One more than there are processors: a test that waits for the browser leaves its own idle.
-WORKERS = $(shell expr $$(nproc) + 1)
+# Two more than there are processors: tests that wait for the browser or a kernel leave theirs idle.
+WORKERS = $(shell expr $$(nproc) + 2)
 
 # Without bytecode every process of the tests compiles the package and the test files anew.
 unexport PYTHONDONTWRITEBYTECODE
