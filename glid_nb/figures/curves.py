@@ -124,8 +124,8 @@ def convergence(
     axes = figure.add_subplot()
     for (name, result), look in zip(results.items(), _LOOKS * len(results), strict=False):
         steps = [result.initial, *result.history]
-        x = [s.iteration for s in steps]
-        x = np.cumsum([s.time for s in steps]) if against == "seconds" else np.array(x)
+        seconds = np.cumsum([s.time for s in steps])
+        x = seconds if against == "seconds" else np.array([s.iteration for s in steps])
         y = np.array([s.energy for s in steps])
         y = y if gap_to is None else (y - gap_to) / gap_to
         mark = "o" if len(x) <= 40 else ""
