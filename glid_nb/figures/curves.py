@@ -128,8 +128,8 @@ def convergence(
         # Wider below, so that curves which lie on each other are all seen.
         look = {**look, "linewidth": style.LINE + 1.3 * below, "markersize": 2.5 + 2.2 * below}
         steps = [result.initial, *result.history]
-        x = [s.iteration for s in steps]
-        x = np.cumsum([s.time for s in steps]) if against == "seconds" else np.array(x)
+        seconds = np.cumsum([s.time for s in steps])
+        x = seconds if against == "seconds" else np.array([s.iteration for s in steps])
         y = np.array([s.energy for s in steps])
         y = y if gap_to is None else (y - gap_to) / gap_to
         mark = "o" if len(x) <= 40 else ""

@@ -8,7 +8,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
-from matplotlib.colors import LogNorm, Normalize
+from matplotlib.colors import LogNorm, Normalize, to_rgba_array
 from matplotlib.tri import Triangulation as Drawn
 from numpy.typing import ArrayLike, NDArray
 
@@ -348,10 +348,6 @@ def _texture(image: ArrayLike | None, rest: Floats) -> tuple[Texture, Floats]:
         return texture, PixelFrame(*texture.size).to_pixel(rest)
     low, side, cell = rest.min(axis=0), float(np.ptp(rest, axis=0).max()), 16
     i, j = np.indices((_CHECKS * cell + 2 * cell, _CHECKS * cell + 2 * cell)) // cell
-    colors = np.array([np.append(_rgb(color), 255) for color in ("#f4ead2", "#7fa6c9")], np.uint8)
+    colors = np.round(255 * to_rgba_array(["#f4ead2", "#7fa6c9"])).astype(np.uint8)
     texture = Texture.from_image(colors[(i + j) % 2])
     return texture, (rest - low) / side * _CHECKS * cell + cell
-
-
-def _rgb(color: str) -> list[int]:
-    return [int(color[i : i + 2], 16) for i in (1, 3, 5)]
