@@ -22,8 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from glid_nb._arrays import Array
-from glid_nb._jax import jit, jnp
-from glid_nb._runtime import COMPILER_OPTIONS, double_precision, in_chunks
+from glid_nb._runtime import in_chunks
 from glid_nb.certificate import rounding
 from glid_nb.certificate.certify import Known, end_values, to_split
 from glid_nb.certificate.hermite import Hermite
@@ -33,8 +32,8 @@ from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.harmonic.cauchy import Singularities
 
-_GROUP = 8  # pieces whose maps are evaluated together, by one program
-_CHUNK, _BOXES = 256, 1024
+_GROUP = 8  # pieces whose maps are evaluated together
+_BOX = 64  # numbers of a box, so that chunks of boxes stay in the cache
 _MAX_ROUNDS = 60
 _MOST_AT_ONCE = 512  # boxes halved in a round, the earliest first
 _LOOSE = 0.02
@@ -99,23 +98,25 @@ class _Boxes(NamedTuple):
 class _Grid:
     """Panels and halves of panels, with the values of a group of maps."""
 
-    @double_precision
     def __init__(self, maps: Sequence[HarmonicMap]) -> None:
         basis, domain = basis_of(maps[0].domain), maps[0].domain
-        padded = [*maps, *[maps[-1]] * (_GROUP + 1 - len(maps))]
-        rows = np.stack([basis.pad(c) for map in padded for c in (map.phi, map.psi)])
+        rows = np.stack([basis.pad(c) for map in maps for c in (map.phi, map.psi)])
         panels = graded_panels(domain)
         self.start, self.end, self.roots = panels.start, panels.end, len(panels)
         self.first_half = np.full(len(panels), -1)
         self.depth = np.zeros(len(panels))
-        self._fixed = rows, basis.singularities
-        self.values: _Values = in_chunks(_values, _CHUNK, (self.start, self.end), *self._fixed)
+        self._fixed, self._columns = (rows, basis.singularities), basis.n_columns
+        self.values: _Values = in_chunks(
+            _values, self._columns, (self.start, self.end), *self._fixed
+        )
+
+    def _evaluated(self, start: Array, end: Array) -> _Values:
+        return in_chunks(_values, self._columns, (start, end), *self._fixed)
 
     @property
     def middle(self) -> Array:
         return (self.start + self.end) / 2
 
-    @double_precision
     def halves(self, panel: Array) -> tuple[Array, Array]:
         """The indices of the halves of panels, which are added where they are new."""
         new = np.unique(panel[self.first_half[panel] < 0])
@@ -127,12 +128,10 @@ class _Grid:
             self.start, self.end = np.append(self.start, starts), np.append(self.end, ends)
             self.first_half = np.append(self.first_half, np.full(len(starts), -1))
             self.depth = np.append(self.depth, np.repeat(self.depth[new] + 1, 2))
-            fresh = in_chunks(_values, _CHUNK, (starts, ends), *self._fixed)
-            pairs = zip(self.values, fresh, strict=True)
+            pairs = zip(self.values, self._evaluated(starts, ends), strict=True)
             self.values = _Values(*(np.concatenate(pair) for pair in pairs))
         return self.first_half[panel], self.first_half[panel] + 1
 
-    @double_precision
     def bounds(self, boxes: _Boxes, piece: int) -> _KnownBoxes:
         """What is proved on each box of a piece."""
         own = slice(piece, piece + 2)
@@ -143,7 +142,7 @@ class _Grid:
             tuple(a[:, :, 0] + t[:, None, None] * (a[:, :, 1] - a[:, :, 0]) for a in (ends, errors))
             for t in (boxes.begin, boxes.end)
         ]
-        return in_chunks(_bounds, _BOXES, (*sides[0], *sides[1]))
+        return in_chunks(_bounds, _BOX, (*sides[0], *sides[1]))
 
 
 class _KnownBoxes(NamedTuple):
@@ -248,7 +247,6 @@ def _joined(state: Any, kept: Array, fresh: Any) -> Any:
     return np.concatenate([state[kept], fresh])
 
 
-@functools.partial(jit, compiler_options=COMPILER_OPTIONS)
 def _values(start: Any, end: Any, coefficients: Any, singularities: Singularities) -> _Values:
     ends, slack = end_values(start, end, coefficients, singularities)
     slack = slack + _coefficient_rounding(start, end, coefficients, singularities)
@@ -257,7 +255,7 @@ def _values(start: Any, end: Any, coefficients: Any, singularities: Singularitie
     shape = (-1, coefficients.shape[0] // 2, 2)
 
     def by_map(rows: Any) -> Any:
-        return jnp.stack([row.T.reshape(shape) for row in rows], axis=1)
+        return np.stack([row.T.reshape(shape) for row in rows], axis=1)
 
     return _Values(by_map(ends), by_map([remainder + slack, slack + shift]))
 
@@ -272,16 +270,15 @@ def _coefficient_rounding(
     vertices, following, _, _ = singularities
     m, size = vertices.shape[0], modulus(coefficients).max(axis=0)
     edges = (size[:m] + size[following]) / modulus(vertices[following] - vertices)
-    off = 8 * rounding.UPWARD * rounding.UNIT_ROUNDOFF * jnp.concatenate([edges, size[m:]])
-    z = jnp.concatenate([start, end])
+    off = 8 * rounding.UPWARD * rounding.UNIT_ROUNDOFF * np.concatenate([edges, size[m:]])
+    z = np.concatenate([start, end])
     first, second = (
-        jnp.split(jnp.abs(by_edges(z, singularities)) @ off, 2)
+        np.split(np.abs(by_edges(z, singularities)) @ off, 2)
         for by_edges in (cauchy.first_by_edges, cauchy.second_by_edges)
     )
-    return jnp.maximum(*first) + modulus(end - start) * jnp.maximum(*second)
+    return np.maximum(*first) + modulus(end - start) * np.maximum(*second)
 
 
-@functools.partial(jit, compiler_options=COMPILER_OPTIONS)
 def _bounds(ends: Any, errors: Any, ends_after: Any, errors_after: Any) -> _KnownBoxes:
     sides = [
         (
@@ -295,16 +292,16 @@ def _bounds(ends: Any, errors: Any, ends_after: Any, errors_after: Any) -> _Know
     u = _common_direction(corners)
     proved = [Hermite.bounds(fz, fzb, remainder, u) for fz, fzb, remainder, _ in sides]
     known = proved[0].turning_known & proved[1].turning_known
-    sigma2 = jnp.minimum(proved[0].sigma2_lower, proved[1].sigma2_lower)
-    sigma2 = jnp.where(known & (sigma2 > -jnp.inf), sigma2, -jnp.inf)
+    sigma2 = np.minimum(proved[0].sigma2_lower, proved[1].sigma2_lower)
+    sigma2 = np.where(known & (sigma2 > -np.inf), sigma2, -np.inf)
     bounds = PanelBounds(
         sigma2,
-        jnp.maximum(proved[0].sigma1_upper, proved[1].sigma1_upper),
-        jnp.where(known, jnp.maximum(proved[0].k_upper, proved[1].k_upper), jnp.inf),
+        np.maximum(proved[0].sigma1_upper, proved[1].sigma1_upper),
+        np.where(known, np.maximum(proved[0].k_upper, proved[1].k_upper), np.inf),
         known,
         turning(sides[0][0].start, sides[0][0].end),
     )
-    f, g = (modulus(jnp.stack(values)) for values in zip(*corners, strict=True))
+    f, g = (modulus(np.stack(values)) for values in zip(*corners, strict=True))
     seen = f - g
     all_seen = Known(
         bounds,
@@ -312,14 +309,14 @@ def _bounds(ends: Any, errors: Any, ends_after: Any, errors_after: Any) -> _Know
         (f + g).max(axis=0),
         (g / f).max(axis=0),
         f.min(axis=0),
-        jnp.maximum(sides[0][3], sides[1][3]),
+        np.maximum(sides[0][3], sides[1][3]),
     )
     return _KnownBoxes(
         all_seen,
         seen[:2].min(axis=0),
         seen[2:].min(axis=0),
         _along(u, corners),
-        (g / jnp.real(jnp.conj(u) * jnp.stack([f for f, _ in corners]))).max(axis=0),
+        (g / np.real(np.conj(u) * np.stack([f for f, _ in corners]))).max(axis=0),
     )
 
 
@@ -330,12 +327,12 @@ def _common_direction(corners: list[Any]) -> Any:
     )
     before, after = before / modulus(before), after / modulus(after)
     blends = [before + float(s) * (after - before) for s in _DIRECTIONS]
-    candidates = jnp.stack([blend / modulus(blend) for blend in blends])
-    best = jnp.argmax(_along(candidates, corners), axis=0)
-    return jnp.take_along_axis(candidates, best[None], axis=0)[0]
+    candidates = np.stack([blend / modulus(blend) for blend in blends])
+    best = np.argmax(_along(candidates, corners), axis=0)
+    return np.take_along_axis(candidates, best[None], axis=0)[0]
 
 
 def _along(u: Any, corners: list[Any]) -> Any:
     """The least ``Re(conj(u) f_z) - |f_zbar|`` at the corners of each box."""
-    values = [jnp.real(jnp.conj(u) * f) - modulus(g) for f, g in corners]
-    return functools.reduce(jnp.minimum, values)
+    values = [np.real(np.conj(u) * f) - modulus(g) for f, g in corners]
+    return functools.reduce(np.minimum, values)

@@ -17,7 +17,6 @@ from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.solvers.discretisation import complex_basis, discretise
 
 _POINTS = 200  # at which images are compared
-_SMALL = 64  # points that basis matrices are evaluated at, by a program that solves use too
 _ON_LINK = 128
 
 
@@ -103,10 +102,9 @@ def boundary_of(domain: Domain) -> Boundary:
     t = np.asarray(disc.matrices.whitening)
     fit = _fit(first, mean, (t[0] + 1j * t[1])[columns], basis.n_hole_columns, domain.n_holes)
     points = uniform_panels(domain.cage, _POINTS).start
-    parts = np.split(points, range(_SMALL, len(points), _SMALL))
-    values = [complex_basis(cauchy.cauchy_coordinates, part, basis)[:, columns] for part in parts]
+    values = complex_basis(cauchy.cauchy_coordinates, points, basis)[:, columns]
     branches = _branches(domain, disc.panels.start, disc.panels.end, disc.panels.loop)
-    return Boundary(domain, np.concatenate(values), first, mean, branches, *fit)
+    return Boundary(domain, values, first, mean, branches, *fit)
 
 
 def _fit(
