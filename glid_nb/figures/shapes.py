@@ -66,9 +66,9 @@ class _Sheet(NamedTuple):
     counted: bool
 
     @classmethod
-    def of(cls, map: AnyMap) -> _Sheet:
+    def of(cls, map: AnyMap, pose: Pose | None = None) -> _Sheet:
         if isinstance(map, HarmonicMap):
-            mesh = deformed_mesh(map, _VERTICES, 0.03)
+            mesh = deformed_mesh(map, _VERTICES, 0.03, pose)
             fz, fzb = map.wirtinger(mesh.vertices[mesh.triangles].mean(axis=1))
             shape = mesh.vertices, mesh.images, mesh.triangles, mesh.heights
             return cls(*shape, np.abs(fz), np.abs(fzb), deformed_loops(map, 0.01), False)
@@ -122,7 +122,7 @@ def distortion(
         Targets (cyan) and the handles' images (black) to draw.
     titles : one for each map
     """
-    maps, sheets = _listed(maps)
+    maps, sheets = _listed(maps, pose)
     values = [sheet.values(quantity) for sheet in sheets]
     known = np.concatenate([v[~s.folded] for v, s in zip(values, sheets, strict=True)])
     known = known if len(known) else np.ones(1)  # a map that folds everywhere
@@ -161,7 +161,7 @@ def picture(
         Targets (cyan) and the handles' images (black) to draw.
     titles : one for each map
     """
-    maps, sheets = _listed(maps)
+    maps, sheets = _listed(maps, pose)
     figure, grid = _side_by_side(maps, sheets, pose, titles, 0.4)
     for axes, sheet in zip(grid, sheets, strict=True):
         view = np.transpose([axes.get_xlim(), axes.get_ylim()])
@@ -262,14 +262,14 @@ def panels(certificate: Certificate) -> NotebookFigure:
     return figure
 
 
-def _listed(maps: Any) -> tuple[list[AnyMap], list[_Sheet]]:
+def _listed(maps: Any, pose: Pose | None) -> tuple[list[AnyMap], list[_Sheet]]:
     found = [*maps] if isinstance(maps, Iterable) else [maps]
     for map in found:
         if not isinstance(map, HarmonicMap | MeshMap):
             raise TypeError(f"{type(map).__name__} is not a map; a result's map is result.map")
     if not found:
         raise ValueError("there is no map to draw")
-    return found, [_Sheet.of(map) for map in found]
+    return found, [_Sheet.of(map, pose) for map in found]
 
 
 def _scale(quantity: Quantity | Energy, known: Floats) -> tuple[Any, Any]:

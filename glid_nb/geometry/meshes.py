@@ -54,6 +54,17 @@ class Triangulation:
         x, y = self.vertices.T
         return Planar(x, y, self.triangles).get_trifinder()
 
+    @cached_property
+    def graph(self) -> Any:
+        """(v, v) sparse symmetric matrix of the lengths of edges."""
+        from scipy.sparse import coo_array  # noqa: PLC0415 - not always needed
+
+        a, b = self.triangles.ravel(), np.roll(self.triangles, -1, axis=1).ravel()
+        lengths = np.linalg.norm(self.vertices[a] - self.vertices[b], axis=1)
+        # All triangles are counter-clockwise, so no directed edge occurs twice.
+        one_way = coo_array((lengths, (a, b)), (len(self.vertices),) * 2).tocsr()
+        return one_way.maximum(one_way.T)
+
 
 @dataclass(frozen=True, eq=False)
 class MeshMap:
@@ -107,16 +118,6 @@ class MeshMap:
     def flipped(self) -> Array:
         """(t,) bool: image triangles that are turned over or flat."""
         return ~(self.areas > 0)
-
-    @property
-    def layered(self) -> Array:
-        """(t, 3) triangles from the left of the undeformed shape to its right.
-
-        Drawn in this order, overlapping sheets stay apart.
-        """
-        mesh = self.triangulation
-        middle = mesh.vertices[mesh.triangles, 0].mean(axis=1)
-        return mesh.triangles[np.argsort(middle, kind="stable")]
 
 
 def triangulate(

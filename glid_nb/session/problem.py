@@ -13,6 +13,7 @@ from glid_nb.geometry import Domain
 from glid_nb.solvers import Pose
 
 _POSE = {"handles": _json.check_points, "targets": _json.check_points}
+_DEPTHS = {"depths": _json.anything}
 _CHOSEN_WHEN_MISSING = {
     "holes": _json.check_loops,
     "offset": _json.check_positive,
@@ -50,7 +51,7 @@ class Problem:
 
         Its keys ``cage``, ``handles`` and ``targets`` are required, ``holes`` is optional, all in
         world coordinates. ``offset`` (a distance), ``offset_cage``, ``offset_holes`` and
-        ``hole_points`` are chosen when missing. Other keys are ignored.
+        ``hole_points`` are chosen when missing; ``depths`` are 0. Other keys are ignored.
 
         Raises
         ------
@@ -58,7 +59,9 @@ class Problem:
             When something is missing or not valid; the message names the key or the place.
         """
         required = {"cage": _json.check_points, **_POSE}
-        _json.check_fields(data, "a problem", required, _CHOSEN_WHEN_MISSING, others=True)
+        _json.check_fields(
+            data, "a problem", required, {**_CHOSEN_WHEN_MISSING, **_DEPTHS}, others=True
+        )
         shape = {key: data.get(key) for key in ("cage", *_CHOSEN_WHEN_MISSING)}
         return cls(Domain.from_dict(shape), Pose.from_dict(data))
 
@@ -81,11 +84,11 @@ class Problem:
 
 
 def load_pose(path: str | Path) -> Pose:
-    """Read ``handles`` and ``targets`` from a JSON file; other keys are ignored.
+    """Read ``handles``, ``targets`` and perhaps ``depths`` from a JSON file; ignore other keys.
 
     An InputFileError names the file and the culprit if it does not hold a valid pose.
     """
     with about(path):
         data = _json.read_object(path)
-        _json.check_fields(data, "a pose", _POSE, others=True)
+        _json.check_fields(data, "a pose", _POSE, _DEPTHS, others=True)
         return Pose.from_dict(data)

@@ -11,7 +11,7 @@ import { Shapes, drawingTime, uniformVectors } from "./shapes.js";
 const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
 const KEYS = new Set([
   "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Delete", "Backspace", "Escape", "Enter",
-  "0", "f", "F", ",", ".", "a", "A",
+  "0", "f", "F", ",", ".", "a", "A", "PageUp", "PageDown", "[", "]",
 ]);
 const SAVE_VIEW_AFTER = 250; // ms
 const LEAST_SIZE = 240; // CSS pixels
