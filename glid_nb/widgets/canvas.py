@@ -102,7 +102,8 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self.source: Pane | None = None
         self.gestures = PinGestures(model, self.fit, self.image)
         self._closed = False  # a frame may arrive while the canvas closes
-        self._panels_at = self._range_at = 0.0
+        self._panels_at = self._range_at = self._hidden_at = 0.0
+        self._hidden: Any = ()
         # The drawn panels and their bounds, after the domain if a solve goes on.
         self._panels: tuple[Any, ...] = (None, None, None)
         super().__init__([self.pane], **kwargs)
@@ -173,7 +174,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 pose.targets,
                 moment.shown(pose.handles) if len(pose) else (),
                 moment.selection,
-                self.deformation.sheets(self.image).hidden(pose.handles) if len(pose) else (),
+                self._hidden_of(moment),
                 state.order,
                 self.overlay,
                 state.current.energy,
@@ -194,6 +195,16 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             return "keep"
         self._range_at = now
         return "widen" if (moment.dragged if moment.solved else moving) else "fit"
+
+    def _hidden_of(self, moment: Moment) -> Any:
+        """Which handles are covered; while the solver works at most `_PANELS_INTERVAL` old."""
+        handles, now = moment.state.pose.handles, time.monotonic()
+        old = moment.solved or now - self._hidden_at > _PANELS_INTERVAL
+        if old or len(handles) != len(self._hidden):
+            self._hidden_at, self._hidden = now, ()
+            if len(handles):
+                self._hidden = self.deformation.sheets(self.image).hidden(handles)
+        return self._hidden
 
     def _panels_of(self, moment: Moment) -> tuple[Any, ...]:
         """The boundary's panels; while the solver works at most `_PANELS_INTERVAL` old."""
@@ -247,9 +258,7 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
 
     def __init__(self, canvas: DeformCanvas, **kwargs: Any) -> None:
         self.deformation = model = canvas.deformation
-        narrow = ipywidgets.Layout(
-            width="38px"
-        )  # one for all of them
+        narrow = ipywidgets.Layout(width="38px")  # one for all of them
         tip = "{} where parts overlap (Page {})"
         self.back, self.front = (
             button("", icon, tip.format(*words), functools.partial(self._raise, steps), narrow)
