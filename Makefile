@@ -10,8 +10,8 @@
 SHELL := /bin/sh
 VENV := .venv
 PYTEST := $(VENV)/bin/python -m pytest
-# Two more than there are processors: tests that wait for the browser or a kernel leave theirs idle.
-WORKERS = $(shell expr $$(nproc) + 2)
+# One more than there are processors: tests that wait for the browser or a kernel leave theirs idle.
+WORKERS = $(shell expr $$(nproc) + 1)
 
 # Without bytecode every process of the tests compiles the package and the test files anew.
 unexport PYTHONDONTWRITEBYTECODE
@@ -78,4 +78,4 @@ $(VENV)/.dev: pyproject.toml tools/environment.sh
 	touch $@ $(VENV)/.test $(VENV)/.docs $(VENV)/.studies $(VENV)/.demo
 
 clean:
-	rm -rf $(VENV) glid-nb-demo artefacts dist site
+	rm -rf $(VENV) glid-nb-demo artefacts build dist site

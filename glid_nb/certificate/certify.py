@@ -12,8 +12,6 @@ import numpy as np
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
 from glid_nb._files import write_text_atomically
-from glid_nb._jax import jit, jnp
-from glid_nb._runtime import COMPILER_OPTIONS, double_precision
 from glid_nb.certificate import rounding
 from glid_nb.certificate.bdhm import BDHM
 from glid_nb.certificate.hermite import Hermite
@@ -40,7 +38,6 @@ PROOFS: dict[CertificateKind, type[PanelProof]] = {
 }
 """The kinds of proof by name."""
 
-_CHUNK = 256
 _MAX_ROUNDS = 40
 _MAX_PANELS = 400_000
 
@@ -136,7 +133,6 @@ class _Known(NamedTuple):
         return ~((self.sigma2_seen > self.slack) & np.isfinite(self.sigma1_seen + self.slack))
 
 
-@double_precision
 def certify(
     map: HarmonicMap,
     kind: CertificateKind = "hermite",
@@ -167,7 +163,7 @@ def certify(
         raise ValueError(f"unknown kind of certificate {kind!r}; choose one of {', '.join(PROOFS)}")
     if not tightness > 0:
         raise ValueError(f"tightness is {tightness}; it must be positive")
-    evaluate = functools.partial(run_on, map, functools.partial(_kernel, kind=kind), _CHUNK)
+    evaluate = functools.partial(run_on, map, functools.partial(_kernel, kind=kind))
     if panels is None:
         panels = graded_panels(map.domain)
     else:
@@ -279,25 +275,23 @@ def _assembled(
     return Certificate(certified, *extremes, turns, per_panel, kind, reason, map)
 
 
-@functools.partial(jit, static_argnames="kind", compiler_options=COMPILER_OPTIONS)
 def _kernel(
     start: Any, end: Any, coefficients: Any, singularities: Singularities, kind: CertificateKind
 ) -> _Known:
     edges, chord = cauchy.edge_coefficients(coefficients, singularities), end - start
-    # Both ends at once: half the program to compile.
-    parts = rounding.derivatives(jnp.concatenate([start, end]), edges, singularities)
+    parts = rounding.derivatives(np.concatenate([start, end]), edges, singularities)
     (values, slopes, slack), (values_end, slopes_end, slack_end) = (
         (first, chord * second, first_off + modulus(chord) * second_off)
         for first, second, first_off, second_off in zip(
-            *(jnp.split(part, 2, axis=1) for part in parts), strict=True
+            *(np.split(part, 2, axis=1) for part in parts), strict=True
         )
     )
     fz, fzb_conj = (EndValues(values[k], values_end[k], slopes[k], slopes_end[k]) for k in (0, 1))
     proof = PROOFS[kind].on(start, end, singularities)
-    slack = rounding.allowance(jnp.maximum(slack, slack_end), 1 + modulus(edges).max())
+    slack = rounding.allowance(np.maximum(slack, slack_end), 1 + modulus(edges).max())
     remainder = proof.remainder(coefficients, singularities) + proof.slack_share * slack
     bounds = proof.bounds(fz, fzb_conj, remainder)
     f, g = modulus(fz.start), modulus(fzb_conj.start)
     # The start itself may lie beside the boundary.
     shift = jumps(coefficients, singularities) @ beside(start, end, singularities).T
-    return _Known(bounds, f - g, f + g, g / f, f, jnp.sum(slack + shift, axis=0))
+    return _Known(bounds, f - g, f + g, g / f, f, np.sum(slack + shift, axis=0))

@@ -9,7 +9,6 @@ import shapely
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator
 from matplotlib.tri import Triangulation
 from numpy.typing import ArrayLike
 
@@ -196,7 +195,7 @@ def _draw_distortion(axes: Axes, map: HarmonicMap, mesh: DeformedMesh) -> None:
         "max(σ₁, 1/σ₂)",
         extend="max" if float(distortion.max()) > 1.02 * highest else "neither",
         extendfrac=0.04,
-        ticks=FixedLocator(log_ticks(1.0, highest)),
+        ticks=log_ticks(1.0, highest),
         format="{x:g}",
     )
 

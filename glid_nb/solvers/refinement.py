@@ -47,13 +47,13 @@ def refine(result: Result, gain: float = 0.01, callback: Callback | None = None)
     Raises
     ------
     MethodError
-        When the result's map is one of a mesh.
+        When the method has no unknowns in the harmonic subspace: a mesh's, or BDHM.
     ValueError
         When ``gain`` is not between 0 and 1.
     """
     check_type("result", result, Result, "what glid_nb.solve returns")
-    if not isinstance(result.map, HarmonicMap):
-        raise MethodError("only maps of the harmonic subspace have a basis to refine")
+    if not isinstance(result.map, HarmonicMap) or result.n_unknowns is None:
+        raise MethodError(f"{result.method} has no basis to refine; use a descent, such as Newton")
     if not 0 < gain < 1:
         raise ValueError(f"gain must be between 0 and 1, not {gain!r}")
     last, steps = result, [*result.refinements] or [_summary(result)]
@@ -104,5 +104,5 @@ def in_finer_basis(map: HarmonicMap) -> HarmonicMap:
 
 def _summary(result: Result) -> Refinement:
     unknowns = result.n_unknowns
-    assert unknowns is not None
+    assert unknowns is not None  # refine looked
     return Refinement(unknowns, result.status, result.energy, result.iterations, result.solve_time)

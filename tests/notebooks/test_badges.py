@@ -3,26 +3,14 @@
 from __future__ import annotations
 
 import ast
-import importlib.util
-from pathlib import Path
 from typing import Any
 
 import nbformat
 
-SCRIPT = Path(__file__).parents[2] / "tools" / "badges.py"
-
-
-def script() -> Any:
-    spec = importlib.util.spec_from_file_location("badges", SCRIPT)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+from tools import badges
 
 
 def test_the_cells_stand_below_the_title_once_however_often_they_are_written() -> None:
-    badges = script()
     book = nbformat.v4.new_notebook()
     book.cells = [nbformat.v4.new_markdown_cell("# Title"), nbformat.v4.new_code_cell("1 + 1")]
     for repository in (None, "owner/name", "owner/name"):
@@ -33,7 +21,7 @@ def test_the_cells_stand_below_the_title_once_however_often_they_are_written() -
 
 
 def test_binder_comes_first_and_every_link_opens_this_notebook() -> None:
-    line = script().line("03_x.ipynb", "owner/name")
+    line = badges.line("03_x.ipynb", "owner/name")
     assert line.index("mybinder.org") < line.index("colab.research") < line.index("raw.github")
     assert line.count("owner/name") == line.count("notebooks/03_x.ipynb") == 3
     assert "untested" in line
@@ -41,6 +29,6 @@ def test_binder_comes_first_and_every_link_opens_this_notebook() -> None:
 
 def test_the_colab_cell_does_nothing_elsewhere() -> None:
     namespace: dict[str, Any] = {}
-    exec(script().COLAB, namespace)
+    exec(badges.COLAB, namespace)
     assert "output" not in namespace
-    assert isinstance(ast.parse(script().COLAB).body[-1], ast.If)
+    assert isinstance(ast.parse(badges.COLAB).body[-1], ast.If)

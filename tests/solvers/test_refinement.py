@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 from glid_nb.cli.output import summary_text
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.methods import BDHM
 from glid_nb.session import build_report
 from glid_nb.solvers import Options, Pose, refine, solve
+from glid_nb.solvers.method import MethodError
 from glid_nb.solvers.refinement import in_finer_basis
 
 from ..domains import domain, random_map
@@ -61,3 +65,10 @@ def test_the_gain_is_a_fraction() -> None:
     result = solve(domain("ell"), pose, options=Options(restarts=0, max_iterations=0))
     with pytest.raises(ValueError, match="between 0 and 1"):
         refine(result, gain=0)
+
+
+def test_results_without_a_basis_of_their_own_are_refused_by_name() -> None:
+    pose = Pose([[-2, -2]], [[-2, -2]])
+    result = solve(domain("ell"), pose, options=Options(restarts=0, max_iterations=0))
+    with pytest.raises(MethodError, match="BDHM"):
+        refine(dataclasses.replace(result, method=BDHM(), discretisation=None), gain=0.5)
