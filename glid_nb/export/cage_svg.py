@@ -96,13 +96,9 @@ def _in_sight(map: HarmonicMap, sheets: Sheets) -> list[NDArray[np.float64]] | N
         points = as_points(subdivided(loop, parts))
         hidden, images = sheets.hidden(points), map(points)
         covered |= hidden.any()
-        # From one covered point to the next; the first again at the end.
-        first = int(np.argmax(hidden))
-        images = np.roll(images, -first, axis=0)
-        ends = np.flatnonzero(np.roll(hidden, -first))
-        closed = np.concatenate([images, images[:1]])
-        runs = [closed] if not len(ends) else np.split(images, ends)
-        pieces += [run[1:] if len(ends) else run for run in runs if len(run) > 2]
+        runs = np.split(np.concatenate([images, images[:1]]), np.flatnonzero(hidden))
+        # All but the first begin with a covered point.
+        pieces += [run for run in (runs[0], *(run[1:] for run in runs[1:])) if len(run) > 1]
     return pieces if covered else None
 
 

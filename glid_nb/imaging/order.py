@@ -24,19 +24,20 @@ class Order:
     """Heights of a shape's points: where its image overlaps itself, the higher covers the lower.
 
     They are piecewise linear on one mesh of the undeformed shape. Without depths they grow from
-    the trunk to the limbs; a depth of the pose's handles outweighs that around its pin.
+    the trunk to the limbs; the depths of handles outweigh that around their pins.
     """
 
-    def __init__(self, shape: _Shape, depths: Array) -> None:
-        self._shape, self._depths = shape, depths
+    def __init__(self, mesh: Triangulation, limbs: Array, depths: Array) -> None:
+        self._mesh, self._depths = mesh, depths
+        self._heights = depths + _TIE * limbs
 
     def __call__(self, points: Any) -> Array:
         """(k,) heights of (k, 2) points of the undeformed shape."""
-        return self._shape.weights(points) @ (self._depths + _TIE * self._shape.limbs)
+        return self._mesh.weights(points) @ self._heights
 
     def depths(self, points: Any) -> Array:
         """(k,) depths that the handles' depths give to (k, 2) points."""
-        return self._shape.weights(points) @ self._depths
+        return self._mesh.weights(points) @ self._depths
 
 
 def order_of(cage: Cage, pose: Pose | None = None) -> Order:
@@ -48,79 +49,43 @@ def order_of(cage: Cage, pose: Pose | None = None) -> Order:
 
 @functools.lru_cache(maxsize=16)
 def _order(cage: Cage, handles: bytes, depths: bytes) -> Order:
-    shape = _shape(cage)
-    return Order(shape, shape.spread(np.frombuffer(handles).reshape(-1, 2), np.frombuffer(depths)))
+    mesh, limbs = _limbs_over_trunk(cage)
+    if not handles:
+        return Order(mesh, limbs, np.zeros(len(limbs)))
+    pins, reach = np.frombuffer(handles).reshape(-1, 2), _REACH * cage.longer_side
+    return Order(mesh, limbs, _spread(mesh, pins, np.frombuffer(depths), reach))
 
 
-class _Shape:
-    """A mesh of the undeformed shape, on which heights are linear."""
+@functools.lru_cache(maxsize=4)
+def _limbs_over_trunk(cage: Cage) -> tuple[Triangulation, Array]:
+    """A mesh, and (v,) heights from 0 to 1 that grow with the distance from its innermost point.
 
-    def __init__(self, cage: Cage) -> None:
-        self._mesh, self._size = triangulate(cage, _VERTICES), cage.longer_side
-        triangles: Any = shapely.polygons(self._mesh.vertices[self._mesh.triangles])
-        self._tree = shapely.STRtree(triangles)
-        self.limbs = _limbs_over_trunk(cage, self._mesh)
-        """(v,) heights from 0 to 1 of the order without depths."""
-
-    def weights(self, points: Any) -> Any:
-        """The sparse (k, v) matrix that interpolates at (k, 2) points."""
-        points, mesh = np.reshape(np.asarray(points, dtype=float), (-1, 2)), self._mesh
-        places, triangle = shapely.points(points), np.full(len(points), -1)
-        which, found = self._tree.query(places, predicate="intersects")
-        triangle[which] = found
-        beside = triangle < 0  # on the boundary, up to rounding
-        triangle[beside] = self._tree.nearest(places[beside])
-        corners = mesh.triangles[triangle]
-        weights = barycentric(mesh.vertices[corners], points)
-        rows = np.repeat(np.arange(len(points)), 3)
-        shape = (len(points), len(mesh.vertices))
-        return scipy.sparse.csr_array((weights.ravel(), (rows, corners.ravel())), shape)
-
-    def spread(self, pins: Array, depths: Array) -> Array:
-        """(v,) solution u of ``u = r^2 Laplace(u)`` with the depths at the pins.
-
-        Far from all pins u is 0, so that a depth does not change the order of other limbs.
-        """
-        if not len(pins):
-            return np.zeros(len(self._mesh.vertices))
-        z, triangles = self._mesh.vertices @ np.array([1, 1j]), self._mesh.triangles
-        sides = np.roll(z[triangles], 1, axis=1) - np.roll(z[triangles], -1, axis=1)
-        area = 0.5 * np.imag(np.conj(sides[:, 0]) * sides[:, 1])[:, None, None]
-        # Linear elements: the cotangent Laplacian, and a mass of a third of a triangle per corner.
-        local = np.real(np.conj(sides[:, :, None]) * sides[:, None]) / (4 * area)
-        local += np.eye(3) * area / 3 / (_REACH * self._size) ** 2
-        entries = np.repeat(triangles, 3, axis=1).ravel(), np.tile(triangles, 3).ravel()
-        matrix = scipy.sparse.coo_array((local.ravel(), entries), (len(z), len(z))).tocsr()
-        at_pins = self.weights(pins)
-        stiff = _STIFFNESS * matrix.diagonal().max() * at_pins.T
-        return scipy.sparse.linalg.spsolve((matrix + stiff @ at_pins).tocsc(), stiff @ depths)
-
-
-_shape = functools.lru_cache(maxsize=4)(_Shape)
-
-
-def _limbs_over_trunk(cage: Cage, mesh: Triangulation) -> Array:
-    """(v,) heights that grow with the geodesic distance from the shape's innermost point.
-
-    So limbs cover the trunk; smaller shares of the distance from the opposite point and of x order
+    Distances are geodesic. Smaller shares of the distance from the opposite point and of x order
     the two ends of a ring and the left and right arm.
     """
-
-    def distances(vertex: int) -> Array:
-        return scipy.sparse.csgraph.dijkstra(mesh.graph, indices=vertex)
-
-    n = len(mesh.vertices)
-    candidates = np.arange(0, n, max(1, n // _CANDIDATES))
+    mesh = triangulate(cage, _VERTICES)
+    candidates = np.arange(0, len(mesh.vertices), max(1, len(mesh.vertices) // _CANDIDATES))
     outline = shapely.boundary(cage.polygon)
     inside = shapely.distance(outline, shapely.points(mesh.vertices[candidates]))
-    inner = distances(candidates[np.argmax(inside)])
-    heights = inner + 0.35 * (distances(int(np.argmax(inner))) + mesh.vertices[:, 0])
-    return (heights - heights.min()) / np.ptp(heights)
+    distances = functools.partial(scipy.sparse.csgraph.dijkstra, mesh.graph)
+    inner = distances(indices=candidates[np.argmax(inside)])
+    heights = inner + 0.35 * (distances(indices=int(np.argmax(inner))) + mesh.vertices[:, 0])
+    return mesh, (heights - heights.min()) / np.ptp(heights)
 
 
-def barycentric(corners: Array, points: Array) -> Array:
-    """(k, 3) barycentric coordinates of points (k, 2) in triangles (k, 3, 2) of any orientation."""
-    second, third = (np.roll(corners - points[:, None], -k, axis=1) for k in (1, 2))
-    weights = second[..., 0] * third[..., 1] - second[..., 1] * third[..., 0]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return weights / weights.sum(axis=1, keepdims=True)
+def _spread(mesh: Triangulation, pins: Array, depths: Array, reach: float) -> Array:
+    """(v,) solution u of ``u = reach^2 Laplace(u)`` with the depths at the pins.
+
+    Far from all pins u is 0, so that a depth does not change the order of other limbs.
+    """
+    z, triangles = mesh.vertices @ np.array([1, 1j]), mesh.triangles
+    sides = np.roll(z[triangles], 1, axis=1) - np.roll(z[triangles], -1, axis=1)
+    area = 0.5 * np.imag(np.conj(sides[:, 0]) * sides[:, 1])[:, None, None]
+    # Linear elements: the cotangent Laplacian, and a mass of a third of a triangle per corner.
+    local = np.real(np.conj(sides[:, :, None]) * sides[:, None]) / (4 * area)
+    local += np.eye(3) * area / 3 / reach**2
+    entries = np.repeat(triangles, 3, axis=1).ravel(), np.tile(triangles, 3).ravel()
+    matrix = scipy.sparse.coo_array((local.ravel(), entries), (len(z), len(z))).tocsr()
+    at_pins = mesh.weights(pins)
+    stiff = _STIFFNESS * matrix.diagonal().max() * at_pins.T
+    return scipy.sparse.linalg.spsolve((matrix + stiff @ at_pins).tocsc(), stiff @ depths)

@@ -13,7 +13,6 @@ from glid_nb.geometry import Domain
 from glid_nb.solvers import Pose
 
 _POSE = {"handles": _json.check_points, "targets": _json.check_points}
-_DEPTHS = {"depths": _json.anything}
 _CHOSEN_WHEN_MISSING = {
     "holes": _json.check_loops,
     "offset": _json.check_positive,
@@ -59,9 +58,7 @@ class Problem:
             When something is missing or not valid; the message names the key or the place.
         """
         required = {"cage": _json.check_points, **_POSE}
-        _json.check_fields(
-            data, "a problem", required, {**_CHOSEN_WHEN_MISSING, **_DEPTHS}, others=True
-        )
+        _json.check_fields(data, "a problem", required, _CHOSEN_WHEN_MISSING, others=True)
         shape = {key: data.get(key) for key in ("cage", *_CHOSEN_WHEN_MISSING)}
         return cls(Domain.from_dict(shape), Pose.from_dict(data))
 
@@ -90,5 +87,5 @@ def load_pose(path: str | Path) -> Pose:
     """
     with about(path):
         data = _json.read_object(path)
-        _json.check_fields(data, "a pose", _POSE, _DEPTHS, others=True)
+        _json.check_fields(data, "a pose", _POSE, others=True)
         return Pose.from_dict(data)

@@ -146,11 +146,8 @@ def _checked_depths(depths: ArrayLike, count: int) -> Array:
         array = real_array(depths)
     except (TypeError, ValueError) as error:
         raise PoseError(f"{wanted} ({error})") from error
-    if array.shape != (count,):
-        raise PoseError(f"{wanted}; the shape is {array.shape}")
-    if not (np.abs(array) <= _DEEPEST).all():
-        i = int(np.argmin(np.abs(array) <= _DEEPEST))
-        raise PoseError(f"{wanted}; depths[{i}] is {array[i]:g}")
+    if array.shape != (count,) or not (np.abs(array) <= _DEEPEST).all():
+        raise PoseError(f"{wanted}, not {depths!r:.60}")
     return read_only(array)
 
 

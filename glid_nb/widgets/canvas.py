@@ -102,7 +102,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self.source: Pane | None = None
         self.gestures = PinGestures(model, self.fit, self.image)
         self._closed = False  # a frame may arrive while the canvas closes
-        self._panels_at = self._range_at = self._hidden_at = 0.0
+        self._panels_at = self._range_at = 0.0
         self._hidden: Any = ()
         # The drawn panels and their bounds, after the domain if a solve goes on.
         self._panels: tuple[Any, ...] = (None, None, None)
@@ -167,6 +167,11 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 return
             moment = self.deformation.moment
             state, pose = moment.state, moment.state.pose
+            color_range = self._color_range(moment)
+            if not len(pose):
+                self._hidden = ()
+            elif color_range != "keep" or len(pose) != len(self._hidden):  # as often as that
+                self._hidden = self.deformation.sheets(self.image).hidden(pose.handles)
             cages: dict[str, Any] = {"cage": self.show_cage, "offset_cage": self.show_offset_cage}
             drawing = Drawing(
                 moment.map,
@@ -174,11 +179,11 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 pose.targets,
                 moment.shown(pose.handles) if len(pose) else (),
                 moment.selection,
-                self._hidden_of(moment),
+                self._hidden,
                 state.order,
                 self.overlay,
                 state.current.energy,
-                self._color_range(moment),
+                color_range,
                 panels=self._panels_of(moment) if self.show_panels else None,
                 **cages,
             )
@@ -195,16 +200,6 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             return "keep"
         self._range_at = now
         return "widen" if (moment.dragged if moment.solved else moving) else "fit"
-
-    def _hidden_of(self, moment: Moment) -> Any:
-        """Which handles are covered; while the solver works at most `_PANELS_INTERVAL` old."""
-        handles, now = moment.state.pose.handles, time.monotonic()
-        old = moment.solved or now - self._hidden_at > _PANELS_INTERVAL
-        if old or len(handles) != len(self._hidden):
-            self._hidden_at, self._hidden = now, ()
-            if len(handles):
-                self._hidden = self.deformation.sheets(self.image).hidden(handles)
-        return self._hidden
 
     def _panels_of(self, moment: Moment) -> tuple[Any, ...]:
         """The boundary's panels; while the solver works at most `_PANELS_INTERVAL` old."""
