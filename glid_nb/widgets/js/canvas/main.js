@@ -2,7 +2,7 @@
 
 import { make } from "../pad/dom.js";
 import { Link } from "../pad/link.js";
-import { Pad } from "../pad/pad.js";
+import { Pad, undoAround } from "../pad/pad.js";
 import { clearedContext } from "../pad/pen.js";
 import { View } from "../pad/view.js";
 import { drawMarks, markAt } from "./marks.js";
@@ -57,7 +57,7 @@ function resizeGrip(model) {
 }
 
 function render({ model, el }) {
-  el.classList.add("glid-pad-host");
+  el.classList.add("glid-host", "glid-pad-host");
   const paper = make("canvas", { className: "glid-paper" });
   const bars = make("div", { className: "glid-legend" });
   const notice = make("div", { className: "glid-notice", role: "status" });
@@ -101,6 +101,7 @@ function render({ model, el }) {
     changed: soon,
   }) : null;
   if (pad) box.append(resizeGrip(model));
+  const forget = pad && undoAround(box, (e) => pad.keydown(e));
 
   const fit = () => {
     Object.assign(view, { width: model.get("width"), height: model.get("height") });
@@ -140,6 +141,7 @@ function render({ model, el }) {
     cancelAnimationFrame(due);
     clearTimeout(saving);
     for (const [names, listener] of Object.entries(listeners)) model.off(names, listener);
+    forget?.();
     pad?.close();
     link.close();
     shapes.close();

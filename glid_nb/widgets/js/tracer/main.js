@@ -2,7 +2,7 @@
 
 import { make } from "../pad/dom.js";
 import { Link } from "../pad/link.js";
-import { isUndo, undoOrRedo } from "../pad/pad.js";
+import { isUndo, undoAround, undoOrRedo } from "../pad/pad.js";
 import { iconButton } from "./icons.js";
 import { Panel } from "./panel.js";
 import { Stage } from "./stage.js";
@@ -71,13 +71,17 @@ function render({ model, el }) {
   // other shortcuts with Ctrl stay. It reads this attribute before our elements' listeners run.
   const guard = (e) => root.toggleAttribute("data-lm-suppress-shortcuts", isUndo(e) || !(e.ctrlKey || e.metaKey));
   window.addEventListener("keydown", guard, true);
+  const undoByKey = (e) => {
+    act(undoOrRedo(e));
+    e.preventDefault();
+    e.stopPropagation();
+  };
+  const forget = undoAround(root, undoByKey);
   root.addEventListener("keydown", (e) => {
-    if (isUndo(e) && !e.altKey) {
-      act(undoOrRedo(e));
-      e.preventDefault();
-    } else if (e.ctrlKey || e.metaKey) return;
-    e.stopPropagation(); // arrow keys would move between cells
+    if (isUndo(e) && !e.altKey) undoByKey(e);
+    else if (!e.ctrlKey && !e.metaKey) e.stopPropagation(); // arrow keys would move between cells
   });
+  el.classList.add("glid-host");
   el.append(root);
 
   // Shown at once; the kernel changes the tool after what was done with the last one.
@@ -143,6 +147,7 @@ function render({ model, el }) {
   return () => {
     for (const [name, listener] of Object.entries(listeners)) model.off(name, listener);
     window.removeEventListener("keydown", guard, true);
+    forget();
     link.close();
     stage.close();
   };
