@@ -153,13 +153,23 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
 def test_by_keyboard_alone(open_notebook: OpenNotebook) -> None:
     book = open_notebook([SETUP, EDITOR])
     hand = Hand(book)
-    keys = hand.page.keyboard
+    keys, shown = hand.page.keyboard, hand.pad.locator(".glid-help")
+    hand.pad.get_by_text("Click the shape to pin a point").wait_for()
+    hand.pad.get_by_role("button", name="Keys and gestures").click()
+    shown.get_by_text("Ctrl+Shift+Z").wait_for()
+    book.screenshot("editor-help")
     hand.pad.focus()
+    keys.press("Shift+?")
+    assert not shown.is_visible()
+    assert book.value("len(model.pose)") == 0
     keys.press("Enter")  # the cursor appears in the middle
     for _ in range(3):
         keys.press("Shift+ArrowLeft")
     keys.press("Enter")
     book.wait_for("len(model.pose) == 1 and model.selection == (0,)")
+    assert not hand.pad.locator(".glid-notice").is_visible()
+    hand.page.mouse.move(*hand.place(hand.targets[0]))
+    assert "Pin 1: where it should be" in (hand.pad.get_attribute("title") or "")
     x = hand.handles[0][0]
     assert x < -1
     keys.press("Escape")

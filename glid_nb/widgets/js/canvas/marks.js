@@ -48,7 +48,7 @@ export function drawMarks(pen, view, marks, { hovered, held, cursor }) {
 export function markAt(marks, point, reach) {
   for (const points of [marks.targets, marks.images]) {
     const found = nearestVertex([points], point, reach);
-    if (found) return { mark: found.index };
+    if (found) return { mark: found.index, reached: points === marks.images };
   }
   return null;
 }
