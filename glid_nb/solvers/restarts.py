@@ -30,7 +30,7 @@ Descend = Callable[[Inputs], Result]
 
 # Energies above this multiple of an isometry's, if that is at least the last number, are worth all
 # other ways; those above the second are worth turning where joints may turn either way.
-HIGH_ENERGY, HIGH_ENERGY_OF_JOINTS, LEAST_ISOMETRY = 2.0, 1.15, 0.5
+HIGH_ENERGY, HIGH_ENERGY_OF_JOINTS, LEAST_ISOMETRY = 2.0, 1.02, 0.5
 SAME_ENERGY = 1e-6
 # The stages' fractions of lambda, and how far each is followed.
 STAGES = (1e-5, 1e-3, 1e-1)
@@ -49,7 +49,9 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
     """
     if not (inputs.options.restarts and len(inputs.pose)):
         return first
-    turning = turning_of(inputs.pose)
+    if not _is_poor(first, 1):
+        return first
+    turning = turning_of(inputs.pose, inputs.domain.cage)
     ways = _ways(first, inputs, descend, turning)[: inputs.options.restarts]
     best, tried = first, [("direct", first)]
     for name, way, joints in ways:

@@ -1,10 +1,9 @@
 """Paths of the targets along which parts of a shape turn instead of being pulled straight through.
 
-Handles hang together in a tree, each at the nearest one that is in it already. From parent to child
-a pose turns and stretches the line between them; a path does that evenly, so that handles that move
-rigidly together do so all the way. A joint is a line that turns, against that of its parent, by so
-much that either way round may lead to the better minimum, or one whose ends come so close that what
-lies between has to turn.
+Handles hang together in the shortest tree of ways inside the shape. From parent to child a pose
+turns and stretches the line between them; a path does that evenly, so that handles that move
+rigidly together do so all the way. A joint is a line that turns so far that either way round may
+lead to the better minimum, or one whose ends come so close that what lies between has to turn.
 """
 
 from __future__ import annotations
@@ -12,12 +11,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import csgraph
+from scipy.spatial.distance import cdist
 
 from glid_nb._arrays import Array
+from glid_nb.geometry import Cage, triangulate
 from glid_nb.harmonic import as_complex
 from glid_nb.solvers.pose import Pose, rigid_motion
 
-_JOINT, _CLOSE = np.deg2rad(100), 0.5
+_VERTICES = 300
+_JOINT, _BEND, _CLOSE = np.deg2rad(100), np.deg2rad(60), 0.5
 # Where two targets of one line nearly coincide, of its length.
 _LEAST_STRETCH = 1e-3
 # Greatest turn of a stage.
@@ -50,9 +53,20 @@ class Turning:
 
     @property
     def joints(self) -> list[int]:
-        """Places in the order of the lines that turn by over 100 degrees or shrink to half."""
-        lines = enumerate(zip(self.turns, self.stretches, strict=True))
-        return [k for k, (turn, stretch) in lines if abs(turn) > _JOINT or stretch < _CLOSE]
+        """Places in the order of the lines that may as well turn the other way round.
+
+        They turn by over 100 degrees against their parent's line, or by over 60 and so are the
+        first to turn by over 100 against the shape; or they or their parent's shrink to half.
+        """
+        place = {i: k for k, i in enumerate(self.order)}
+        total, found = [0.0], list[int]()
+        for k, turn in enumerate(self.turns[1:], start=1):
+            j = place[self.parents[k]]
+            total.append(total[j] + turn)
+            least = _BEND if abs(total[k]) > _JOINT >= abs(total[j]) else _JOINT
+            if abs(turn) > least or min(self.stretches[k], self.stretches[j]) < _CLOSE:
+                found.append(k)
+        return found
 
     @property
     def ways(self) -> dict[str, tuple[int, ...]]:
@@ -81,26 +95,36 @@ class Turning:
         return self.pose.with_targets(np.stack([np.real(at), np.imag(at)], axis=1))
 
 
-def turning_of(pose: Pose) -> Turning:
+def turning_of(pose: Pose, cage: Cage) -> Turning:
     """The tree of a pose's handles, of which there is at least one, and how its lines turn."""
     z, w = as_complex(pose.handles), as_complex(pose.targets)
-    root = int(np.argmin(np.abs(z - z.mean())))
-    nearest, parent = np.abs(z - z[root]), np.full(len(z), root)
-    order, parents, turns, stretches = [root], [root], [0.0], [1.0]
     whole = float(np.angle(rigid_motion(z, w)[0]))
+    i, j = np.triu_indices(len(z), 1)
+    lines = (w[i] - w[j]) / (z[i] - z[j]) * np.exp(-1j * whole)
+    calm = np.all(np.abs(np.angle(lines)) < _BEND / 2) and np.all(np.abs(lines) > _CLOSE)
+    # Where no line can be a joint, any tree will do.
+    distances = cdist(pose.handles, pose.handles) if calm else _distances(cage, pose.handles)
+    tree = csgraph.minimum_spanning_tree(distances)
+    root = int(np.argmin(distances.sum(axis=0)))
+    order, before = csgraph.breadth_first_order(tree, root, directed=False)
+    parents, turns, stretches = [root], [0.0], [1.0]
     angles = np.full(len(z), whole)
-    nearest[root] = np.inf
-    for _ in range(len(z) - 1):
-        i = int(np.argmin(nearest))
-        j = int(parent[i])
+    for i in order[1:]:
+        j = int(before[i])
         ratio = (w[i] - w[j]) / (z[i] - z[j])
         turn = float(np.angle(ratio * np.exp(-1j * angles[j])))
         angles[i] = angles[j] + turn
-        order.append(i)
         parents.append(j)
         turns.append(turn)
         stretches.append(max(abs(ratio), _LEAST_STRETCH))
-        closer = (np.abs(z - z[i]) < nearest) & (nearest < np.inf)
-        nearest[closer], parent[closer] = np.abs(z - z[i])[closer], i
-        nearest[i] = np.inf
-    return Turning(pose, tuple(order), tuple(parents), whole, tuple(turns), tuple(stretches))
+    return Turning(
+        pose, tuple(order.tolist()), tuple(parents), whole, tuple(turns), tuple(stretches)
+    )
+
+
+def _distances(cage: Cage, points: Array) -> Array:
+    """(k, k) lengths of ways between points along the edges of a coarse mesh of the shape."""
+    mesh = triangulate(cage, _VERTICES)
+    nearest = cdist(points, mesh.vertices).argmin(axis=1)
+    ways = csgraph.dijkstra(mesh.graph, directed=False, indices=nearest)[:, nearest]
+    return np.maximum(ways, cdist(points, points))

@@ -7,9 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from glid_nb.geometry import Cage
 from glid_nb.solvers import Pose
 from glid_nb.solvers.turning import turning_of
 
+CAGE = Cage([[-10, -1], [10, -1], [10, 1], [-10, 1]])
 BAR = np.array([[-9, -0.5], [-9, 0.5], [0, -0.5], [0, 0.5], [9, -0.5], [9, 0.5]])
 
 
@@ -20,7 +22,7 @@ def turned(points: np.ndarray, degrees: float, centre: complex = 0) -> np.ndarra
 
 @given(degrees=st.floats(-179, 179), x=st.floats(-20, 20))
 def test_a_rigid_motion_has_no_joints_and_stays_rigid(degrees: float, x: float) -> None:
-    turning = turning_of(Pose(BAR, turned(BAR, degrees) + np.array([x, 0])))
+    turning = turning_of(Pose(BAR, turned(BAR, degrees) + np.array([x, 0])), CAGE)
     assert turning.joints == []
     assert list(turning.ways) == ["staged targets"]
     distances = [np.linalg.norm(BAR - BAR[i], axis=1) for i in range(len(BAR))]
@@ -33,7 +35,7 @@ def test_a_rigid_motion_has_no_joints_and_stays_rigid(degrees: float, x: float) 
 def test_an_end_turns_rigidly_in_either_direction() -> None:
     targets = BAR.copy()
     targets[4:] = turned(BAR[4:], 150, 9)
-    turning = turning_of(Pose(BAR, targets))
+    turning = turning_of(Pose(BAR, targets), CAGE)
     assert len(turning.joints) == 1
     assert list(turning.ways) == ["staged targets, left", "staged targets, right"]
     for way, whole in (((1,), 150), ((-1,), -210)):
@@ -50,7 +52,7 @@ def test_an_end_turns_rigidly_in_either_direction() -> None:
 def test_stages_lead_evenly_to_the_targets(seed: int, count: int) -> None:
     rng = np.random.default_rng(seed)
     pose = Pose(rng.normal(size=(count, 2)), rng.normal(size=(count, 2)))
-    turning = turning_of(pose)
+    turning = turning_of(pose, CAGE)
     for way in turning.ways.values():
         stages = turning.stages(way)
         line = np.array([pose.handles, *(s.targets for s in stages), pose.targets])
@@ -62,7 +64,7 @@ def test_stages_lead_evenly_to_the_targets(seed: int, count: int) -> None:
 
 
 def test_targets_that_coincide_are_no_division_by_zero() -> None:
-    turning = turning_of(Pose([[0, 0], [1, 0], [2, 0]], [[0, 0], [0, 0], [0, 0]]))
+    turning = turning_of(Pose([[0, 0], [1, 0], [2, 0]], [[0, 0], [0, 0], [0, 0]]), CAGE)
     assert all(np.isfinite(s.targets).all() for s in turning.stages((1,)))
 
 
@@ -71,4 +73,4 @@ def test_several_joints_turn_alike_or_in_turn(count: int) -> None:
     targets = BAR.copy()
     for k in range(count):
         targets[2 * k : 2 * k + 2] = targets[2 * k : 2 * k + 2][::-1]
-    assert len(turning_of(Pose(BAR, targets)).ways) == 4
+    assert len(turning_of(Pose(BAR, targets), CAGE).ways) == 4
