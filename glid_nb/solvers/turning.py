@@ -15,16 +15,15 @@ from scipy.sparse import csgraph
 from scipy.spatial.distance import cdist
 
 from glid_nb._arrays import Array
-from glid_nb.geometry import Cage, triangulate
+from glid_nb.geometry import Cage, as_points, triangulate
 from glid_nb.harmonic import as_complex
 from glid_nb.solvers.pose import Pose, rigid_motion
+from glid_nb.solvers.rigid_parts import rigid_ways, stage_times
 
 _VERTICES = 300
 _JOINT, _BEND, _CLOSE = np.deg2rad(100), np.deg2rad(60), 0.5
 # Where two targets of one line nearly coincide, of its length.
 _LEAST_STRETCH = 1e-3
-# Greatest turn of a stage.
-_STAGE = np.deg2rad(40)
 _WAYS = {
     0: {"staged targets": (1,)},
     1: {"staged targets, left": (1,), "staged targets, right": (-1,)},
@@ -69,12 +68,16 @@ class Turning:
         return found
 
     @property
-    def ways(self) -> dict[str, tuple[int, ...]]:
-        """Which joints turn left (1) and which right (-1), in turn."""
-        return _WAYS[min(len(self.joints), 2)]
+    def ways(self) -> dict[str, list[Pose]]:
+        """The stages of each way by name, from the shape at rest to the wanted pose."""
+        lines = _WAYS[min(len(self.joints), 2)]
+        return {
+            **{name: self._stages(way) for name, way in lines.items()},
+            **rigid_ways(self.pose, dict(zip(self.order, self.parents, strict=True))),
+        }
 
-    def stages(self, way: tuple[int, ...]) -> list[Pose]:
-        """The poses between the shape at rest and the wanted one."""
+    def _stages(self, way: tuple[int, ...]) -> list[Pose]:
+        """Joints turn left (1) or right (-1) in turn."""
         turns = list(self.turns)
         for i, k in enumerate(self.joints):
             side = way[i % len(way)]
@@ -82,8 +85,8 @@ class Turning:
         angles = np.full(len(self.pose), self.whole)
         for k, (i, j) in enumerate(zip(self.order[1:], self.parents[1:], strict=True), start=1):
             angles[i] = angles[j] + turns[k]
-        count = max(int(np.ceil(max(np.abs(angles).max(), np.abs(turns).max()) / _STAGE)), 2)
-        return [self._at(k / count, angles) for k in range(1, count)]
+        times = stage_times([*angles, *turns])
+        return [self._at(time, angles) for time in times]
 
     def _at(self, time: float, angles: Array) -> Pose:
         z, w = as_complex(self.pose.handles), as_complex(self.pose.targets)
@@ -92,7 +95,7 @@ class Turning:
         for k, (i, j) in enumerate(zip(self.order[1:], self.parents[1:], strict=True), start=1):
             turned = np.exp(1j * time * angles[i]) * (1 + time * (self.stretches[k] - 1))
             at[i] = at[j] + turned * (z[i] - z[j])
-        return self.pose.with_targets(np.stack([np.real(at), np.imag(at)], axis=1))
+        return self.pose.with_targets(as_points(at))
 
 
 def turning_of(pose: Pose, cage: Cage) -> Turning:
