@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -25,6 +26,9 @@ def check(name: str) -> Iterator[None]:
         print(f"{name}: not yet: {failed or 'an assertion does not hold'}")
     except Exception as failed:  # the reader's own code may raise anything
         lines = str(failed).splitlines() or ["no message"]
-        print(f"{name}: not yet: your code raises {type(failed).__name__}: {lines[0]}")
+        raised = f"your code raises {type(failed).__name__}: {lines[0]}"
+        if isinstance(failed, TypeError) and re.search("NoneType|ellipsis", lines[0]):
+            raised = f"the cell still holds None or `...`, or returns nothing ({raised})"
+        print(f"{name}: not yet: {raised}")
     else:
         print(f"{name}: right")

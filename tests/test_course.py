@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from glid_nb.course import check
@@ -24,6 +26,16 @@ def test_an_error_of_the_readers_code_is_one_line(capsys: pytest.CaptureFixture[
         raise TypeError("a None\nand more")
     expected = "exercise 2: not yet: your code raises TypeError: a None\n"
     assert capsys.readouterr().out == expected
+
+
+@pytest.mark.parametrize("empty", [None, ...])
+def test_a_cell_that_was_not_filled_in_is_called_that(
+    empty: Any, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with check("exercise 2"):
+        assert empty - 1.0 < 1e-9
+    printed = capsys.readouterr().out
+    assert printed.startswith("exercise 2: not yet: the cell still holds None or `...`")
 
 
 def test_silent_failures_are_not_right(capsys: pytest.CaptureFixture[str]) -> None:

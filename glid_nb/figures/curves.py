@@ -14,17 +14,17 @@ from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy
 from glid_nb.energies.energy import as_energy
 from glid_nb.figures import style
-from glid_nb.figures.drawing import NotebookFigure
-from glid_nb.figures.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, VERMILION
+from glid_nb.figures.drawing import NotebookFigure, label_levels
+from glid_nb.figures.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, PURPLE, SKY, VERMILION
 from glid_nb.geometry import as_points, loop_name, uniform_panels
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Result
 
-# Different in grey too.
+# Different in grey too; vermilion is kept for folds and thresholds.
 _LOOKS = [
     {"color": color, "linestyle": line}
     for line in ("-", (0, (4, 1.5)))
-    for color in (BLUE, VERMILION, GREEN, ORANGE, INK, SKY)
+    for color in (BLUE, ORANGE, GREEN, PURPLE, INK, SKY)
 ]
 _WIDTH = 7.4  # inches
 _SAMPLES = 8000  # of the boundary
@@ -45,14 +45,15 @@ def energy_levels(*energies: Energy | str) -> NotebookFigure:
     chosen = [as_energy(energy) for energy in energies]
     if not chosen:
         raise ValueError("there is no energy to draw; give one, such as 'iso'")
-    width = min(_WIDTH, 3.6 * len(chosen))
-    figure = NotebookFigure(width, 0.95 * (width / len(chosen)) + 0.3)
+    columns = min(len(chosen), 2)
+    rows, width = -(-len(chosen) // columns), min(_WIDTH, 3.6 * columns)
+    figure = NotebookFigure(width, rows * (0.87 * width / columns + 0.3))
     sigma1, sigma2 = np.meshgrid(np.linspace(0.02, 3, 240), np.linspace(0.0, 2.4, 240) + 0.004)
     x: Any = ((sigma1 + sigma2) / 2) ** 2
     y: Any = ((sigma1 - sigma2) / 2) ** 2
     isometry: Any = np.ones(1), np.zeros(1)
-    grid = figure.subplots(1, len(chosen), squeeze=False)[0]
-    for axes, energy in zip(grid, chosen, strict=True):
+    for place, energy in enumerate(chosen, 1):
+        axes = figure.add_subplot(rows, columns, place)
         density = np.asarray(energy.density(x, y))
         least = float(energy.density(*isometry)[0])
         above = np.where((sigma2 <= sigma1) & np.isfinite(density), density - least, np.nan)
@@ -62,7 +63,7 @@ def energy_levels(*energies: Energy | str) -> NotebookFigure:
         axes.contourf(sigma1, sigma2, above, cmap=style.distortion_colors(), extend="both", **look)
         lines = axes.contour(sigma1, sigma2, above, colors=INK, linewidths=0.4, **look)
         labels = {level: f"{level + least:.3g}" for level in levels[2:8:2]}
-        axes.clabel(lines, [*labels], fmt=labels, fontsize=style.SMALL - 1, inline_spacing=2)
+        label_levels(axes, lines, labels)
         axes.axhspan(-0.4, 0.0, facecolor="white", edgecolor=VERMILION, hatch="////", linewidth=0)
         axes.axhline(0.0, color=VERMILION, linewidth=style.LINE)
         axes.plot([0, 2.4], [0, 2.4], color=GREY, linewidth=0.6)
@@ -122,14 +123,17 @@ def convergence(
         raise ValueError(f"against is {against!r}; choose 'iterations' or 'seconds'")
     figure = NotebookFigure(_WIDTH * 0.75, 3.2)
     axes = figure.add_subplot()
-    for (name, result), look in zip(results.items(), _LOOKS * len(results), strict=False):
+    for below, (name, result) in zip(range(len(results))[::-1], results.items(), strict=True):
+        look = _LOOKS[(len(results) - 1 - below) % len(_LOOKS)]
+        # Wider below, so that curves which lie on each other are all seen.
+        look = {**look, "linewidth": style.LINE + 1.3 * below, "markersize": 2.5 + 2.2 * below}
         steps = [result.initial, *result.history]
         seconds = np.cumsum([s.time for s in steps])
         x = seconds if against == "seconds" else np.array([s.iteration for s in steps])
         y = np.array([s.energy for s in steps])
         y = y if gap_to is None else (y - gap_to) / gap_to
         mark = "o" if len(x) <= 40 else ""
-        axes.plot(x, np.where(y > 0, y, np.nan), label=name, marker=mark, markersize=2.5, **look)
+        axes.plot(x, np.where(y > 0, y, np.nan), label=name, marker=mark, **look)
     axes.set_yscale("log")
     _named(axes, against, "energy" if gap_to is None else "(E − E*) / E*", "")
     axes.legend(**style.LEGEND)

@@ -12,11 +12,12 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import NullLocator
 from numpy.typing import NDArray
-from PIL import Image
+from PIL import Image, ImageColor
 
-from glid_nb.figures.style import CYAN, HAIRLINE, INK, SMALL, VERMILION
+from glid_nb.figures.style import CYAN, HAIRLINE, INK, NAMED, SMALL
 from glid_nb.imaging import PixelFrame
 from glid_nb.solvers import Pose
 
@@ -24,6 +25,8 @@ _MISS = 0.004  # handles farther from their target, relative to the shape's size
 _SHOWN_DPI = 150.0  # in a notebook, at
 _CSS_DPI = 108.0  # this many of the page's pixels per inch
 _ROUND, _COARSE = (1, 1.1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 7), (1, 2, 5)  # ticks of a decade
+
+_ON_WHITE = [withStroke(linewidth=2.0, foreground="white")]  # shows on every picture
 
 Floats = NDArray[np.float64]
 
@@ -43,9 +46,27 @@ class NotebookFigure(Figure):
         width, height = (_CSS_DPI * self.get_size_inches()).round().astype(int).tolist()
         picture = Image.open(io.BytesIO(figure_png(self, _SHOWN_DPI))).convert("RGB")
         buffer = io.BytesIO()
-        # With a palette it is a third as large: notebooks keep their figures.
-        picture.quantize(256, Image.Quantize.MEDIANCUT).save(buffer, "png", optimize=True)
+        _with_palette(picture).save(buffer, "png", optimize=True)
         return buffer.getvalue(), {"width": width, "height": height}
+
+    def _ipython_display_(self) -> None:
+        # Not by IPython's formatters: ipywidgets' interact gives them one of its own for figures.
+        from IPython.display import publish_display_data  # noqa: PLC0415 - notebooks alone need it
+
+        png, size = self._repr_png_()
+        publish_display_data({"text/plain": repr(self), "image/png": png}, {"image/png": size})
+
+
+def _with_palette(picture: Image.Image) -> Image.Image:
+    """A third as large as a file; the named colours, which may cover few pixels, stay exact."""
+    named = [ImageColor.getrgb(color) for color in NAMED]
+    drawn = picture.quantize(256 - len(named), Image.Quantize.MEDIANCUT)
+    colors = (drawn.getpalette() or [])[: 3 * (256 - len(named))]
+    for color in named:
+        drawn.paste(len(colors) // 3, mask=Image.fromarray((np.asarray(picture) == color).all(2)))
+        colors += color
+    drawn.putpalette(colors)
+    return drawn
 
 
 def figure_png(figure: Figure, dpi: float | None = None) -> bytes:
@@ -101,11 +122,18 @@ def draw_targets(axes: Axes, map: Any, pose: Pose, size: float) -> None:
     images = map(pose.handles) if len(pose) else pose.handles
     apart = np.linalg.norm(images - pose.targets, axis=1) > _MISS * size
     segments = np.stack([images[apart], pose.targets[apart]], axis=1)
-    axes.add_collection(
-        LineCollection(list(segments), colors=VERMILION, linewidths=0.9, zorder=3), autolim=False
-    )
+    lines = LineCollection(list(segments), colors=INK, linewidths=0.9, zorder=3)
+    lines.set_path_effects(_ON_WHITE)
+    axes.add_collection(lines, autolim=False)
     draw_dots(axes, pose.targets, CYAN, 5.0, edge=0.6, label="targets")
     draw_dots(axes, images, "black", 2.2, edge=0.0, label="handles' images")
+
+
+def label_levels(axes: Axes, lines: Any, labels: dict[float, str]) -> None:
+    """Write values at contour lines, legible on every colour."""
+    texts = axes.clabel(lines, [*labels], fmt=labels, fontsize=SMALL, colors=INK, inline_spacing=2)
+    for text in texts:
+        text.set_path_effects(_ON_WHITE)
 
 
 def log_ticks(low: float, high: float) -> list[float]:
@@ -120,8 +148,8 @@ def log_ticks(low: float, high: float) -> list[float]:
     return ticks
 
 
-def color_bar(axes: Any, colors: Any, label: str, **look: Any) -> None:
-    """A slim colour bar below axes."""
+def color_bar(axes: Any, colors: Any, label: str, **look: Any) -> Axes:
+    """A slim colour bar below axes; returns its own."""
     figure = np.ravel(axes)[0].figure
     place = {"location": "bottom", "shrink": 0.8, "aspect": 24, "pad": 0.02, "panchor": False}
     scale = figure.colorbar(colors, ax=axes, **{**place, **look})
@@ -129,3 +157,4 @@ def color_bar(axes: Any, colors: Any, label: str, **look: Any) -> None:
     scale.ax.xaxis.set_minor_locator(NullLocator())
     scale.ax.tick_params(labelsize=SMALL, length=2, width=HAIRLINE, pad=1.5, colors=INK)
     scale.outline.set(linewidth=HAIRLINE, edgecolor=INK)
+    return scale.ax

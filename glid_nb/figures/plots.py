@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from glid_nb.certificate import Certificate
 from glid_nb.certificate.rounding import rounded_down
 from glid_nb.figures import style
-from glid_nb.figures.style import BLUE, FAINT, GREEN, INK, SKY, SMALL, VERMILION
+from glid_nb.figures.style import BLUE, FAINT, GREEN, INK, ORANGE, SKY, SMALL, VERMILION
 from glid_nb.geometry import Cage, loop_name
 from glid_nb.harmonic import HarmonicMap
 
@@ -164,7 +164,7 @@ class EnergyPlot(_OverIterations):
     """Energy after each iteration: the total, the isometric part and the targets' part."""
 
     _looks: ClassVar = {
-        "energy_p2p": {"color": VERMILION, "label": "targets"},
+        "energy_p2p": {"color": ORANGE, "label": "targets"},
         "energy_iso": {"color": BLUE, "label": "isometric"},
         "energy": {"color": INK, "label": "total", "linestyle": (0, (4, 1.5))},
     }
@@ -204,7 +204,7 @@ class StepPlot(_OverIterations):
 
     _looks: ClassVar = {
         "decrement": {"color": BLUE, "label": "Newton decrement"},
-        "step": {"color": VERMILION, "label": "step length"},
+        "step": {"color": ORANGE, "label": "step length"},
     }
     _dotted = 0
 

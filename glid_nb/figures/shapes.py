@@ -26,10 +26,11 @@ from glid_nb.figures.drawing import (
     draw_picture,
     draw_targets,
     enlarged,
+    label_levels,
     log_ticks,
 )
 from glid_nb.figures.plots import CertificatePlot
-from glid_nb.figures.style import BLUE, GREY, INK, VERMILION, distortion_colors
+from glid_nb.figures.style import BLUE, GREEN, GREY, INK, VERMILION, distortion_colors
 from glid_nb.geometry import Domain, MeshMap, as_points, triangulate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
@@ -69,9 +70,14 @@ class _Sheet(NamedTuple):
     def of(cls, map: AnyMap) -> _Sheet:
         if isinstance(map, HarmonicMap):
             mesh = deformed_mesh(map, _VERTICES, 0.03)
-            fz, fzb = map.wirtinger(mesh.vertices[mesh.triangles].mean(axis=1))
+            middles = map.wirtinger(mesh.vertices[mesh.triangles].mean(axis=1))
+            corners = [w[mesh.triangles.T] for w in map.wirtinger(mesh.vertices)]
+            # A fold begins on the boundary: there the corners see it before the middles do.
+            fz, fzb = np.abs([np.vstack(w) for w in zip(middles, corners, strict=True)])
+            at = np.where((fz > fzb).all(axis=0), 0, (fz - fzb).argmin(axis=0))[None]
+            fz, fzb = (np.take_along_axis(w, at, axis=0)[0] for w in (fz, fzb))
             shape = mesh.vertices, mesh.images, mesh.triangles, mesh.heights
-            return cls(*shape, np.abs(fz), np.abs(fzb), deformed_loops(map, 0.01), False)
+            return cls(*shape, fz, fzb, deformed_loops(map, 0.01), False)
         mesh = map.triangulation
         order = np.argsort(mesh.vertices[mesh.triangles, 0].mean(axis=1), kind="stable")
         w = map.images @ np.array([1, 1j])
@@ -180,7 +186,7 @@ def basis(domain: Domain, j: int, part: Literal["re", "im", "abs"] = "re") -> No
     """One basis function inside the offset cage, and the cage on which maps are certified.
 
     The offset cage's vertices, where the functions are singular, are dots, the hole points
-    crosses; the one of this function is vermilion.
+    crosses; the one of this function is green.
 
     Parameters
     ----------
@@ -202,28 +208,31 @@ def basis(domain: Domain, j: int, part: Literal["re", "im", "abs"] = "re") -> No
     map = HarmonicMap(domain, unit / 2, unit / 2) if is_log else HarmonicMap(domain, unit, 0 * unit)
     re, im = map(points).T
     values = {"re": re, "im": im, "abs": np.hypot(re, im)}[part]
-    most, low = float(np.abs(values).max()) or 1.0, 0.0 if part == "abs" else -1.0
+    least, most, signed = values.min(), values.max(), values.min() < 0
+    size = max(-least, most) or 1.0
     figure, (axes,) = _shape_axes(1, box_around(domain.offset_cage.exterior, 0.04))
     shape: Any = Drawn(*mesh.vertices.T, triangles=mesh.triangles)
     drawn = axes.tripcolor(
         shape,
         values,
         shading="gouraud",
-        cmap=distortion_colors() if part == "abs" else "PuOr_r",
-        norm=Normalize(low * most, most),
+        cmap="PuOr_r" if signed else distortion_colors(),
+        norm=Normalize(-size, size) if signed else Normalize(least, most),
         rasterized=True,
         zorder=0,
     )
-    axes.tricontour(shape, values, 14, colors=INK, linewidths=0.3)
+    lines = axes.tricontour(shape, values, 14, colors=INK, linewidths=0.4)
+    label_levels(axes, lines, {level: f"{level:g}" for level in [*lines.levels][::2]})
     draw_loops(axes, domain.offset_cage.loops, color=GREY, linewidth=0.7, label="offset cage")
     draw_loops(axes, domain.cage.loops, color=BLUE, linewidth=1.0, label="cage")
     singular = np.concatenate([*domain.offset_cage.loops, domain.hole_points])
     draw_dots(axes, singular[:n_vertices], GREY, 3.2, edge=0.4, label="singularities")
     axes.plot(*singular[n_vertices:].T, "x", color=INK, markersize=4, zorder=4)
-    axes.plot(*singular[j], "X" if is_log else "o", color=VERMILION, markersize=6, zorder=5)
+    axes.plot(*singular[j], "X" if is_log else "o", color=GREEN, markersize=7, zorder=5)
     figure.legend(loc="outside lower center", ncols=3, **style.LEGEND)
     name = "ln|z − ρ|" if is_log else f"C_{j}(z)"
-    color_bar(axes, drawn, {"re": "Re ", "im": "Im ", "abs": "modulus of "}[part] + name)
+    label = {"re": "Re ", "im": "Im ", "abs": "modulus of "}[part] + name
+    color_bar(axes, drawn, label).set_xlim(least, most)
     return figure
 
 

@@ -107,7 +107,8 @@ class EditorModel(Observed):
             if document is None:
                 self.tracing = TracingModel(image)
                 """The picture that is open and its cage."""
-                self.apply_tracing()
+                if not self.tracing.doubt:
+                    self.apply_tracing()
             else:
                 self._take(document)
             if path is not None:
@@ -132,9 +133,12 @@ class EditorModel(Observed):
     def deformation(self) -> Deformation:
         """The shape being deformed; EditError while nothing has been traced.
 
+        An outline that is a guess is deformed once this, or the Deform tab, is asked for.
         Its solver begins with the first change, or when a view calls `Deformation.begin` after its
         first drawing, which compiling would delay.
         """
+        if self._session is None:
+            self.apply_tracing()
         if self._session is None:
             raise EditError("there is no cage yet; open a picture and trace a shape first")
         return self._session.deformation

@@ -58,8 +58,9 @@ _NOT_SAVED = (
 class Editor(ClosingWidget, ipywidgets.VBox):
     """Trace a picture, pin points of it, drag them: it follows and never folds over.
 
-    The Trace tab finds the cage, the Deform tab moves it. All of it can be done in code: `trace`,
-    `add_handle`, `drag`, `solve`, `save`, `load`, `export`.
+    The Trace tab finds the cage, the Deform tab moves it. Where the outline is no more than a
+    guess, as on most photographs, the Trace tab is open at first and says so. All of it can be
+    done in code: `trace`, `add_handle`, `drag`, `solve`, `save`, `load`, `export`.
 
     Parameters
     ----------

@@ -9,9 +9,11 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from IPython.core.interactiveshell import InteractiveShell
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgba
 from matplotlib.text import Text
+from matplotlib_inline.backend_inline import configure_inline_support
 from PIL import Image
 
 from glid_nb import figures
@@ -46,6 +48,20 @@ def test_a_figure_shows_itself_as_a_picture_and_pyplot_does_not_know_it() -> Non
     with Image.open(io.BytesIO(png)) as picture:
         assert abs(picture.width / picture.height - size["width"] / size["height"]) < 0.02
     assert plt.get_fignums() == []
+
+
+def test_sliders_in_a_notebook_do_not_change_how_figures_are_shown(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    shown: list[Any] = []
+    monkeypatch.setattr("IPython.display.publish_display_data", lambda *data: shown.append(data))
+    shell = InteractiveShell()
+    configure_inline_support(shell, "inline")  # as ipywidgets' interact does
+    figure = figures.function([0, 1], {"line": [0, 1]})
+    assert shell.display_formatter.format(figure) == ({}, {})
+    ((data, size),) = shown
+    assert data["text/plain"] == "<NotebookFigure>"
+    assert (data["image/png"], size["image/png"]) == figure._repr_png_()
 
 
 @pytest.mark.parametrize("quantity", ["sigma1", "sigma2", "k", "energy", AMIPS()])

@@ -16,6 +16,7 @@ from typing import Any
 import ipywidgets
 import numpy as np
 import pytest
+import skimage.data
 from PIL import Image
 
 import glid_check
@@ -112,6 +113,31 @@ def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
     assert editor.solve(TIMEOUT)
     editor.deformation.undo()
     assert np.array_equal(editor.map.phi, phi)
+
+
+@pytest.mark.parametrize("name", ["cat", "coffee", "rocket", "astronaut"])
+def test_a_photograph_opens_in_trace(name: str) -> None:
+    editor = Editor(getattr(skimage.data, name)(), n_vertices=300)
+    try:
+        assert (editor.tabs.selected_index, editor.canvas) == (0, None)
+        shown = editor.tracer.shown
+        assert shown["doubt"]
+        assert shown["n_filled"] == editor.tracer.tracing.n_filled
+        editor.tracer.handle([{"type": "draw"}])
+        assert editor.tracer.shown["doubt"] == ""
+        editor.tabs.selected_index = 1
+        assert editor.canvas is not None
+        assert editor.document.cage.area > 200
+    finally:
+        editor.close()
+
+
+def test_code_deforms_a_guess_without_asking() -> None:
+    editor = Editor(skimage.data.coffee(), n_vertices=300)
+    assert len(editor.poses) == 1
+    assert editor.tabs.selected_index == 1
+    assert editor.canvas is not None
+    editor.close()
 
 
 def test_a_session_file_is_kept_up_to_date(tmp_path: Path) -> None:

@@ -13,6 +13,8 @@ const TOOLS = [
   ["background", "Paint over the background (N)"],
   ["color", "Pick the background's colour (I)"],
   ["component", "Pick the component to trace (C)"],
+  ["polygon", "Draw the outline by hand (P)"],
+  ["rectangle", "Draw a rectangle (R)"],
 ];
 const PART = 1 << 20; // bytes of a file per message
 
@@ -94,7 +96,7 @@ function render({ model, el }) {
   }
 
   function showStatus() {
-    const { size, loops, problems, n_components: count, discarded } = model.get("shown");
+    const { size, loops, problems, n_components: count, component, discarded, doubt } = model.get("shown");
     const n = loops.reduce((sum, loop) => sum + loop.length, 0);
     const holes = Math.max(loops.length - 1, 0);
     let kind = "ok", text = `Cage with ${n} vertices and ${holes || "no"} ${holes === 1 ? "hole" : "holes"}`;
@@ -104,7 +106,8 @@ function render({ model, el }) {
     else if (problems.length) {
       [kind, text] = ["bad", loops.length ? "This is not a valid cage; the last valid cage is kept" : "There is no cage yet"];
     } else if (discarded) text += " · your edits were lost with the old outline; Undo brings them back";
-    else if (count > 1) text += ` · ${count} components in the picture`;
+    else if (count > 1) text += ` · ${component ? `component ${component + 1}` : "the largest"} of ${count} components`;
+    if (kind === "ok" && doubt) [kind, text] = ["guess", `A guess, as ${doubt} · ${text}`];
     root.dataset.status = kind;
     status.textContent = text;
   }
