@@ -26,6 +26,8 @@ R = TypeVar("R")
 COMPILER_OPTIONS = {"xla_cpu_use_fusion_emitters": False}
 """For programs with many small fusions: XLA's older CPU emitters compile them 1.6 times faster."""
 
+_CHUNK_ELEMENTS = 1 << 15
+
 _lock = threading.Lock()
 _depth = 0
 _limiter: Any = None
@@ -76,22 +78,23 @@ def double_precision(function: Callable[P, R]) -> Callable[P, R]:
     return wrapped
 
 
-def in_chunks(program: Callable[..., R], size: int, rows: Sequence[NDArray[Any]], *fixed: Any) -> R:
-    """Run a compiled program over rows in chunks of one size, so that it compiles once.
+def in_chunks(
+    program: Callable[..., R], n_columns: int, rows: Sequence[NDArray[Any]], *fixed: Any
+) -> R:
+    """Run a program over rows in chunks whose matrices of ``n_columns`` stay in the cache.
 
-    ``program(*chunk, *fixed)`` returns a pytree of arrays with one row per row of the chunk; the
-    result is the pytree for all rows, which may be none, of NumPy arrays. The last chunk is filled
-    up with copies of the last row.
+    ``program(*chunk, *fixed)`` returns a pytree of NumPy arrays with one row per row of the chunk;
+    the result is the pytree for all rows, which may be none. What overflows or is not defined
+    there warns of nothing.
     """
-    count = len(rows[0])
-    rows = rows if count else [np.zeros((1, *a.shape[1:]), a.dtype) for a in rows]
-    parts = []
-    for first in range(0, max(count, 1), size):
-        index = np.minimum(np.arange(first, first + size), len(rows[0]) - 1)
-        own = slice(min(size, count - first))
-        outputs = program(*(a[index] for a in rows), *fixed)
-        parts.append(jax.tree.map(lambda a, own=own: np.asarray(a)[own], outputs))
-    return jax.tree.map(lambda *column: np.concatenate(column), *parts)
+    size = max(_CHUNK_ELEMENTS // n_columns, 1)
+    with np.errstate(all="ignore"), single_blas_thread():
+        parts = [
+            program(*(a[first : first + size] for a in rows), *fixed)
+            for first in range(0, max(len(rows[0]), 1), size)
+        ]
+    one = len(parts) == 1
+    return parts[0] if one else jax.tree.map(lambda *column: np.concatenate(column), *parts)
 
 
 def cache_directory() -> Path:
