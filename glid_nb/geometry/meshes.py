@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pythoncdt
@@ -22,6 +22,9 @@ from glid_nb.geometry._loops import (
     subdivided,
 )
 from glid_nb.geometry.cage import Cage
+
+if TYPE_CHECKING:
+    import scipy.sparse
 
 # Least distance of lattice points from the boundary, in spacings: closer ones make flat triangles;
 _MARGIN = 0.55
@@ -47,6 +50,17 @@ class Triangulation:
         read_only(self.triangles)
 
     @cached_property
+    def graph(self) -> scipy.sparse.csr_array:
+        """(v, v) lengths of the edges, symmetric."""
+        from scipy.sparse import coo_array  # noqa: PLC0415 - slow to import
+
+        a, b = self.triangles.ravel(), np.roll(self.triangles, -1, axis=1).ravel()
+        lengths = np.linalg.norm(self.vertices[a] - self.vertices[b], axis=1)
+        # All triangles are counter-clockwise, so no directed edge occurs twice.
+        one_way = coo_array((lengths, (a, b)), shape=(len(self.vertices),) * 2).tocsr()
+        return one_way.maximum(one_way.T)
+
+    @cached_property
     def _tree(self) -> shapely.STRtree:
         triangles: Any = shapely.polygons(self.vertices[self.triangles])
         return shapely.STRtree(triangles)
@@ -68,17 +82,6 @@ class Triangulation:
         weights = barycentric(self.vertices[corners], points)
         rows, shape = np.repeat(np.arange(len(points)), 3), (len(points), len(self.vertices))
         return csr_array((weights.ravel(), (rows, corners.ravel())), shape)
-
-    @cached_property
-    def graph(self) -> Any:
-        """(v, v) sparse symmetric matrix of the lengths of edges."""
-        from scipy.sparse import coo_array  # noqa: PLC0415 - not always needed
-
-        a, b = self.triangles.ravel(), np.roll(self.triangles, -1, axis=1).ravel()
-        lengths = np.linalg.norm(self.vertices[a] - self.vertices[b], axis=1)
-        # All triangles are counter-clockwise, so no directed edge occurs twice.
-        one_way = coo_array((lengths, (a, b)), (len(self.vertices),) * 2).tocsr()
-        return one_way.maximum(one_way.T)
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,6 +21,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.document import NamedPose
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.solvers import Method, Pose
+from glid_nb.solvers.pose import DEEPEST
 
 # Least distance of two handles, as a share of the cage's size.
 _LEAST_DISTANCE = 1e-6
@@ -100,9 +101,10 @@ def set_depths(state: EditState, indices: Iterable[int], depths: ArrayLike) -> E
 
 
 def bring_forward(state: EditState, indices: Iterable[int], steps: float = 1) -> EditState:
-    """Raise the depths of some handles by a number of steps; lower them if it is negative."""
+    """Raise the depths of some handles by a number of steps, up to 100; lower them by negative."""
     chosen = _checked_indices(state, indices)
-    return set_depths(state, chosen, state.pose.depths[chosen] + steps)
+    depths = (state.pose.depths[chosen] + steps).clip(-DEEPEST, DEEPEST)
+    return set_depths(state, chosen, depths)
 
 
 def reset(state: EditState) -> EditState:

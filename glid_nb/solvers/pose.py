@@ -16,7 +16,8 @@ from glid_nb.geometry import Domain, place
 
 # Farther away, the rounding of a coordinate would be felt in the proof.
 _FARTHEST = 1e6
-_DEEPEST = 100.0
+DEEPEST = 100.0
+"""Largest depth of a handle."""
 
 
 class PoseError(InputError):
@@ -141,12 +142,12 @@ def _checked_points(points: Any, name: str) -> Array:
 
 
 def _checked_depths(depths: ArrayLike, count: int) -> Array:
-    wanted = f"depths must be {count} numbers from {-_DEEPEST:g} to {_DEEPEST:g}, one per handle"
+    wanted = f"depths must be {count} numbers from {-DEEPEST:g} to {DEEPEST:g}, one per handle"
     try:
         array = real_array(depths)
     except (TypeError, ValueError) as error:
         raise PoseError(f"{wanted} ({error})") from error
-    if array.shape != (count,) or not (np.abs(array) <= _DEEPEST).all():
+    if array.shape != (count,) or not (np.abs(array) <= DEEPEST).all():
         raise PoseError(f"{wanted}, not {depths!r:.60}")
     return read_only(array)
 

@@ -63,7 +63,7 @@ export function markAt(marks, point, reach) {
       const far = gap + (marks.hidden.includes(i) ? reach / 3 : 0);
       if (gap <= reach && far < (best?.far ?? Infinity)) best = { mark: i, far };
     });
-    if (best) return { mark: best.mark };
+    if (best) return { mark: best.mark, reached: points === marks.images };
   }
   return null;
 }
