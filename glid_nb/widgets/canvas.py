@@ -253,7 +253,8 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
 
     def __init__(self, canvas: DeformCanvas, **kwargs: Any) -> None:
         self.deformation = model = canvas.deformation
-        narrow = ipywidgets.Layout(width="38px")  # one for all of them
+        # Shared: every widget delays the first canvas.
+        narrow, fitting = ipywidgets.Layout(width="38px"), ipywidgets.Layout(width="auto")
         tip = "{} where parts overlap (Page {})"
         self.back, self.front = (
             button("", icon, tip.format(*words), functools.partial(self._raise, steps), narrow)
@@ -275,7 +276,7 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
         ipywidgets.link((canvas, "overlay"), (self.overlay, "value"))
         for name, label, tooltip in _TOGGLES:
             self.toggles[name] = toggle = ipywidgets.ToggleButton(
-                description=label, tooltip=tooltip, layout={"width": "auto"}
+                description=label, tooltip=tooltip, layout=fitting
             )
             ipywidgets.link((canvas, name), (toggle, "value"))
         buttons = self.undo, self.redo, self.reset, self.fit, self.back, self.front

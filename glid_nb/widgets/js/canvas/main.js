@@ -19,6 +19,7 @@ const HELP = [
   ["Drag a pin, or the shape", "move it there; the shape follows as far as it cannot fold"],
   ["Right-click, long touch, Delete", "remove a pin"],
   ["Shift-click, A", "select several pins, all pins"],
+  ["Page Down, Page Up", "selected pins and what is around them go back, come forward; also [ and ]"],
   ["Arrow keys", "nudge selected pins, with Shift farther; else move a cursor"],
   ["Enter", "show the cursor; pin or select there"],
   [", .", "select the pin before, the next pin"],
