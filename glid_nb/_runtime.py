@@ -26,6 +26,8 @@ R = TypeVar("R")
 COMPILER_OPTIONS = {"xla_cpu_use_fusion_emitters": False}
 """For programs with many small fusions: XLA's older CPU emitters compile them 1.6 times faster."""
 
+_CHUNK_ELEMENTS = 1 << 15
+
 _lock = threading.Lock()
 _depth = 0
 _limiter: Any = None
@@ -76,29 +78,39 @@ def double_precision(function: Callable[P, R]) -> Callable[P, R]:
     return wrapped
 
 
-def in_chunks(program: Callable[..., R], size: int, rows: Sequence[NDArray[Any]], *fixed: Any) -> R:
-    """Run a compiled program over rows in chunks of one size, so that it compiles once.
+def in_chunks(
+    program: Callable[..., R], n_columns: int, rows: Sequence[NDArray[Any]], *fixed: Any
+) -> R:
+    """Run a program over rows in chunks whose matrices of ``n_columns`` stay in the cache.
 
-    ``program(*chunk, *fixed)`` returns a pytree of arrays with one row per row of the chunk; the
-    result is the pytree for all rows, which may be none, of NumPy arrays. The last chunk is filled
-    up with copies of the last row.
+    ``program(*chunk, *fixed)`` returns a pytree of NumPy arrays with one row per row of the chunk;
+    the result is the pytree for all rows, which may be none. What overflows or is not defined
+    there warns of nothing.
     """
-    count = len(rows[0])
-    rows = rows if count else [np.zeros((1, *a.shape[1:]), a.dtype) for a in rows]
-    parts = []
-    for first in range(0, max(count, 1), size):
-        index = np.minimum(np.arange(first, first + size), len(rows[0]) - 1)
-        own = slice(min(size, count - first))
-        outputs = program(*(a[index] for a in rows), *fixed)
-        parts.append(jax.tree.map(lambda a, own=own: np.asarray(a)[own], outputs))
-    return jax.tree.map(lambda *column: np.concatenate(column), *parts)
+    size = max(_CHUNK_ELEMENTS // n_columns, 1)
+    with np.errstate(all="ignore"), single_blas_thread():
+        parts = [
+            program(*(a[first : first + size] for a in rows), *fixed)
+            for first in range(0, max(len(rows[0]), 1), size)
+        ]
+    one = len(parts) == 1
+    return parts[0] if one else jax.tree.map(lambda *column: np.concatenate(column), *parts)
 
 
 def cache_directory() -> Path:
     """The folder for compiled programs: ``$GLID_NB_CACHE``, else the user's cache directory."""
-    if named := os.environ.get("GLID_NB_CACHE"):
+    return _directory("GLID_NB_CACHE", "XDG_CACHE_HOME", ".cache")
+
+
+def data_directory() -> Path:
+    """The folder for kept work: ``$GLID_NB_DATA``, else the user's data directory."""
+    return _directory("GLID_NB_DATA", "XDG_DATA_HOME", ".local/share")
+
+
+def _directory(own: str, common: str, usual: str) -> Path:
+    if named := os.environ.get(own):
         return Path(named)
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "glid_nb"
+    return Path(os.environ.get(common) or Path.home() / usual) / "glid_nb"
 
 
 def enable_compilation_cache() -> Path:

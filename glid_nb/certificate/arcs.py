@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import functools
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from glid_nb._arrays import Array
-from glid_nb._jax import jit, jnp
-from glid_nb._runtime import COMPILER_OPTIONS
 from glid_nb.certificate import rounding
 from glid_nb.certificate.panels import modulus
 from glid_nb.certificate.paper import beside_by, derivative_bound_weights, jumps
 from glid_nb.harmonic import HarmonicMap, cauchy, run_on
 from glid_nb.harmonic.cauchy import Singularities
-
-_CHUNK = 256
 
 # Roundings of the few operations made with the kernel's outputs, relative.
 _FINAL_ROUNDING = 1 + 1e-12
@@ -110,17 +105,16 @@ class Arcs(NamedTuple):
 
 def jets_of(map: HarmonicMap, start: Array, end: Array) -> Jets:
     """Jets at the complex points ``start``, with ``third`` for the panels to ``end``."""
-    jets = run_on(map, _kernel, _CHUNK, start.ravel(), end.ravel())
+    jets = run_on(map, _kernel, start.ravel(), end.ravel())
     return Jets(*(values.reshape(start.shape) for values in jets))
 
 
-@functools.partial(jit, compiler_options=COMPILER_OPTIONS)
 def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularities) -> Jets:
     edges = cauchy.edge_coefficients(coefficients, singularities)
     known: Any = rounding.derivatives(start, edges, singularities)
     first, second, first_off, second_off = known
-    exterior = jnp.arange(coefficients.shape[1]) <= singularities.previous[0]
-    local = coefficients - jnp.where(exterior, coefficients[:, :1], 0)
+    exterior = np.arange(coefficients.shape[1]) <= singularities.previous[0]
+    local = coefficients - np.where(exterior, coefficients[:, :1], 0)
     values = cauchy.cauchy_coordinates(start, singularities) @ local.T
     slack: Any = rounding.slack_factor(coefficients.shape[1]) * modulus(local).max(axis=1).sum()
     third: Any = derivative_bound_weights(start, end, singularities, 2)
@@ -131,7 +125,7 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularitie
     rest = third / (modulus(end - start) + 2 * off) ** 2 * off
     bend_off = off * (bend + rest)
     return Jets(
-        values[:, 0] + jnp.conj(values[:, 1]),
+        values[:, 0] + np.conj(values[:, 1]),
         first[0],
         first[1],
         second[0],
@@ -151,8 +145,8 @@ def _value_scale(z: Any, singularities: Singularities) -> Any:
     vertices, following, _, rho = singularities
     b = modulus(vertices - z[:, None])
     edge = modulus(vertices[following] - vertices)
-    logarithms = jnp.log(b)
-    log = jnp.abs(logarithms[:, following] - logarithms) + np.pi + 4
+    logarithms = np.log(b)
+    log = np.abs(logarithms[:, following] - logarithms) + np.pi + 4
     vertex_terms = (b[:, following] + b) * log / (2 * np.pi * edge)
-    hole_terms = jnp.abs(jnp.log(modulus(z[:, None] - rho))) + 1
+    hole_terms = np.abs(np.log(modulus(z[:, None] - rho))) + 1
     return vertex_terms.sum(axis=1) + hole_terms.sum(axis=1)

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
 
-from glid_nb._jax import jax, jnp
 from glid_nb.certificate import rounding
 from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
 from glid_nb.certificate.paper import beside_by, clearance, segment_bounds
@@ -43,20 +42,19 @@ class BDHM(NamedTuple):
         cls, start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
     ) -> Self:
         """``L_j`` on each segment, and the vertices of the affine function."""
-        vertices, following, preceding, _ = map(jnp.asarray, singularities)
-        m = vertices.shape[0]
+        vertices, following, preceding, _ = map(np.asarray, singularities)
+        m = len(vertices)
         d, _ = clearance(start, end, singularities)
         near = d[:, :m]
         chord = modulus(vertices[following] - vertices[preceding])
         weights = chord / (2 * np.pi * near[:, preceding] * near * near[:, following])
         loop = _loop_labels(following)
-        largest = jax.ops.segment_max(weights.T, loop, m)[loop].T
-        candidates = jnp.where(weights == largest, jnp.arange(m), -1)
-        first = jax.ops.segment_max(candidates.T, loop, m)[loop].T
-        take = jnp.take_along_axis
+        candidates = np.where(weights == _largest(weights, loop), np.arange(m), -1)
+        first = _largest(candidates, loop)
+        take = np.take_along_axis
         after = take(weights, following[first], 1) >= take(weights, preceding[first], 1)
-        second = jnp.where(after, following[first], preceding[first])
-        weights = jnp.concatenate([weights, d[:, m:] ** -2], axis=1)
+        second = np.where(after, following[first], preceding[first])
+        weights = np.concatenate([weights, 1 / d[:, m:] ** 2], axis=1)
         # An end that is off by delta changes the value there by delta L.
         length = rounding.UPWARD * (modulus(end - start) + 4 * beside_by(singularities))
         return cls(length, weights.T, first.T, second.T)
@@ -65,7 +63,7 @@ class BDHM(NamedTuple):
         self, coefficients: Complex[Array, "k n"], singularities: Singularities
     ) -> Float[Array, "k p"]:
         """Lipschitz constants on each segment, one row per row of coefficients."""
-        z, m = jnp.asarray(singularities.vertices), self.first.shape[0]
+        z, m = singularities.vertices, self.first.shape[0]
         first, second, weights = self.first.T, self.second.T, self.weights.T
         z1, z2 = z[first], z[second]
 
@@ -74,9 +72,9 @@ class BDHM(NamedTuple):
             phi1 = phi[first]
             slope = (phi[second] - phi1) / (z2 - z1)
             rest = modulus(phi - phi1 - slope * (z - z1))
-            return jnp.sum(weights[:, :m] * rest, axis=1) + weights[:, m:] @ modulus(row[m:])
+            return (weights[:, :m] * rest).sum(axis=1) + weights[:, m:] @ modulus(row[m:])
 
-        return jnp.stack([one(row) for row in coefficients])
+        return coefficients.__array_namespace__().stack([one(row) for row in coefficients])
 
     def remainder(
         self, coefficients: Complex[Array, "k n"], singularities: Singularities
@@ -92,8 +90,16 @@ class BDHM(NamedTuple):
 
 def _loop_labels(following: Int[Array, " m"]) -> Int[Array, " m"]:
     """The smallest index on the loop of each vertex, by pointer doubling."""
-    label = jnp.arange(following.shape[0])
-    for _ in range(following.shape[0].bit_length()):
-        label = jnp.minimum(label, label[following])
+    label = np.arange(len(following))
+    for _ in range(len(following).bit_length()):
+        label = np.minimum(label, label[following])
         following = following[following]
     return label
+
+
+def _largest(values: Array, loop: Int[Array, " m"]) -> Array:
+    """The largest of each row's values on the loop of each vertex, (p, m) like ``values``."""
+    result = np.empty_like(values)
+    for own in (loop == one for one in np.unique(loop)):
+        result[:, own] = values[:, own].max(axis=1, keepdims=True)
+    return result

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
@@ -12,8 +13,6 @@ import numpy as np
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
 from glid_nb._files import write_text_atomically
-from glid_nb._jax import jit, jnp
-from glid_nb._runtime import COMPILER_OPTIONS, double_precision
 from glid_nb.certificate import rounding
 from glid_nb.certificate.bdhm import BDHM
 from glid_nb.certificate.hermite import Hermite
@@ -40,7 +39,6 @@ PROOFS: dict[CertificateKind, type[PanelProof]] = {
 }
 """The kinds of proof by name."""
 
-_CHUNK = 256
 _MAX_ROUNDS = 40
 _MAX_PANELS = 400_000
 
@@ -108,7 +106,7 @@ class Certificate:
         write_text_atomically(Path(path), proof_text(self))
 
 
-class _Known(NamedTuple):
+class Known(NamedTuple):
     """Bounds on each panel, and the distortion at its start."""
 
     bounds: PanelBounds
@@ -136,7 +134,6 @@ class _Known(NamedTuple):
         return ~((self.sigma2_seen > self.slack) & np.isfinite(self.sigma1_seen + self.slack))
 
 
-@double_precision
 def certify(
     map: HarmonicMap,
     kind: CertificateKind = "hermite",
@@ -167,21 +164,30 @@ def certify(
         raise ValueError(f"unknown kind of certificate {kind!r}; choose one of {', '.join(PROOFS)}")
     if not tightness > 0:
         raise ValueError(f"tightness is {tightness}; it must be positive")
-    evaluate = functools.partial(run_on, map, functools.partial(_kernel, kind=kind), _CHUNK)
+    evaluate = functools.partial(run_on, map, functools.partial(_kernel, kind=kind))
     if panels is None:
         panels = graded_panels(map.domain)
     else:
         check_tiling(panels, map.domain.cage)
-    known: _Known = evaluate(panels.start, panels.end)
-    for _ in range(_MAX_ROUNDS if refine else 0):
+    known: Known = evaluate(panels.start, panels.end)
+    if refine:
+        panels, known = refined(panels, known, evaluate, tightness)
+    return _conclude(map, panels, known, kind)
+
+
+def refined(
+    panels: Panels, known: Known, evaluate: Callable[..., Known], tightness: float
+) -> tuple[Panels, Known]:
+    """Halve panels until the proof succeeds with tight bounds, or will not."""
+    for _ in range(_MAX_ROUNDS):
         wanted = _to_split(known, tightness) & panels.divisible
         if known.hopeless.any() or not wanted.any() or len(panels) > _MAX_PANELS:
             break
         panels, known = split(panels, known, wanted, evaluate)
-    return _conclude(map, panels, known, kind)
+    return panels, known
 
 
-def _to_split(known: _Known, tightness: float) -> Array:
+def _to_split(known: Known, tightness: float) -> Array:
     """(p,) bool: the proof fails, or the panel keeps the overall bounds from being tight."""
     bounds, injective = known.bounds, np.asarray(known.bounds.injective)
     if not np.isfinite(known.slack).all():  # out of scale
@@ -236,9 +242,7 @@ def proved_by(
     return proof
 
 
-def _conclude(
-    map: HarmonicMap, panels: Panels, known: _Known, kind: CertificateKind
-) -> Certificate:
+def _conclude(map: HarmonicMap, panels: Panels, known: Known, kind: CertificateKind) -> Certificate:
     bounds, unproved = known.bounds, ~np.asarray(known.bounds.injective)
     turns = windings(np.asarray(bounds.turning), panels.loop, 1 + map.domain.n_holes)
     certified = False
@@ -279,25 +283,34 @@ def _assembled(
     return Certificate(certified, *extremes, turns, per_panel, kind, reason, map)
 
 
-@functools.partial(jit, static_argnames="kind", compiler_options=COMPILER_OPTIONS)
 def _kernel(
     start: Any, end: Any, coefficients: Any, singularities: Singularities, kind: CertificateKind
-) -> _Known:
-    edges, chord = cauchy.edge_coefficients(coefficients, singularities), end - start
-    # Both ends at once: half the program to compile.
-    parts = rounding.derivatives(jnp.concatenate([start, end]), edges, singularities)
-    (values, slopes, slack), (values_end, slopes_end, slack_end) = (
-        (first, chord * second, first_off + modulus(chord) * second_off)
-        for first, second, first_off, second_off in zip(
-            *(jnp.split(part, 2, axis=1) for part in parts), strict=True
-        )
-    )
-    fz, fzb_conj = (EndValues(values[k], values_end[k], slopes[k], slopes_end[k]) for k in (0, 1))
+) -> Known:
+    ends, slack = end_values(start, end, coefficients, singularities)
+    fz, fzb_conj = (EndValues(*(values[k] for values in ends)) for k in (0, 1))
     proof = PROOFS[kind].on(start, end, singularities)
-    slack = rounding.allowance(jnp.maximum(slack, slack_end), 1 + modulus(edges).max())
     remainder = proof.remainder(coefficients, singularities) + proof.slack_share * slack
     bounds = proof.bounds(fz, fzb_conj, remainder)
     f, g = modulus(fz.start), modulus(fzb_conj.start)
     # The start itself may lie beside the boundary.
     shift = jumps(coefficients, singularities) @ beside(start, end, singularities).T
-    return _Known(bounds, f - g, f + g, g / f, f, jnp.sum(slack + shift, axis=0))
+    return Known(bounds, f - g, f + g, g / f, f, np.sum(slack + shift, axis=0))
+
+
+def end_values(
+    start: Any, end: Any, coefficients: Any, singularities: Singularities
+) -> tuple[EndValues, Any]:
+    """``sum_j D_j coefficients_j`` at the ends of panels, (k, p) arrays, and bounds on the errors.
+
+    The sums are the derivatives of (k, c) coefficients, ``f_z`` for phi and the like.
+    """
+    edges, chord = cauchy.edge_coefficients(coefficients, singularities), end - start
+    parts = rounding.derivatives(np.concatenate([start, end]), edges, singularities)
+    (values, slopes, slack), (values_end, slopes_end, slack_end) = (
+        (first, chord * second, first_off + modulus(chord) * second_off)
+        for first, second, first_off, second_off in zip(
+            *(np.split(part, 2, axis=1) for part in parts), strict=True
+        )
+    )
+    slack = rounding.allowance(np.maximum(slack, slack_end), 1 + modulus(edges).max())
+    return EndValues(values, values_end, slopes, slopes_end), slack

@@ -12,7 +12,6 @@ from __future__ import annotations
 import functools
 from typing import TYPE_CHECKING, NamedTuple, Self
 
-from glid_nb._jax import jnp
 from glid_nb.certificate import rounding
 from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
 from glid_nb.certificate.paper import beside, derivative_bound_weights, jumps, turning
@@ -22,7 +21,7 @@ if TYPE_CHECKING:
     from jaxtyping import Array, Complex, Float
 
     # A cubic by its four Bezier control points, a real sextic by its seven Bernstein coefficients.
-    Cubic = list[Complex[Array, " p"]]
+    Cubic = list[Complex[Array, " p"]] | list[Float[Array, " p"]]
     Sextic = list[Float[Array, " p"]]
 
 
@@ -50,27 +49,45 @@ class Hermite(NamedTuple):
         return jumps(coefficients, singularities) @ self.weights
 
     @staticmethod
-    def bounds(fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]) -> PanelBounds:
+    def bounds(
+        fz: EndValues,
+        fzb_conj: EndValues,
+        remainder: Float[Array, "2 p"],
+        direction: Complex[Array, " p"] | None = None,
+    ) -> PanelBounds:
         """Bounds on each whole panel.
 
-        The interpolants are halved once, which tightens the bounds without evaluating the map.
+        The interpolants are halved once, which tightens the bounds without evaluating the map. With
+        unit vectors ``u`` as ``direction``, the bounds on sigma_2 and k hold with
+        ``Re(conj(u) f_z)``, proved positive where the turning is known, in place of ``|f_z|``.
         """
         p, q = _control_points(fz), _control_points(fzb_conj)
+        e_f, e_g = remainder[0], remainder[1]
+        p_most = _greatest([modulus(point) for point in p])
+        known = direction
+        if direction is None:
+            direction = p[0] / modulus(p[0]) + p[3] / modulus(p[3])
+            direction = direction / modulus(direction)
+        along = [(direction.conj() * point).real for point in p]
+        if known is not None:
+            e_f = e_f + rounding.BERNSTEIN * p_most  # of u itself and the products
         halves = [
-            _piece_bounds(p_half, q_half, remainder[0], remainder[1])
-            for p_half, q_half in zip(_halves(p), _halves(q), strict=True)
+            _piece_bounds(p_half, q_half, e_f, e_g)
+            for p_half, q_half in zip(
+                _halves(p if known is None else along), _halves(q), strict=True
+            )
         ]
         sigma2, sigma1, k = zip(*halves, strict=True)
+        if known is not None:
+            sigma1 = [p_most + _greatest([modulus(point) for point in q]) + e_f + e_g]
 
         # If the control points lie in a half plane further than e_f from 0, f_z avoids 0 there.
-        direction = p[0] / modulus(p[0]) + p[3] / modulus(p[3])
-        direction = direction / modulus(direction)
-        offset = _least([jnp.real(jnp.conj(direction) * point) for point in p])
+        offset = _least(along)
         return PanelBounds(
             _least(sigma2),
             _greatest(sigma1),
             _greatest(k),
-            offset > remainder[0],
+            offset > e_f,
             turning(fz.start, fz.end),
         )
 
@@ -79,6 +96,7 @@ def _piece_bounds(
     p: Cubic, q: Cubic, e_f: Float[Array, " p"], e_g: Float[Array, " p"]
 ) -> tuple[Array, Array, Array]:
     """Lower bound on sigma_2, upper bounds on sigma_1 and k, where ``p`` and ``q`` interpolate."""
+    xp = e_f.__array_namespace__()
     p_most = _greatest([modulus(point) for point in p])
     q_most = _greatest([modulus(point) for point in q])
     # The computed coefficients are off by this much.
@@ -89,24 +107,24 @@ def _piece_bounds(
     # |p| - |q| = (|p|^2 - |q|^2) / (|p| + |q|), and the control points bound the denominator.
     # Where least is negative, |q|^2 <= |p|^2 - least gives |q| <= |p| + sqrt(-least).
     least = _least([a - b for a, b in zip(p_square, q_square, strict=True)])
-    sigma2 = jnp.where(least > 0, least / (p_most + q_most), -jnp.sqrt(-least)) - e_f - e_g
+    sigma2 = xp.where(least > 0, least / (p_most + q_most), -xp.sqrt(-least)) - e_f - e_g
     sigma1 = p_most + q_most + e_f + e_g
 
     # kappa^2 |p|^2 - |q|^2 >= 0 coefficient by coefficient bounds |q| / |p| by kappa.
     p_least_square = _least(p_square)
-    p_least = jnp.sqrt(jnp.maximum(p_least_square, 0))
-    ratios = [jnp.maximum(b, 0) / a for a, b in zip(p_square, q_square, strict=True)]
-    kappa = jnp.sqrt(_greatest(ratios))
+    p_least = xp.sqrt(xp.maximum(p_least_square, 0))
+    ratios = [xp.maximum(b, 0) / a for a, b in zip(p_square, q_square, strict=True)]
+    kappa = xp.sqrt(_greatest(ratios))
     k = (kappa * p_least + e_g) / (p_least - e_f)
-    k = jnp.where((p_least_square > 0) & (p_least > e_f), k, jnp.inf)
+    k = xp.where((p_least_square > 0) & (p_least > e_f), k, xp.inf)
     # k = (sigma_1 - sigma_2) / (sigma_1 + sigma_2) grows with sigma_1 and falls with sigma_2, so
     # the bounds on these bound it by less than 1 where sigma_2 is proved positive.
     from_sigma = (sigma1 - sigma2) / (sigma1 + sigma2)
-    k = jnp.where(sigma2 > 0, jnp.minimum(k, from_sigma), k)
+    k = xp.where(sigma2 > 0, xp.minimum(k, from_sigma), k)
     # Nothing is proved where anything overflows.
-    finite = jnp.isfinite(p_off + q_off + e_f + e_g)
-    sigma2 = jnp.where(finite, sigma2, -jnp.inf)
-    sigma1, k = (jnp.where(finite, a, jnp.inf) for a in (sigma1, k * (1 + rounding.BERNSTEIN)))
+    finite = xp.isfinite(p_off + q_off + e_f + e_g)
+    sigma2 = xp.where(finite, sigma2, -xp.inf)
+    sigma1, k = (xp.where(finite, a, xp.inf) for a in (sigma1, k * (1 + rounding.BERNSTEIN)))
     return sigma2, sigma1, k
 
 
@@ -128,7 +146,7 @@ def _squared_modulus(cubic: Cubic) -> Sextic:
 
     def dot(i: int, j: int) -> Float[Array, " p"]:
         a, b = cubic[i], cubic[j]
-        return jnp.real(a) * jnp.real(b) + jnp.imag(a) * jnp.imag(b)
+        return a.real * b.real + a.imag * b.imag
 
     return [
         dot(0, 0),
@@ -142,8 +160,8 @@ def _squared_modulus(cubic: Cubic) -> Sextic:
 
 
 def _least(values: list[Array] | tuple[Array, ...]) -> Array:
-    return functools.reduce(jnp.minimum, values)
+    return functools.reduce(values[0].__array_namespace__().minimum, values)
 
 
 def _greatest(values: list[Array] | tuple[Array, ...]) -> Array:
-    return functools.reduce(jnp.maximum, values)
+    return functools.reduce(values[0].__array_namespace__().maximum, values)

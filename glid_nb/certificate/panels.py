@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._jax import jax, jnp
+from glid_nb._jax import jax
 from glid_nb.certificate.rounding import UNIT_ROUNDOFF
 from glid_nb.geometry import Cage, GeometryError, Panels, loop_name, place
 from glid_nb.geometry._loops import next_index
@@ -139,4 +139,5 @@ def split(
 
 def modulus(z: Complex[Array, " *k"]) -> Float[Array, " *k"]:
     """``|z|`` without protection from overflow, which cannot occur here; compiles to less code."""
-    return jnp.sqrt(jnp.real(z) ** 2 + jnp.imag(z) ** 2)
+    xp = z.__array_namespace__()
+    return xp.sqrt(xp.real(z) ** 2 + xp.imag(z) ** 2)

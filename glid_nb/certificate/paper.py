@@ -7,13 +7,14 @@ holds on all segments and the sum (30) is 0, the map is locally injective.
 
 from __future__ import annotations
 
+import functools
 import math
+import operator
 from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._jax import jnp
 from glid_nb.certificate import rounding
 from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
 from glid_nb.harmonic.cauchy import Singularities, slope_jumps
@@ -38,11 +39,12 @@ def segment_bounds(
     fz_min = mean_fz - variation_fz / 2
     fzb_max = mean_fzb + variation_fzb / 2
     sigma1 = mean_fz + variation_fz / 2 + fzb_max
-    finite = jnp.isfinite(sigma1**2)
+    xp = sigma1.__array_namespace__()
+    finite = xp.isfinite(sigma1**2)
     return PanelBounds(
-        jnp.where(finite, fz_min - fzb_max, -jnp.inf),
-        jnp.where(finite, sigma1, jnp.inf),
-        jnp.where(fz_min > 0, fzb_max / fz_min, jnp.inf),
+        xp.where(finite, fz_min - fzb_max, -xp.inf),
+        xp.where(finite, sigma1, xp.inf),
+        xp.where(fz_min > 0, fzb_max / fz_min, xp.inf),
         finite & (2 * mean_fz > variation_fz),
         turning(fz.start, fz.end),
     )
@@ -106,10 +108,10 @@ def derivative_bound_weights(
     ``order! (l/d)^order / d``. They also hold on the edge that the segment is a rounded part of.
     """
     d, ratio = clearance(start, end, singularities)
-    m = singularities.vertices.shape[0]
-    power = rounding.UPWARD * ratio**order
+    m, xp = singularities.vertices.shape[0], start.__array_namespace__()
+    power = rounding.UPWARD * functools.reduce(operator.mul, [ratio] * order)
     vertices = math.factorial(order - 1) / (2 * math.pi) * power[:, :m]
-    return jnp.concatenate([vertices, math.factorial(order) * power[:, m:] / d[:, m:]], axis=1)
+    return xp.concat([vertices, math.factorial(order) * power[:, m:] / d[:, m:]], axis=1)
 
 
 def beside(
@@ -121,9 +123,9 @@ def beside(
     panel by ``2 delta |f_z'| + delta l |f_z''|``, and each bound by no more than twice their sum.
     """
     d, ratio = clearance(start, end, singularities)
-    m = singularities.vertices.shape[0]
+    m, xp = singularities.vertices.shape[0], start.__array_namespace__()
     off = 4 * rounding.UPWARD * beside_by(singularities) / d * (1 + ratio)
-    return jnp.concatenate([off[:, :m] / (2 * math.pi), 2 * off[:, m:] / d[:, m:]], axis=1)
+    return xp.concat([off[:, :m] / (2 * math.pi), 2 * off[:, m:] / d[:, m:]], axis=1)
 
 
 def clearance(
@@ -136,29 +138,28 @@ def clearance(
     """
     d, length = distances(start, end, singularities), modulus(end - start)[:, None]
     u, off = 32 * rounding.UNIT_ROUNDOFF, beside_by(singularities)
-    d = jnp.maximum(d * (1 - u) - u * length - off, 0)
+    d = start.__array_namespace__().maximum(d * (1 - u) - u * length - off, 0)
     return d, (length + 2 * off) / d
 
 
 def beside_by(singularities: Singularities) -> Float[Array, ""]:
     """How far the end of a panel may lie beside its edge: inside the offset cage's exterior."""
-    vertices = jnp.asarray(singularities.vertices)
-    exterior = jnp.arange(vertices.shape[0]) <= singularities.previous[0]
-    return rounding.BESIDE * jnp.max(jnp.where(exterior, modulus(vertices), 0))
+    vertices, xp = singularities.vertices, singularities.vertices.__array_namespace__()
+    exterior = xp.arange(vertices.shape[0]) <= singularities.previous[0]
+    return rounding.BESIDE * xp.max(xp.where(exterior, modulus(vertices), 0))
 
 
 def distances(
     start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
 ) -> Float[Array, "p n"]:
     """``d(z_j)`` and ``d(rho_k)``: the distance of each segment to each singularity."""
-    points = jnp.concatenate([singularities.vertices, singularities.hole_points])
+    xp = start.__array_namespace__()
+    points = xp.concat([singularities.vertices, singularities.hole_points])
     along = (end - start)[:, None]
     relative = points - start[:, None]
-    length_squared = jnp.real(along) ** 2 + jnp.imag(along) ** 2
-    position = jnp.real(relative * jnp.conj(along)) / jnp.where(
-        length_squared > 0, length_squared, 1
-    )
-    return modulus(relative - jnp.clip(position, 0, 1) * along)
+    length_squared = xp.real(along) ** 2 + xp.imag(along) ** 2
+    position = xp.real(relative * xp.conj(along)) / xp.where(length_squared > 0, length_squared, 1)
+    return modulus(relative - xp.clip(position, 0, 1) * along)
 
 
 def turning(fz_start: Complex[Array, " p"], fz_end: Complex[Array, " p"]) -> Float[Array, " p"]:
@@ -166,7 +167,8 @@ def turning(fz_start: Complex[Array, " p"], fz_end: Complex[Array, " p"]) -> Flo
 
     Theorem 8.1 proves this if ``|f_z(v_i)| + |f_z(v_{i+1})| > L_fz l`` (28).
     """
-    return jnp.angle(fz_end * jnp.conj(fz_start))
+    xp = fz_end.__array_namespace__()
+    return xp.angle(fz_end * xp.conj(fz_start))
 
 
 def windings(turning: NDArray[np.float64], loop: NDArray[np.intp], n_loops: int) -> tuple[int, ...]:
@@ -180,4 +182,4 @@ def fz_vanishes(turning: Float[Array, " p"]) -> Bool[Array, ""]:
 
     Corollary 8.2; up to rounding the sum is a multiple of ``2 pi`` if all turnings are known.
     """
-    return jnp.abs(jnp.sum(turning)) > 1
+    return abs(turning.sum()) > 1

@@ -6,7 +6,7 @@ may be off by is added to each panel's remainder. `docs/proof.md` derives every 
 - Arithmetic and square roots are rounded correctly (IEEE 754, products may be fused with sums).
 - A complex sum of ``n`` products ``a_j b_j`` is ``2 n`` real products for each part, in any order:
   it is off by ``sqrt(2) 2n u / (1 - 2n u) sum_j |a_j b_j|``.
-- The computed ``Log(B_{j+1} / B_j)`` is off by ``LOGARITHM u (1 + |Log|)``, if XLA's real
+- The computed ``Log(B_{j+1} / B_j)`` is off by ``LOGARITHM u (1 + |Log|)``, if the real
   logarithm and ``atan2`` are off by no more than `ELEMENTARY` roundoffs (tests compare with Arb).
 
 A solver carries values along, ``f_z + t df_z``, instead of computing them anew. Each step adds the
@@ -19,7 +19,6 @@ import math
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from typing import TYPE_CHECKING
 
-from glid_nb._jax import jnp
 from glid_nb.harmonic import cauchy
 from glid_nb.harmonic.cauchy import Singularities
 
@@ -29,9 +28,9 @@ if TYPE_CHECKING:
 UNIT_ROUNDOFF = 2.0**-53
 
 ELEMENTARY = 2.0
-"""Roundoffs, relative, that XLA's real ``log`` and ``atan2`` may be off by."""
+"""Roundoffs, relative, that the real ``log`` and ``atan2`` of NumPy and XLA may be off by."""
 COMPLEX_QUOTIENT = 8.0
-"""The same for the modulus of the error of XLA's complex division."""
+"""The same for the modulus of the error of their complex division."""
 LOGARITHM = 16.0
 """Roundoffs per ``1 + |Log|`` that ``Log(B_{j+1} / B_j)`` may be off by."""
 CUT = 64 * UNIT_ROUNDOFF
@@ -75,7 +74,8 @@ def allowance(slack: Float[Array, "*k p"], probe: Float[Array, ""]) -> Float[Arr
 
     ``probe`` is any positive number that the compiler does not know.
     """
-    return jnp.where(_is_exact(probe), slack + UNDERFLOW, jnp.inf)
+    xp = slack.__array_namespace__()
+    return xp.where(_is_exact(probe), slack + UNDERFLOW, xp.inf)
 
 
 def _is_exact(a: Float[Array, ""]) -> Bool[Array, ""]:
@@ -95,15 +95,14 @@ def derivatives(
     """
     first = cauchy.first_by_edges(z, singularities)
     second = cauchy.second_by_edges(z, singularities)
-    m, size, factor = singularities.vertices.shape[0], jnp.abs(edges), slack_factor(edges.shape[1])
-    of_logarithms = (
-        LOGARITHM * UNIT_ROUNDOFF * jnp.sum(size[:, :m], axis=1, keepdims=True) / math.pi
-    )
-    off = factor * (size @ jnp.abs(first).T) + of_logarithms
+    xp, m = z.__array_namespace__(), singularities.vertices.shape[0]
+    size, factor = xp.abs(edges), slack_factor(edges.shape[1])
+    of_logarithms = LOGARITHM * UNIT_ROUNDOFF * xp.sum(size[:, :m], axis=1, keepdims=True) / math.pi
+    off = factor * (size @ xp.abs(first).T) + of_logarithms
     # Near the cut a computed logarithm may be the wrong one.
-    near_cut = jnp.any(jnp.abs(jnp.real(first[:, :m])) > 0.5 - CUT, axis=1)
-    off = UPWARD * jnp.where(near_cut, jnp.inf, off)
-    second_off = UPWARD * factor * (size @ jnp.abs(second).T)
+    near_cut = xp.any(xp.abs(xp.real(first[:, :m])) > 0.5 - CUT, axis=1)
+    off = UPWARD * xp.where(near_cut, xp.inf, off)
+    second_off = UPWARD * factor * (size @ xp.abs(second).T)
     return edges @ first.T, edges @ second.T, off, second_off
 
 
@@ -115,9 +114,10 @@ def panel_scale(
     :func:`slack_factor` times this and the largest coefficient bounds the error of
     ``sum_j D_j phi_j`` and ``l sum_j D'_j phi_j`` together.
     """
-    length = jnp.abs(end - start)
+    xp = start.__array_namespace__()
+    length = xp.abs(end - start)
     scales = [term_scale(z, singularities) for z in (start, end)]
-    return UPWARD * jnp.maximum(*(value + length * slope for value, slope in scales))
+    return UPWARD * xp.maximum(*(value + length * slope for value, slope in scales))
 
 
 def term_scale(
@@ -127,16 +127,16 @@ def term_scale(
 
     Infinite where a computed logarithm may be that of the wrong branch.
     """
-    vertices, following, preceding, rho = singularities
-    b, to_hole = jnp.abs(vertices - z[:, None]), jnp.abs(z[:, None] - rho)
-    edge, chord = (jnp.abs(vertices[following] - vertices[i]) for i in (slice(None), preceding))
+    xp, (vertices, following, preceding, rho) = z.__array_namespace__(), singularities
+    b, to_hole = xp.abs(vertices - z[:, None]), xp.abs(z[:, None] - rho)
+    edge, chord = (xp.abs(vertices[following] - vertices[i]) for i in (slice(None), preceding))
     log_over_edge = cauchy.log_over_edge(vertices - z[:, None], singularities)
     absolute = LOGARITHM * UNIT_ROUNDOFF / slack_factor(len(vertices) + len(rho))
-    first = jnp.sum(jnp.abs(log_over_edge) + absolute / edge, axis=1) / math.pi
-    second = jnp.sum(chord / (b[:, preceding] * b * b[:, following]), axis=1) / (2 * math.pi)
-    angle = jnp.abs(jnp.imag(log_over_edge * (vertices[following] - vertices)))
-    first = jnp.where(jnp.any(angle > math.pi * (1 - 2 * CUT), axis=1), jnp.inf, first)
-    return first + jnp.sum(1 / to_hole, axis=1), second + jnp.sum(to_hole**-2, axis=1)
+    first = xp.sum(xp.abs(log_over_edge) + absolute / edge, axis=1) / math.pi
+    second = xp.sum(chord / (b[:, preceding] * b * b[:, following]), axis=1) / (2 * math.pi)
+    angle = xp.abs(xp.imag(log_over_edge * (vertices[following] - vertices)))
+    first = xp.where(xp.any(angle > math.pi * (1 - 2 * CUT), axis=1), xp.inf, first)
+    return first + xp.sum(1 / to_hole, axis=1), second + xp.sum(1 / to_hole**2, axis=1)
 
 
 def rounded_down(value: float, digits: int = 3) -> str:

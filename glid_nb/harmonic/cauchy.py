@@ -3,6 +3,9 @@
 The cage that carries the basis has ``m`` vertices ``z_j`` on one or more closed loops and one
 point ``rho`` per hole. With ``A_j = z_j - z_{j-1}`` and ``B_j(z) = z_j - z`` (Figure 4), the
 columns of every matrix here are the ``m`` vertices in the order of the loops, then the holes.
+
+All functions take arrays of NumPy or of JAX and compute with the library that their first argument
+belongs to.
 """
 
 from __future__ import annotations
@@ -11,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from glid_nb._jax import AnyArray, jnp, lax
+from glid_nb._jax import AnyArray
 
 if TYPE_CHECKING:
     from jaxtyping import Array, Complex, Int
@@ -32,12 +35,13 @@ def cauchy_coordinates(
     z: Complex[Array, " k"], singularities: Singularities
 ) -> Complex[Array, "k n"]:
     """``C_j(z)`` of Equation (8): (D.1) for vertices and ``ln|z - rho|`` for holes."""
+    xp = z.__array_namespace__()
     vertices, following, preceding, rho = singularities
     b = vertices - z[:, None]
     log_over_a = log_over_edge(b, singularities)
     c = (b[:, following] * log_over_a - b[:, preceding] * log_over_a[:, preceding]) / _TWO_PI_I
-    logarithms = jnp.log(jnp.abs(z[:, None] - rho))
-    return jnp.concatenate([c, logarithms.astype(c.dtype)], axis=1)
+    logarithms = xp.log(xp.abs(z[:, None] - rho))
+    return xp.concat([c, logarithms.astype(c.dtype)], axis=1)
 
 
 def first_derivatives(
@@ -47,7 +51,7 @@ def first_derivatives(
     vertices, _, preceding, rho = singularities
     log_over_a = log_over_edge(vertices - z[:, None], singularities)
     d = (log_over_a[:, preceding] - log_over_a) / _TWO_PI_I
-    return jnp.concatenate([d, 1 / (z[:, None] - rho)], axis=1)
+    return z.__array_namespace__().concat([d, 1 / (z[:, None] - rho)], axis=1)
 
 
 def second_derivatives(
@@ -58,7 +62,7 @@ def second_derivatives(
     b = vertices - z[:, None]
     numerator = (vertices[following] - vertices[preceding]) / _TWO_PI_I
     d = numerator / (b[:, preceding] * b * b[:, following])
-    return jnp.concatenate([d, -1 / (z[:, None] - rho) ** 2], axis=1)
+    return z.__array_namespace__().concat([d, -1 / (z[:, None] - rho) ** 2], axis=1)
 
 
 def first_by_edges(z: Complex[Array, " k"], singularities: Singularities) -> Complex[Array, "k n"]:
@@ -69,7 +73,7 @@ def first_by_edges(z: Complex[Array, " k"], singularities: Singularities) -> Com
     """
     logarithms = _logarithms(singularities.vertices - z[:, None], singularities)
     rest = 1 / (z[:, None] - singularities.hole_points)
-    return jnp.concatenate([logarithms / _TWO_PI_I, rest], axis=1)
+    return z.__array_namespace__().concat([logarithms / _TWO_PI_I, rest], axis=1)
 
 
 def second_by_edges(z: Complex[Array, " k"], singularities: Singularities) -> Complex[Array, "k n"]:
@@ -77,16 +81,16 @@ def second_by_edges(z: Complex[Array, " k"], singularities: Singularities) -> Co
     vertices, following, _, rho = singularities
     b = vertices - z[:, None]
     edges = (vertices[following] - vertices) / (b * b[:, following]) / _TWO_PI_I
-    return jnp.concatenate([edges, -1 / (z[:, None] - rho) ** 2], axis=1)
+    return z.__array_namespace__().concat([edges, -1 / (z[:, None] - rho) ** 2], axis=1)
 
 
 def edge_coefficients(
     coefficients: Complex[Array, "... n"], singularities: Singularities
 ) -> Complex[Array, "... n"]:
     """The slope along the edge from each vertex, and the coefficient itself for the holes."""
-    m = singularities.vertices.shape[0]
+    m, xp = singularities.vertices.shape[0], coefficients.__array_namespace__()
     slopes = edge_slopes(coefficients[..., :m], singularities)
-    return jnp.concatenate([slopes[..., singularities.next], coefficients[..., m:]], axis=-1)
+    return xp.concat([slopes[..., singularities.next], coefficients[..., m:]], axis=-1)
 
 
 def edge_slopes(
@@ -105,11 +109,10 @@ def slope_jumps(
     All derivatives of ``f_z`` are sums over these (Appendix H, whose first sum has the wrong sign):
     ``f_z' = -1/(2 pi i) sum_j (s_j - s_{j+1}) / B_j - sum_k phi_{m+k} / (z - rho_k)^2``.
     """
-    m = singularities.vertices.shape[0]
+    m, xp = singularities.vertices.shape[0], coefficients.__array_namespace__()
     slopes = edge_slopes(coefficients[..., :m], singularities)
-    return jnp.concatenate(
-        [slopes - slopes[..., singularities.next], coefficients[..., m:]], axis=-1
-    )
+    jumps = slopes - slopes[..., singularities.next]
+    return xp.concat([jumps, coefficients[..., m:]], axis=-1)
 
 
 def higher_derivative(
@@ -145,8 +148,9 @@ def _logarithms(b: Complex[AnyArray, "k m"], singularities: Singularities) -> Co
     """``Log(B_{j+1} / B_j)``.
 
     The principal branch is right: an edge subtends an angle below pi at any point off it. XLA's own
-    complex logarithm is off by 50 roundoffs near modulus 0.77; its real one and atan2 by one.
+    complex logarithm is off by 50 roundoffs near modulus 0.77; real ones and atan2 by one.
     """
-    after = b[:, singularities.next]
-    square, square_after = (jnp.real(a) ** 2 + jnp.imag(a) ** 2 for a in (b, after))
-    return lax.complex(jnp.log(square_after / square) / 2, jnp.angle(after * jnp.conj(b)))
+    xp = b.__array_namespace__()
+    square = xp.real(b) ** 2 + xp.imag(b) ** 2
+    angle = xp.angle(b[:, singularities.next] * xp.conj(b))
+    return xp.log(square[:, singularities.next] / square) / 2 + 1j * angle

@@ -13,9 +13,8 @@ from numpy.typing import ArrayLike
 
 from glid_nb._arrays import Array, number_pairs, read_only, real_array
 from glid_nb._errors import InputError, about
-from glid_nb._jax import jit, jnp
 from glid_nb._json import parse_json, write_json
-from glid_nb._runtime import double_precision, in_chunks
+from glid_nb._runtime import in_chunks
 from glid_nb.geometry import Domain, as_points, loop_name, uniform_panels
 from glid_nb.harmonic import cauchy
 from glid_nb.harmonic.basis import basis_of
@@ -26,9 +25,6 @@ R = TypeVar("R")
 FORMAT = "glid_nb-map"
 FORMAT_VERSION = 1
 
-# Bounds the memory of a chunk, in points times columns.
-_CHUNK_ELEMENTS = 1 << 19
-_SMALL_CHUNK = 64
 # Squares of larger coefficients, times those of the basis, overflow.
 _LARGEST = 1e120
 
@@ -190,22 +186,18 @@ class HarmonicMap:
         with about(path, MapError):
             return cls.from_dict(parse_json(Path(path).read_bytes(), str(path)))
 
-    @double_precision
     def _evaluate(self, program: Callable[..., Any], points: ArrayLike) -> tuple[Array, ...]:
-        z = as_complex(points)
-        # Only two chunk sizes, so that few programs are compiled.
-        large = max(_SMALL_CHUNK, _CHUNK_ELEMENTS // basis_of(self.domain).n_columns)
-        return run_on(self, program, _SMALL_CHUNK if len(z) <= _SMALL_CHUNK else large, z)
+        return run_on(self, program, as_complex(points))
 
 
-def run_on(map: HarmonicMap, program: Callable[..., R], chunk: int, *points: Array) -> R:
+def run_on(map: HarmonicMap, program: Callable[..., R], *points: Array) -> R:
     """``program(*points, coefficients, singularities)`` for a map's (2, c) padded coefficients.
 
-    It is compiled and takes ``chunk`` of the points, (p,) complex arrays, at a time.
+    It takes some of the points, (p,) complex arrays, at a time.
     """
     basis = basis_of(map.domain)
     coefficients = np.stack([basis.pad(map.phi), basis.pad(map.psi)])
-    return in_chunks(program, chunk, points, coefficients, basis.singularities)
+    return in_chunks(program, basis.n_columns, points, coefficients, basis.singularities)
 
 
 def as_complex(points: ArrayLike) -> Array:
@@ -224,20 +216,17 @@ def as_complex(points: ArrayLike) -> Array:
     return z
 
 
-@jit
 def _values(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any]:
     c = cauchy.cauchy_coordinates(z, singularities)
-    return (c @ coefficients[0] + jnp.conj(c @ coefficients[1]),)
+    return (c @ coefficients[0] + np.conj(c @ coefficients[1]),)
 
 
-@jit
 def _first(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any, Any]:
     edges = cauchy.edge_coefficients(coefficients, singularities)
     fz, fzb_conj = (cauchy.first_by_edges(z, singularities) @ edges.T).T
     return fz, fzb_conj
 
 
-@functools.partial(jit, static_argnames="order")
 def _higher(z: Any, coefficients: Any, singularities: Singularities, order: int) -> Any:
     return tuple(cauchy.higher_derivative(z, c, singularities, order) for c in coefficients)
 

@@ -29,6 +29,10 @@ from glid_nb.imaging.simplify import Simplified, simplify
 
 _CUT_OFF = 0.002  # share of the shape's area outside the cage that is worth a note
 _LEFT_OUT = 0.01  # likewise, share of the foreground in other components
+# A foreground that was found without being told is a guess if more than a share of the picture lies
+# this near the threshold, or if it falls into more components than this. Cut-outs on one colour,
+# noisy or compressed, have a share of at most 0.04 and some 30 components, photographs more.
+_NEAR, _UNSURE, _UNSURE_BY_BRIGHTNESS, _CLUTTER = 0.05, 0.05, 0.01, 50
 
 T = TypeVar("T")
 
@@ -47,6 +51,9 @@ class Tracing:
         Conversion between pixel and world coordinates.
     notes
         Sentences about what was chosen, filled, moved or repaired.
+    doubt
+        Why the foreground is no more than a guess; empty where it is clear or the options say how
+        to find it.
     method
         How the foreground was found, never ``"auto"``.
     threshold, offset, simplify
@@ -61,12 +68,15 @@ class Tracing:
         (n, 2) read-only, the shape's exterior outline in pixel coordinates before the offset.
     holes
         The shape's holes, the largest first, then those that the offset made; kept or not.
+    n_filled
+        Number of holes that are filled, with the many small ones that `holes` leaves out.
     """
 
     cage: Cage
     mask: NDArray[np.bool_]
     frame: PixelFrame
     notes: tuple[str, ...]
+    doubt: str
     method: str
     threshold: float
     offset: float
@@ -76,6 +86,7 @@ class Tracing:
     n_components: int
     outline: NDArray[np.float64]
     holes: tuple[Hole, ...]
+    n_filled: int
 
 
 def trace(image: ImageSource, options: TraceOptions | None = None, **changes: Any) -> Tracing:
@@ -163,6 +174,7 @@ class Tracer:
             mask=mask,
             frame=self.frame,
             notes=notes,
+            doubt=self._stage("doubt", _doubt, foreground, len(components.areas), o),
             method=foreground.method,
             threshold=foreground.threshold(o.threshold),
             offset=dilation.offset,
@@ -172,6 +184,7 @@ class Tracer:
             n_components=len(components.areas),
             outline=outline.exterior,
             holes=dilation.listed,
+            n_filled=outline.n_specks + sum(not hole.kept for hole in holes),
         )
 
     def foreground(self, options: TraceOptions) -> Foreground:
@@ -197,6 +210,21 @@ class Tracer:
         if name not in self._stages or self._stages[name][0] != inputs:
             self._stages[name] = (inputs, function(*inputs))
         return self._stages[name][1]
+
+
+def _doubt(foreground: Foreground, n_components: int, options: TraceOptions) -> str:
+    """Why the foreground is a guess; empty where it is none."""
+    given = options.threshold, options.background, options.background_at
+    if options.method != "auto" or foreground.method not in ("color", "threshold"):
+        return ""
+    if any(value is not None for value in given):
+        return ""
+    near = float(np.mean(np.abs(foreground.score - foreground.level()) < _NEAR))
+    if foreground.method == "threshold" and near > _UNSURE_BY_BRIGHTNESS:
+        return "the background has no single colour"
+    if near > _UNSURE:
+        return "much of the picture has nearly the background's colour"
+    return f"the foreground falls into {n_components} pieces" if n_components > _CLUTTER else ""
 
 
 def _component_notes(components: Components, rank: int, options: TraceOptions) -> list[str]:

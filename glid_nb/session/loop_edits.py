@@ -13,6 +13,9 @@ from glid_nb._arrays import number_pairs, read_only
 from glid_nb.geometry import GeometryError, loop_name
 
 Loop: TypeAlias = NDArray[np.float64]
+_DRAWN = 0.002  # of a picture's longer side; drawn lines keep no finer detail
+_LONGEST = 0.04  # of a drawn outline's length; longer edges are divided
+
 Loops: TypeAlias = tuple[Loop, ...]
 """The exterior, then the holes: read-only (n, 2) arrays, valid as a cage or not."""
 
@@ -50,6 +53,29 @@ def delete_vertices(loops: Loops, vertices: Iterable[tuple[int, int]]) -> Loops:
         )
     rest = (np.delete(loop, list(gone.get(i, ())), axis=0) for i, loop in enumerate(loops))
     return tuple(read_only(loop) for i, loop in enumerate(rest) if i == 0 or len(loop) >= 3)
+
+
+def drawn(points: ArrayLike, size: tuple[int, int]) -> Loop:
+    """An outline drawn by hand over a picture of ``size``, as (n, 2) vertices of a cage in pixels.
+
+    What crosses itself keeps its largest part; what lies beside the picture is cut off. Edges are
+    at most 4 % of the whole long, as in a traced cage, so that all of it can bend.
+
+    Raises
+    ------
+    GeometryError
+        When it encloses nothing of the picture.
+    """
+    line = number_pairs(points, "an outline must be a list of pixels (x, y)", GeometryError)
+    region = shapely.make_valid(shapely.Polygon(line if len(line) > 2 else None))
+    region = shapely.intersection(region, shapely.box(0, 0, *size))
+    tolerance = _DRAWN * max(size)
+    parts = shapely.get_parts(shapely.get_parts(region))  # a collection may hold several polygons
+    parts = [part for part in parts if part.area > tolerance**2]  # lines have none
+    if not parts:
+        raise GeometryError("the outline encloses nothing of the picture; draw around the shape")
+    ring = max(parts, key=lambda part: part.area).exterior.simplify(tolerance)
+    return shapely.get_coordinates(ring.segmentize(_LONGEST * ring.length))[:-1]
 
 
 def nearest_edge(loops: Loops, point: ArrayLike) -> tuple[int, int, Loop]:

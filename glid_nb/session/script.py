@@ -58,6 +58,7 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
 
 def _solve_lines(pose: NamedPose) -> list[str]:
     handles, targets = pose.pose.handles.tolist(), pose.pose.targets.tolist()
+    depths = [f"    depths={pose.pose.depths.tolist()},"] if pose.pose.depths.any() else []
     arguments = ["domain", "pose", _made(pose.energy)]
     if options := _changed(pose.options, pose.method.options):
         arguments.append(f"glid.Options({options})")
@@ -67,6 +68,7 @@ def _solve_lines(pose: NamedPose) -> list[str]:
         "pose = glid.Pose(",
         f"    handles={handles},",
         f"    targets={targets},",
+        *depths,
         ")",
         f"result = glid.solve({', '.join(arguments)})",
         "map = result.map",

@@ -61,7 +61,7 @@ class TracingOutcome:
     """What follows from a state."""
 
     tracing: Tracing | None
-    """The result of automatic tracing; None if it failed."""
+    """The result of automatic tracing; None if it failed, or the loops were drawn without it."""
     loops: Loops
     """The loops to show, world coordinates, valid or not."""
     domain: Domain | None
@@ -176,6 +176,12 @@ class TracingModel(Observed):
     def problems(self) -> tuple[TracingProblem, ...]:
         """Why the loops that are shown are not a valid cage; empty when they are."""
         return self.outcome.problems
+
+    @property
+    def doubt(self) -> str:
+        """Why the outline is no more than a guess, as in `Tracing`; empty where it is none."""
+        tracing = self.outcome.tracing
+        return "" if tracing is None or self.edited else tracing.doubt
 
     @property
     def edited(self) -> bool:
@@ -311,6 +317,18 @@ class TracingModel(Observed):
         """Replace the loops, world coordinates, exterior first, as an edit by hand."""
         self._edit(lambda _: loops)
 
+    def draw(self, outline: ArrayLike | None = None) -> None:
+        """Take an outline drawn by hand, (k, 2) pixels, as the cage; None: the whole picture.
+
+        A GeometryError, and no change, if it encloses nothing of the picture.
+        """
+        frame = self._frame_of_picture()
+        size = frame.width, frame.height
+        if outline is None:
+            outline = shapely.get_coordinates(shapely.box(0, 0, *size))
+        loop = frame.to_world(loop_edits.drawn(outline, size))
+        self.set_loops((read_only(loop),))
+
     def return_to(self, state: TracingState) -> None:
         """Restore an earlier state, with its fallback, as a new step."""
         with self.locked():
@@ -370,7 +388,11 @@ class TracingModel(Observed):
         except (TraceError, GeometryError) as error:
             problems.append(_problem(error, frame))
         loops, cage = state.loops, None
-        if loops is None and tracing is not None:
+        if loops is not None:
+            problems.clear()  # what was drawn by hand needs no tracing
+            if tracing is not None and not _shares_vertices(loops, tracing.cage.loops):
+                tracing = None
+        elif tracing is not None:
             loops, cage = tracing.cage.loops, tracing.cage
         if loops is None:
             shown = () if state.fallback is None else state.fallback.cage.loops
@@ -417,6 +439,12 @@ def _state(
     scribbles = options.scribbles if scribbles is None else scribbles
     used = options.method == "scribbles"
     return TracingState(image, options if used else replace(options, scribbles=None), scribbles)
+
+
+def _shares_vertices(loops: Loops, others: Loops) -> bool:
+    """Whether loops have a common vertex: those that were drawn anew have none with traced ones."""
+    known = {tuple(vertex) for loop in others for vertex in loop.tolist()}
+    return any(tuple(vertex) in known for loop in loops for vertex in loop.tolist())
 
 
 def _problem(error: TraceError | GeometryError, frame: PixelFrame) -> TracingProblem:

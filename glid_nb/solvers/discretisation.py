@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
-from glid_nb._jax import jax, jit, jnp
-from glid_nb._runtime import double_precision, in_chunks
+from glid_nb._jax import jax
+from glid_nb._runtime import double_precision, in_chunks, single_blas_thread
 from glid_nb.certificate import PROOFS, CertificateKind, PanelProof, rounding
 from glid_nb.certificate.panels import split
 from glid_nb.geometry import Domain, graded_panels, uniform_panels
@@ -39,8 +39,6 @@ _PAIR_RATIO = 1.4
 # Of a rotation no energy knows, so a node tells one real number of the two of f_z. With hardly more
 # nodes than that for each coordinate, what oscillates between the nodes has no curvature.
 _NODES_PER_COORDINATE = 2.25
-
-_CHUNK_ELEMENTS = 1 << 18
 
 _LARGE = 256  # columns; an iteration with more takes as long as a tenth of compiling it
 _GROWTH, _GROWTH_OF_LARGE = 1.25, 1.125
@@ -117,7 +115,8 @@ class Discretisation:
         if self.sampling == "graded":
             index = jax.device_put(np.arange(len(m.weights)))
             m = m._replace(hessian_index=index, hessian_weights=m.weights)
-        return m._replace(whitened=whitened(m.nodes, m.hessian_index, m.whitening, np.float64))
+        whole = whitened(m.nodes, m.hessian_index, m.whitening, np.float64)
+        return m._replace(whitened=jax.device_put(whole))
 
     @property
     def can_refine(self) -> bool:
@@ -165,6 +164,7 @@ class Discretisation:
 
 @functools.lru_cache(maxsize=8)
 @double_precision
+@single_blas_thread()
 def discretise(
     domain: Domain, sampling: Sampling = "graded", certificate: CertificateKind = "hermite"
 ) -> Discretisation:
@@ -316,35 +316,23 @@ def complex_basis(kernel: Any, z: np.ndarray, basis: Basis) -> np.ndarray:
 
 def basis_rows(kernel: Any, z: np.ndarray, basis: Basis) -> np.ndarray:
     """``[Re D, -Im D]`` of one of the basis matrices at points ``z`` (k,)."""
-    return _in_chunks(functools.partial(_real_rows, kernel=kernel), (z,), basis)
 
+    def rows(z: Any, singularities: Singularities) -> Any:
+        d = kernel(z, singularities)
+        return np.concatenate([np.real(d), -np.imag(d)], axis=1)
 
-@functools.partial(jit, static_argnames="kernel")
-def _real_rows(z: Any, singularities: Singularities, kernel: Any) -> Any:
-    d = kernel(z, singularities)
-    return jnp.concatenate([jnp.real(d), -jnp.imag(d)], axis=1)
+    return in_chunks(rows, basis.n_columns, (z,), basis.singularities)
 
 
 def _proof_rows(
     start: np.ndarray, end: np.ndarray, basis: Basis, certificate: CertificateKind
 ) -> tuple[PanelProof, np.ndarray]:
     """The proof's constants, the panels first, and the slack for rounding."""
-    program = functools.partial(_compiled_proof_rows, certificate=certificate)
-    return _in_chunks(program, (start, end), basis)
 
+    def rows(start: Any, end: Any, singularities: Singularities) -> Any:
+        proof = PROOFS[certificate].on(start, end, singularities)
+        scale = rounding.panel_scale(start, end, singularities)
+        slack = rounding.carried_slack_factor(basis.n_columns) * scale
+        return jax.tree.map(np.transpose, proof), slack
 
-@functools.partial(jit, static_argnames="certificate")
-def _compiled_proof_rows(
-    start: Any, end: Any, singularities: Singularities, certificate: CertificateKind
-) -> Any:
-    proof = PROOFS[certificate].on(start, end, singularities)
-    scale = rounding.panel_scale(start, end, singularities)
-    n_columns = len(singularities.vertices) + len(singularities.hole_points)
-    return jax.tree.map(jnp.transpose, proof), rounding.carried_slack_factor(n_columns) * scale
-
-
-def _in_chunks(kernel: Any, points: tuple[np.ndarray, ...], basis: Basis) -> Any:
-    """Run a row-wise kernel over chunks of two fixed sizes, so that it compiles at most twice."""
-    most = 64 if len(points[0]) <= 64 else 1 << 20
-    chunk = min(most, max(64, _CHUNK_ELEMENTS // basis.n_columns))
-    return in_chunks(kernel, chunk, points, basis.singularities)
+    return in_chunks(rows, basis.n_columns, (start, end), basis.singularities)

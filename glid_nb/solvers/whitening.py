@@ -23,13 +23,12 @@ could add to a map with slopes of about 1 is as small.
 
 from __future__ import annotations
 
-import functools
 from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
 
-from glid_nb._jax import AnyArray, jit, jnp
+from glid_nb._jax import AnyArray, jnp
 from glid_nb.harmonic.basis import Basis, column_bucket
 
 if TYPE_CHECKING:
@@ -108,18 +107,17 @@ def _without_steep(
     return turn[:, squares <= _LEAST**-2].conj().T @ inverse
 
 
-@functools.partial(jit, static_argnames="dtype")
 def whitened(
     nodes: Float[AnyArray, "2c s"],
     index: Int[AnyArray, " h"],
     t: Float[AnyArray, "2 c u"],
     dtype: type[np.floating],
-) -> Float[Array, "2u h"]:
+) -> Float[np.ndarray, "2u h"]:
     """``D T`` at some nodes from ``D``, both as ``[Re, -Im]``, transposed."""
-    c = t.shape[1]
-    re, im = nodes[:c, index], -nodes[c:, index]
-    parts = [t[0].T @ re - t[1].T @ im, -(t[0].T @ im + t[1].T @ re)]
-    return jnp.concatenate(parts).astype(dtype)
+    re, minus_im = np.split(np.asarray(nodes)[:, index], 2)
+    t_re, t_im = np.asarray(t)
+    parts = [t_re.T @ re + t_im.T @ minus_im, t_re.T @ minus_im - t_im.T @ re]
+    return np.concatenate(parts).astype(dtype)
 
 
 def coefficients(x: Float[Array, " 4u"], t: Float[Array, "2 c u"]) -> Float[Array, " 4c"]:

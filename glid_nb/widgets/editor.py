@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 from collections.abc import Callable
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +28,7 @@ from glid_nb.session.tracing import TracingProblem
 from glid_nb.solvers import Method, Pose
 from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
 from glid_nb.widgets.closing import ClosingWidget, close_on_rerun, close_with_parts
-from glid_nb.widgets.controls import PoseList
+from glid_nb.widgets.controls import REFUSED, PoseList, button, paragraph
 from glid_nb.widgets.exporting import export
 from glid_nb.widgets.file_panel import FilePanel, OpenPanel
 from glid_nb.widgets.monitor import SolverMonitor
@@ -38,6 +39,8 @@ _TRACE, _DEFORM = 0, 1
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
+
+_LINE = {"width": "0", "min_width": "100%", "height": "44px", "overflow": "hidden auto"}
 
 _LOST = "{} outside the new outline and removed with the old one; Undo brings everything back."
 _REPLACED = (
@@ -55,11 +58,15 @@ _NOT_SAVED = (
 )
 
 
+_KEPT = "Work on this picture was kept when an editor ended, last on {:%d %B at %H:%M}."
+
+
 class Editor(ClosingWidget, ipywidgets.VBox):
     """Trace a picture, pin points of it, drag them: it follows and never folds over.
 
-    The Trace tab finds the cage, the Deform tab moves it. All of it can be done in code: `trace`,
-    `add_handle`, `drag`, `solve`, `save`, `load`, `export`.
+    The Trace tab finds the cage, the Deform tab moves it. Where the outline is no more than a
+    guess, as on most photographs, the Trace tab is open at first and says so. All of it can be
+    done in code: `trace`, `add_handle`, `drag`, `solve`, `save`, `load`, `export`.
 
     Parameters
     ----------
@@ -141,9 +148,12 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             layout={"display": "none", "height": "0", "margin": "0", "overflow": "visible"}
         )
         """Why the session file is not up to date; hidden while it is."""
-        super().__init__([self.unsaved, self.tabs], **kwargs)
+        self.kept = ipywidgets.HBox(layout={"display": "none", "align_items": "center"})
+        """Offers what an earlier editor of the picture has kept; hidden without that."""
+        super().__init__([self.unsaved, self.kept, self.tabs], **kwargs)
         self.add_class("glid-editor")
         self._build()
+        self._offer()
         self.model.observe(self._on_model)
         self.tabs.observe(self._on_tab, ["selected_index"])
         self._endings = (self._end, self.model.close)
@@ -284,6 +294,33 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _on_model(self, what: str) -> None:
         self._build() if what == "replaced" else self._show_saving()
 
+    def _offer(self) -> None:
+        """Offer the work that was kept."""
+        if (path := self.model.kept) is None:
+            return
+
+        def bring() -> None:
+            try:
+                self.model.recover()
+            except (OSError, ValueError) as error:  # damaged, or gone meanwhile
+                self.kept.children[0].value = paragraph(str(error), REFUSED)
+            else:
+                self.kept.layout.display = "none"
+
+        def discard() -> None:
+            self.kept.layout.display = "none"
+            self.model.discard_kept()
+
+        at = datetime.fromtimestamp(path.stat().st_mtime)
+        self.kept.children = [
+            ipywidgets.HTML(paragraph(_KEPT.format(at))),
+            button("Bring it back", "history", "Go on with it", bring),
+            button("Discard", "trash", "Delete it", discard),
+        ]
+        for part in self.kept.children[1:]:
+            part.layout.flex = "0 0 auto"
+        self.kept.layout.display = "flex"
+
     def _build(self) -> None:
         """Make new views of new models."""
         with self.model.locked():
@@ -337,6 +374,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             layout={"min_height": f"{_PLOTS_HEIGHT + 64}px"},
         )
         self._side.observe(self._fill, ["selected_index"])
+        # However long, the status line neither widens its column nor moves what is below.
+        for name, value in _LINE.items():
+            setattr(self.monitor.line.layout, name, value)
         fixed = {"flex": "0 0 auto", "overflow": "visible"}
         side = ipywidgets.VBox(
             [self._side, self.pose_list], layout={**fixed, "width": f"{_SIDE_WIDTH + 34}px"}

@@ -32,7 +32,10 @@ _DOUBLE_CLICK = 0.5  # seconds
 _LABEL = {"width": "58px", "flex": "0 0 auto"}
 _WIDE = {"width": "auto", "min_width": "0", "flex": "1 1 auto"}
 _VIEWS = (("Whole shape", "fit"), ("Original frame", "source"))
-_NO_AUTOSAVE = "Changes are kept only when you save. Editor(…, path=…) saves by itself."
+_NO_AUTOSAVE = (
+    "In no file yet. What you do is kept for the next editor of this picture; Editor(…, path=…) "
+    "saves to a file by itself."
+)
 _UNSAVED = (
     "This session is in no file yet. Click again to open the other one without saving, or save it "
     "under another name first."

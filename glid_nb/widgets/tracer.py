@@ -126,9 +126,9 @@ class CageTracer(Pad):
         """Act on pointers and keys."""
         hand = self.gestures
         refusal = hand.handle(events)
-        # The model announces its own changes; tool and selection are not the model's.
-        selected = [list(vertex) for vertex in hand.selected]
-        if (hand.tool, selected) != (self.shown["tool"], self.shown["selected"]):
+        # The model announces its own changes; these are not the model's.
+        own = _of_hand(hand)
+        if own != {name: self.shown[name] for name in own}:
             self._push()
         return refusal
 
@@ -148,13 +148,14 @@ def described(gestures: TraceGestures) -> dict[str, Any]:
     if options["max_edge"] == math.inf:
         options["max_edge"] = "never"
     traced: dict[str, Any] = {"automatic": None, "notes": []}
-    traced |= dict.fromkeys(("component", "n_components", "component_area"), 0)
+    traced |= dict.fromkeys(("component", "n_components", "component_area", "n_filled"), 0)
     if (tracing := outcome.tracing) is not None:
         traced = {
             "automatic": {name: getattr(tracing, name) for name in _AUTOMATIC},
             "component": tracing.component.rank,
             "n_components": tracing.n_components,
             "component_area": tracing.component.area,
+            "n_filled": tracing.n_filled,
             "notes": list(tracing.notes),
         }
     return {
@@ -168,12 +169,21 @@ def described(gestures: TraceGestures) -> dict[str, Any]:
         "options": options,
         "holes": [_hole(hole) for hole in model.holes[:_LISTED_HOLES]],
         "n_holes": len(model.holes),
+        "doubt": model.doubt,
         "strokes": {brush: _strokes(getattr(scribbles, brush, None)) for brush in _BRUSHES},
         "can_undo": model.can_undo,
         "can_redo": model.can_redo,
         "edited": model.edited,
         "discarded": model.has_discarded_edits,
+        **_of_hand(gestures),
+    }
+
+
+def _of_hand(gestures: TraceGestures) -> dict[str, Any]:
+    """What belongs to the hand rather than to the tracing."""
+    return {
         "tool": gestures.tool,
+        "corners": [list(corner) for corner in gestures.corners],
         "selected": [list(vertex) for vertex in gestures.selected],
     }
 

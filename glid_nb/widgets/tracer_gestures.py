@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -22,6 +23,8 @@ _BURST = 900.0  # ms without a key that end a burst of nudges
 _NUDGE, _NUDGE_SHIFT = 1.0, 10.0  # pixels of the picture
 _IN_HOLE, _EDGE = 0.6, 0.8  # of the reach
 _TOOLS = {"v": "edit", "b": "foreground", "n": "background", "i": "color", "c": "component"}
+_TOOLS |= {"p": "polygon", "r": "rectangle"}
+_FREEHAND = 30.0  # CSS pixels; a longer path is no click
 _LARGEST_UPLOAD = 64 << 20
 
 
@@ -52,14 +55,17 @@ class TraceGestures(Gestures):
     takes = Gestures.takes | {"tool", "upload", "set_options", "undo"}
     asks: ClassVar = {
         "toggle_hole": ("number",),
-        **dict.fromkeys(("clear_scribbles", "discard_edits", "redo"), ()),
+        **dict.fromkeys(("clear_scribbles", "discard_edits", "redo", "draw"), ()),
     }
 
     def __init__(self, model: TracingModel) -> None:
         super().__init__(model)
         self.model = model
         self.tool = "edit"
-        """What the left button does: "edit", "foreground", "background", "color", "component"."""
+        """What the left button does: "edit", "foreground", "background", "color", "component",
+        "polygon", "rectangle"."""
+        self.corners: tuple[tuple[float, float], ...] = ()
+        """The corners of a polygon that is being drawn."""
         self._selected: tuple[Vertex, ...] = ()
         self._press: _Press | None = None
         self._last_click = (-np.inf, np.zeros(2))
@@ -129,8 +135,33 @@ class TraceGestures(Gestures):
             what = "background" if press.tool == "color" else "component"
             getattr(self.model, f"pick_{what}")(tuple(place(event)))
             self.tool = "edit"
+        elif press.tool == "rectangle":
+            (left, top), (right, bottom) = press.start, place(event)
+            self._draw([(left, top), (right, top), (right, bottom), (left, bottom)])
+        elif press.tool == "polygon":
+            self._corner(event)
         else:
             self._click(press.found, event)
+
+    def _corner(self, event: Event) -> None:
+        """Add a corner, or close the polygon: by its first corner, or by a line drawn freehand."""
+        path = np.array(event.get("path") or [place(event)])
+        far = np.hypot(*(path - path[0]).T).max() > _FREEHAND * event["unit"]
+        closed = len(self.corners) > 2 and self._is_near(self.corners[0], path[-1], event)
+        if far or closed:
+            self._draw([*self.corners, *(path if far else ())])
+        elif not self.corners or not self._is_near(self.corners[-1], path[-1], event):
+            self.corners = (*self.corners, tuple(path[-1].tolist()))
+        elif len(self.corners) > 2:  # a double click
+            self._draw(self.corners)
+
+    def _is_near(self, corner: tuple[float, float], point: Array, event: Event) -> bool:
+        return bool(np.hypot(*(corner - point)) <= event["reach"])
+
+    def _draw(self, outline: Sequence[Any]) -> None:
+        self.corners = ()
+        self.model.draw(outline)
+        self.tool = "edit"
 
     def _click(self, found: Found, event: Event) -> None:
         point, (before, at) = place(event), self._last_click
@@ -160,12 +191,16 @@ class TraceGestures(Gestures):
         if key == "Escape":
             if self._press is not None:
                 self._cancel(event)
+            elif self.corners:
+                self.corners = ()
             elif self.tool != "edit":
                 self.tool = "edit"
             else:
                 self._selected = ()
         elif key in ("Delete", "Backspace"):
             self._delete(*self.selected)
+        elif key == "Enter" and self.corners:
+            self._draw(self.corners)
         elif key in ARROWS:
             self._nudge(event)
         elif key in ("[", "]"):
@@ -175,7 +210,7 @@ class TraceGestures(Gestures):
         elif key == "redo":
             self.model.redo()
         elif key.lower() in _TOOLS:
-            self.tool = _TOOLS[key.lower()]
+            self.tool, self.corners = _TOOLS[key.lower()], ()
 
     def _nudge(self, event: Event) -> None:
         """Move the selected vertex; keys in quick succession are one step of the history."""
@@ -200,15 +235,17 @@ class TraceGestures(Gestures):
     def _tool(self, event: Event) -> None:
         if event["name"] not in _TOOLS.values():
             raise TraceError(f"there is no tool {event['name']!r}")
-        self.tool = event["name"]
+        self.tool, self.corners = event["name"], ()
 
     def _set_options(self, event: Event) -> None:
         self.model.set_options(event.get("gesture"), **event["changes"])
 
     def _undo(self, event: Event) -> None:
-        """Undo one step; during a drag, the drag."""
+        """Undo one step; during a drag, the drag; of a polygon, its last corner."""
         if self._press is not None:
             self._cancel(event)
+        elif self.corners:
+            self.corners = self.corners[:-1]
         else:
             self.model.undo()
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import io
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from PIL import Image
 from skimage import data
 
-from glid_nb.imaging import Scribbles, TraceError, TraceOptions, as_rgba
+from glid_nb import samples
+from glid_nb.imaging import Scribbles, TraceError, TraceOptions, as_rgba, trace
 from glid_nb.imaging.foreground import Foreground, find_foreground, smoothed
 from glid_nb.imaging.foreground.measure import border_color, histogram, otsu
 from glid_nb.imaging.options import Method
@@ -353,3 +357,30 @@ def test_one_odd_pixel_is_found_anywhere():
     image = np.zeros((90, 91))
     image[41, 3] = 1
     assert find(image, smoothing=0).mask().sum() == 1
+
+
+class TestDoubt:
+    @pytest.mark.parametrize("name", ["cat", "coffee", "rocket", "astronaut", "moon", "brick"])
+    def test_on_a_photograph_the_foreground_is_a_guess(self, name: str):
+        tracing = trace(getattr(data, name)())
+        assert tracing.doubt
+        assert trace(getattr(data, name)(), threshold=0.5, method="threshold").doubt == ""
+
+    @pytest.mark.parametrize("quality", [40, 90])
+    def test_a_cut_out_on_one_colour_is_none(self, quality: int):
+        picture = Image.fromarray(samples.image("gecko"))
+        white = Image.new("RGBA", picture.size, "white")
+        file = io.BytesIO()
+        Image.alpha_composite(white, picture).convert("RGB").save(file, "JPEG", quality=quality)
+        tracing = trace(file.getvalue())
+        assert (tracing.method, tracing.doubt) == ("color", "")
+        assert trace(picture).doubt == ""
+
+    def test_two_tones_up_to_the_border_are_clear(self):
+        assert trace(np.tri(60) > 0).doubt == ""
+
+    def test_the_counts_of_holes_and_components_agree_with_the_notes(self):
+        tracing = trace(data.cat())
+        notes = " ".join(tracing.notes)
+        assert f"{tracing.n_filled} small holes were filled" in notes
+        assert f"{tracing.n_components - 1} smaller components" in notes

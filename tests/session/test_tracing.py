@@ -554,3 +554,47 @@ class Fuzz(RuleBasedStateMachine):
 Fuzz.TestCase.settings = settings(max_examples=12, stateful_step_count=25)
 TestFuzz = Fuzz.TestCase
 TestFuzz.pytestmark = [pytest.mark.slow]  # type: ignore[attr-defined]
+
+
+class TestDrawnOutlines:
+    def test_the_whole_picture(self, model: TracingModel) -> None:
+        model.draw()
+        cage = cage_of(model)
+        assert (cage.n_holes, model.holes, model.problems) == (0, (), ())
+        assert np.isclose(cage.area, 20 * 15)
+        edges = np.roll(cage.exterior, -1, axis=0) - cage.exterior
+        assert np.hypot(*edges.T).max() <= 0.04 * 70 + 1e-9  # all of it can bend
+        model.undo()
+        assert cage_of(model).n_holes == 2
+
+    def test_a_line_that_crosses_itself_keeps_its_largest_part_in_the_picture(
+        self, model: TracingModel
+    ) -> None:
+        model.draw([(-50, 10), (100, 10), (100, 110), (90, 5), (-50, 110)])
+        loop = model.loops[0]
+        assert model.problems == ()
+        assert loop.min() >= -1e-9
+        assert np.all(loop <= [160, 120])
+
+    @pytest.mark.parametrize(
+        "line", [[], [(5, 5)], [(5, 5), (50, 50)], [(-9, 0), (-9, 9), (-1, 5)]]
+    )
+    def test_nothing_enclosed_is_refused(self, model: TracingModel, line: list) -> None:
+        before = model.state
+        with pytest.raises(GeometryError, match="encloses nothing"):
+            model.draw(line)
+        assert model.state is before
+
+    def test_what_cannot_be_traced_can_be_drawn_and_saved(self, tmp_path: Path) -> None:
+        model = TracingModel(np.full((60, 80, 3), 7, np.uint8))
+        assert model.problems
+        model.draw([(10, 10), (70, 10), (70, 50), (10, 50)])
+        assert model.problems == ()
+        assert model.edited
+        domain = model.domain
+        assert domain is not None
+        document = Document(model.image, domain.cage, domain, model.options, None, (), 0)
+        save_document(document, tmp_path / "drawn.glid")
+        again = TracingModel.from_document(load_document(tmp_path / "drawn.glid"))
+        assert again.problems == ()
+        assert cage_of(again).equals(domain.cage)

@@ -16,6 +16,7 @@ from typing import Any
 import ipywidgets
 import numpy as np
 import pytest
+import skimage.data
 from PIL import Image
 
 import glid_check
@@ -28,7 +29,7 @@ from glid_nb.session.edit_state import EditError, EditState, Moment
 from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
 from glid_nb.widgets.exporting import ExportError
 from glid_nb.widgets.file_panel import OpenPanel
-from glid_nb.widgets.overlays import COLORS, N_COLORS, OVERLAYS, color_range, rgb
+from glid_nb.widgets.overlays import COLORS, N_COLORS, OVERLAYS, color_range, legend, rgb
 from glid_nb.widgets.pane import emptiest_corner
 
 from ..domains import domain
@@ -68,6 +69,14 @@ def test_the_colour_bar_goes_where_it_hides_least() -> None:
     assert emptiest_corner(list(corners.values()), *size) == "top left"
     twice = [*corners.values(), (10, 395), *corners.values()]
     assert emptiest_corner(twice, *size) == "top left"
+
+
+@pytest.mark.parametrize("top", [2.134, 54.6, 5510.3, 1.2345e7, 9.87e201])
+def test_the_labels_of_a_colour_bar_do_not_meet(top: float) -> None:
+    ticks = legend("energy", glid.SymmetricDirichlet(), (2.0, top))["ticks"]
+    assert (float(ticks[0]), float(ticks[-1])) == (2.0, pytest.approx(top, rel=5e-3))
+    assert len("".join(ticks)) <= 22  # of 6 pixels, on a bar of 190
+    assert len(ticks) == 5 or top > 1e4
 
 
 def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
@@ -112,6 +121,53 @@ def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
     assert editor.solve(TIMEOUT)
     editor.deformation.undo()
     assert np.array_equal(editor.map.phi, phi)
+
+
+@pytest.mark.parametrize("name", ["cat", "coffee", "rocket", "astronaut"])
+def test_a_photograph_opens_in_trace(name: str) -> None:
+    editor = Editor(getattr(skimage.data, name)(), n_vertices=300)
+    try:
+        assert (editor.tabs.selected_index, editor.canvas) == (0, None)
+        shown = editor.tracer.shown
+        assert shown["doubt"]
+        assert shown["n_filled"] == editor.tracer.tracing.n_filled
+        editor.tracer.handle([{"type": "draw"}])
+        assert editor.tracer.shown["doubt"] == ""
+        editor.tabs.selected_index = 1
+        assert editor.canvas is not None
+        assert editor.document.cage.area > 200
+    finally:
+        editor.close()
+
+
+def test_code_deforms_a_guess_without_asking() -> None:
+    editor = Editor(skimage.data.coffee(), n_vertices=300)
+    assert len(editor.poses) == 1
+    assert editor.tabs.selected_index == 1
+    assert editor.canvas is not None
+    editor.close()
+
+
+@pytest.mark.parametrize("damaged", [False, True])
+def test_the_next_editor_of_a_picture_offers_what_was_done(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, damaged: bool
+) -> None:
+    monkeypatch.setenv("GLID_NB_DATA", str(tmp_path))
+    first = Editor(bar(), n_vertices=300)
+    assert first.kept.layout.display == "none"
+    first.deformation.paused = True
+    first.add_handle((-7, 0))
+    first.close()
+    again = Editor(bar(), n_vertices=300)
+    text, bring, _ = again.kept.children
+    assert "was kept" in text.value
+    if damaged:
+        again.model.kept.write_bytes(b"")
+    bring.click()
+    assert len(again.pose) == (0 if damaged else 1)
+    assert ("no zip file" in text.value) == damaged
+    assert again.kept.layout.display == ("flex" if damaged else "none")
+    again.close()
 
 
 def test_a_session_file_is_kept_up_to_date(tmp_path: Path) -> None:

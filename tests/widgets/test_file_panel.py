@@ -219,7 +219,7 @@ def test_a_picture_has_the_size_and_the_view_that_are_chosen(panel: FilePanel) -
 
 
 def test_it_says_where_changes_are_saved_by_themselves(model: EditorModel, tmp_path: Path) -> None:
-    assert "kept only when you save" in FilePanel(model).autosave.value
+    assert "kept for the next editor of this picture" in FilePanel(model).autosave.value
     path = tmp_path / "kept.glid"
     kept = EditorModel(bar(), path=path)
     panel = FilePanel(kept)

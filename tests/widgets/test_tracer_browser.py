@@ -358,3 +358,30 @@ def test_touch(open_notebook: OpenNotebook) -> None:
         touch("touchMove", (place[0] + 5 * step, place[1]))
     touch("touchEnd")
     hand.root.wait_for(state="detached")
+
+
+def test_on_a_photograph_the_outline_is_drawn_by_hand(open_notebook: OpenNotebook) -> None:
+    cells = ("import glid_nb\nimport numpy as np\nimport skimage.data",)
+    editor = "editor = glid_nb.Editor(skimage.data.cat(), n_vertices=300)\ntracer = editor.tracer"
+    hand = Hand(open_notebook((*cells, f"{editor}\neditor")))
+    book, page = hand.book, hand.page
+    box = hand.root.locator(".glid-by-hand.glid-guess")
+    box.get_by_text("This outline is a guess").wait_for()
+    assert hand.status.startswith("A guess")
+    n_holes = book.value("tracer.cage.n_holes")
+    assert f"{n_holes} holes ·" in hand.status
+    hand.root.get_by_role("heading", name=f"{n_holes} holes in the cage").wait_for()
+    book.screenshot("tracer-guess")
+    for name in ("Paint over it", "Rectangle", "Whole picture"):
+        assert box.get_by_role("button", name=name).is_visible()
+    box.get_by_role("button", name="Draw its outline").click()
+    corners = ((60, 30), (380, 30), (380, 260), (60, 260))
+    for corner in corners:
+        page.mouse.click(*hand.place(*corner))
+    page.keyboard.press("Enter")
+    book.wait_for("tracer.cage.n_holes == 0")
+    hand.settle()
+    assert hand.status.endswith("and no holes")
+    assert not box.is_visible()
+    ends = book.value("[f(tracer.tracing_model.loops[0], 0).tolist() for f in (np.min, np.max)]")
+    np.testing.assert_allclose(ends, [[60, 30], [380, 260]], atol=1)

@@ -181,3 +181,44 @@ def test_a_refusal_is_told_in_plain_words(hand: Hand) -> None:
     hand.key("i")
     assert hand.click(-5, 0) == "That place lies outside the picture"
     assert hand.gestures.handle([{"type": "format_disk"}]) is not None
+
+
+def test_a_polygon_is_drawn_corner_by_corner(hand: Hand) -> None:
+    hand.key("p")
+    for corner in ((20, 20), (140, 20), (140, 100), (150, 110)):
+        hand.click(*corner)
+    hand.key("undo")
+    assert hand.gestures.corners == ((20, 20), (140, 20), (140, 100))
+    assert not hand.model.edited
+    hand.click(21, 21)  # the first corner again
+    assert (hand.gestures.corners, hand.gestures.tool) == ((), "edit")
+    np.testing.assert_allclose(hand.model.loops[0].min(axis=0), 20)
+    np.testing.assert_allclose(hand.model.loops[0].max(axis=0), [140, 100])
+
+
+@pytest.mark.parametrize("how", ["Enter", "twice", "freehand", "rectangle"])
+def test_other_ways_to_draw_an_outline(hand: Hand, how: str) -> None:
+    hand.send("tool", name="rectangle" if how == "rectangle" else "polygon")
+    path = [(20.0, 20.0), (140.0, 20.0), (140.0, 100.0), (20.0, 100.0)]
+    if how == "rectangle":
+        hand.send("down", 20, 20)
+        hand.send("up", 140, 100, path=[path[0], path[2]])
+    elif how == "freehand":
+        hand.send("down", 20, 20)
+        hand.send("up", 20, 100, path=path)
+    else:
+        for corner in path:
+            hand.click(*corner)
+        hand.key("Enter") if how == "Enter" else hand.click(*path[-1])
+    np.testing.assert_allclose(hand.model.loops[0].max(axis=0), [140, 100])
+    assert len(hand.model.loops) == 1
+
+
+def test_escape_gives_a_polygon_up_and_too_few_corners_are_refused(hand: Hand) -> None:
+    hand.key("p")
+    hand.click(20, 20)
+    hand.key("Escape")
+    assert (hand.gestures.corners, hand.gestures.tool) == ((), "polygon")
+    hand.click(20, 20)
+    assert "encloses nothing" in str(hand.key("Enter"))
+    assert not hand.model.edited

@@ -31,7 +31,8 @@ export function drawStage(ctx, scene) {
     if (hovered || (!hole.kept && visible)) strokePath(ctx, [loop], colors.faint, 1.25, [4, 3]);
   });
   drawStrokes(ctx, scene);
-  if (loops.length) drawCage(ctx, scene, loops);
+  if (loops.length && !(scene.drawing && scene.doubt)) drawCage(ctx, scene, loops);
+  drawOutline(ctx, scene);
   for (const problem of scene.problems) {
     if (!problem.point) continue;
     disk(ctx, view.toScreen(problem.point), 13, null, HALO, 5);
@@ -105,6 +106,13 @@ function drawStrokes(ctx, scene) {
       strokeWithHalo(ctx, color, 5, 8);
     }
   }
+}
+
+function drawOutline(ctx, { outline, corners, colors, view }) {
+  ctx.beginPath();
+  outline.forEach((point, i) => ctx[i ? "lineTo" : "moveTo"](...view.toScreen(point)));
+  strokeWithHalo(ctx, colors.foreground, 2, 4.5);
+  for (const corner of corners) disk(ctx, view.toScreen(corner), 4, "white", colors.foreground, 2);
 }
 
 function drawCage(ctx, scene, loops) {

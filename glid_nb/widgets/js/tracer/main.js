@@ -1,8 +1,9 @@
 // The cage tracer's page: a toolbar, the stage with picture and cage, the panel, a status line.
 
 import { make } from "../pad/dom.js";
+import { help } from "../pad/help.js";
 import { Link } from "../pad/link.js";
-import { isUndo, undoOrRedo } from "../pad/pad.js";
+import { isUndo, undoAround, undoOrRedo } from "../pad/pad.js";
 import { iconButton } from "./icons.js";
 import { Panel } from "./panel.js";
 import { Stage } from "./stage.js";
@@ -13,6 +14,20 @@ const TOOLS = [
   ["background", "Paint over the background (N)"],
   ["color", "Pick the background's colour (I)"],
   ["component", "Pick the component to trace (C)"],
+  ["polygon", "Draw the outline by hand (P)"],
+  ["rectangle", "Draw a rectangle (R)"],
+];
+const HELP = [
+  ["V", "edit: drag a vertex, double-click an edge to add one, click a hole to drop or keep it"],
+  ["Right-click, Delete", "remove a vertex"],
+  ["[ ]", "select the vertex before, the next vertex"],
+  ["Arrow keys", "nudge the selected vertex, with Shift farther"],
+  ["B, N", "paint over the shape, over the background"],
+  ["I, C", "pick the background's colour, the component"],
+  ["P, R", "draw the outline, a rectangle; Enter closes an outline, Esc gives it up"],
+  ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
+  ["Wheel, + -, F", "zoom after a click on the picture, fit the picture"],
+  ["Drag beside the outline", "move the view"],
 ];
 const PART = 1 << 20; // bytes of a file per message
 
@@ -53,6 +68,9 @@ function render({ model, el }) {
     input.value = "";
     input.click();
   });
+  const keys = help(HELP);
+  stage.element.append(keys.table);
+  stage.actions["?"] = keys.toggle;
   const gap = () => make("span", { className: "glid-gap" });
   const toolbar = make(
     "div",
@@ -62,6 +80,7 @@ function render({ model, el }) {
     iconButton("minus", "Zoom out (-)", () => stage.zoom(false)),
     iconButton("plus", "Zoom in (+)", () => stage.zoom(true)),
     iconButton("fit", "Fit the picture (F)", () => stage.fit()),
+    keys.button,
   );
   const status = make("div", { className: "glid-status", role: "status", "aria-live": "polite" });
   root.append(toolbar, make("div", { className: "glid-body" }, stage.element, panel.element), status);
@@ -69,13 +88,17 @@ function render({ model, el }) {
   // other shortcuts with Ctrl stay. It reads this attribute before our elements' listeners run.
   const guard = (e) => root.toggleAttribute("data-lm-suppress-shortcuts", isUndo(e) || !(e.ctrlKey || e.metaKey));
   window.addEventListener("keydown", guard, true);
+  const undoByKey = (e) => {
+    act(undoOrRedo(e));
+    e.preventDefault();
+    e.stopPropagation();
+  };
+  const forget = undoAround(root, undoByKey);
   root.addEventListener("keydown", (e) => {
-    if (isUndo(e) && !e.altKey) {
-      act(undoOrRedo(e));
-      e.preventDefault();
-    } else if (e.ctrlKey || e.metaKey) return;
-    e.stopPropagation(); // arrow keys would move between cells
+    if (isUndo(e) && !e.altKey) undoByKey(e);
+    else if (!e.ctrlKey && !e.metaKey) e.stopPropagation(); // arrow keys would move between cells
   });
+  el.classList.add("glid-host");
   el.append(root);
 
   // Shown at once; the kernel changes the tool after what was done with the last one.
@@ -94,7 +117,7 @@ function render({ model, el }) {
   }
 
   function showStatus() {
-    const { size, loops, problems, n_components: count, discarded } = model.get("shown");
+    const { size, loops, problems, n_components: count, component, discarded, doubt } = model.get("shown");
     const n = loops.reduce((sum, loop) => sum + loop.length, 0);
     const holes = Math.max(loops.length - 1, 0);
     let kind = "ok", text = `Cage with ${n} vertices and ${holes || "no"} ${holes === 1 ? "hole" : "holes"}`;
@@ -104,7 +127,8 @@ function render({ model, el }) {
     else if (problems.length) {
       [kind, text] = ["bad", loops.length ? "This is not a valid cage; the last valid cage is kept" : "There is no cage yet"];
     } else if (discarded) text += " · your edits were lost with the old outline; Undo brings them back";
-    else if (count > 1) text += ` · ${count} components in the picture`;
+    else if (count > 1) text += ` · ${component ? `component ${component + 1}` : "the largest"} of ${count} components`;
+    if (kind === "ok" && doubt) [kind, text] = ["guess", `A guess, as ${doubt} · ${text}`];
     root.dataset.status = kind;
     status.textContent = text;
   }
@@ -140,6 +164,7 @@ function render({ model, el }) {
   return () => {
     for (const [name, listener] of Object.entries(listeners)) model.off(name, listener);
     window.removeEventListener("keydown", guard, true);
+    forget();
     link.close();
     stage.close();
   };

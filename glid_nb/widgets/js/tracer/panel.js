@@ -18,6 +18,12 @@ const NUMBERS = [
   ["simplify", "Simplify", "px", "How far simplification may move the outline", 0.03, 1.5, 1],
   ["min_hole_area", "Least hole", "px²", "Smaller holes are filled", 0.1, 4, 0],
 ];
+const OUTLINES = [
+  ["foreground", "Paint over it", "A few strokes over the shape, then over what is around it"],
+  ["polygon", "Draw its outline", "Click corner after corner, or draw around the shape"],
+  ["rectangle", "Rectangle", "Drag a rectangle"],
+  ["whole", "Whole picture", "Everything, the background too"],
+];
 const STEPS = 1000;
 
 // A slider with a number beside it; null, shown as "auto", lets the tracer choose.
@@ -81,6 +87,11 @@ export class Panel {
     this.component = make("select", { "aria-label": "Component", onchange: () => choose({ component: Number(this.component.value), component_at: null }) });
     this.pickComponent = make("button", { type: "button", onclick: () => chooseTool("component") }, "Pick");
     this.componentRow = make("div", { className: "glid-row" }, make("span", { className: "glid-grow" }, "Component"), this.component, this.pickComponent);
+    this.hand = OUTLINES.map(([tool, label, title]) =>
+      make("button", { type: "button", title, "data-tool": tool, onclick: () => (tool === "whole" ? act("draw") : chooseTool(tool)) }, label),
+    );
+    this.doubt = make("p", { hidden: true });
+    this.byHand = make("div", { className: "glid-by-hand" }, this.doubt, ...this.hand);
     this.holes = make("div", { className: "glid-holes" });
     this.holesTitle = make("h4");
     this.notes = make("ul");
@@ -88,6 +99,8 @@ export class Panel {
     this.element = make(
       "div",
       { className: "glid-panel" },
+      make("h4", {}, "By hand"),
+      this.byHand,
       make("h4", {}, "Foreground"),
       make("div", { className: "glid-methods", role: "radiogroup", "aria-label": "Method" }, ...this.methods),
       this.scribbleRow, this.pickColor, rows.threshold, this.invertRow, rows.smoothing, this.componentRow,
@@ -117,6 +130,10 @@ export class Panel {
     this.invertRow.hidden = used !== "color" && used !== "threshold";
     this.invert.checked = options.invert === true;
     this.invert.indeterminate = options.invert === null && used === "threshold";
+    const guess = Boolean(shown.doubt) || !shown.loops.length;
+    this.byHand.classList.toggle("glid-guess", guess);
+    this.doubt.hidden = !guess;
+    this.doubt.textContent = shown.doubt ? `This outline is a guess: ${shown.doubt}. Show it the shape:` : "Show it the shape:";
     this.updateComponents(shown);
     this.updateHoles(shown);
     this.notesBox.hidden = !shown.notes.length;
@@ -132,10 +149,9 @@ export class Panel {
     this.component.value = component;
   }
 
-  updateHoles({ holes, n_holes: count, automatic }) {
-    const kept = holes.filter((hole) => hole.kept).length;
-    const found = count ? `Holes: ${kept} of ${count} kept` : "Holes: none";
-    this.holesTitle.textContent = count || automatic ? found : "Holes";
+  updateHoles({ holes, n_holes: count, n_filled: filled, loops }) {
+    const kept = Math.max(loops.length - 1, 0) || "no";
+    this.holesTitle.textContent = `${kept} ${kept === 1 ? "hole" : "holes"} in the cage${filled ? `, ${filled} small ones filled` : ""}`;
     const rows = holes.map((hole, i) => {
       const box = make("input", { type: "checkbox", checked: hole.kept, onchange: () => this.act("toggle_hole", { number: i }) });
       const area = hole.area >= 1e4 ? `${(hole.area / 1e3).toFixed(0)}k px²` : `${hole.area.toFixed(0)} px²`;
@@ -149,13 +165,15 @@ export class Panel {
     });
     // Rebuilding takes the focus; the row that had it gets it back.
     const at = [...this.holes.children].findIndex((row) => row.contains(this.holes.getRootNode().activeElement));
+    if (count > holes.length) rows.push(make("div", { className: "glid-unit" }, `and ${count - holes.length} smaller ones`));
     this.holes.replaceChildren(...rows);
-    rows[at]?.querySelector("input").focus();
+    rows[at]?.querySelector("input")?.focus();
   }
 
   updateTool(tool) {
     const [foreground, background] = this.paint;
     const buttons = { foreground, background, color: this.pickColor, component: this.pickComponent };
     for (const [name, button] of Object.entries(buttons)) button.classList.toggle("glid-on", name === tool);
+    for (const button of this.hand) button.classList.toggle("glid-on", button.dataset.tool === tool);
   }
 }

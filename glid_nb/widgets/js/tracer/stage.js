@@ -18,10 +18,12 @@ const HINTS = {
   background: "Paint over what is around the shape",
   color: "Click a pixel that shows the background's colour",
   component: "Click the part of the picture to trace",
+  polygon: "Click corner after corner, or draw around the shape · double-click or Enter closes it · Esc starts anew",
+  rectangle: "Drag a rectangle over the shape",
 };
 const KEYS = new Set([
-  "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Delete", "Backspace", "Escape", "[", "]",
-  ..."vbnicVBNIC",
+  "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Delete", "Backspace", "Escape", "Enter", "[", "]",
+  ..."vbnicprVBNICPR",
 ]);
 
 export class Stage {
@@ -135,7 +137,11 @@ export class Stage {
   }
 
   get painting() {
-    return this.tool === "foreground" || this.tool === "background";
+    return this.tool === "foreground" || this.tool === "background" || this.drawing;
+  }
+
+  get drawing() {
+    return this.tool === "polygon" || this.tool === "rectangle";
   }
 
   // The pad's options
@@ -195,8 +201,10 @@ export class Stage {
       ...shown,
       bitmap: this.bitmap,
       loops: this.loops,
-      stroke: painting && pad.path.length ? { brush: this.tool, points: pad.path } : null,
-      showStrokes: painting || shown.options.method === "scribbles",
+      stroke: painting && !this.drawing && pad.path.length ? { brush: this.tool, points: pad.path } : null,
+      drawing: this.drawing,
+      outline: this.drawing ? this.drawn() : [],
+      showStrokes: (painting && !this.drawing) || shown.options.method === "scribbles",
       showVertices: !painting,
       hover,
       selected: new Set(shown.selected.map(([loop, index]) => `${loop}:${index}`)),
@@ -205,6 +213,16 @@ export class Stage {
     this.element.dataset.viewport = `${1 / view.unit} ${left} ${top}`; // for tests and assistive tools
     this.placeCallout();
     this.hintText.textContent = shown.size ? this.hint(hover) : "";
+  }
+
+  // The outline that is being drawn, as far as it goes.
+  drawn() {
+    const { path, rests } = this.pad;
+    const now = rests ? [this.view.toWorld(rests)] : [];
+    if (this.tool === "polygon") return this.shown.corners.concat(path.length ? path : now);
+    if (!path.length || !now.length) return [];
+    const [[[left, top]], [[right, bottom]]] = [path, now];
+    return [[left, top], [right, top], [right, bottom], [left, bottom], [left, top]];
   }
 
   hint(hover) {

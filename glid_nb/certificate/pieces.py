@@ -1,0 +1,221 @@
+"""Proving linear pieces of motion at every instant.
+
+Let ``f_t = (1 - t) f_0 + t f_1``. On a panel and for a unit vector ``u`` the function
+``g(t) = Re(conj(u) f_z) - |f_zbar|`` is concave in ``t``: affine minus convex. So the lesser of its
+bounds at two times bounds it, and ``sigma_2 >= g``, at every time between them.
+``kappa Re(conj(u) f_z) - |f_zbar|`` is concave as well, which bounds k, and ``sigma_1`` is convex.
+Panels are halved as in the proof of one map; where no ``u`` serves both times, time is.
+
+``f_z`` then has no zero on the boundary at any time. Its winding numbers do not change, and where
+they add up to 0 at one time Theorem 4.2 holds at all times.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from glid_nb._arrays import Array
+from glid_nb._runtime import in_chunks
+from glid_nb.certificate import rounding
+from glid_nb.certificate.certify import Known, end_values, refined
+from glid_nb.certificate.hermite import Hermite
+from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
+from glid_nb.certificate.paper import beside, jumps
+from glid_nb.geometry import graded_panels
+from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
+from glid_nb.harmonic.cauchy import Singularities
+
+_SHORTEST = 2.0**-12  # time, of a piece
+_TIGHT = 1 / 8  # likewise, for tight bounds
+_DIRECTIONS = 9
+_GROUP = 16  # pieces whose maps are evaluated together
+
+
+@dataclass(frozen=True)
+class PieceCertificate:
+    """What is proved of ``(1 - t) f_0 + t f_1`` on the boundary for every ``t`` in [0, 1].
+
+    Where it is not certified the bounds are infinite.
+    """
+
+    certified: bool
+    """Whether ``|f_z| > |f_zbar|`` is proved at every time."""
+    sigma2_lower: float
+    sigma1_upper: float
+    k_upper: float
+    until: float
+    """It is proved at all times before this one; 1 where certified."""
+    place: complex
+    """The middle of the panel where sigma_2 is least, or where the proof fails first."""
+
+
+class _Values(NamedTuple):
+    """Maps on panels: (p, ...) arrays."""
+
+    ends: Array
+    """(p, k, 2, 4): `EndValues` of ``f_z`` and ``conj(f_zbar)`` of each map."""
+    errors: Array
+    """(p, k, 2, 2): their remainders, and bounds on the errors at the ends."""
+
+    def pair(self, first: int) -> _Values:
+        """The same of two consecutive maps."""
+        return _Values(*(values[:, first : first + 2] for values in self))
+
+    @property
+    def seen(self) -> tuple[float, float]:
+        """The least sigma_2 and the largest k at the ends of panels."""
+        f, g = (np.abs(self.ends[:, :, i, :2]) for i in (0, 1))
+        return float((f - g).min()), float((g / f).max())
+
+
+@np.errstate(all="ignore")
+def certify_pieces(
+    maps: Sequence[HarmonicMap], tightness: float = 0.05
+) -> tuple[PieceCertificate, ...]:
+    """Prove the linear motion from each map of one domain to the next, or say how far that goes.
+
+    Panels are halved where the proof fails or bounds are further than the relative ``tightness``
+    from values that are attained, and so is time, for tightness down to an eighth of a piece.
+    """
+    panels = graded_panels(maps[0].domain)
+    size = modulus(_rows(maps)).max(axis=0)
+    proofs = []
+    for first in range(0, len(maps) - 1, _GROUP):
+        group = maps[first : first + _GROUP + 1]
+        values = _evaluated(group, size)(panels.start, panels.end)
+        for i, pair in enumerate(itertools.pairwise(group)):
+            proofs.append(_prove(*pair, values.pair(i), size, tightness))
+    return tuple(proofs)
+
+
+def _prove(
+    first: HarmonicMap, last: HarmonicMap, values: _Values, size: Array, tightness: float
+) -> PieceCertificate:
+    """Intervals of time one after the other, halved until each is proved."""
+    intervals: list[Any] = [(0.0, 1.0, first, last, values)]
+    bounds = []
+    while intervals:
+        begin, end, a, b, values = intervals.pop()
+        evaluate, panels = _evaluated([a, b], size), graded_panels(a.domain)
+        values = evaluate(panels.start, panels.end) if values is None else values
+        panels, known = refined(
+            panels,
+            _bounds(values),
+            lambda start, end, evaluate=evaluate: _bounds(evaluate(start, end)),
+            tightness,
+        )
+        own = known.bounds
+        unproved = ~np.asarray(own.injective)
+        extremes = own.sigma2_lower.min(), own.sigma1_upper.max(), own.k_upper.max()
+        sigma2, k = values.seen
+        loose = extremes[0] < (1 - tightness) * sigma2 or extremes[2] > (1 + tightness) * k + 1e-3
+        if end - begin > (_SHORTEST if unproved.any() else _TIGHT) and (unproved.any() or loose):
+            middle = _between(a, b)
+            half = (begin + end) / 2
+            intervals += [(half, end, middle, b, None), (begin, half, a, middle, None)]
+            continue
+        bounds.append((*extremes, panels.middle[int(np.argmin(known.sigma2_seen))]))
+        if unproved.any():
+            break
+    sigma2, sigma1, k, place = zip(*bounds, strict=True)
+    if unproved.any():
+        return PieceCertificate(False, -np.inf, np.inf, np.inf, begin, complex(place[-1]))
+    worst = complex(place[int(np.argmin(sigma2))])
+    return PieceCertificate(True, float(min(sigma2)), float(max(sigma1)), float(max(k)), 1.0, worst)
+
+
+def _between(a: HarmonicMap, b: HarmonicMap) -> HarmonicMap:
+    return HarmonicMap(a.domain, a.phi + (b.phi - a.phi) / 2, a.psi + (b.psi - a.psi) / 2)
+
+
+def _rows(maps: Sequence[HarmonicMap]) -> Array:
+    basis = basis_of(maps[0].domain)
+    return np.stack([basis.pad(c) for map in maps for c in (map.phi, map.psi)])
+
+
+def _evaluated(maps: Sequence[HarmonicMap], size: Array) -> Any:
+    """The function that evaluates the maps on panels from start to end."""
+    basis, rows = basis_of(maps[0].domain), _rows(maps)
+
+    def evaluate(start: Array, end: Array) -> _Values:
+        return in_chunks(_values, basis.n_columns, (start, end), rows, size, basis.singularities)
+
+    return evaluate
+
+
+def _values(
+    start: Array, end: Array, coefficients: Array, size: Array, singularities: Singularities
+) -> _Values:
+    ends, slack = end_values(start, end, coefficients, singularities)
+    slack = slack + _coefficient_rounding(start, end, size, singularities)
+    remainder = Hermite.on(start, end, singularities).remainder(coefficients, singularities)
+    shift = jumps(coefficients, singularities) @ beside(start, end, singularities).T
+    by_map = [
+        np.stack(rows, axis=-1).reshape(len(coefficients) // 2, 2, len(start), -1)
+        for rows in (ends, [remainder + slack, slack + shift])
+    ]
+    return _Values(*(np.moveaxis(values, 2, 0) for values in by_map))
+
+
+def _coefficient_rounding(
+    start: Array, end: Array, size: Array, singularities: Singularities
+) -> Array:
+    """What rounding the coefficients of a map between others changes: (p,).
+
+    ``a + t (b - a)`` is off by less than 6 roundoffs of the largest, ``size``, and a middle of
+    middles by 2 more for each halving of time.
+    """
+    vertices, following, _, _ = singularities
+    m = len(vertices)
+    edges = (size[:m] + size[following]) / modulus(vertices[following] - vertices)
+    off = 32 * rounding.UPWARD * rounding.UNIT_ROUNDOFF * np.concatenate([edges, size[m:]])
+    z = np.concatenate([start, end])
+    first, second = (
+        np.split(np.abs(by_edges(z, singularities)) @ off, 2)
+        for by_edges in (cauchy.first_by_edges, cauchy.second_by_edges)
+    )
+    return np.maximum(*first) + modulus(end - start) * np.maximum(*second)
+
+
+def _bounds(values: _Values) -> Known:
+    """What is proved for all times between two maps; what is seen of it is along ``u`` too."""
+    (fz, fzb_conj), errors = (
+        [[EndValues(*values.ends[:, i, k].T) for i in (0, 1)] for k in (0, 1)],
+        values.errors,
+    )
+    f, g = (np.concatenate([np.stack(side[:2]) for side in each]) for each in (fz, fzb_conj))
+    u = _common_direction(f, g)
+    proved = [Hermite.bounds(fz[i], fzb_conj[i], errors[:, i, :, 0].T, u) for i in (0, 1)]
+    known = proved[0].turning_known & proved[1].turning_known
+    sigma2, sigma1, k = (
+        least([getattr(each, name) for each in proved], axis=0)
+        for least, name in ((np.min, "sigma2_lower"), (np.max, "sigma1_upper"), (np.max, "k_upper"))
+    )
+    sigma2 = np.where(known & (sigma2 > -np.inf), sigma2, -np.inf)
+    along = np.real(u.conj() * f)
+    return Known(
+        PanelBounds(sigma2, sigma1, np.where(known, k, np.inf), known, proved[0].turning),
+        (along - np.abs(g)).min(axis=0),
+        (np.abs(f) + np.abs(g)).max(axis=0),
+        (np.abs(g) / along).max(axis=0),
+        np.abs(f).min(axis=0),
+        errors[..., 1].sum(axis=2).max(axis=1),
+    )
+
+
+def _common_direction(f: Array, g: Array) -> Array:
+    """(p,) ``u`` between those of both times, for which the least ``Re(conj(u) f) - |g|`` is most.
+
+    ``f`` and ``g`` are (4, p) values: at both ends of the panels at the first time, and the last.
+    """
+    units = f / np.abs(f)
+    before, after = (pair / np.abs(pair) for pair in (units[0] + units[1], units[2] + units[3]))
+    u = before + np.linspace(0, 1, _DIRECTIONS)[:, None] * (after - before)
+    u /= np.abs(u)
+    least = np.min(np.real(u[:, None].conj() * f) - np.abs(g), axis=1)
+    return u[np.argmax(least, axis=0), np.arange(f.shape[1])]

@@ -1,0 +1,106 @@
+"""Settings of a motion, checked; every error names the culprit."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from typing import Any, Literal
+
+import numpy as np
+
+from glid_nb._arguments import unmet
+from glid_nb._errors import InputError
+from glid_nb.certificate import certificate_of
+from glid_nb.geometry import loop_name
+from glid_nb.harmonic import HarmonicMap
+
+Easing = Literal["linear", "in", "out", "in-out"]
+Between = Literal["bounded", "solved", "linear"]
+Repeat = Literal["once", "loop", "ping-pong"]
+
+EASINGS: dict[str, Callable[[float], float]] = {
+    "linear": lambda s: s,
+    "in": lambda s: s * s,
+    "out": lambda s: s * (2 - s),
+    "in-out": lambda s: s * s * (3 - 2 * s),
+}
+"""Monotone maps of [0, 1] to itself, so no map appears that the motion without them lacks."""
+
+
+_LATEST = 1e9  # seconds
+
+
+class MotionError(InputError):
+    """Keyframes, times or settings that make no motion, or a file of one that is not valid."""
+
+
+def checked(name: str, kind: Any, value: Any, **limits: float) -> Any:
+    """The value, a number as a float; MotionError unless it is what `unmet` wants."""
+    wanted = unmet(kind, value, limits)
+    if wanted:
+        raise MotionError(f"{name} is {value!r:.60}; it must be {wanted}")
+    return float(value) if kind is float else value
+
+
+def checked_each(name: str, kind: Any, given: Any, count: int, **limits: float) -> tuple[Any, ...]:
+    """One value for each interval, which may be given once for all."""
+    values = given if isinstance(given, list | tuple) else [given] * count
+    if len(values) != count:
+        raise MotionError(f"{name} has {len(values)} values for {count} intervals; give {count}")
+    return tuple(checked(f"{name}[{i}]", kind, each, **limits) for i, each in enumerate(values))
+
+
+def checked_keyframes(keyframes: Any) -> tuple[HarmonicMap, ...]:
+    """Certified maps of one domain, of the first one's, whose ``f_z`` turn alike."""
+    if not isinstance(keyframes, list | tuple) or len(keyframes) < 2:
+        raise MotionError(f"a motion needs a list of at least 2 keyframes, not {keyframes!r:.60}")
+    maps: list[HarmonicMap] = []
+    for i, given in enumerate(keyframes):
+        map = given if isinstance(given, HarmonicMap) else getattr(given, "map", None)
+        if not isinstance(map, HarmonicMap):
+            raise MotionError(
+                f"keyframe {i} has no harmonic map but is a {type(given).__name__}; give a "
+                "HarmonicMap, or a Result or Certificate of one"
+            )
+        proof, domain = certificate_of(map), maps[0].domain if maps else map.domain
+        if not proof.certified:
+            raise MotionError(f"keyframe {i} is not certified. {proof.reason}")
+        if map.domain is not domain:
+            if map.domain.to_dict() != domain.to_dict():
+                raise MotionError(
+                    f"keyframe {i} lives on another domain than keyframe 0; all keyframes of a "
+                    "motion must be maps of the same cage and offset cage"
+                )
+            map = HarmonicMap(domain, map.phi, map.psi)
+        maps.append(map)
+        turns = [certificate_of(maps[0]).windings, proof.windings]
+        if turns[0] != turns[1]:
+            loop = int(np.flatnonzero(np.not_equal(*turns))[-1])
+            raise MotionError(
+                f"keyframes 0 and {i} cannot be joined without folding: along the "
+                f"{loop_name(loop)} f_z turns {turns[0][loop]} times in one and {turns[1][loop]} "
+                "times in the other, which no motion of locally injective maps can change, not "
+                "even a solved one; choose poses that turn alike around the holes"
+            )
+    return tuple(maps)
+
+
+def checked_times(times: Any, count: int, closed: bool) -> tuple[float, ...]:
+    """Increasing times of the keyframes, and of a loop's return."""
+    times = range(count + closed) if times is None else times
+    if not isinstance(times, list | tuple | range | np.ndarray):
+        raise MotionError(f"times must be a list of numbers, not {times!r:.60}")
+    values = [
+        checked(f"times[{i}]", float, t, least=-_LATEST, most=_LATEST) for i, t in enumerate(times)
+    ]
+    if len(values) not in (count, count + closed):
+        wanted = f"{count} or {count + 1}" if closed else f"{count}"
+        raise MotionError(f"there are {len(values)} times for {count} keyframes; give {wanted}")
+    for i, (before, after) in enumerate(itertools.pairwise(values)):
+        if not before < after:
+            raise MotionError(
+                f"times[{i + 1}] is {after:g} and times[{i}] is {before:g}; times must increase"
+            )
+    if len(values) < count + closed:
+        values.append(values[-1] + (values[-1] - values[0]) / (count - 1))
+    return tuple(values)
