@@ -48,6 +48,8 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
         )
     lines = ["import glid_nb as glid", ""]
     lines += _domain_lines(document, picture)
+    if not exact or pose.pose.depths.any():
+        lines += _pose_lines(pose)
     if exact:
         phi, psi = pose.map.phi.tolist(), pose.map.psi.tolist()
         lines.append(f"map = glid.HarmonicMap(domain, {phi}, {psi})")
@@ -56,23 +58,18 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
     return "\n".join(lines) + "\n"
 
 
+def _pose_lines(pose: NamedPose) -> list[str]:
+    given = pose.pose.to_dict().items()
+    return ["pose = glid.Pose(", *(f"    {key}={values}," for key, values in given), ")"]
+
+
 def _solve_lines(pose: NamedPose) -> list[str]:
-    handles, targets = pose.pose.handles.tolist(), pose.pose.targets.tolist()
-    depths = [f"    depths={pose.pose.depths.tolist()},"] if pose.pose.depths.any() else []
     arguments = ["domain", "pose", _made(pose.energy)]
     if options := _changed(pose.options, pose.method.options):
         arguments.append(f"glid.Options({options})")
     if not isinstance(pose.method, Newton):
         arguments.append(f"method={_made(pose.method, 'glid.methods')}")
-    return [
-        "pose = glid.Pose(",
-        f"    handles={handles},",
-        f"    targets={targets},",
-        *depths,
-        ")",
-        f"result = glid.solve({', '.join(arguments)})",
-        "map = result.map",
-    ]
+    return [f"result = glid.solve({', '.join(arguments)})", "map = result.map"]
 
 
 def _domain_lines(document: Document, picture: str) -> list[str]:
