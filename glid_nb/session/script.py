@@ -65,6 +65,7 @@ def _map_lines(pose: NamedPose, exact: bool) -> list[str]:
 
 def _solve_lines(pose: NamedPose) -> list[str]:
     handles, targets = pose.pose.handles.tolist(), pose.pose.targets.tolist()
+    depths = [f"    depths={pose.pose.depths.tolist()},"] if pose.pose.depths.any() else []
     arguments = ["domain", "pose", _made(pose.energy)]
     if options := _changed(pose.options, pose.method.options):
         arguments.append(f"glid.Options({options})")
@@ -74,6 +75,7 @@ def _solve_lines(pose: NamedPose) -> list[str]:
         "pose = glid.Pose(",
         f"    handles={handles},",
         f"    targets={targets},",
+        *depths,
         ")",
         f"result = glid.solve({', '.join(arguments)})",
         "map = result.map",

@@ -143,26 +143,28 @@ def _contents(
     from glid_nb.export.picture import png  # noqa: PLC0415
 
     document, state = model.document, model.deformation.state
-    image, map_ = document.image, state.map
+    image, map_, pose = document.image, state.map, state.pose
     match _suffix(path):
         case ".png":
-            return [to.picture_png(image, map_, size, view)]
+            return [to.picture_png(image, map_, size, view, pose)]
         case ".obj":
-            files = to.mesh_obj(to.textured_mesh(image, map_), path.stem)
+            files = to.mesh_obj(to.textured_mesh(image, map_, pose=pose), path.stem)
             return [files[path.stem + rest] for rest in (".obj", *_BESIDE[".obj"])]
         case ".glb":
-            return [to.mesh_glb(to.textured_mesh(image, map_))]
+            return [to.mesh_glb(to.textured_mesh(image, map_, pose=pose))]
         case ".svg":
             height, width = image.shape[:2]
-            return [to.cage_svg(map_, (width, height), source=True, pose=state.pose).encode()]
+            return [to.cage_svg(map_, (width, height), source=True, pose=pose).encode()]
         case ".html":
-            return [to.page_html(image, map_, model.deformation.certificate, path.stem).encode()]
+            proof = model.deformation.certificate
+            return [to.page_html(image, map_, proof, path.stem, pose=pose).encode()]
         case ".glid":
             return [document_bytes(document)]
         case ".proof.json":
+            depths = pose.to_dict() if pose.depths.any() else {}
             return [
                 proof_text(model.deformation.certificate).encode(),
-                json_text(map_.to_dict()).encode(),
+                json_text({**map_.to_dict(), **depths}).encode(),
             ]
         case _:
             return [python_code(document, files_of(path)[1].name).encode(), png(image)]

@@ -12,16 +12,18 @@ import { Shapes, drawingTime, uniformVectors } from "./shapes.js";
 const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
 const KEYS = new Set([
   "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Delete", "Backspace", "Escape", "Enter",
-  "0", "f", "F", ",", ".", "a", "A",
+  "0", "f", "F", ",", ".", "a", "A", "PageUp", "PageDown", "[", "]",
 ]);
 const HELP = [
   ["Click the shape", "pin a point"],
   ["Drag a pin, or the shape", "move it there; the shape follows as far as it cannot fold"],
   ["Right-click, long touch, Delete", "remove a pin"],
   ["Shift-click, A", "select several pins, all pins"],
+  ["Page Down, Page Up", "selected pins and what is around them go back, come forward; also [ and ]"],
   ["Arrow keys", "nudge selected pins, with Shift farther; else move a cursor"],
   ["Enter", "show the cursor; pin or select there"],
   [", .", "select the pin before, the next pin"],
+  ["Page Up, Page Down, ] [", "selected pins in front, or behind, where parts overlap"],
   ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
   ["Esc", "cancel a drag; select nothing"],
   ["0", "back to the undeformed shape"],
