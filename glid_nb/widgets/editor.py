@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import base64
 import html
+import io
 from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
@@ -10,7 +12,8 @@ from typing import Any
 
 import ipywidgets
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
+from PIL import Image
 
 from glid_nb._jax import once_loaded
 from glid_nb._runtime import enable_compilation_cache
@@ -171,6 +174,25 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             f"Editor({len(state.poses)} poses, {len(state.pose)} handles in {state.current.name!r})"
         )
 
+    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
+        """The widget, and the picture as it is now for pages where no kernel runs."""
+        bundle, image = super()._repr_mimebundle_(**kwargs), self.model.tracing.image
+        if bundle is not None and image is not None:
+            bundle["image/png"] = base64.b64encode(self._snapshot(image)).decode()
+        return bundle
+
+    def _snapshot(self, image: NDArray[np.uint8]) -> bytes:
+        """The deformed picture with its pins; before there are any, the picture itself."""
+        if self.model.has_shape and len(self.pose):
+            from glid_nb.export.picture import animation_bytes  # noqa: PLC0415 - as in `_contents`
+
+            frame = {"size": max(self._size), "format": "apng"}
+            return animation_bytes(self.document.image, [self.map], [self.pose], **frame)
+        picture, buffer = Image.fromarray(image), io.BytesIO()
+        picture.thumbnail(self._size)
+        picture.save(buffer, "PNG")
+        return buffer.getvalue()
+
     # These parts are made once the canvas is drawn, or when asked for.
 
     @property
@@ -270,7 +292,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def export(
         self, path: str | Path, size: tuple[int, int] | None = None, view: View = "source"
     ) -> tuple[Path, ...]:
-        """Export as ``.png``, ``.obj``, ``.glb``, ``.svg``, ``.html``, ``.py`` or ``.proof.json``.
+        """Export as .png, .obj, .glb, .svg, .html, .py, .proof.json or .glid, a session.
 
         ``size`` and ``view`` of a picture are as in `glid_nb.render`. Returns the written files:
         ``path``, then those that come with it, such as ``-texture.png`` with a mesh, or

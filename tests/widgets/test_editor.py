@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import base64
 import gc
+import io
 import os
 import shutil
 import subprocess
@@ -168,6 +170,24 @@ def test_the_next_editor_of_a_picture_offers_what_was_done(
     assert ("no zip file" in text.value) == damaged
     assert again.kept.layout.display == ("flex" if damaged else "none")
     again.close()
+
+
+def test_where_no_kernel_runs_a_picture_stands_for_the_editor(editor: Editor) -> None:
+    def shown() -> np.ndarray:
+        bundle = editor._repr_mimebundle_()
+        assert set(bundle) > {"application/vnd.jupyter.widget-view+json", "text/plain"}
+        with Image.open(io.BytesIO(base64.b64decode(bundle["image/png"]))) as picture:
+            return np.asarray(picture.convert("RGBA"))
+
+    np.testing.assert_array_equal(shown(), bar())
+    editor.deformation.paused = True
+    editor.add_handle((-7, 0), to=(-7, 0))
+    deformed = shown()
+    assert max(deformed.shape) == 600
+    assert (deformed[..., :3] == (200, 120, 40)).all(axis=2).mean() > 0.3
+    empty = Editor()
+    assert "image/png" not in empty._repr_mimebundle_()
+    empty.close()
 
 
 def test_a_session_file_is_kept_up_to_date(tmp_path: Path) -> None:
