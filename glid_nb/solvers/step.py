@@ -5,8 +5,9 @@ from __future__ import annotations
 import functools
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from glid_nb._jax import AnyArray, jax, jit, jnp, lax
-from glid_nb._runtime import COMPILER_OPTIONS
+from glid_nb._jax import AnyArray, jax, jnp, lax
+from glid_nb._programs import Program
+from glid_nb.energies import table1
 from glid_nb.solvers import cholesky, evaluation, line_search, whitening
 from glid_nb.solvers.evaluation import Line, Point
 from glid_nb.solvers.hessian import (
@@ -284,9 +285,10 @@ def _where(condition: Bool[AnyArray, ""] | bool, one: Any, other: Any) -> Any:
     return jax.tree.map(lambda a, b: jnp.where(condition, a, b), one, other)
 
 
-run = jit(
-    iterations,
-    donate_argnames=("factor",),
-    compiler_options=COMPILER_OPTIONS,
-)
+def _is_ours(problem: Problem, *_: Any) -> bool:
+    """Whether the energy is one of Table 1, not a user's. A kept program needs LAPACK ready."""
+    return cholesky.understood() and type(problem.energy).__module__ == table1.__name__
+
+
+run = Program(iterations, donate=2, may_keep=_is_ours)
 """:func:`iterations` compiled, for one pose; the factor that it is given is gone afterwards."""
