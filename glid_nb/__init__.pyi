@@ -51,6 +51,9 @@ from ._runtime import enable_compilation_cache as enable_compilation_cache
 from .geometry import MeshMap as MeshMap
 from . import methods as methods
 
+# What lies between maps
+from .motion import Motion as Motion
+
 # Files and reports
 from .session import Document as Document
 from .session import NamedPose as NamedPose

@@ -19,7 +19,7 @@ LAYERS = (
     ("energies",),
     ("certificate",),
     ("solvers",),
-    ("imaging", "methods"),
+    ("imaging", "methods", "motion"),
     ("figures",),
     ("samples", "export"),
     ("session",),

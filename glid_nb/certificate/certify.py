@@ -105,7 +105,7 @@ class Certificate:
         write_text_atomically(Path(path), proof_text(self))
 
 
-class _Known(NamedTuple):
+class Known(NamedTuple):
     """Bounds on each panel, and the distortion at its start."""
 
     bounds: PanelBounds
@@ -168,16 +168,16 @@ def certify(
         panels = graded_panels(map.domain)
     else:
         check_tiling(panels, map.domain.cage)
-    known: _Known = evaluate(panels.start, panels.end)
+    known: Known = evaluate(panels.start, panels.end)
     for _ in range(_MAX_ROUNDS if refine else 0):
-        wanted = _to_split(known, tightness) & panels.divisible
+        wanted = to_split(known, tightness) & panels.divisible
         if known.hopeless.any() or not wanted.any() or len(panels) > _MAX_PANELS:
             break
         panels, known = split(panels, known, wanted, evaluate)
     return _conclude(map, panels, known, kind)
 
 
-def _to_split(known: _Known, tightness: float) -> Array:
+def to_split(known: Known, tightness: float) -> Array:
     """(p,) bool: the proof fails, or the panel keeps the overall bounds from being tight."""
     bounds, injective = known.bounds, np.asarray(known.bounds.injective)
     if not np.isfinite(known.slack).all():  # out of scale
@@ -232,9 +232,7 @@ def proved_by(
     return proof
 
 
-def _conclude(
-    map: HarmonicMap, panels: Panels, known: _Known, kind: CertificateKind
-) -> Certificate:
+def _conclude(map: HarmonicMap, panels: Panels, known: Known, kind: CertificateKind) -> Certificate:
     bounds, unproved = known.bounds, ~np.asarray(known.bounds.injective)
     turns = windings(np.asarray(bounds.turning), panels.loop, 1 + map.domain.n_holes)
     certified = False
@@ -277,7 +275,25 @@ def _assembled(
 
 def _kernel(
     start: Any, end: Any, coefficients: Any, singularities: Singularities, kind: CertificateKind
-) -> _Known:
+) -> Known:
+    ends, slack = end_values(start, end, coefficients, singularities)
+    fz, fzb_conj = (EndValues(*(values[k] for values in ends)) for k in (0, 1))
+    proof = PROOFS[kind].on(start, end, singularities)
+    remainder = proof.remainder(coefficients, singularities) + proof.slack_share * slack
+    bounds = proof.bounds(fz, fzb_conj, remainder)
+    f, g = modulus(fz.start), modulus(fzb_conj.start)
+    # The start itself may lie beside the boundary.
+    shift = jumps(coefficients, singularities) @ beside(start, end, singularities).T
+    return Known(bounds, f - g, f + g, g / f, f, np.sum(slack + shift, axis=0))
+
+
+def end_values(
+    start: Any, end: Any, coefficients: Any, singularities: Singularities
+) -> tuple[EndValues, Any]:
+    """``sum_j D_j coefficients_j`` at the ends of panels, (k, p) arrays, and bounds on the errors.
+
+    The sums are the derivatives of (k, c) coefficients, ``f_z`` for phi and the like.
+    """
     edges, chord = cauchy.edge_coefficients(coefficients, singularities), end - start
     parts = rounding.derivatives(np.concatenate([start, end]), edges, singularities)
     (values, slopes, slack), (values_end, slopes_end, slack_end) = (
@@ -286,12 +302,5 @@ def _kernel(
             *(np.split(part, 2, axis=1) for part in parts), strict=True
         )
     )
-    fz, fzb_conj = (EndValues(values[k], values_end[k], slopes[k], slopes_end[k]) for k in (0, 1))
-    proof = PROOFS[kind].on(start, end, singularities)
     slack = rounding.allowance(np.maximum(slack, slack_end), 1 + modulus(edges).max())
-    remainder = proof.remainder(coefficients, singularities) + proof.slack_share * slack
-    bounds = proof.bounds(fz, fzb_conj, remainder)
-    f, g = modulus(fz.start), modulus(fzb_conj.start)
-    # The start itself may lie beside the boundary.
-    shift = jumps(coefficients, singularities) @ beside(start, end, singularities).T
-    return _Known(bounds, f - g, f + g, g / f, f, np.sum(slack + shift, axis=0))
+    return EndValues(values, values_end, slopes, slopes_end), slack

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from jaxtyping import Array, Complex, Float
 
     # A cubic by its four Bezier control points, a real sextic by its seven Bernstein coefficients.
-    Cubic = list[Complex[Array, " p"]]
+    Cubic = list[Complex[Array, " p"]] | list[Float[Array, " p"]]
     Sextic = list[Float[Array, " p"]]
 
 
@@ -49,28 +49,45 @@ class Hermite(NamedTuple):
         return jumps(coefficients, singularities) @ self.weights
 
     @staticmethod
-    def bounds(fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]) -> PanelBounds:
+    def bounds(
+        fz: EndValues,
+        fzb_conj: EndValues,
+        remainder: Float[Array, "2 p"],
+        direction: Complex[Array, " p"] | None = None,
+    ) -> PanelBounds:
         """Bounds on each whole panel.
 
-        The interpolants are halved once, which tightens the bounds without evaluating the map.
+        The interpolants are halved once, which tightens the bounds without evaluating the map. With
+        unit vectors ``u`` as ``direction``, the bounds on sigma_2 and k hold with
+        ``Re(conj(u) f_z)``, proved positive where the turning is known, in place of ``|f_z|``.
         """
         p, q = _control_points(fz), _control_points(fzb_conj)
+        e_f, e_g = remainder[0], remainder[1]
+        p_most = _greatest([modulus(point) for point in p])
+        known = direction
+        if direction is None:
+            direction = p[0] / modulus(p[0]) + p[3] / modulus(p[3])
+            direction = direction / modulus(direction)
+        along = [(direction.conj() * point).real for point in p]
+        if known is not None:
+            e_f = e_f + rounding.BERNSTEIN * p_most  # of u itself and the products
         halves = [
-            _piece_bounds(p_half, q_half, remainder[0], remainder[1])
-            for p_half, q_half in zip(_halves(p), _halves(q), strict=True)
+            _piece_bounds(p_half, q_half, e_f, e_g)
+            for p_half, q_half in zip(
+                _halves(p if known is None else along), _halves(q), strict=True
+            )
         ]
         sigma2, sigma1, k = zip(*halves, strict=True)
+        if known is not None:
+            sigma1 = [p_most + _greatest([modulus(point) for point in q]) + e_f + e_g]
 
         # If the control points lie in a half plane further than e_f from 0, f_z avoids 0 there.
-        xp = remainder.__array_namespace__()
-        direction = p[0] / modulus(p[0]) + p[3] / modulus(p[3])
-        direction = direction / modulus(direction)
-        offset = _least([xp.real(xp.conj(direction) * point) for point in p])
+        offset = _least(along)
         return PanelBounds(
             _least(sigma2),
             _greatest(sigma1),
             _greatest(k),
-            offset > remainder[0],
+            offset > e_f,
             turning(fz.start, fz.end),
         )
 

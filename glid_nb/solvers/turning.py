@@ -59,16 +59,19 @@ class Turning:
         """Which joints turn left (1) and which right (-1), in turn."""
         return _WAYS[min(len(self.joints), 2)]
 
-    def stages(self, way: tuple[int, ...]) -> list[Pose]:
-        """The poses between the shape at rest and the wanted one."""
+    def stages(self, way: tuple[int, ...], least: int = 2) -> list[Pose]:
+        """The poses between the shape at rest and the wanted one; joints turn the short way for ().
+
+        They are one less than the stages, of which there are at least so many.
+        """
         turns = list(self.turns)
-        for i, k in enumerate(self.joints):
+        for i, k in enumerate(self.joints if way else ()):
             side = way[i % len(way)]
             turns[k] = side * (side * turns[k] % (2 * np.pi))
         angles = np.full(len(self.pose), self.whole)
         for k, (i, j) in enumerate(zip(self.order[1:], self.parents[1:], strict=True), start=1):
             angles[i] = angles[j] + turns[k]
-        count = max(int(np.ceil(max(np.abs(angles).max(), np.abs(turns).max()) / _STAGE)), 2)
+        count = max(int(np.ceil(max(np.abs(angles).max(), np.abs(turns).max()) / _STAGE)), least)
         return [self._at(k / count, angles) for k in range(1, count)]
 
     def _at(self, time: float, angles: Array) -> Pose:

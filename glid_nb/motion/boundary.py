@@ -1,0 +1,169 @@
+"""A domain's boundary as motion needs it: continuous logarithms, and a projection on the basis."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+import shapely
+
+from glid_nb._arrays import Array
+from glid_nb._runtime import double_precision
+from glid_nb.geometry import Domain, uniform_panels
+from glid_nb.geometry.panels import point_distance
+from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
+from glid_nb.solvers.discretisation import complex_basis, discretise
+
+_POINTS = 200  # at which images are compared
+_ON_LINK = 128
+
+
+@dataclass(frozen=True, eq=False)
+class Boundary:
+    """Nodes on the boundary, the ends and middles of panels, with the basis on them."""
+
+    domain: Domain
+    values: Array
+    """(k, n) ``C`` at even points of the boundary."""
+    first: Array
+    """(s, n) ``D`` at the nodes."""
+    mean: Array
+    """(s,) weights of the nodes, which add up to 1."""
+    branches: tuple[Branch, ...]
+    """The exterior loop, then the holes, each after the loop that it hangs on."""
+    single_valued: Array
+    """(n, s) coefficients of the best fit from values at the nodes, without logarithms."""
+    logarithms: Array
+    """(N, s) likewise, scaled coefficients of the logarithms of the best fits to two functions."""
+    with_logarithms: Array
+    """(n, N) what these add to the coefficients."""
+
+    def derivatives(self, phi: Array, psi: Array) -> tuple[Array, Array]:
+        """``f_z`` and ``conj(f_zbar)`` at the nodes."""
+        return self.first @ phi, self.first @ psi
+
+    def images(self, phi: Array, psi: Array) -> Array:
+        """(k,) images of the even points."""
+        return self.values @ phi + np.conj(self.values @ psi)
+
+    def translated(self, phi: Array, by: complex) -> Array:
+        """``phi`` of the map whose images are moved ``by``."""
+        moved = phi.copy()
+        moved[: self.domain.offset_cage.exterior.shape[0]] += by
+        return moved
+
+    def fitted(self, fz: Array, fzb_conj: Array) -> tuple[Array, Array]:
+        """Coefficients of the map whose derivatives are nearest, in the mean square, at the nodes.
+
+        With ``phi_h = conj(psi_h)`` for the holes: what is orthogonal to all else tells both.
+        """
+        h = self.logarithms @ fz + np.conj(self.logarithms @ fzb_conj)
+        phi = self.single_valued @ fz + self.with_logarithms @ h
+        return phi, self.single_valued @ fzb_conj + self.with_logarithms @ np.conj(h)
+
+    def logarithm(self, phi: Array, fz: Array) -> Array:
+        """(s,) ``log f_z`` at the nodes, of one branch: continuous along loops and their links."""
+        result = np.log(np.abs(fz)).astype(complex)
+        for branch in self.branches:
+            phase = np.angle(fz[branch.nodes[0]])
+            if branch.link is not None:
+                along = np.concatenate(
+                    [fz[[branch.linked]], branch.link @ phi, fz[branch.nodes[:1]]]
+                )
+                phase = result[branch.linked].imag + _turns(along).sum()
+            turns = _turns(fz[branch.nodes])
+            result[branch.nodes] += 1j * (phase + np.append(0, np.cumsum(turns)))
+        return result
+
+
+@dataclass(frozen=True, eq=False)
+class Branch:
+    """A loop's nodes in order, and its link through the domain to a node of another loop."""
+
+    nodes: Array
+    linked: int = 0
+    link: Array | None = None
+    """(q, n) ``D`` along the way from that node to the first."""
+
+
+@functools.lru_cache(maxsize=8)
+@double_precision
+def boundary_of(domain: Domain) -> Boundary:
+    """The boundary of a domain; the last few are kept."""
+    disc, basis = discretise(domain), basis_of(domain)
+    columns, c, count = basis.columns, basis.n_columns, len(disc.panels)
+    rows = np.asarray(disc.matrices.nodes)
+    p = rows.shape[1] // 2
+    chosen = np.concatenate([np.arange(count), p + np.arange(count)])
+    first = (rows[:c][columns] - 1j * rows[c:][columns])[:, chosen].T
+    mean = np.asarray(disc.matrices.weights)[chosen]
+    t = np.asarray(disc.matrices.whitening)
+    fit = _fit(first, mean, (t[0] + 1j * t[1])[columns], basis.n_hole_columns, domain.n_holes)
+    points = uniform_panels(domain.cage, _POINTS).start
+    values = complex_basis(cauchy.cauchy_coordinates, points, basis)[:, columns]
+    branches = _branches(domain, disc.panels.start, disc.panels.end, disc.panels.loop)
+    return Boundary(domain, values, first, mean, branches, *fit)
+
+
+def _fit(
+    first: Array, mean: Array, t: Array, n_padded: int, n_holes: int
+) -> tuple[Array, Array, Array]:
+    """The matrices of the best fit, in whitened coordinates ``t``, where it is well conditioned."""
+    root = np.sqrt(mean)[:, None]
+    end = t.shape[1] - n_padded
+    t_single = t[:, 1:end][:, np.any(t[:, 1:end] != 0, axis=0)]
+    t_log = t[:, end : end + n_holes]
+    q, r = scipy.linalg.qr(root * (first @ t_single), mode="economic")
+    t_single = scipy.linalg.solve_triangular(r, t_single.T, trans="T").T
+    log = root * (first @ t_log)
+    along = q.conj().T @ log
+    rest = log - q @ along
+    gram = 2 * np.real(rest.conj().T @ rest)
+    single = (t_single @ q.conj().T) * root.T
+    logarithms = np.linalg.solve(gram, rest.conj().T * root.T) if n_holes else rest.conj().T
+    return single, logarithms, t_log - t_single @ along
+
+
+def _branches(domain: Domain, start: Array, end: Array, loop: Array) -> tuple[Branch, ...]:
+    """Loops hang on each other by the shortest segments between them, which cross no other."""
+    count = len(start)
+    own = [np.flatnonzero(loop == i) for i in range(1 + domain.n_holes)]
+    nodes = [np.stack([panels, count + panels], axis=1).ravel() for panels in own]
+    rings = [shapely.LinearRing(corners) for corners in domain.cage.loops]
+    branches, inside = [Branch(nodes[0])], {0}
+
+    def panel_at(i: int, z: complex) -> int:
+        return int(own[i][np.argmin(point_distance(np.array(z), start[own[i]], end[own[i]]))])
+
+    while len(inside) < len(rings):
+        pairs = [(i, j) for i in inside for j in range(len(rings)) if j not in inside]
+        i, j = min(pairs, key=lambda pair: shapely.distance(rings[pair[0]], rings[pair[1]]))
+        line = shapely.get_coordinates(shapely.shortest_line(rings[i], rings[j])) @ [1, 1j]
+        near, far = panel_at(i, line[0]), panel_at(j, line[1])
+        stops = np.array([start[near], *line, start[far]])
+        steps = np.arange(1, 3 * _ON_LINK) / _ON_LINK
+        points = np.interp(steps, range(4), stops.real) + 1j * np.interp(
+            steps, range(4), stops.imag
+        )
+        basis = basis_of(domain)
+        link = complex_basis(cauchy.first_derivatives, points, basis)[:, basis.columns]
+        first = 2 * int(np.flatnonzero(own[j] == far)[0])
+        branches.append(Branch(np.roll(nodes[j], -first), near, link))
+        inside.add(j)
+    return tuple(branches)
+
+
+def _turns(fz: Array) -> Array:
+    """The changes of the argument from each value to the next."""
+    return np.angle(fz[1:] * np.conj(fz[:-1]))
+
+
+def centred(boundary: Boundary, map: HarmonicMap) -> tuple[complex, complex]:
+    """The rotation (a unit number) and the mean of the rigid motion nearest to a map."""
+    identity = HarmonicMap.identity(boundary.domain)
+    z, w = (boundary.images(each.phi, each.psi) for each in (identity, map))
+    correlation = np.vdot(z - z.mean(), w - w.mean())
+    size = abs(correlation)
+    return (correlation / size if size > 0 else 1.0), complex(w.mean())

@@ -1,0 +1,173 @@
+"""Bounded distortion interpolation, projected on the harmonic subspace.
+
+With ``a = f_z`` and ``nu = conj(f_zbar) / f_z`` of the keyframes, ``log a`` and ``nu`` are
+holomorphic, and so are their means: ``|nu|``, which is k, stays below that of the worse end (Chien,
+Chen & Weber 2016). Here the maps are first freed from their rigid motion, which moves by itself,
+and what the projection on the basis loses at the keyframes is added back evenly between them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from glid_nb._arrays import Array
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.motion.boundary import Boundary, boundary_of, centred
+
+# A spline may exceed the worse end by this much, else its tangents are shortened.
+_EXCESS = 0.01
+_PROBES = np.linspace(0, 1, 9)[1:-1]
+_MOST_HALVINGS = 6
+
+Coefficients = tuple[Array, Array]
+"""phi and psi."""
+
+
+class _Frame(NamedTuple):
+    """A keyframe without its rigid motion ``z -> exp(i angle) z + mean``."""
+
+    angle: float
+    mean: complex
+    fields: Array
+    """(2 s,) ``log f_z`` and ``nu`` at the nodes."""
+    lost: Array
+    """(2, n) what the projection loses of phi and psi."""
+
+
+@dataclass(frozen=True, eq=False)
+class Bounded:
+    """A smooth curve through keyframes; two keyframes are joined by the plain interpolation.
+
+    Cubic Hermite pieces in ``log f_z``, ``nu`` and the rigid motion, with tangents that are
+    shortened where they would carry k or sigma_2 beyond the worse keyframe.
+    """
+
+    boundary: Boundary
+    maps: tuple[HarmonicMap, ...]
+    times: tuple[float, ...]
+    frames: tuple[_Frame, ...]
+    tangents: Array
+    """(k, 2 s + 2) of the fields, the angle and the mean."""
+
+    @classmethod
+    def through(
+        cls,
+        maps: Sequence[HarmonicMap],
+        times: Sequence[float],
+        turns: Sequence[int],
+        closed: bool = False,
+    ) -> Bounded:
+        """Through maps of one domain whose ``f_z`` turn alike; ``turns`` more ways round a piece.
+
+        Where ``closed``, the last map is the first one again.
+        """
+        boundary = boundary_of(maps[0].domain)
+        frames: list[_Frame] = []
+        for i, map in enumerate(maps):
+            frames.append(_frame(boundary, map, frames[-1:], turns[i - 1] if i else 0))
+        rows = np.stack([_row(frame) for frame in frames])
+        rough = _tangents(rows, np.asarray(times), closed)
+        curve = cls(boundary, tuple(maps), tuple(times), tuple(frames), rough)
+        return curve if len(maps) == 2 else curve._shortened(closed)
+
+    def __call__(self, piece: int, s: float) -> Coefficients:
+        """Coefficients at the time ``s`` from 0 to 1 between a keyframe and the next."""
+        if s in (0, 1):
+            at = self.maps[piece + int(s)]
+            return at.phi, at.psi
+        row = self._row(piece, s)
+        lost = [self.frames[piece + i].lost for i in (0, 1)]
+        phi, psi = _fitted(self.boundary, row[:-2]) + lost[0] + s * (lost[1] - lost[0])
+        turn = np.exp(1j * row[-2].real)
+        return self.boundary.translated(turn * phi, row[-1]), psi / turn
+
+    def _row(self, piece: int, s: float) -> Array:
+        """The fields, the angle and the mean by cubic Hermite interpolation."""
+        before, after = (_row(self.frames[piece + i]) for i in (0, 1))
+        span = self.times[piece + 1] - self.times[piece]
+        out, into = span * self.tangents[piece], span * self.tangents[piece + 1]
+        change = after - before
+        return before + s * (
+            out + s * (3 * change - 2 * out - into + s * (out + into - 2 * change))
+        )
+
+    def _shortened(self, closed: bool) -> Bounded:
+        """With tangents short enough that no piece exceeds its worse end."""
+        size, tangents = np.ones(len(self.maps)), self.tangents
+        ends = [_extremes(frame.fields) for frame in self.frames]
+        curve = self
+        for halving in range(_MOST_HALVINGS + 1):
+            wild = [i for i in range(len(size) - 1) if curve._exceeds(i, ends[i], ends[i + 1])]
+            if not wild:
+                break
+            for i in {*wild, *(i + 1 for i in wild)}:
+                size[i] = 0 if halving == _MOST_HALVINGS - 1 else size[i] / 2
+            if closed:
+                size[[0, -1]] = min(size[0], size[-1])
+            new = size[:, None] * tangents
+            new[:, -2:] = tangents[:, -2:]  # the rigid motion distorts nothing
+            curve = Bounded(self.boundary, self.maps, self.times, self.frames, new)
+        return curve
+
+    def _exceeds(self, piece: int, *ends: tuple[float, float]) -> bool:
+        within = [_extremes(self._row(piece, s)[:-2]) for s in _PROBES]
+        (least, most), (least_within, most_within) = (
+            (min(sigma2 for sigma2, _ in each), max(k for _, k in each)) for each in (ends, within)
+        )
+        return least_within < least * (1 - _EXCESS) or most_within > most * (1 + _EXCESS)
+
+
+def _frame(boundary: Boundary, map: HarmonicMap, before: list[_Frame], turns: int) -> _Frame:
+    """A keyframe, turned and with its logarithm of the branch nearest to the one before."""
+    turn, mean = centred(boundary, map)
+    angle = float(np.angle(turn))
+    if before:
+        angle = _nearest(angle, before[0].angle) + 2 * np.pi * turns
+    turn = np.exp(1j * angle)
+    phi, psi = boundary.translated(map.phi, -mean) / turn, map.psi * turn
+    fz, fzb_conj = boundary.derivatives(phi, psi)
+    log = boundary.logarithm(phi, fz)
+    middle = float(boundary.mean @ log.imag)
+    wanted = float(boundary.mean @ before[0].fields[: len(log)].imag) if before else 0.0
+    log += 1j * (_nearest(middle, wanted) - middle)
+    fields = np.concatenate([log, fzb_conj / fz])
+    return _Frame(angle, mean, fields, np.stack([phi, psi]) - _fitted(boundary, fields))
+
+
+def _fitted(boundary: Boundary, fields: Array) -> Array:
+    """(2, n) phi and psi of the map nearest to given fields, with the mean image 0."""
+    log, nu = np.split(fields, 2)
+    fz = np.exp(log)
+    phi, psi = boundary.fitted(fz, nu * fz)
+    return np.stack([boundary.translated(phi, -boundary.images(phi, psi).mean()), psi])
+
+
+def _row(frame: _Frame) -> Array:
+    return np.concatenate([frame.fields, [frame.angle, frame.mean]])
+
+
+def _extremes(fields: Array) -> tuple[float, float]:
+    """The least sigma_2 and the largest k at the nodes."""
+    log, nu = np.split(fields, 2)
+    k = np.abs(nu)
+    return float((np.exp(log.real) * (1 - k)).min()), float(k.max())
+
+
+def _nearest(angle: float, to: float) -> float:
+    return angle - 2 * np.pi * round((angle - to) / (2 * np.pi))
+
+
+def _tangents(rows: Array, times: Array, closed: bool) -> Array:
+    """Slopes of the parabola through each row and its neighbours; of the chord at open ends."""
+    span = np.diff(times)
+    slopes = np.diff(rows, axis=0) / span[:, None]
+    before, after = np.roll(span, 1)[:, None], span[:, None]
+    inner = (after * np.roll(slopes, 1, axis=0) + before * slopes) / (before + after)
+    tangents = np.concatenate([inner, inner[:1]])
+    if not closed:
+        tangents[0], tangents[-1] = slopes[0], slopes[-1]
+    return tangents

@@ -1,0 +1,135 @@
+"""The smooth motion through keyframes, and linear pieces that follow it."""
+
+from __future__ import annotations
+
+import bisect
+import functools
+import itertools
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from glid_nb._arrays import Array
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.motion.boundary import boundary_of
+from glid_nb.motion.bounded import Bounded, Coefficients
+from glid_nb.motion.settings import EASINGS
+from glid_nb.motion.solved import solved_on_the_way
+
+if TYPE_CHECKING:
+    from glid_nb.motion.motion import Motion
+
+_SAMPLES = 24  # of each interval, to see how it bends
+_MOST_PIECES = 256
+
+
+class Piece(NamedTuple):
+    """Between its times the coefficients, and so all images, move on straight lines."""
+
+    start: float
+    end: float
+    start_map: HarmonicMap
+    end_map: HarmonicMap
+
+    def at(self, time: float) -> HarmonicMap:
+        """The map at a time of the piece."""
+        if time in (self.start, self.end):
+            return self.start_map if time == self.start else self.end_map
+        s = (time - self.start) / (self.end - self.start)
+        return HarmonicMap(self.start_map.domain, *_blended((self.start_map, self.end_map), 0, s))
+
+
+def linear_pieces(times: Sequence[float], maps: Sequence[HarmonicMap]) -> tuple[Piece, ...]:
+    """The pieces between maps at increasing times."""
+    spans = zip(itertools.pairwise(times), itertools.pairwise(maps), strict=True)
+    return tuple(Piece(*times, *maps) for times, maps in spans)
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A motion before it is cut into linear pieces."""
+
+    maps: tuple[HarmonicMap, ...]
+    times: tuple[float, ...]
+    easing: tuple[str, ...]
+    between: Callable[[int, float], Coefficients]
+    """Coefficients between keyframe i and the next, by the eased time in [0, 1]."""
+    known: dict[float, HarmonicMap] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, motion: Motion) -> Curve:
+        """The curve that a motion's settings describe."""
+        closed = motion.repeat == "loop"
+        maps, times = motion.keyframes + motion.keyframes[:closed], motion.times
+        if motion.between == "linear":
+            between: Callable[[int, float], Coefficients] = functools.partial(_blended, maps)
+        elif motion.between == "bounded":
+            between = Bounded.through(maps, times, motion.turns, closed)
+        else:
+            between = _through_solved(maps, times, motion.turns, motion.handles, closed)
+        return cls(maps, times, motion.easing, between)
+
+    def map(self, time: float) -> HarmonicMap:
+        """The map at a time; at a keyframe's, that keyframe."""
+        if time in self.times:
+            return self.maps[self.times.index(time)]
+        if time not in self.known:
+            i = bisect.bisect_right(self.times, time) - 1
+            s = (time - self.times[i]) / (self.times[i + 1] - self.times[i])
+            coefficients = self.between(i, EASINGS[self.easing[i]](s))
+            self.known[time] = HarmonicMap(self.maps[0].domain, *coefficients)
+        return self.known[time]
+
+    def breaks(self, tolerance: float) -> list[float]:
+        """The keyframes' times, and others between which images move straight up to a distance.
+
+        A piece of length h is off by ``h^2 / 8`` times the second derivative, so pieces are as
+        short as the square root of that is large.
+        """
+        breaks = [self.times[0]]
+        for start, end in itertools.pairwise(self.times):
+            samples = np.linspace(start, end, _SAMPLES + 1)
+            images = np.stack([self._images(float(time)) for time in samples])
+            bend = np.abs(np.diff(images, 2, axis=0)).max(axis=1)
+            needed = np.sqrt(np.concatenate([bend[:1], bend, bend[-1:]]) / (8 * tolerance))
+            along = np.append(0, np.cumsum((needed[1:] + needed[:-1]) / 2))
+            count = int(np.ceil(np.clip(along[-1], 1, _MOST_PIECES)))
+            inside = np.interp(np.arange(1, count) / count * along[-1], along, samples)
+            breaks += [*map(float, inside), end]
+        return breaks
+
+    def _images(self, time: float) -> Array:
+        map = self.map(time)
+        return boundary_of(map.domain).images(map.phi, map.psi)
+
+
+def _blended(maps: Sequence[HarmonicMap], piece: int, s: float) -> Coefficients:
+    a, b = maps[piece], maps[piece + 1]
+    return a.phi + s * (b.phi - a.phi), a.psi + s * (b.psi - a.psi)
+
+
+def _through_solved(
+    maps: Sequence[HarmonicMap],
+    times: Sequence[float],
+    turns: Sequence[int],
+    handles: Array | None,
+    closed: bool,
+) -> Callable[[int, float], Coefficients]:
+    """The bounded interpolation through the keyframes and maps that are solved between them."""
+    ways = [solved_on_the_way(*ends, handles) for ends in itertools.pairwise(maps)]
+    all_maps, all_times, all_turns, first = [maps[0]], [times[0]], [], [0]
+    for way, (start, end), turn in zip(ways, itertools.pairwise(times), turns, strict=True):
+        all_maps += way
+        all_times += [start + (end - start) * (j + 1) / len(way) for j in range(len(way))]
+        all_turns += [turn, *[0] * (len(way) - 1)]
+        first.append(len(all_maps) - 1)
+    curve = Bounded.through(all_maps, all_times, all_turns, closed)
+
+    def between(piece: int, s: float) -> Coefficients:
+        place = s * (first[piece + 1] - first[piece])
+        inner = min(int(place), first[piece + 1] - first[piece] - 1)
+        return curve(first[piece] + inner, place - inner)
+
+    return between

@@ -1,0 +1,111 @@
+"""Motions as files: JSON with the settings and every map at which the motion bends."""
+
+from __future__ import annotations
+
+import itertools
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from glid_nb import _json
+from glid_nb._errors import about
+from glid_nb.geometry import as_points
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.harmonic import map as maps
+from glid_nb.motion.settings import MotionError
+
+if TYPE_CHECKING:
+    from glid_nb.motion.motion import Motion
+
+FORMAT = "glid_nb-motion"
+FORMAT_VERSION = 1
+
+_MOST_KNOTS = 10_000
+_DOMAIN_KEYS = ("cage", "holes", "offset_cage", "offset_holes", "hole_points")
+_SETTINGS = ("times", "easing", "repeat", "between", "tolerance", "turns")
+_REQUIRED = {
+    **dict.fromkeys(("format", "version", *_DOMAIN_KEYS, *_SETTINGS), _json.anything),
+    "times": _json.check_list,
+    "knots": _json.check_list,
+}
+_OPTIONAL = {"handles": _json.check_points, "notes": _json.anything}
+_KNOT = {"time": _json.anything, "phi": _json.anything, "psi": _json.anything}
+
+
+def save(path: str | Path, motion: Motion) -> None:
+    """Write a motion, atomically; numbers read back bit for bit."""
+    pieces = motion.pieces_forth
+    knots = [(pieces[0].start, pieces[0].start_map), *((p.end, p.end_map) for p in pieces)]
+    handles = {} if motion.handles is None else {"handles": motion.handles.tolist()}
+    data = {
+        "format": FORMAT,
+        "version": FORMAT_VERSION,
+        **motion.domain.to_dict(),
+        **{key: getattr(motion, key) for key in _SETTINGS},
+        **handles,
+        "knots": [
+            {
+                "time": time,
+                "phi": as_points(map.phi).tolist(),
+                "psi": as_points(map.psi).tolist(),
+            }
+            for time, map in knots
+        ],
+    }
+    _json.write_json(path, data)
+
+
+def load(path: str | Path, cls: type[Motion]) -> Motion:
+    """The motion of a file, proved anew; MotionError names the file and what is wrong there."""
+    with about(path, MotionError):
+        data = _json.parse_json(Path(path).read_bytes(), str(path))
+        if not isinstance(data, dict) or data.get("format") != FORMAT:
+            raise MotionError(f'this is no glid_nb motion: the key "format" is not "{FORMAT}"')
+        if data.get("version") != FORMAT_VERSION:
+            raise MotionError(
+                f"motion version {data.get('version')!r:.20} is not supported; "
+                f"expected {FORMAT_VERSION}"
+            )
+        _json.check_fields(data, "the motion", _REQUIRED, _OPTIONAL)
+        times, knots = _knots(data)
+        closed = data["repeat"] == "loop"
+        wanted = [t for t in data["times"] if t in times]
+        if len(wanted) != len(data["times"]) or [times[0], times[-1]] != [wanted[0], wanted[-1]]:
+            raise MotionError('"times" must be times of knots, the first and the last included')
+        at = [knots[times.index(t)] for t in wanted]
+        if closed and not _same(at[0], at[-1]):
+            raise MotionError("the last knot of the loop is not its first keyframe")
+        settings = {key: data[key] for key in (*_SETTINGS[1:], "handles") if key in data}
+        motion = cls(at[: len(at) - closed], wanted, **settings)
+        vars(motion)["_knots"] = (times, knots)
+        motion.certificate  # noqa: B018 - proves every piece
+        return motion
+
+
+def _knots(data: dict[str, Any]) -> tuple[list[float], list[HarmonicMap]]:
+    given = data["knots"]
+    if not 2 <= len(given) <= _MOST_KNOTS:
+        raise MotionError(f'"knots" must hold 2 to {_MOST_KNOTS:,} maps, not {len(given)}')
+    times, found = [], []
+    for i, knot in enumerate(given):
+        with about(f"knots[{i}]", MotionError):
+            _json.check_fields(knot, "a knot", _KNOT)
+            if type(knot["time"]) not in (int, float) or not np.isfinite(knot["time"]):
+                raise MotionError(f"time is {knot['time']!r:.40}; it must be a finite number")
+            if i == 0:
+                domain = {key: data.get(key) for key in (*_DOMAIN_KEYS, "notes")}
+                head = {"format": maps.FORMAT, "version": maps.FORMAT_VERSION}
+                found.append(HarmonicMap.from_dict({**knot, **domain, **head}))
+            else:
+                both = (maps.complex_from_pairs(knot[key], f'"{key}"') for key in ("phi", "psi"))
+                found.append(HarmonicMap(found[0].domain, *both))
+        times.append(float(knot["time"]))
+    for i, (before, after) in enumerate(itertools.pairwise(times)):
+        if not before < after:
+            raise MotionError(f"knots[{i + 1}] is not later than knots[{i}]")
+    return times, found
+
+
+def _same(a: HarmonicMap, b: HarmonicMap) -> bool:
+    return np.array_equal(a.phi, b.phi) and np.array_equal(a.psi, b.psi)

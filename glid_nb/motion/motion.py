@@ -1,0 +1,251 @@
+"""Motion through certified maps, as a value."""
+
+from __future__ import annotations
+
+import bisect
+import functools
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from glid_nb._arrays import Array, read_only
+from glid_nb.certificate.pieces import PieceCertificate, certify_pieces
+from glid_nb.certificate.rounding import rounded_down
+from glid_nb.geometry import Domain, place
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.motion import file
+from glid_nb.motion.curve import Curve, Piece, linear_pieces
+from glid_nb.motion.settings import (
+    Between,
+    Easing,
+    MotionError,
+    Repeat,
+    checked,
+    checked_easing,
+    checked_keyframes,
+    checked_times,
+    checked_turns,
+)
+
+_TOLERANCE = 0.002
+# A piece that is not proved is halved so often before the motion is given up.
+_MORE_HALVINGS = 4
+
+
+@dataclass(frozen=True, eq=False)
+class MotionCertificate:
+    """What is proved of a motion at every instant."""
+
+    certified: bool
+    """Whether every map of the motion is proved locally injective on the closed domain."""
+    sigma2_lower: float
+    sigma1_upper: float
+    k_upper: float
+    until: float
+    """The time before which everything is proved; the end of the motion where certified."""
+    pieces: tuple[PieceCertificate, ...]
+    """The same for each of :attr:`Motion.pieces`."""
+    reason: str
+    """One sentence: what is proved, or until when, and where the proof fails."""
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Motion:
+    """What lies between certified maps of one domain, proved at every instant.
+
+    Parameters
+    ----------
+    keyframes : sequence of HarmonicMap, Result or Certificate
+        At least two poses; every one is certified, and ``f_z`` turns alike in all of them.
+    times : sequence of float, optional
+        Seconds, strictly increasing; by default 0, 1, 2 and so on. A loop may have one time more:
+        when it is back at its first keyframe; otherwise that takes as long as a mean interval.
+    easing : str or sequence of str
+        "linear", "in", "out" or "in-out", for all intervals or for each.
+    repeat : "once", "loop" or "ping-pong"
+        "loop" goes back to the first keyframe after the last, "ping-pong" runs back the same way.
+    between : "bounded", "solved" or "linear"
+        Bounded distortion interpolation; the same through maps solved on the way, with handles that
+        move on rigid paths; or coefficients blended as they are.
+    tolerance : float
+        How far an image may be off the smooth motion, relative to the cage's longer side.
+    turns : sequence of int, optional
+        Whole turns that an interval adds to the short way round, counter-clockwise.
+    handles : (h, 2) array_like, optional
+        Points of the domain that move on rigid paths for "solved"; by default even points.
+
+    Raises
+    ------
+    MotionError
+        Where a keyframe is not certified or does not fit the others, or a setting is not valid.
+    """
+
+    keyframes: tuple[HarmonicMap, ...] = field(repr=False)
+    times: tuple[float, ...]
+    """Of the keyframes, and of a loop's return."""
+    easing: tuple[Easing, ...]
+    repeat: Repeat
+    between: Between
+    tolerance: float
+    turns: tuple[int, ...]
+    handles: Array | None = field(repr=False)
+
+    def __init__(
+        self,
+        keyframes: Sequence[Any],
+        times: Sequence[float] | None = None,
+        *,
+        easing: Easing | Sequence[Easing] = "linear",
+        repeat: Repeat = "once",
+        between: Between = "bounded",
+        tolerance: float = _TOLERANCE,
+        turns: Sequence[int] | None = None,
+        handles: ArrayLike | None = None,
+    ) -> None:
+        maps = checked_keyframes(keyframes)
+        all_times = checked_times(times, len(maps), repeat == "loop")
+        count = len(all_times) - 1
+        points = None if handles is None else read_only(np.array(handles, dtype=float))
+        vars(self).update(
+            keyframes=maps,
+            times=all_times,
+            easing=checked_easing(easing, count),
+            repeat=checked("repeat", Repeat, repeat),
+            between=checked("between", Between, between),
+            tolerance=checked("tolerance", float, tolerance, above=0),
+            turns=checked_turns(turns, count),
+            handles=points,
+        )
+
+    @property
+    def domain(self) -> Domain:
+        """The domain of all maps."""
+        return self.keyframes[0].domain
+
+    @property
+    def start(self) -> float:
+        """The first time, seconds."""
+        return self.times[0]
+
+    @property
+    def end(self) -> float:
+        """The last time, seconds: of the last keyframe, a loop's return, or the way back."""
+        there = self.times[-1] - self.times[0]
+        return self.times[-1] + (there if self.repeat == "ping-pong" else 0.0)
+
+    @property
+    def duration(self) -> float:
+        """Seconds; once there and back for "ping-pong"."""
+        return self.end - self.start
+
+    @functools.cached_property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The linear pieces of the motion in order: what is shown, exported and proved."""
+        forth = self.pieces_forth
+        if self.repeat != "ping-pong":
+            return forth
+        turn = 2 * self.times[-1]
+        back = (Piece(turn - p.end, turn - p.start, p.end_map, p.start_map) for p in forth[::-1])
+        return (*forth, *back)
+
+    @property
+    def pieces_forth(self) -> tuple[Piece, ...]:
+        """Those before a ping-pong runs back."""
+        return self._proved[0]
+
+    @functools.cached_property
+    def certificate(self) -> MotionCertificate:
+        """What is proved for every instant; computed on first use, with the pieces."""
+        forth, proofs = self._proved
+        failing = next((i for i, proof in enumerate(proofs) if not proof.certified), None)
+        until, reason = self.end, f"Proved locally injective at every time on {len(forth)} pieces."
+        if failing is not None:
+            piece, proof = forth[failing], proofs[failing]
+            until = piece.start + proof.until * (piece.end - piece.start)
+            reason = (
+                f"Certified up to t = {rounded_down(until)}; "
+                f"the panel near {place(proof.place)} fails."
+            )
+        back = proofs[::-1] if self.repeat == "ping-pong" else ()
+        return MotionCertificate(
+            failing is None,
+            min(proof.sigma2_lower for proof in proofs),
+            max(proof.sigma1_upper for proof in proofs),
+            max(proof.k_upper for proof in proofs),
+            until,
+            (*proofs, *back),
+            reason,
+        )
+
+    def __call__(self, time: float) -> HarmonicMap:
+        """The map at a time; a loop and a ping-pong go on for ever, other motions do not.
+
+        Raises MotionError for a time outside ``start`` to ``end``.
+        """
+        time = checked("time", float, time, least=-1e300)
+        if self.repeat != "once":
+            time = self.start + (time - self.start) % self.duration
+        elif not self.start <= time <= self.end:
+            raise MotionError(
+                f"the time {time:g} is outside the motion, from {self.start:g} to {self.end:g} s"
+            )
+        starts = [piece.start for piece in self.pieces]
+        return self.pieces[max(bisect.bisect_right(starts, time) - 1, 0)].at(time)
+
+    def resample(self, fps: float) -> tuple[Array, tuple[HarmonicMap, ...]]:
+        """(n,) times at even distances, and the maps then.
+
+        A motion that repeats leaves out its end, which is its start.
+        """
+        fps = checked("fps", float, fps, above=0)
+        count = max(round(self.duration * fps), 1)
+        times = self.start + np.arange(count + (self.repeat == "once")) * self.duration / count
+        times = np.minimum(times, self.end)
+        return times, tuple(self(float(time)) for time in times)
+
+    @functools.cached_property
+    def _proved(self) -> tuple[tuple[Piece, ...], tuple[PieceCertificate, ...]]:
+        """The pieces there, and their proofs; those that are not proved are halved in time."""
+        known = vars(self).get("_knots")
+        if known is not None:
+            pieces = linear_pieces(*known)
+            return pieces, certify_pieces(known[1])
+        curve = Curve.of(self)
+        times = curve.breaks(self.tolerance * self.domain.cage.longer_side)
+        pieces = linear_pieces(times, [curve.map(time) for time in times])
+        proofs = certify_pieces([pieces[0].start_map, *(piece.end_map for piece in pieces)])
+        for _ in range(_MORE_HALVINGS if self.between != "linear" else 0):
+            if all(proof.certified for proof in proofs):
+                break
+            new = [_halved(curve, *each) for each in zip(pieces, proofs, strict=True)]
+            pieces, proofs = zip(*itertools.chain.from_iterable(new), strict=True)
+        return pieces, proofs
+
+    def save(self, path: str | Path) -> None:
+        """Write keyframes, settings and pieces as JSON, atomically."""
+        file.save(path, self)
+
+    @classmethod
+    def load(cls, path: str | Path) -> Motion:
+        """The motion that :meth:`save` wrote, the same pieces bit for bit, proved anew.
+
+        Raises MotionError, which names the file and what is wrong there.
+        """
+        return file.load(path, cls)
+
+
+def _halved(
+    curve: Curve, piece: Piece, proof: PieceCertificate
+) -> list[tuple[Piece, PieceCertificate]]:
+    """The piece with its proof, or two that follow the curve more closely, with theirs."""
+    middle = (piece.start + piece.end) / 2
+    if proof.certified:
+        return [(piece, proof)]
+    maps = [piece.start_map, curve.map(middle), piece.end_map]
+    parts = linear_pieces([piece.start, middle, piece.end], maps)
+    return list(zip(parts, certify_pieces(maps), strict=True))
