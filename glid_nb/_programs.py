@@ -16,9 +16,7 @@ import threading
 import uuid
 import zlib
 from collections import defaultdict
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Callable
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -27,25 +25,7 @@ import numpy as np
 
 from glid_nb._files import write_bytes_atomically
 from glid_nb._jax import jax
-from glid_nb._runtime import COMPILER_OPTIONS
-
-_watcher: ContextVar[Callable[[str], None] | None] = ContextVar("watcher", default=None)
-
-
-@contextmanager
-def watched(by: Callable[[str], None]) -> Iterator[None]:
-    """Call ``by`` with the name of every stage that begins within; what it raises ends the work."""
-    token = _watcher.set(by)
-    try:
-        yield
-    finally:
-        _watcher.reset(token)
-
-
-def stage(name: str) -> None:
-    """Tell whoever watches this thread that a stage of its work begins."""
-    if (by := _watcher.get()) is not None:
-        by(name)
+from glid_nb._runtime import COMPILER_OPTIONS, stage
 
 
 class Program:

@@ -19,7 +19,9 @@ from glid_nb.solvers.result import Iteration, Result
 from glid_nb.solvers.status import Status
 from glid_nb.solvers.subspace import SubspaceDescent
 
-# Without two handles a rotation costs nothing and the Hessian is singular (Appendix I).
+# Without two handles a rotation costs nothing and the Hessian is singular (Appendix I). To begin
+# with the epsilon is one with which it is definite in single precision too.
+_SINGULAR_RIDGE = 1e-6
 _RIDGE, _LARGEST_RIDGE = 1e-9, 1e-2
 _RIDGE_FACTOR = 100.0
 # When to put the Hessian on all nodes: many iterations, or a short step that gains little.
@@ -65,7 +67,8 @@ class NewtonDescent(SubspaceDescent):
 
     def __init__(self, method: Method, inputs: Inputs) -> None:
         super().__init__(method, inputs, reduced=True)
-        self.ridge = self._least_ridge = _RIDGE if len(inputs.pose) < 2 else 0.0
+        singular = len(inputs.pose) < 2
+        self.ridge, self._least_ridge = (_SINGULAR_RIDGE, _RIDGE) if singular else (0.0, 0.0)
         self.full_since: int | None = None
         if isinstance(inputs.start, Result) and self._continues(inputs.start):
             # The result keeps its own.

@@ -61,8 +61,9 @@ function render({ model, el }) {
   const paper = make("canvas", { className: "glid-paper" });
   const bars = make("div", { className: "glid-legend" });
   const notice = make("div", { className: "glid-notice", role: "status" });
+  const prepared = make("div", { className: "glid-prepared", role: "status" });
   const label = "Deformation canvas: arrow keys move, Enter adds a handle";
-  const box = make("div", { className: "glid-pad", role: "application", "aria-label": label }, paper, bars, notice);
+  const box = make("div", { className: "glid-pad", role: "application", "aria-label": label }, paper, bars, notice, prepared);
   box.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
   el.append(box);
 
@@ -112,6 +113,12 @@ function render({ model, el }) {
     notice.textContent = model.get("notice");
     notice.hidden = !notice.textContent;
   };
+  const prepare = () => {
+    const share = model.get("prepared");
+    prepared.hidden = share >= 1;
+    prepared.textContent = `Warming up: ${Math.round(100 * share)} %`;
+    prepared.style.backgroundSize = `${100 * share}% 100%, auto`;
+  };
   const showLegend = () => {
     const shown = [model.get("legend"), model.get("panel_legend")].filter((bar) => bar.title);
     bars.replaceChildren(...shown.map(colorBar));
@@ -124,11 +131,13 @@ function render({ model, el }) {
     "change:marks change:cursor": soon,
     "change:legend change:panel_legend change:legend_corner": showLegend,
     "change:notice": tell,
+    "change:prepared": prepare,
   };
   for (const [names, listener] of Object.entries(listeners)) model.on(names, listener);
   fit();
   showLegend();
   tell();
+  prepare();
   let gone = false;
   shapes.load().then(() => drawingTime(box, shapes)).then((time) => {
     if (!gone) save(model, { drawn: true, drawing_time: time });
