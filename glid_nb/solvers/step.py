@@ -272,5 +272,5 @@ def _is_ours(problem: Problem, *_: Any) -> bool:
     return cholesky.understood() and type(problem.energy).__module__ == table1.__name__
 
 
-run = Program(iterations, donate=2, may_keep=_is_ours)
+run = Program(iterations, donated=2, may_keep=_is_ours)
 """:func:`iterations` compiled, for one pose; the factor that it is given is gone afterwards."""
