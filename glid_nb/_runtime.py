@@ -117,9 +117,18 @@ def in_chunks(
 
 def cache_directory() -> Path:
     """The folder for compiled programs: ``$GLID_NB_CACHE``, else the user's cache directory."""
-    if named := os.environ.get("GLID_NB_CACHE"):
+    return _directory("GLID_NB_CACHE", "XDG_CACHE_HOME", ".cache")
+
+
+def data_directory() -> Path:
+    """The folder for kept work: ``$GLID_NB_DATA``, else the user's data directory."""
+    return _directory("GLID_NB_DATA", "XDG_DATA_HOME", ".local/share")
+
+
+def _directory(own: str, common: str, usual: str) -> Path:
+    if named := os.environ.get(own):
         return Path(named)
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "glid_nb"
+    return Path(os.environ.get(common) or Path.home() / usual) / "glid_nb"
 
 
 def enable_compilation_cache() -> Path:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from collections.abc import Generator
 from pathlib import Path
 from typing import TypeVar
@@ -42,6 +43,8 @@ def pytest_configure(config: pytest.Config) -> None:
     cache = getattr(config, "cache", None)  # absent with -p no:cacheprovider
     if "GLID_NB_CACHE" not in os.environ and cache is not None:
         os.environ["GLID_NB_CACHE"] = str(cache.mkdir("glid_nb"))
+    # Editors keep their work there; nothing of the user's is touched.
+    os.environ["GLID_NB_DATA"] = tempfile.mkdtemp(prefix="glid_nb-")
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
@@ -169,15 +170,24 @@ def certify(
     else:
         check_tiling(panels, map.domain.cage)
     known: Known = evaluate(panels.start, panels.end)
-    for _ in range(_MAX_ROUNDS if refine else 0):
-        wanted = to_split(known, tightness) & panels.divisible
-        if known.hopeless.any() or not wanted.any() or len(panels) > _MAX_PANELS:
-            break
-        panels, known = split(panels, known, wanted, evaluate)
+    if refine:
+        panels, known = refined(panels, known, evaluate, tightness)
     return _conclude(map, panels, known, kind)
 
 
-def to_split(known: Known, tightness: float) -> Array:
+def refined(
+    panels: Panels, known: Known, evaluate: Callable[..., Known], tightness: float
+) -> tuple[Panels, Known]:
+    """Halve panels until the proof succeeds with tight bounds, or will not."""
+    for _ in range(_MAX_ROUNDS):
+        wanted = _to_split(known, tightness) & panels.divisible
+        if known.hopeless.any() or not wanted.any() or len(panels) > _MAX_PANELS:
+            break
+        panels, known = split(panels, known, wanted, evaluate)
+    return panels, known
+
+
+def _to_split(known: Known, tightness: float) -> Array:
     """(p,) bool: the proof fails, or the panel keeps the overall bounds from being tight."""
     bounds, injective = known.bounds, np.asarray(known.bounds.injective)
     if not np.isfinite(known.slack).all():  # out of scale

@@ -61,14 +61,14 @@ def run(chosen: argparse.Namespace) -> None:
     result, report = run_solver(domain, pose, energy, options)
     assert isinstance(result.map, glid_nb.HarmonicMap)
     with step("rendering"):
-        deformed, cropped = _deformed(image, result.map)
+        deformed, cropped = _deformed(image, result.map, pose)
     with step("drawing the overview"):
         figure = glid_nb.figures.figure_png(glid_nb.figures.overview(image, result, pose))
 
     size = list(image.shape[1::-1])
     contents = (
         *(deformed, figure, json_text(cage_data(tracing))),
-        *(map_text(result.map, size), json_text(report)),
+        *(map_text(result.map, size, pose), json_text(report)),
     )
     files = {out / name: data for name, data in zip(_FILES, contents, strict=True)}
     out.mkdir(parents=True, exist_ok=True)
@@ -117,14 +117,14 @@ def _pose(
 
 
 def _deformed(
-    image: NDArray[np.unsignedinteger], harmonic_map: glid_nb.HarmonicMap
+    image: NDArray[np.unsignedinteger], harmonic_map: glid_nb.HarmonicMap, pose: glid_nb.Pose
 ) -> tuple[bytes, bool]:
     """The deformed picture as PNG, and whether it was zoomed out to show all of it."""
     # Slow to import, and --help does not need them.
     from glid_nb.export.picture import png  # noqa: PLC0415
     from glid_nb.imaging.render import rendering  # noqa: PLC0415
 
-    in_place = rendering(image, harmonic_map)
+    in_place = rendering(image, harmonic_map, pose=pose)
     if in_place.outside <= _CROPPED:
         return png(in_place.picture), False
-    return glid_nb.export.picture_png(image, harmonic_map, view="fit"), True
+    return glid_nb.export.picture_png(image, harmonic_map, view="fit", pose=pose), True

@@ -38,6 +38,7 @@ def run(chosen: argparse.Namespace) -> None:
     data = read_object(chosen.map)
     with about(chosen.map):
         harmonic_map = glid_nb.HarmonicMap.from_dict(data)
+        pose = glid_nb.Pose.from_dict(data) if "depths" in data else None
     image = glid_nb.read_image(chosen.image)
     own = image.shape[1::-1]
     traced = data.get("image_size_px")
@@ -48,7 +49,7 @@ def run(chosen: argparse.Namespace) -> None:
         )
     size = tuple(chosen.size or own)
     with about(chosen.map), step("rendering"):
-        picture = glid_nb.export.picture_png(image, harmonic_map, size, chosen.view)
+        picture = glid_nb.export.picture_png(image, harmonic_map, size, chosen.view, pose)
     write_all({chosen.out: picture})
     print(f"{chosen.out}: {size[0]} x {size[1]} pixels")
 

@@ -1,8 +1,8 @@
 """Solve a problem given as a file, and write the map and a report.
 
 PROBLEM.json is an object with the keys cage, holes, handles and targets (world coordinates);
-offset, offset_cage, offset_holes and hole_points are used when given, and image_size_px goes into
-the map. Without --report only the
+offset, offset_cage, offset_holes and hole_points are used when given, and image_size_px and depths
+go into the map. Without --report only the
 map is written, without --out only the report.
 """
 
@@ -52,7 +52,7 @@ def run(chosen: argparse.Namespace) -> None:
     assert isinstance(result.map, glid_nb.HarmonicMap)
     files: dict[Path, bytes | str] = {}
     if chosen.out:
-        files[chosen.out] = map_text(result.map, size)
+        files[chosen.out] = map_text(result.map, size, problem.pose)
     if chosen.proof and result.certificate:
         files[chosen.proof] = proof_text(result.certificate)
     if chosen.report:

@@ -49,10 +49,10 @@ def run_solver(
         return result, glid_nb.build_report(result)
 
 
-def map_text(map: glid_nb.HarmonicMap, image_size: Sequence[int] | None) -> str:
-    """The content of map.json, with the pixels of the picture for `glid-nb render` if known."""
+def map_text(map: glid_nb.HarmonicMap, image_size: Sequence[int] | None, pose: glid_nb.Pose) -> str:
+    """The content of map.json, with the picture's size if known and depths for `glid-nb render`."""
     size = {} if image_size is None else {"image_size_px": image_size}
-    return json_text({**map.to_dict(), **size})
+    return json_text({**map.to_dict(), **size, **(pose.to_dict() if pose.depths.any() else {})})
 
 
 def finish(

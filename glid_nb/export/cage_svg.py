@@ -9,12 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.figures.style import BLUE, CYAN, GREY, INK
+from glid_nb.geometry import as_points
+from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.mesh import deformed_loops
+from glid_nb.imaging.order import order_of
+from glid_nb.imaging.sheets import Sheets
 from glid_nb.solvers import Pose
 
 _MARGIN = 0.02  # around everything, as a share of the longer side
+_PIECE = 0.0025  # of the cage's size: how finely its covered parts are found
 
 
 def cage_svg(
@@ -26,6 +31,8 @@ def cage_svg(
 ) -> str:
     """Draw the image of a map's cage: curves, as polylines within 0.002 world units of them.
 
+    Where the shape overlaps itself, what another part covers is dashed; a covered handle is a ring.
+
     Parameters
     ----------
     map : HarmonicMap
@@ -35,13 +42,15 @@ def cage_svg(
     source : bool
         Draw the undeformed cage too, dashed.
     pose : Pose, optional
-        Draw its targets as disks and the images of its handles as dots.
+        Draw its targets as disks and the images of its handles as dots; its depths say which part
+        is in front.
 
     Returns
     -------
     str
         An SVG document with the paths ``cage`` and, if wanted, ``source-cage``, each with one
-        closed subpath per loop, the exterior first.
+        closed subpath per loop, the exterior first. Where the shape overlaps itself the path
+        ``in-sight`` lies over ``cage``, with an open subpath for every piece that is not covered.
     """
     frame = PixelFrame(*image_size)
     loops = [frame.to_pixel(loop) for loop in deformed_loops(map)]
@@ -53,10 +62,22 @@ def cage_svg(
     (x, y), (w, h) = low, high - low
     line, radius = unit / 500, unit / 130
     parts = [_path("source-cage", cage_loops, GREY, line, dash=4 * line)] if source else []
-    parts.append(_path("cage", loops, BLUE, line))
+    sheets = Sheets(map, order_of(map.domain.cage, pose))
+    pieces = _in_sight(map, sheets)
+    if pieces is None:
+        parts.append(_path("cage", loops, BLUE, line))
+    else:
+        parts.append(_path("cage", loops, BLUE, line / 2, dash=2 * line))
+        parts.append(
+            _path("in-sight", (frame.to_pixel(piece) for piece in pieces), BLUE, line, close="")
+        )
     if pose is not None and len(pose):
-        parts.append(_disks("targets", frame.to_pixel(pose.targets), radius, CYAN))
-        parts.append(_disks("handles", frame.to_pixel(map(pose.handles)), radius / 2, INK))
+        hidden = sheets.hidden(pose.handles)
+        targets, images = (frame.to_pixel(p) for p in (pose.targets, map(pose.handles)))
+        parts.append(_disks("targets", targets[~hidden], radius, CYAN))
+        parts.append(_disks("handles", images[~hidden], radius / 2, INK))
+        if hidden.any():
+            parts.append(_disks("covered", targets[hidden], radius, "none", CYAN))
     body = "\n  ".join(parts)
     return (
         '<?xml version="1.0" encoding="UTF-8"?>\n'
@@ -66,10 +87,30 @@ def cage_svg(
     )
 
 
+def _in_sight(map: HarmonicMap, sheets: Sheets) -> list[NDArray[np.float64]] | None:
+    """The pieces of the cage's image that no other part covers; None if nothing is covered."""
+    cage, pieces, covered = map.domain.cage, [], False
+    for loop in cage.loops_complex:
+        lengths = np.abs(np.roll(loop, -1) - loop)
+        parts = np.ceil(lengths / (_PIECE * cage.longer_side)).astype(int)
+        points = as_points(subdivided(loop, parts))
+        hidden, images = sheets.hidden(points), map(points)
+        covered |= hidden.any()
+        runs = np.split(np.concatenate([images, images[:1]]), np.flatnonzero(hidden))
+        # All but the first begin with a covered point.
+        pieces += [run for run in (runs[0], *(run[1:] for run in runs[1:])) if len(run) > 1]
+    return pieces if covered else None
+
+
 def _path(
-    name: str, loops: Iterable[NDArray[np.float64]], color: str, width: float, dash: float = 0.0
+    name: str,
+    loops: Iterable[NDArray[np.float64]],
+    color: str,
+    width: float,
+    dash: float = 0.0,
+    close: str = "Z",
 ) -> str:
-    data = " ".join("M" + " ".join(f"{x:.3f},{y:.3f}" for x, y in loop) + "Z" for loop in loops)
+    data = " ".join("M" + " ".join(f"{x:.3f},{y:.3f}" for x, y in loop) + close for loop in loops)
     dashes = f' stroke-dasharray="{dash:.3f}"' if dash else ""
     return (
         f'<path id={quoteattr(name)} d="{data}" fill="none" fill-rule="evenodd" '
@@ -77,6 +118,8 @@ def _path(
     )
 
 
-def _disks(name: str, points: NDArray[np.float64], radius: float, color: str) -> str:
+def _disks(
+    name: str, points: NDArray[np.float64], radius: float, color: str, line: str = "white"
+) -> str:
     disks = "".join(f'<circle cx="{x:.3f}" cy="{y:.3f}" r="{radius:.3f}"/>' for x, y in points)
-    return f'<g id={quoteattr(name)} fill="{color}" stroke="white">{disks}</g>'
+    return f'<g id={quoteattr(name)} fill="{color}" stroke="{line}">{disks}</g>'

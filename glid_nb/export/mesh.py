@@ -12,6 +12,7 @@ from PIL import Image
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.mesh import deformed_mesh
+from glid_nb.solvers import Pose
 
 # trimesh takes a second to import, so only the functions that need it do.
 if TYPE_CHECKING:
@@ -44,7 +45,11 @@ class TexturedMesh:
 
 
 def textured_mesh(
-    image: ArrayLike, map: HarmonicMap, n_vertices: int = 5000, tolerance: float | None = None
+    image: ArrayLike,
+    map: HarmonicMap,
+    n_vertices: int = 5000,
+    tolerance: float | None = None,
+    pose: Pose | None = None,
 ) -> TexturedMesh:
     """Triangulate a map's domain and give each vertex its image and its place in the picture.
 
@@ -57,6 +62,8 @@ def textured_mesh(
         About how many vertices to spread evenly, at least 3.
     tolerance : float, optional
         World units: edges that stray further than this from the map are split.
+    pose : Pose, optional
+        Whose depths say which part is in front where the shape overlaps itself.
 
     Raises
     ------
@@ -65,10 +72,11 @@ def textured_mesh(
     """
     texture = as_rgba8(image)
     height, width = texture.shape[:2]
-    mesh = deformed_mesh(map, n_vertices, tolerance)
+    mesh = deformed_mesh(map, n_vertices, tolerance, pose)
     u, v = (PixelFrame(width, height).to_pixel(mesh.vertices) / [width, height]).T
-    z = mesh.heights - mesh.heights.min()
-    positions = np.column_stack([mesh.images, _RELIEF * z / (z.max() or 1.0)])
+    # Their order, not the heights themselves: depths leave little room between the other parts.
+    z = np.unique(mesh.heights, return_inverse=True)[1]
+    positions = np.column_stack([mesh.images, _RELIEF * z / max(z.max(), 1)])
     return TexturedMesh(positions, np.column_stack([u, 1 - v]), mesh.triangles, texture)
 
 

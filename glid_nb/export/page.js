@@ -24,13 +24,17 @@
   };
   const program = gl.createProgram();
   gl.attachShader(program, compile(gl.VERTEX_SHADER, `
-    in vec2 position; in vec2 place; out vec2 uv; uniform vec2 scale; uniform vec2 shift;
-    void main() { uv = place; gl_Position = vec4(position * scale + shift, 0.0, 1.0); }`));
+    in vec2 position; in vec2 place; in float height; out vec2 uv; uniform vec2 scale; uniform vec2 shift;
+    void main() { uv = place; gl_Position = vec4(position * scale + shift, -height, 1.0); }`));
   gl.attachShader(program, compile(gl.FRAGMENT_SHADER, `
     precision highp float; in vec2 uv; out vec4 color; uniform sampler2D picture; uniform vec4 line;
-    void main() { color = line.a > 0.0 ? vec4(line.rgb * line.a, line.a) : texture(picture, uv); }`));
+    void main() {
+      color = line.a > 0.0 ? vec4(line.rgb * line.a, line.a) : texture(picture, uv);
+      if (color.a < 0.004) discard; // it must not hide what is behind
+    }`));
   gl.bindAttribLocation(program, 0, "position");
   gl.bindAttribLocation(program, 1, "place");
+  gl.bindAttribLocation(program, 2, "height");
   gl.linkProgram(program);
   gl.useProgram(program);
   const uniform = (name) => gl.getUniformLocation(program, name);
@@ -46,10 +50,14 @@
   buffer(gl.ARRAY_BUFFER, floats(data.texture));
   gl.enableVertexAttribArray(1);
   gl.vertexAttribPointer(1, 2, gl.FLOAT, false, 0, 0);
+  buffer(gl.ARRAY_BUFFER, floats(data.heights));
+  gl.enableVertexAttribArray(2);
+  gl.vertexAttribPointer(2, 1, gl.FLOAT, false, 0, 0);
   gl.enableVertexAttribArray(0);
   const faces = buffer(gl.ELEMENT_ARRAY_BUFFER, triangles);
   const lines = edgesOf(triangles);
   const edges = buffer(gl.ELEMENT_ARRAY_BUFFER, lines);
+  gl.depthFunc(gl.LEQUAL);
   gl.enable(gl.BLEND);
   gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
 
@@ -81,7 +89,8 @@
     canvas.width = Math.round(w * ratio);
     canvas.height = Math.round(h * ratio);
     gl.viewport(0, 0, canvas.width, canvas.height);
-    gl.clear(gl.COLOR_BUFFER_BIT);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.DEPTH_TEST);
     const [sx, sy] = [(2 * view.scale) / w, (2 * view.scale) / h];
     gl.uniform2f(uniform("scale"), sx, sy);
     gl.uniform2f(uniform("shift"), -view.x * sx, -view.y * sy);
@@ -91,6 +100,7 @@
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, faces);
     gl.drawElements(gl.TRIANGLES, triangles.length, gl.UNSIGNED_INT, 0); // the lower ones first
     if (!boxes.mesh.checked) return;
+    gl.disable(gl.DEPTH_TEST);
     gl.uniform4f(uniform("line"), 0, 0.45, 0.7, 0.45);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, edges);
     gl.drawElements(gl.LINES, lines.length, gl.UNSIGNED_INT, 0);

@@ -18,6 +18,7 @@ from glid_nb.export.picture import png
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.mesh import deformed_mesh
+from glid_nb.solvers import Pose
 
 _FOLDER = Path(__file__).parent
 _VERTICES = 4000
@@ -37,6 +38,7 @@ def page_html(
     certificate: Certificate | None = None,
     title: str = "Deformed picture",
     tolerance: float = _TOLERANCE,
+    pose: Pose | None = None,
 ) -> str:
     """A page that shows the warped picture, with zoom and pan.
 
@@ -53,13 +55,17 @@ def page_html(
         The page's title and heading.
     tolerance : float
         World units that the mesh's straight edges may stray from the map.
+    pose : Pose, optional
+        Whose depths say which part is in front where the shape overlaps itself.
     """
     texture = as_rgba8(image)
     height, width = texture.shape[:2]
-    mesh = deformed_mesh(map, _VERTICES, tolerance)
+    mesh = deformed_mesh(map, _VERTICES, tolerance, pose)
+    heights = mesh.heights - mesh.heights.mean()
     places = PixelFrame(width, height).to_pixel(mesh.vertices) / [width, height]
     data = {
         "deformed": _base64(mesh.images.astype("<f4")),
+        "heights": _base64((heights / (2 * np.ptp(heights) or 1.0)).astype("<f4")),
         "source": _base64(mesh.vertices.astype("<f4")),
         "texture": _base64(places.astype("<f4")),
         "triangles": _base64(mesh.triangles.astype("<u4")),

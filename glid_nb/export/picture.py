@@ -13,9 +13,11 @@ from PIL import Image, ImageDraw
 
 from glid_nb.figures.style import CYAN, INK
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging import PixelFrame
+from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.mesh import deformed_loops, deformed_mesh
+from glid_nb.imaging.order import order_of
 from glid_nb.imaging.render import View, draw_mesh, render
+from glid_nb.imaging.sheets import Sheets
 from glid_nb.imaging.texture import Texture
 from glid_nb.solvers import Pose
 
@@ -33,9 +35,10 @@ def picture_png(
     map: HarmonicMap,
     size: tuple[int, int] | None = None,
     view: View = "source",
+    pose: Pose | None = None,
 ) -> bytes:
     """Warp a picture through a map, as `glid_nb.render` does; a PNG file with an alpha channel."""
-    return png(render(image, map, size, view=view))
+    return png(render(image, map, size, view=view, pose=pose))
 
 
 def png(pixels: NDArray[np.uint8], compress_level: int = 6) -> bytes:
@@ -55,6 +58,7 @@ def animation_bytes(
     background: tuple[int, int, int] = (255, 255, 255),
     there_and_back: bool = False,
     format: Format = "gif",
+    marks: bool = True,
 ) -> bytes:
     """Warp a picture through a sequence of maps, such as those of a drag.
 
@@ -67,7 +71,8 @@ def animation_bytes(
     maps : sequence of HarmonicMap
         One per frame, at least one.
     poses : sequence of Pose, optional
-        One per map: its targets are drawn as disks, the images of its handles as dots.
+        One per map, whose depths say what is in front. Its targets are drawn as disks, the images
+        of its handles as dots; rings where another part of the shape covers them.
     size : int
         Pixels of the longer side, at least 16.
     frames_per_second : float
@@ -78,6 +83,8 @@ def animation_bytes(
         Append the frames in reverse order, so that the loop has no jump.
     format : "gif" or "apng"
         GIF is supported everywhere but has 256 colours only.
+    marks : bool
+        Whether targets and handles are drawn.
 
     Raises
     ------
@@ -97,14 +104,17 @@ def animation_bytes(
         raise ValueError(f"background is {background}; it must be three numbers from 0 to 255")
     if format not in get_args(Format):
         raise ValueError(f"unknown format {format!r}; choose one of {', '.join(get_args(Format))}")
-    texture, frame = Texture.from_image(image), _common_frame(maps, size)
+    pixels, frame = as_rgba8(image), _common_frame(maps, size)
+    texture = Texture.from_image(pixels)
     pictures = []
     for i, map in enumerate(maps):
-        mesh = deformed_mesh(map, _VERTICES, _TOLERANCE_PX * frame.units_per_pixel)
+        pose = None if poses is None else poses[i]
+        mesh = deformed_mesh(map, _VERTICES, _TOLERANCE_PX * frame.units_per_pixel, pose)
         picture = Image.new("RGBA", (frame.width, frame.height), (*background, 255))
         picture.alpha_composite(Image.fromarray(draw_mesh(texture, mesh, frame)))
-        if poses is not None:
-            picture.alpha_composite(_marks(poses[i], map, frame))
+        if pose is not None and marks:
+            hidden = Sheets(map, order_of(map.domain.cage, pose), pixels).hidden(pose.handles)
+            picture.alpha_composite(_marks(pose, map, frame, hidden))
         pictures.append(picture.convert("RGB"))
     if there_and_back:
         pictures += pictures[-2:0:-1]
@@ -125,8 +135,10 @@ def _common_frame(maps: list[HarmonicMap], size: int) -> PixelFrame:
     return PixelFrame(width, height).showing([points.min(axis=0), points.max(axis=0)], _MARGIN)
 
 
-def _marks(pose: Pose, map: HarmonicMap, frame: PixelFrame) -> Image.Image:
-    """Disks at the targets, dots at the images of the handles, and lines between them."""
+def _marks(
+    pose: Pose, map: HarmonicMap, frame: PixelFrame, hidden: NDArray[np.bool_]
+) -> Image.Image:
+    """Disks at the targets, dots at the images of the handles, lines between; rings if hidden."""
     layer = Image.new("RGBA", (frame.width * _SMOOTH, frame.height * _SMOOTH))
     draw, unit = ImageDraw.Draw(layer), max(layer.size)
     targets = frame.to_pixel(pose.targets) * _SMOOTH
@@ -134,8 +146,10 @@ def _marks(pose: Pose, map: HarmonicMap, frame: PixelFrame) -> Image.Image:
     for ends in np.concatenate([targets, images], axis=1).tolist():
         draw.line(ends, fill=INK, width=max(1, round(unit / 400)))
     for points, radius, color in ((targets, _TARGET, CYAN), (images, _HANDLE, INK)):
-        for point in points.tolist():
+        for point in points[~hidden].tolist():
             draw.circle(point, radius * unit, fill=color, outline="white", width=_SMOOTH)
+    for point in targets[hidden].tolist():
+        draw.circle(point, _TARGET * unit, outline=CYAN, width=2 * _SMOOTH)
     return layer.resize((frame.width, frame.height), Image.Resampling.LANCZOS)
 
 

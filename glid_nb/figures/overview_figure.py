@@ -115,7 +115,7 @@ def overview(
 
     pixels = _OVERSAMPLING * _DPI * width / 3
     frame = PixelFrame(round(pixels), round(pixels * up / across)).showing(views[1])
-    mesh = deformed_mesh(map, 4000, 0.25 * _OVERSAMPLING * frame.units_per_pixel)
+    mesh = deformed_mesh(map, 4000, 0.25 * _OVERSAMPLING * frame.units_per_pixel, pose)
     draw_picture(pictures[0], picture, PixelFrame(picture.shape[1], picture.shape[0]))
     draw_picture(pictures[1], draw_mesh(Texture.from_image(picture), mesh, frame), frame)
     _draw_distortion(pictures[2], map, mesh)

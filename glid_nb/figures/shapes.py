@@ -67,9 +67,9 @@ class _Sheet(NamedTuple):
     counted: bool
 
     @classmethod
-    def of(cls, map: AnyMap) -> _Sheet:
+    def of(cls, map: AnyMap, pose: Pose | None = None) -> _Sheet:
         if isinstance(map, HarmonicMap):
-            mesh = deformed_mesh(map, _VERTICES, 0.03)
+            mesh = deformed_mesh(map, _VERTICES, 0.03, pose)
             middles = map.wirtinger(mesh.vertices[mesh.triangles].mean(axis=1))
             corners = [w[mesh.triangles.T] for w in map.wirtinger(mesh.vertices)]
             # A fold begins on the boundary: there the corners see it before the middles do.
@@ -128,7 +128,7 @@ def distortion(
         Targets (cyan) and the handles' images (black) to draw.
     titles : one for each map
     """
-    maps, sheets = _listed(maps)
+    maps, sheets = _listed(maps, pose)
     values = [sheet.values(quantity) for sheet in sheets]
     known = np.concatenate([v[~s.folded] for v, s in zip(values, sheets, strict=True)])
     known = known if len(known) else np.ones(1)  # a map that folds everywhere
@@ -167,7 +167,7 @@ def picture(
         Targets (cyan) and the handles' images (black) to draw.
     titles : one for each map
     """
-    maps, sheets = _listed(maps)
+    maps, sheets = _listed(maps, pose)
     figure, grid = _side_by_side(maps, sheets, pose, titles, 0.4)
     for axes, sheet in zip(grid, sheets, strict=True):
         view = np.transpose([axes.get_xlim(), axes.get_ylim()])
@@ -271,14 +271,14 @@ def panels(certificate: Certificate) -> NotebookFigure:
     return figure
 
 
-def _listed(maps: Any) -> tuple[list[AnyMap], list[_Sheet]]:
+def _listed(maps: Any, pose: Pose | None) -> tuple[list[AnyMap], list[_Sheet]]:
     found = [*maps] if isinstance(maps, Iterable) else [maps]
     for map in found:
         if not isinstance(map, HarmonicMap | MeshMap):
             raise TypeError(f"{type(map).__name__} is not a map; a result's map is result.map")
     if not found:
         raise ValueError("there is no map to draw")
-    return found, [_Sheet.of(map) for map in found]
+    return found, [_Sheet.of(map, pose) for map in found]
 
 
 def _scale(quantity: Quantity | Energy, known: Floats) -> tuple[Any, Any]:

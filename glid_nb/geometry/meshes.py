@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pythoncdt
@@ -22,6 +22,9 @@ from glid_nb.geometry._loops import (
     subdivided,
 )
 from glid_nb.geometry.cage import Cage
+
+if TYPE_CHECKING:
+    import scipy.sparse
 
 # Least distance of lattice points from the boundary, in spacings: closer ones make flat triangles;
 _MARGIN = 0.55
@@ -47,12 +50,38 @@ class Triangulation:
         read_only(self.triangles)
 
     @cached_property
-    def find(self) -> Any:
-        """A function of x and y: the triangle of each point, -1 for none."""
-        from matplotlib.tri import Triangulation as Planar  # noqa: PLC0415 - slow to import
+    def graph(self) -> scipy.sparse.csr_array:
+        """(v, v) lengths of the edges, symmetric."""
+        from scipy.sparse import coo_array  # noqa: PLC0415 - slow to import
 
-        x, y = self.vertices.T
-        return Planar(x, y, self.triangles).get_trifinder()
+        a, b = self.triangles.ravel(), np.roll(self.triangles, -1, axis=1).ravel()
+        lengths = np.linalg.norm(self.vertices[a] - self.vertices[b], axis=1)
+        # All triangles are counter-clockwise, so no directed edge occurs twice.
+        one_way = coo_array((lengths, (a, b)), shape=(len(self.vertices),) * 2).tocsr()
+        return one_way.maximum(one_way.T)
+
+    @cached_property
+    def _tree(self) -> shapely.STRtree:
+        triangles: Any = shapely.polygons(self.vertices[self.triangles])
+        return shapely.STRtree(triangles)
+
+    def weights(self, points: ArrayLike) -> Any:
+        """The sparse (k, v) matrix that interpolates linearly at (k, 2) points.
+
+        A point off the mesh belongs to the nearest triangle.
+        """
+        from scipy.sparse import csr_array  # noqa: PLC0415 - not always needed
+
+        points = np.reshape(np.asarray(points, dtype=float), (-1, 2))
+        places, triangle = np.asarray(shapely.points(points)), np.full(len(points), -1)
+        which, found = self._tree.query(places, predicate="intersects")
+        triangle[which] = found
+        beside = triangle < 0
+        triangle[beside] = self._tree.nearest(places[beside])
+        corners = self.triangles[triangle]
+        weights = barycentric(self.vertices[corners], points)
+        rows, shape = np.repeat(np.arange(len(points)), 3), (len(points), len(self.vertices))
+        return csr_array((weights.ravel(), (rows, corners.ravel())), shape)
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,26 +104,11 @@ class MeshMap:
         object.__setattr__(self, "images", images)
 
     def __call__(self, points: ArrayLike) -> Array:
-        """Images of (k, 2) points; one off the mesh moves with a triangle at the nearest vertex."""
+        """Images of (k, 2) points; one off the mesh moves with the nearest triangle."""
         xy = np.atleast_2d(np.asarray(points, dtype=float))
         if xy.ndim != 2 or xy.shape[1] != 2:
             raise ValueError(f"points have shape {xy.shape}; expected (k, 2)")
-        mesh = self.triangulation
-        triangle = mesh.find(xy[:, 0], xy[:, 1])
-        beside = triangle < 0
-        if beside.any():
-            from scipy.spatial import KDTree  # noqa: PLC0415 - only for points off the mesh
-
-            nearest = KDTree(mesh.vertices).query(xy[beside])[1]
-            of_vertex = np.zeros(len(mesh.vertices), dtype=int)
-            of_vertex[mesh.triangles.ravel()] = np.repeat(np.arange(len(mesh.triangles)), 3)
-            triangle[beside] = of_vertex[nearest]
-        corners = mesh.triangles[triangle]
-        a, b, c = (mesh.vertices[corners[:, i]] for i in range(3))
-        matrix = np.stack([b - a, c - a], axis=-1)
-        weights = np.linalg.solve(matrix, (xy - a)[..., None])[..., 0]
-        weights = np.column_stack([1 - weights.sum(axis=1), weights])
-        return np.einsum("ki,kid->kd", weights, self.images[corners])
+        return self.triangulation.weights(xy) @ self.images
 
     @property
     def areas(self) -> Array:
@@ -108,15 +122,13 @@ class MeshMap:
         """(t,) bool: image triangles that are turned over or flat."""
         return ~(self.areas > 0)
 
-    @property
-    def layered(self) -> Array:
-        """(t, 3) triangles from the left of the undeformed shape to its right.
 
-        Drawn in this order, overlapping sheets stay apart.
-        """
-        mesh = self.triangulation
-        middle = mesh.vertices[mesh.triangles, 0].mean(axis=1)
-        return mesh.triangles[np.argsort(middle, kind="stable")]
+def barycentric(corners: Array, points: Array) -> Array:
+    """(k, 3) barycentric coordinates of points (k, 2) in triangles (k, 3, 2) of any orientation."""
+    second, third = (np.roll(corners - points[:, None], -k, axis=1) for k in (1, 2))
+    weights = second[..., 0] * third[..., 1] - second[..., 1] * third[..., 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return weights / weights.sum(axis=1, keepdims=True)
 
 
 def triangulate(

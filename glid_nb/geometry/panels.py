@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -80,11 +81,13 @@ class Panels:
         return Panels(start, end, loop, depth, next_index(loop)), parent
 
 
+@functools.lru_cache(maxsize=8)
 def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
     """Panels no longer than ``ratio`` times their distance to the nearest singularity of ``f_z``.
 
     The singularities are the offset cage's vertices and the hole points. Each edge of the cage is
-    bisected until this holds, so panels are short only where the map may vary fast.
+    bisected until this holds, so panels are short only where the map may vary fast. The last few
+    are kept.
     """
     if not ratio > 0:
         raise ValueError(f"ratio is {ratio}; it must be positive")

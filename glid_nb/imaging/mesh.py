@@ -5,19 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
-import shapely
 from numpy.typing import NDArray
 
-from glid_nb.geometry import Cage, triangulate
+from glid_nb.geometry import triangulate
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging.order import order_of
+from glid_nb.solvers import Pose
 
 # Limits of refinement: no mesh follows a map close to its singularities.
 _MOST_VERTICES = 1_000_000
 _MOST_ROUNDS = 12
 
 _PER_EDGE = 4  # parts of a cage's edge before refinement
-_CANDIDATES = 2000  # vertices that the innermost one is chosen from
 
 # The pieces of a triangle, by the sum of 1, 2 and 4 for sides 0, 1 and 2 that have a new vertex.
 # 0 to 2 are its corners, 3 to 5 the new vertices on the sides opposite to them.
@@ -50,7 +49,7 @@ class DeformedMesh:
     triangles : (t, 3) int32 array
         Counter-clockwise, the lower ones first.
     heights : (v,) array
-        Where the image overlaps itself the higher part lies over the lower; see `sheet_heights`.
+        Where the image overlaps itself the higher part lies over the lower; see `order_of`.
     error : float
         Largest distance between the image of an edge's midpoint and the middle of the edge's end
         points, world units: how far straight edges stray from the map.
@@ -68,7 +67,10 @@ class DeformedMesh:
 
 
 def deformed_mesh(
-    map: HarmonicMap, n_vertices: int = 5000, tolerance: float | None = None
+    map: HarmonicMap,
+    n_vertices: int = 5000,
+    tolerance: float | None = None,
+    pose: Pose | None = None,
 ) -> DeformedMesh:
     """Triangulate a map's domain and evaluate the map at the vertices.
 
@@ -81,6 +83,8 @@ def deformed_mesh(
         World units, positive. Edges are halved, and their triangles split, until the map takes no
         midpoint of an edge further than this from the middle of the image edge, or there are a
         million vertices.
+    pose : Pose, optional
+        Whose depths order the parts that overlap.
 
     Raises
     ------
@@ -91,7 +95,6 @@ def deformed_mesh(
         raise ValueError(f"tolerance is {tolerance}; it must be positive")
     start = triangulate(map.domain.cage, n_vertices)
     vertices, triangles = start.vertices, start.triangles
-    heights = sheet_heights(map.domain.cage, vertices, triangles)
     images = map(vertices)
     # Below this share of its size rounding bends an edge too.
     least = 1e-9 * float(np.ptp(images, axis=0).max())
@@ -111,9 +114,9 @@ def deformed_mesh(
         new_vertex[fresh[bent]] = first + np.arange(bent.sum(), dtype=np.int32)
         vertices = np.concatenate([vertices, middles[bent]])
         images = np.concatenate([images, middle_images[bent]])
-        heights = np.concatenate([heights, heights[edges[fresh[bent]]].mean(axis=1)])
         triangles = _split(triangles, new_vertex[edge_of])
     error = max(error, float(bend.max(initial=0.0)))
+    heights = order_of(map.domain.cage, pose)(vertices)
     triangles = triangles[np.argsort(heights[triangles].mean(axis=1), kind="stable")]
     return DeformedMesh(vertices, images, triangles, heights, error)
 
@@ -154,31 +157,6 @@ def _halved(
         middle_images,
         np.linalg.norm(middle_images - images[edges].mean(axis=1), axis=1),
     )
-
-
-def sheet_heights(cage: Cage, vertices: Floats, triangles: Ints) -> Floats:
-    """(v,) heights that decide which part of a shape covers which where its image overlaps itself.
-
-    A locally injective map can still move an arm over the body. The heights are continuous on the
-    shape, so that the order does not change from one triangle to the next. They grow with the
-    geodesic distance from the shape's innermost point, so that limbs cover the trunk; smaller
-    shares of the distance from the opposite point and of x order the two ends of a ring and the
-    left and right arm. ``vertices`` and ``triangles`` are the cage's, undeformed.
-    """
-    edges, _ = unique_edges(triangles)
-    length = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
-    n = len(vertices)
-    graph = scipy.sparse.csr_array((length, (edges[:, 0], edges[:, 1])), shape=(n, n))
-
-    def distances(vertex: int) -> Floats:
-        return scipy.sparse.csgraph.dijkstra(graph, directed=False, indices=vertex)
-
-    candidates = np.arange(0, n, max(1, n // _CANDIDATES))
-    outline = shapely.boundary(cage.polygon)
-    depth = shapely.distance(outline, shapely.points(vertices[candidates]))
-    inner = distances(candidates[np.argmax(depth)])
-    along = distances(int(np.argmax(np.where(np.isfinite(inner), inner, -1))))
-    return np.nan_to_num(inner + 0.35 * along, posinf=0.0) + 0.35 * vertices[:, 0]
 
 
 def unique_edges(

@@ -16,6 +16,7 @@ from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.mesh import DeformedMesh, deformed_loops, deformed_mesh
 from glid_nb.imaging.rasterise import render_mesh
 from glid_nb.imaging.texture import Texture
+from glid_nb.solvers import Pose
 
 View = Literal["source", "fit"]
 
@@ -49,6 +50,7 @@ def render(
     size: tuple[int, int] | None = None,
     n_vertices: int | None = None,
     view: View = "source",
+    pose: Pose | None = None,
 ) -> NDArray[np.uint8]:
     """Warp a picture through a map.
 
@@ -66,6 +68,8 @@ def render(
     view : "source" or "fit"
         Show the rectangle of the image, letter-boxed if ``size`` has another aspect ratio; or all
         of the deformed shape, with a margin.
+    pose : Pose, optional
+        Whose depths say which part is in front where the shape overlaps itself.
 
     Returns
     -------
@@ -78,7 +82,7 @@ def render(
         An argument is out of range, the map's cage does not fit the picture, or the map collapses
         the shape; the message says which.
     """
-    return rendering(image, map, size, n_vertices, view).picture
+    return rendering(image, map, size, n_vertices, view, pose).picture
 
 
 def rendering(
@@ -87,6 +91,7 @@ def rendering(
     size: tuple[int, int] | None = None,
     n_vertices: int | None = None,
     view: View = "source",
+    pose: Pose | None = None,
 ) -> Rendering:
     """`render`, with the frame and the mesh too."""
     if view not in get_args(View):
@@ -110,9 +115,9 @@ def rendering(
     frame = PixelFrame(width, height).showing(shown, margin)
     if n_vertices is None:
         even = int(np.clip(width * height / _PIXELS_PER_VERTEX, *_EVEN_VERTICES))
-        mesh = deformed_mesh(map, even, _TOLERANCE_PX * frame.units_per_pixel)
+        mesh = deformed_mesh(map, even, _TOLERANCE_PX * frame.units_per_pixel, pose)
     else:
-        mesh = deformed_mesh(map, n_vertices)
+        mesh = deformed_mesh(map, n_vertices, pose=pose)
     return Rendering(draw_mesh(texture, mesh, frame), frame, mesh)
 
 

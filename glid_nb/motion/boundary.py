@@ -13,7 +13,7 @@ from glid_nb._arrays import Array
 from glid_nb._runtime import double_precision
 from glid_nb.geometry import Domain, uniform_panels
 from glid_nb.geometry.panels import point_distance
-from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
+from glid_nb.harmonic import basis_of, cauchy
 from glid_nb.solvers.discretisation import complex_basis, discretise
 
 _POINTS = 200  # at which images are compared
@@ -25,8 +25,10 @@ class Boundary:
     """Nodes on the boundary, the ends and middles of panels, with the basis on them."""
 
     domain: Domain
+    points: Array
+    """(k,) even points of the boundary."""
     values: Array
-    """(k, n) ``C`` at even points of the boundary."""
+    """(k, n) ``C`` there."""
     first: Array
     """(s, n) ``D`` at the nodes."""
     mean: Array
@@ -59,9 +61,12 @@ class Boundary:
 
         With ``phi_h = conj(psi_h)`` for the holes: what is orthogonal to all else tells both.
         """
-        h = self.logarithms @ fz + np.conj(self.logarithms @ fzb_conj)
-        phi = self.single_valued @ fz + self.with_logarithms @ h
-        return phi, self.single_valued @ fzb_conj + self.with_logarithms @ np.conj(h)
+        both = np.stack([fz, fzb_conj], axis=1)
+        h, h_conj = (self.logarithms @ both).T
+        h += h_conj.conj()
+        tied = np.stack([h, h.conj()], axis=1)
+        phi, psi = (self.single_valued @ both + self.with_logarithms @ tied).T
+        return phi, psi
 
     def logarithm(self, phi: Array, fz: Array) -> Array:
         """(s,) ``log f_z`` at the nodes, of one branch: continuous along loops and their links."""
@@ -104,7 +109,7 @@ def boundary_of(domain: Domain) -> Boundary:
     points = uniform_panels(domain.cage, _POINTS).start
     values = complex_basis(cauchy.cauchy_coordinates, points, basis)[:, columns]
     branches = _branches(domain, disc.panels.start, disc.panels.end, disc.panels.loop)
-    return Boundary(domain, values, first, mean, branches, *fit)
+    return Boundary(domain, points, values, first, mean, branches, *fit)
 
 
 def _fit(
@@ -158,12 +163,3 @@ def _branches(domain: Domain, start: Array, end: Array, loop: Array) -> tuple[Br
 def _turns(fz: Array) -> Array:
     """The changes of the argument from each value to the next."""
     return np.angle(fz[1:] * np.conj(fz[:-1]))
-
-
-def centred(boundary: Boundary, map: HarmonicMap) -> tuple[complex, complex]:
-    """The rotation (a unit number) and the mean of the rigid motion nearest to a map."""
-    identity = HarmonicMap.identity(boundary.domain)
-    z, w = (boundary.images(each.phi, each.psi) for each in (identity, map))
-    correlation = np.vdot(z - z.mean(), w - w.mean())
-    size = abs(correlation)
-    return (correlation / size if size > 0 else 1.0), complex(w.mean())

@@ -16,7 +16,8 @@ import numpy as np
 
 from glid_nb._arrays import Array
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.motion.boundary import Boundary, boundary_of, centred
+from glid_nb.motion.boundary import Boundary, boundary_of
+from glid_nb.solvers.pose import rigid_motion
 
 # A spline may exceed the worse end by this much, else its tangents are shortened.
 _EXCESS = 0.01
@@ -123,7 +124,7 @@ class Bounded:
 
 def _frame(boundary: Boundary, map: HarmonicMap, before: list[_Frame], turns: int) -> _Frame:
     """A keyframe, turned and with its logarithm of the branch nearest to the one before."""
-    turn, mean = centred(boundary, map)
+    turn, _, mean = rigid_motion(boundary.points, boundary.images(map.phi, map.psi))
     angle = float(np.angle(turn))
     if before:
         angle = _nearest(angle, before[0].angle) + 2 * np.pi * turns

@@ -10,7 +10,6 @@ import numpy as np
 
 from glid_nb import _json
 from glid_nb._errors import about
-from glid_nb.geometry import as_points
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic import map as maps
 from glid_nb.motion.settings import MotionError
@@ -45,11 +44,7 @@ def save(path: str | Path, motion: Motion) -> None:
         **{key: getattr(motion, key) for key in _SETTINGS},
         **handles,
         "knots": [
-            {
-                "time": time,
-                "phi": as_points(map.phi).tolist(),
-                "psi": as_points(map.psi).tolist(),
-            }
+            {"time": time, **{key: map.to_dict()[key] for key in ("phi", "psi")}}
             for time, map in knots
         ],
     }

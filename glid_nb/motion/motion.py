@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import bisect
 import functools
-import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from glid_nb._arrays import Array, read_only
+from glid_nb._runtime import single_blas_thread
 from glid_nb.certificate.pieces import PieceCertificate, certify_pieces
 from glid_nb.certificate.rounding import rounded_down
 from glid_nb.geometry import Domain, place
@@ -26,15 +26,13 @@ from glid_nb.motion.settings import (
     MotionError,
     Repeat,
     checked,
-    checked_easing,
+    checked_each,
     checked_keyframes,
     checked_times,
-    checked_turns,
 )
 
 _TOLERANCE = 0.002
-# A piece that is not proved is halved so often before the motion is given up.
-_MORE_HALVINGS = 4
+_ATTEMPTS = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,8 +72,8 @@ class Motion:
         move on rigid paths; or coefficients blended as they are.
     tolerance : float
         How far an image may be off the smooth motion, relative to the cage's longer side.
-    turns : sequence of int, optional
-        Whole turns that an interval adds to the short way round, counter-clockwise.
+    turns : int or sequence of int
+        Whole turns that each interval adds to the short way round, counter-clockwise.
     handles : (h, 2) array_like, optional
         Points of the domain that move on rigid paths for "solved"; by default even points.
 
@@ -104,7 +102,7 @@ class Motion:
         repeat: Repeat = "once",
         between: Between = "bounded",
         tolerance: float = _TOLERANCE,
-        turns: Sequence[int] | None = None,
+        turns: int | Sequence[int] = 0,
         handles: ArrayLike | None = None,
     ) -> None:
         maps = checked_keyframes(keyframes)
@@ -114,11 +112,11 @@ class Motion:
         vars(self).update(
             keyframes=maps,
             times=all_times,
-            easing=checked_easing(easing, count),
+            easing=checked_each("easing", Easing, easing, count),
             repeat=checked("repeat", Repeat, repeat),
             between=checked("between", Between, between),
             tolerance=checked("tolerance", float, tolerance, above=0),
-            turns=checked_turns(turns, count),
+            turns=checked_each("turns", int, turns, count, least=-100, most=100),
             handles=points,
         )
 
@@ -187,7 +185,7 @@ class Motion:
 
         Raises MotionError for a time outside ``start`` to ``end``.
         """
-        time = checked("time", float, time, least=-1e300)
+        time = checked("time", float, time, least=-1e9)
         if self.repeat != "once":
             time = self.start + (time - self.start) % self.duration
         elif not self.start <= time <= self.end:
@@ -209,22 +207,22 @@ class Motion:
         return times, tuple(self(float(time)) for time in times)
 
     @functools.cached_property
+    @single_blas_thread()
     def _proved(self) -> tuple[tuple[Piece, ...], tuple[PieceCertificate, ...]]:
-        """The pieces there, and their proofs; those that are not proved are halved in time."""
+        """The pieces there, shorter ones where they are not proved, and their proofs."""
         known = vars(self).get("_knots")
         if known is not None:
             pieces = linear_pieces(*known)
             return pieces, certify_pieces(known[1])
-        curve = Curve.of(self)
-        times = curve.breaks(self.tolerance * self.domain.cage.longer_side)
-        pieces = linear_pieces(times, [curve.map(time) for time in times])
-        proofs = certify_pieces([pieces[0].start_map, *(piece.end_map for piece in pieces)])
-        for _ in range(_MORE_HALVINGS if self.between != "linear" else 0):
+        curve, tolerance = Curve.of(self), self.tolerance * self.domain.cage.longer_side
+        for _ in range(1 if self.between == "linear" else _ATTEMPTS):
+            times = curve.breaks(tolerance)
+            maps = [curve.map(time) for time in times]
+            proofs = certify_pieces(maps)
             if all(proof.certified for proof in proofs):
                 break
-            new = [_halved(curve, *each) for each in zip(pieces, proofs, strict=True)]
-            pieces, proofs = zip(*itertools.chain.from_iterable(new), strict=True)
-        return pieces, proofs
+            tolerance /= 8  # shorter pieces follow the curve more closely
+        return linear_pieces(times, maps), proofs
 
     def save(self, path: str | Path) -> None:
         """Write keyframes, settings and pieces as JSON, atomically."""
@@ -237,15 +235,3 @@ class Motion:
         Raises MotionError, which names the file and what is wrong there.
         """
         return file.load(path, cls)
-
-
-def _halved(
-    curve: Curve, piece: Piece, proof: PieceCertificate
-) -> list[tuple[Piece, PieceCertificate]]:
-    """The piece with its proof, or two that follow the curve more closely, with theirs."""
-    middle = (piece.start + piece.end) / 2
-    if proof.certified:
-        return [(piece, proof)]
-    maps = [piece.start_map, curve.map(middle), piece.end_map]
-    parts = linear_pieces([piece.start, middle, piece.end], maps)
-    return list(zip(parts, certify_pieces(maps), strict=True))

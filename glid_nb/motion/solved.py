@@ -24,7 +24,7 @@ def solved_on_the_way(
     certified, the nearer one of the two stands.
     """
     points = _even_points(first) if handles is None else np.asarray(handles)
-    paths = turning_of(Pose(first(points), last(points)))
+    paths = turning_of(Pose(first(points), last(points)), first.domain.cage, points)
     stages = paths.stages((), _LEAST_STAGES)
     poses = [Pose(points, stage.targets) for stage in stages]
     forth, back = _chain(first, poses), _chain(last, poses[::-1])[::-1]

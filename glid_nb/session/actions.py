@@ -21,6 +21,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.document import NamedPose
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.solvers import Method, Pose
+from glid_nb.solvers.pose import DEEPEST
 
 # Least distance of two handles, as a share of the cage's size.
 _LEAST_DISTANCE = 1e-6
@@ -29,7 +30,10 @@ _ROUNDING = 1e-13
 
 
 def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None = None) -> EditState:
-    """Add handles at points (h, 2) of the domain; targets are by default where they are now."""
+    """Add handles at points (h, 2) of the domain; targets are by default where they are now.
+
+    Their depths are those of the shape there, so that no part comes to the front.
+    """
     points = _points(points, "point")
     pose, cage = state.pose, state.domain.cage
     outside = np.flatnonzero(~cage.contains(points))
@@ -43,15 +47,18 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
         if (gap < _LEAST_DISTANCE * cage.longer_side).any():
             raise EditError(f"there already is a handle at {_text(point)}")
     wanted = _places_now(state, points) if targets is None else _points(targets, "to")
-    handles = np.concatenate([pose.handles, points])
-    return state.changed(pose=Pose(handles, np.concatenate([pose.targets, wanted])))
+    depths = state.order.depths(points).round(2) + 0.0
+    added = Pose(points, wanted, depths)
+    fields = ("handles", "targets", "depths")
+    parts = (np.concatenate([getattr(p, name) for p in (pose, added)]) for name in fields)
+    return state.changed(pose=Pose(*parts))
 
 
 def remove_handles(state: EditState, indices: Iterable[int]) -> EditState:
     """Remove some handles."""
     chosen = _checked_indices(state, indices)
     kept = np.setdiff1d(np.arange(len(state.pose)), chosen)
-    return state.changed(pose=Pose(state.pose.handles[kept], state.pose.targets[kept]))
+    return state.changed(pose=state.pose.only(kept))
 
 
 def clear_handles(state: EditState) -> EditState:
@@ -78,6 +85,26 @@ def nudge(state: EditState, indices: Iterable[int], delta: ArrayLike) -> EditSta
     """Shift the targets of some handles by ``delta`` (2,)."""
     chosen = _checked_indices(state, indices)
     return move_targets(state, chosen, state.pose.targets[chosen] + _points(delta, "delta"))
+
+
+def set_depths(state: EditState, indices: Iterable[int], depths: ArrayLike) -> EditState:
+    """Give some handles other depths, one number or one each; the map stays as it is."""
+    chosen, changed = _checked_indices(state, indices), np.array(state.pose.depths)
+    try:
+        changed[chosen] = real_array(depths)
+    except (TypeError, ValueError) as error:
+        raise EditError(f"depths must be a number, or one per handle: {error}") from error
+    if np.array_equal(changed, state.pose.depths):
+        return state
+    pose = replace(state.pose, depths=changed)
+    return state.with_current(replace(state.current, pose=pose))
+
+
+def bring_forward(state: EditState, indices: Iterable[int], steps: float = 1) -> EditState:
+    """Raise the depths of some handles by a number of steps, up to 100; lower them by negative."""
+    chosen = _checked_indices(state, indices)
+    depths = (state.pose.depths[chosen] + steps).clip(-DEEPEST, DEEPEST)
+    return set_depths(state, chosen, depths)
 
 
 def reset(state: EditState) -> EditState:
@@ -117,8 +144,7 @@ def set_domain(state: EditState, domain: Domain) -> EditState:
 
     def moved(pose: NamedPose) -> NamedPose:
         inside = domain.cage.contains(pose.pose.handles)
-        kept = Pose(pose.pose.handles[inside], pose.pose.targets[inside])
-        return pose.changed(pose=kept, map=identity)
+        return pose.changed(pose=pose.pose.only(inside), map=identity)
 
     return replace(state, domain=domain, poses=tuple(map(moved, state.poses)))
 

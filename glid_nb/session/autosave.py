@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+import hashlib
 import itertools
 import threading
 import weakref
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
+from glid_nb._runtime import data_directory
 from glid_nb.session.document import Document
 from glid_nb.session.document_file import save_document
 from glid_nb.session.worker import LatestWins
 
 INTERVAL = 3.0
 """Least number of seconds between two saves, by default."""
+
+MOST_KEPT = 5
+"""Most files of kept work."""
 
 
 class OwnFiles:
@@ -158,10 +166,39 @@ def free_sibling(path: Path) -> Path:
     return next(other for other in others if not other.exists())
 
 
+def kept_files(image: NDArray[np.uint8] | None = None) -> list[Path]:
+    """Files in which editors kept work that is in no other file, the newest first.
+
+    With a picture only those of that picture, whose pixels give them their name.
+    """
+    versions = {path: _version_of(path) for path in _kept().glob("*.glid")}
+    paths = sorted(versions, key=lambda path: versions[path] or (), reverse=True)
+    name = "" if image is None or not paths else _name_of(image)
+    return [path for path in paths if path.name.startswith(name)]
+
+
+def new_kept_file(image: NDArray[np.uint8]) -> Path:
+    """Where to keep work on a picture from now on; its folder is made, the oldest files go."""
+    path = _kept() / f"{_name_of(image)}.glid"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    for old in kept_files()[MOST_KEPT - 1 :]:
+        old.unlink(missing_ok=True)
+    return free_sibling(path) if path.exists() else path
+
+
+def _kept() -> Path:
+    return data_directory() / "kept"
+
+
+def _name_of(image: NDArray[np.uint8]) -> str:
+    height, width = image.shape[:2]
+    return f"{width}x{height}-{hashlib.sha256(np.ascontiguousarray(image).data).hexdigest()[:16]}"
+
+
 def _version_of(path: Path) -> tuple[int, ...] | None:
     """What differs between two versions of a file; None where there is none."""
     try:
         status = path.stat()
     except OSError:  # a file that cannot be reached is reported when it is written
         return None
-    return status.st_ino, status.st_mtime_ns, status.st_size
+    return status.st_mtime_ns, status.st_ino, status.st_size

@@ -17,11 +17,11 @@ from glid_nb.certificate import Certificate, certificate_of
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging.sheets import Sheets
 from glid_nb.session import actions
 from glid_nb.session.edit_state import EditError, EditState, Frame, Moment, Task
 from glid_nb.session.live_solver import LiveSolver
 from glid_nb.session.model import History, Observed
-from glid_nb.session.point_finder import find_source
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins
 from glid_nb.solvers import Options, Pose
@@ -162,15 +162,22 @@ class Deformation(Observed):
         """Whether there is something to redo."""
         return bool(self.history.future) and not self.dragged
 
+    def sheets(self, image: Array | None = None) -> Sheets:
+        """What is drawn at a place, and what lies hidden below; by the picture's opaque parts."""
+        moment = self.moment
+        return Sheets(moment.shown, moment.state.order, image)
+
     def find(self, point: ArrayLike) -> Array | None:
         """The point of the undeformed shape that is drawn at ``point``; None outside the shape."""
-        return find_source(self.moment.shown, point)
+        return self.sheets().source(point)
 
     # Actions
 
     clear_handles = _step(actions.clear_handles)
     move_target = _step(actions.move_target)
     nudge = _step(actions.nudge)
+    set_depths = _step(actions.set_depths)
+    bring_forward = _step(actions.bring_forward)
     reset = _step(actions.reset)
     set_energy = _step(actions.set_energy)
     set_options = _step(actions.set_options)

@@ -13,6 +13,7 @@ import numpy as np
 
 from glid_nb import _json, methods
 from glid_nb._errors import InputFileError, about
+from glid_nb._files import write_bytes_atomically
 from glid_nb.certificate import certificate_of
 from glid_nb.energies import CustomEnergy, energy_by_name
 from glid_nb.geometry import Domain, as_points
@@ -20,14 +21,14 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.map import complex_from_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE
-from glid_nb.session.archive import image_png, light_png, read_archive, read_png, write_archive
+from glid_nb.session.archive import archive_bytes, image_png, light_png, read_archive, read_png
 from glid_nb.session.document import Document, DocumentError, NamedPose, check_count
 from glid_nb.solvers import Newton, Options, Pose
 
 T = TypeVar("T")
 
 FORMAT = "glid_nb-document"
-FORMAT_VERSION = 2
+FORMAT_VERSION = 3
 
 _JSON, _IMAGE = "document.json", "image.png"
 _MASKS = {key: f"scribbles-{key}.png" for key in ("foreground", "background")}
@@ -54,13 +55,17 @@ _NEVER = "never"  # TraceOptions.max_edge == inf, which JSON cannot say
 
 
 def save_document(document: Document, path: str | Path) -> None:
-    """Write a document to one file, atomically: a zip of JSON and PNG.
+    """Write `document_bytes` to a file, atomically: if that fails, what was there before stays."""
+    write_bytes_atomically(Path(path), document_bytes(document))
+
+
+def document_bytes(document: Document) -> bytes:
+    """A document as one file, a zip of JSON and PNG.
 
     ``document.json`` holds everything but pixels, which are in ``image.png``; scribbled masks are
     in ``scribbles-*.png``. Numbers are written so that they read back bit for bit.
 
-    A DocumentError if a map is not certified, or an energy is a Python function. When the file is
-    not written, what was there before stays.
+    A DocumentError if a map is not certified, or an energy is a Python function.
     """
     scribbles, masks = _scribbles_to_members(document.scribbles)
     height, width = document.image.shape[:2]
@@ -76,7 +81,7 @@ def save_document(document: Document, path: str | Path) -> None:
     }
     text = json.dumps(data, allow_nan=False, default=np.generic.item).encode("utf-8")
     pixels = {_IMAGE: image_png(document.image), **masks}
-    write_archive(Path(path), {_JSON: text, **pixels}, stored=frozenset(pixels))
+    return archive_bytes({_JSON: text, **pixels}, stored=frozenset(pixels))
 
 
 def load_document(path: str | Path) -> Document:
@@ -90,7 +95,9 @@ def load_document(path: str | Path) -> Document:
             if name not in members:
                 raise DocumentError(f"{name} is missing; this is no glid_nb document")
         data = _json.parse_json(members[_JSON], _JSON, "JSON", nan=False)
-        since_2 = {"method": _json.anything} if _checked_version(data) > 1 else {}
+        version = _checked_version(data)
+        since_2 = {"method": _json.anything} if version > 1 else {}
+        since_3 = {"depths": _json.anything} if version > 2 else {}
         _json.check_fields(data, _JSON, _KEYS, {"scribbles": _json.check_object})
         size = _checked_size(data["image_size_px"])
         image = np.asarray(read_png(members[_IMAGE], size, "RGBA", _IMAGE), dtype=np.uint8)
@@ -99,7 +106,7 @@ def load_document(path: str | Path) -> Document:
         options = _trace_options_from_dict(data["trace_options"], scribbles)
         check_count(data["poses"])
         poses = tuple(
-            _pose_from_dict(f"poses[{i}]", pose, domain, {**_POSE_KEYS, **since_2})
+            _pose_from_dict(f"poses[{i}]", pose, domain, {**_POSE_KEYS, **since_2}, since_3)
             for i, pose in enumerate(data["poses"])
         )
         return Document(image, domain.cage, domain, options, scribbles, poses, data["active"])
@@ -110,9 +117,9 @@ def _checked_version(data: Any) -> int:
     if data.get("format") != FORMAT:
         raise DocumentError(f'{_JSON}: the key "format" is not "{FORMAT}"')
     version = data.get("version")
-    if version not in (1, 2) or isinstance(version, bool | float):
+    if version not in (1, 2, 3) or isinstance(version, bool | float):
         raise DocumentError(
-            f"version {version!r:.20} of the format is not supported, only 1 and 2; a newer "
+            f"version {version!r:.20} of the format is not supported, only 1 to 3; a newer "
             "glid_nb may have written it: update this one"
         )
     return version
@@ -144,9 +151,11 @@ def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
     }
 
 
-def _pose_from_dict(where: str, data: Any, domain: Domain, keys: Mapping[str, Any]) -> NamedPose:
+def _pose_from_dict(
+    where: str, data: Any, domain: Domain, keys: Mapping[str, Any], optional: Mapping[str, Any]
+) -> NamedPose:
     with about(where, DocumentError):
-        _json.check_fields(data, where, keys)
+        _json.check_fields(data, where, keys, optional)
     with about(f"{where} ({data['name']!r:.60})", DocumentError):
         phi, psi = (complex_from_pairs(data[key], key) for key in ("phi", "psi"))
         energy, named = data["energy"], {"name": _json.check_text}

@@ -12,6 +12,7 @@ from glid_nb.certificate import Certificate
 from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.geometry import Domain, MeshMap
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging.order import Order, order_of
 from glid_nb.session.document import NamedPose, Solution
 from glid_nb.solvers import DeformationMap, Iteration, Options, Pose
 
@@ -65,6 +66,11 @@ class EditState:
     def pose(self) -> Pose:
         """Handles and targets of the pose that is edited."""
         return self.current.pose
+
+    @property
+    def order(self) -> Order:
+        """Which part of the shape covers which, by the depths of the handles."""
+        return order_of(self.domain.cage, self.pose)
 
     @functools.cached_property
     def identity(self) -> HarmonicMap:

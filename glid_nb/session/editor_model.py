@@ -14,7 +14,14 @@ from numpy.typing import NDArray
 
 from glid_nb.geometry import Domain
 from glid_nb.imaging.read import ImageSource
-from glid_nb.session.autosave import Autosave, OwnFiles, flush, free_sibling
+from glid_nb.session.autosave import (
+    Autosave,
+    OwnFiles,
+    flush,
+    free_sibling,
+    kept_files,
+    new_kept_file,
+)
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import Document, DocumentError
 from glid_nb.session.document_file import load_document, save_document
@@ -77,7 +84,8 @@ class EditorModel(Observed):
 
     It begins with a picture, as in `glid_nb.read_image`, with a document, or without either. The
     file ``path`` is saved to every few seconds while something changes; if another program changes
-    it, a new file beside it is used from then on.
+    it, a new file beside it is used from then on. Without a file the work is kept in the user's
+    data folder (`session.autosave.kept_files`), for the next model of the same picture.
     """
 
     def __init__(
@@ -102,6 +110,8 @@ class EditorModel(Observed):
         self._sources = weakref.WeakKeyDictionary[Domain, TracingState]()
         # The autosave's file as the user named it; files for other pictures are named after it.
         self._named_path: Path | None = None
+        self.kept: Path | None = None
+        """What an earlier editor of this picture, which had no file, has kept; to be recovered."""
         self._saved_work: tuple[Any, ...] = ()
         with self.locked():
             if document is None:
@@ -113,11 +123,14 @@ class EditorModel(Observed):
                 self._take(document)
             if path is not None:
                 self._save_to(Path(path))
+            elif document is None and self.tracing.image is not None:
+                self.kept = next(iter(kept_files(self.tracing.image)), None)
 
     @property
     def autosave_path(self) -> Path | None:
-        """The file of the autosave, if any."""
-        return None if self._autosave is None else self._autosave.file.path
+        """The session file that is saved to, if any."""
+        autosave = self._autosave if self._named_path is not None else None
+        return None if autosave is None else autosave.file.path
 
     @property
     def left_path(self) -> Path | None:
@@ -151,7 +164,7 @@ class EditorModel(Observed):
     @property
     def unsaved(self) -> bool:
         """Whether poses with handles, of any picture, are in no file."""
-        if self._session is None or self._autosave is not None:
+        if self._session is None or self._named_path is not None:
             return False
         states = (one.deformation.state for one in (self._session, *self._shelf))
         return any(
@@ -163,6 +176,11 @@ class EditorModel(Observed):
     def image(self) -> Array | None:
         """The picture that is deformed; the tracing may have another one, not yet applied."""
         return None if self._session is None else self._session.image
+
+    @property
+    def name(self) -> str:
+        """What files are named after: the picture's file, or "session" where there is none."""
+        return (self._session and self._session.tracing.name) or "session"
 
     def apply_tracing(self) -> Application:
         """Deform what is traced now: a step for undo, or another session for another picture.
@@ -214,6 +232,7 @@ class EditorModel(Observed):
             save_document(self.document, path)
         self._saved_work = _work_of(self.deformation.state)
         self.own_files.note_session(path)
+        self.discard_kept()
 
     def load(self, path: str | Path) -> None:
         """Go on with the document in a file, which an autosave, if there is one, then saves to.
@@ -222,7 +241,7 @@ class EditorModel(Observed):
         """
         document = open_document(path)
         with self.locked():
-            if self._autosave is not None:
+            if self._named_path is not None:
                 self._save_to(Path(path))
                 self._named_path = Path(path)
             self.own_files.note_session(path)
@@ -230,10 +249,35 @@ class EditorModel(Observed):
             self._saved_work = _work_of(self.deformation.state)
 
     def autosave(self) -> None:
-        """Save soon, if there is a file to save to and something to save."""
+        """Save soon, if there is something to save; without a file, work on handles is kept."""
         with self.locked():
+            if self._autosave is None and self.unsaved:
+                try:
+                    self._keep_in(new_kept_file(self.document.image))
+                except OSError as error:
+                    self._saved(error)
             if self._autosave is not None and self.has_shape:
                 self._autosave.submit(self.document)
+
+    def recover(self) -> None:
+        """Go on with the work that was `kept`."""
+        if self.kept is not None:
+            document = open_document(self.kept)
+            with self.locked():
+                self._take(document, self.tracing.state.name)
+                self._keep_in(self.kept)
+                self.kept = None
+
+    def discard_kept(self) -> None:
+        """Delete what was kept of this work, as it is saved now, or what was `kept` before."""
+        with self.locked():
+            if self._named_path is None and self._autosave is not None:
+                self._autosave.close()
+                self._autosave.file.path.unlink(missing_ok=True)
+                self._autosave = None
+            elif self.kept is not None:
+                self.kept.unlink(missing_ok=True)
+                self.kept = None
 
     def close(self) -> None:
         """Save what is pending, with a warning if that fails, and end all threads."""
@@ -247,6 +291,9 @@ class EditorModel(Observed):
                 warnings.warn(text, RuntimeWarning, stacklevel=2)
         if self._session is not None:
             self._session.deformation.close()
+
+    def _keep_in(self, path: Path) -> None:
+        self._autosave = Autosave(path, on_done=self._saved, own=OwnFiles())
 
     def _session_of(self, deformation: Deformation) -> _Session:
         domain, state = self.tracing.domain, self.tracing.state
@@ -283,14 +330,17 @@ class EditorModel(Observed):
         self._named_path = self._named_path or path
         self._autosave = Autosave(path, on_done=self._saved, own=self.own_files)
 
-    def _take(self, document: Document) -> None:
-        self.tracing = TracingModel.from_document(document)
+    def _take(self, document: Document, name: str = "") -> None:
+        self.tracing = TracingModel.from_document(document, name)
         domain, poses = document.domain, tuple(pose.changed() for pose in document.poses)
         state = EditState(domain, poses, document.active) if poses else EditState.initial(domain)
         self._shelf.clear()
         self._replace(Deformation.from_history(History(state)))
 
     def _replace(self, deformation: Deformation) -> None:
+        if self._named_path is None and self._autosave is not None:
+            self._autosave.close()  # it was kept of the session before
+            self._autosave = None
         old, self._session = self._session, self._session_of(deformation)
         if old is not None:
             self._afterwards(old.deformation.close)  # its thread may wait for the lock
@@ -304,7 +354,7 @@ class EditorModel(Observed):
                 return
             if what == "state" and session.domain is not deformation.state.domain:
                 self._follow(session, deformation.state.domain)
-        if self._autosave is None or deformation.dragged:
+        if deformation.dragged:
             return
         if what == "state" or (what == "frame" and deformation.moment.solved):
             self.autosave()

@@ -50,7 +50,7 @@ class Problem:
 
         Its keys ``cage``, ``handles`` and ``targets`` are required, ``holes`` is optional, all in
         world coordinates. ``offset`` (a distance), ``offset_cage``, ``offset_holes`` and
-        ``hole_points`` are chosen when missing. Other keys are ignored.
+        ``hole_points`` are chosen when missing; ``depths`` are 0. Other keys are ignored.
 
         Raises
         ------
@@ -81,7 +81,7 @@ class Problem:
 
 
 def load_pose(path: str | Path) -> Pose:
-    """Read ``handles`` and ``targets`` from a JSON file; other keys are ignored.
+    """Read ``handles``, ``targets`` and perhaps ``depths`` from a JSON file; ignore other keys.
 
     An InputFileError names the file and the culprit if it does not hold a valid pose.
     """

@@ -7,7 +7,7 @@ import scipy
 import shapely
 from numpy.typing import NDArray
 
-from glid_nb.geometry import Domain, Triangulation, triangulate
+from glid_nb.geometry import Domain, triangulate
 from glid_nb.solvers import Pose
 
 _MESH_VERTICES = 3000
@@ -31,7 +31,7 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
     if max_handles < 2:
         raise ValueError(f"max_handles is {max_handles}; it must be at least 2")
     mesh = triangulate(domain.cage, _MESH_VERTICES)
-    graph = _edge_lengths(mesh)
+    graph = mesh.graph
     outline = shapely.MultiLineString([np.vstack([p, p[:1]]) for p in domain.cage.loops])
     clearance = np.asarray(shapely.distance(shapely.points(mesh.vertices), outline))
 
@@ -69,17 +69,6 @@ def _spread_out(
             chosen.append(handle)
         nearest = np.fmin(nearest, from_end)
     return chosen
-
-
-def _edge_lengths(mesh: Triangulation) -> scipy.sparse.csr_array:
-    """The mesh as a symmetric graph, weighted by the lengths of its edges."""
-    a = mesh.triangles.ravel()
-    b = np.roll(mesh.triangles, -1, axis=1).ravel()
-    lengths = np.linalg.norm(mesh.vertices[a] - mesh.vertices[b], axis=1)
-    n = len(mesh.vertices)
-    # All triangles are counter-clockwise, so no directed edge occurs twice.
-    one_way = scipy.sparse.coo_array((lengths, (a, b)), shape=(n, n)).tocsr()
-    return one_way.maximum(one_way.T)
 
 
 def _swung(

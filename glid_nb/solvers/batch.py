@@ -51,6 +51,7 @@ def solve_batch(
     energy: Energy | str | None = None,
     options: Options | None = None,
     devices: Sequence[Any] | None = None,
+    depths: ArrayLike | None = None,
 ) -> tuple[Result, ...]:
     """Deform one shape into many poses.
 
@@ -69,6 +70,8 @@ def solve_batch(
     devices : sequence of jax.Device, optional
         By default all local ones. On several hosts under ``jax.distributed`` each call uses the
         devices of its own host; give every host its share of the poses.
+    depths : (h,) array_like, optional
+        Of the handles in every pose, as in :class:`glid_nb.Pose`.
 
     Returns
     -------
@@ -86,7 +89,7 @@ def solve_batch(
     check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
     check_type("options", options, Options | None, "write Options(p2p_weight=...)")
     energy, options = as_energy(energy), Options() if options is None else options
-    poses = _poses(handles, targets)
+    poses = _poses(handles, targets, depths)
     if not poses:
         return ()
     poses[0].check_inside(domain)
@@ -140,7 +143,7 @@ def _checked_devices(devices: Any) -> tuple[Any, ...]:
     return given
 
 
-def _poses(handles: ArrayLike, targets: ArrayLike) -> list[Pose]:
+def _poses(handles: ArrayLike, targets: ArrayLike, depths: ArrayLike | None) -> list[Pose]:
     try:
         rows = np.asarray(targets)
     except ValueError as error:
@@ -150,7 +153,7 @@ def _poses(handles: ArrayLike, targets: ArrayLike) -> list[Pose]:
     poses = []
     for i, row in enumerate(rows):
         try:
-            poses.append(Pose(handles, row))
+            poses.append(Pose(handles, row, depths))
         except PoseError as error:
             raise PoseError(f"pose {i}: {error}") from error
     return poses

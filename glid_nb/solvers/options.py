@@ -102,7 +102,7 @@ class Options:
     )
     conformal: bool = _option(False, "Conformal maps only", "No shear anywhere")
     align: bool = _option(True, "Align", "Begin at the best rigid motion to the targets")
-    restarts: int = _option(8, "Restarts", "Other ways to try after a high energy")
+    restarts: int = _option(10, "Restarts", "Other ways to try after a high energy")
     max_iterations: int | None = _option(
         None, "Iterations", "Most iterations of one attempt; Newton's method makes 200"
     )

@@ -10,12 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from glid_nb._arrays import Array, number_pairs, read_only
+from glid_nb._arrays import Array, number_pairs, read_only, real_array
 from glid_nb._errors import InputError
 from glid_nb.geometry import Domain, place
 
 # Farther away, the rounding of a coordinate would be felt in the proof.
 _FARTHEST = 1e6
+DEEPEST = 100.0
+"""Largest depth of a handle."""
 
 
 class PoseError(InputError):
@@ -32,6 +34,9 @@ class Pose:
         Points ``p_i`` of the domain, world coordinates.
     targets : (h, 2) array_like
         Desired images ``q_i``; anywhere within 10^6 units.
+    depths : (h,) array_like, optional
+        Where parts of the shape overlap, those near handles of greater depth are drawn in front;
+        -100 to 100, by default 0. They change no map.
 
     Raises
     ------
@@ -42,8 +47,11 @@ class Pose:
 
     handles: Array
     targets: Array
+    depths: Array
 
-    def __init__(self, handles: ArrayLike, targets: ArrayLike) -> None:
+    def __init__(
+        self, handles: ArrayLike, targets: ArrayLike, depths: ArrayLike | None = None
+    ) -> None:
         object.__setattr__(self, "handles", _checked_points(handles, "handles"))
         object.__setattr__(self, "targets", _checked_points(targets, "targets"))
         n_handles, n_targets = len(self.handles), len(self.targets)
@@ -52,6 +60,8 @@ class Pose:
                 f"there {_counted(n_handles, 'handle')} but {n_targets} "
                 f"target{'' if n_targets == 1 else 's'}; give one target per handle"
             )
+        given = np.zeros(n_handles) if depths is None else depths
+        object.__setattr__(self, "depths", _checked_depths(given, n_handles))
         _, first, inverse = np.unique(self.handles, axis=0, return_index=True, return_inverse=True)
         repeated = np.flatnonzero(first[inverse.ravel()] != np.arange(n_handles))
         if repeated.size:
@@ -75,21 +85,26 @@ class Pose:
 
     def with_targets(self, targets: ArrayLike) -> Pose:
         """The same handles with other targets."""
-        return Pose(self.handles, targets)
+        return Pose(self.handles, targets, self.depths)
+
+    def only(self, kept: Any) -> Pose:
+        """Some of the handles, by their indices or a mask."""
+        return Pose(self.handles[kept], self.targets[kept], self.depths[kept])
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON values with the keys ``handles`` and ``targets``."""
-        return {"handles": self.handles.tolist(), "targets": self.targets.tolist()}
+        """Plain JSON values: ``handles``, ``targets``, and ``depths`` where one is not 0."""
+        depths = {"depths": self.depths.tolist()} if self.depths.any() else {}
+        return {"handles": self.handles.tolist(), "targets": self.targets.tolist(), **depths}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Pose:
-        """The pose with the keys ``handles`` and ``targets``; other keys are ignored."""
+        """The pose with the keys that `to_dict` writes; other keys are ignored."""
         if not isinstance(data, Mapping):
             raise PoseError(f"a pose must be an object, got {type(data).__name__}")
         for key in ("handles", "targets"):
             if key not in data:
                 raise PoseError(f'the pose lacks the key "{key}"')
-        return cls(data["handles"], data["targets"])
+        return cls(data["handles"], data["targets"], data.get("depths"))
 
 
 def rigid_motion(z: Array, targets: Array) -> tuple[complex, complex, complex]:
@@ -123,6 +138,17 @@ def _checked_points(points: Any, name: str) -> Array:
         rows = np.flatnonzero(bad.any(axis=1))
         if rows.size:
             raise PoseError(f"{name}[{rows[0]}] is {place(array[rows[0]])}; {why}")
+    return read_only(array)
+
+
+def _checked_depths(depths: ArrayLike, count: int) -> Array:
+    wanted = f"depths must be {count} numbers from {-DEEPEST:g} to {DEEPEST:g}, one per handle"
+    try:
+        array = real_array(depths)
+    except (TypeError, ValueError) as error:
+        raise PoseError(f"{wanted} ({error})") from error
+    if array.shape != (count,) or not (np.abs(array) <= DEEPEST).all():
+        raise PoseError(f"{wanted}, not {depths!r:.60}")
     return read_only(array)
 
 

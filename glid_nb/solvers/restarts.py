@@ -13,7 +13,7 @@ its targets; it then starts at the symmetric Dirichlet minimum.
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -21,6 +21,7 @@ from glid_nb._jax import jnp
 from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.solvers.method import Inputs
+from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.result import Attempt, Result
 from glid_nb.solvers.status import Status
 from glid_nb.solvers.turning import Turning, turning_of
@@ -30,7 +31,7 @@ Descend = Callable[[Inputs], Result]
 
 # Energies above this multiple of an isometry's, if that is at least the last number, are worth all
 # other ways; those above the second are worth turning where joints may turn either way.
-HIGH_ENERGY, HIGH_ENERGY_OF_JOINTS, LEAST_ISOMETRY = 2.0, 1.15, 0.5
+HIGH_ENERGY, HIGH_ENERGY_OF_JOINTS, LEAST_ISOMETRY = 2.0, 1.02, 0.5
 SAME_ENERGY = 1e-6
 # The stages' fractions of lambda, and how far each is followed.
 STAGES = (1e-5, 1e-3, 1e-1)
@@ -49,7 +50,9 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
     """
     if not (inputs.options.restarts and len(inputs.pose)):
         return first
-    turning = turning_of(inputs.pose)
+    if not _is_poor(first, 1):
+        return first
+    turning = turning_of(inputs.pose, inputs.domain.cage)
     ways = _ways(first, inputs, descend, turning)[: inputs.options.restarts]
     best, tried = first, [("direct", first)]
     for name, way, joints in ways:
@@ -81,8 +84,8 @@ def _ways(
     if not inputs.energy.is_barrier:
         barrier = functools.partial(_from_barrier, first, inputs, descend)
         ways.append(("from the symmetric Dirichlet minimum", barrier, 0))
-    for name, way in turning.ways.items():
-        turned = functools.partial(_turned, first, inputs, descend, turning, way)
+    for name, stages in turning.ways.items():
+        turned = functools.partial(_turned, first, inputs, descend, stages)
         ways.append((name, turned, len(turning.joints)))
     if inputs.options.align:
         still = _with(inputs, align=False)
@@ -129,20 +132,14 @@ def _staged(inputs: Inputs, descend: Descend) -> Result:
     return _joined(done)
 
 
-def _turned(
-    first: Result, inputs: Inputs, descend: Descend, turning: Turning, way: tuple[int, ...]
-) -> Result:
+def _turned(first: Result, inputs: Inputs, descend: Descend, stages: Sequence[Pose]) -> Result:
     """Descend along the stages of a way to turn; their own history is left out."""
     options, done = inputs.options, list[Result]()
     most = TURNING_ITERATIONS if options.max_iterations is None else options.max_iterations
-    loose = _with(
-        inputs,
-        max_iterations=min(TURNING_ITERATIONS, most),
-        tolerance=STAGE_TOLERANCE,
-        align=False,
-    )
-    for pose in turning.stages(way):
-        done.append(descend(replace(loose, pose=pose, start=done[-1] if done else None)))
+    loose = _with(inputs, max_iterations=min(TURNING_ITERATIONS, most), tolerance=STAGE_TOLERANCE)
+    for pose in stages:
+        stage = _with(replace(loose, pose=pose), align=not done)
+        done.append(descend(replace(stage, start=done[-1] if done else None)))
         if done[-1].status is Status.STOPPED:
             return replace(first, status=Status.STOPPED)
         if done[-1].energy_iso > HOPELESS * first.energy:

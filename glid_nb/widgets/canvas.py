@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import time
 from collections.abc import Sequence
 from typing import Any
@@ -39,10 +40,11 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
 
     A click on the shape adds a handle, a drag moves its target (cyan); the handle (black) follows
     as far as a certified map allows. Right click or Delete removes it. Shift-click selects several.
-    Arrow keys nudge, Ctrl+Z and Ctrl+Shift+Z undo and redo, Esc cancels a drag, 0 resets the shape,
-    F makes everything visible. The wheel zooms about the pointer; the middle button, or the space
-    bar and a drag, pan; so do two fingers. By keyboard alone: arrow keys move a cursor, Enter
-    adds or selects a handle there, comma and full stop select the next one.
+    Page Down and Page Up, or ``[`` and ``]``, send selected handles, and what is around them, back
+    and forward. Arrow keys nudge, Ctrl+Z and Ctrl+Shift+Z undo and redo, Esc cancels a drag, 0
+    resets the shape, F makes everything visible. The wheel zooms about the pointer; the middle
+    button, or the space bar and a drag, pan; so do two fingers. By keyboard alone: arrow keys move
+    a cursor, Enter adds or selects a handle there, comma and full stop select the next one.
 
     Parameters
     ----------
@@ -98,9 +100,10 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self._mesh: dict[str, Any] = {"n_vertices": n_vertices, "evaluated_in": evaluated_in}
         self.pane = self._pane(size, interactive=True)
         self.source: Pane | None = None
-        self.gestures = PinGestures(model, self.fit)
+        self.gestures = PinGestures(model, self.fit, self.image)
         self._closed = False  # a frame may arrive while the canvas closes
         self._panels_at = self._range_at = 0.0
+        self._hidden: Any = ()
         # The drawn panels and their bounds, after the domain if a solve goes on.
         self._panels: tuple[Any, ...] = (None, None, None)
         super().__init__([self.pane], **kwargs)
@@ -173,6 +176,11 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 return
             moment = self.deformation.moment
             state, pose = moment.state, moment.state.pose
+            color_range = self._color_range(moment)
+            if not len(pose):
+                self._hidden = ()
+            elif color_range != "keep" or len(pose) != len(self._hidden):  # as often as that
+                self._hidden = self.deformation.sheets(self.image).hidden(pose.handles)
             cages: dict[str, Any] = {"cage": self.show_cage, "offset_cage": self.show_offset_cage}
             drawing = Drawing(
                 moment.map,
@@ -180,9 +188,11 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 pose.targets,
                 moment.shown(pose.handles) if len(pose) else (),
                 moment.selection,
+                self._hidden,
+                state.order,
                 self.overlay,
                 state.current.energy,
-                self._color_range(moment),
+                color_range,
                 panels=self._panels_of(moment) if self.show_panels else None,
                 **cages,
             )
@@ -252,10 +262,20 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
 
     def __init__(self, canvas: DeformCanvas, **kwargs: Any) -> None:
         self.deformation = model = canvas.deformation
-        self.undo = button("", "undo", "Undo (Ctrl+Z)", model.undo, "38px")
-        self.redo = button("", "repeat", "Redo (Ctrl+Shift+Z)", model.redo, "38px")
-        self.reset = button("", "home", "The undeformed shape (0)", model.reset, "38px")
-        self.fit = button("", "expand", "Make everything visible (F)", canvas.fit, "38px")
+        # Shared: every widget delays the first canvas.
+        narrow, fitting = ipywidgets.Layout(width="38px"), ipywidgets.Layout(width="auto")
+        tip = "{} where parts overlap (Page {})"
+        self.back, self.front = (
+            button("", icon, tip.format(*words), functools.partial(self._raise, steps), narrow)
+            for icon, words, steps in (
+                ("level-down", ("Send selected pins back", "Down"), -1),
+                ("level-up", ("Bring selected pins forward", "Up"), 1),
+            )
+        )
+        self.undo = button("", "undo", "Undo (Ctrl+Z)", model.undo, narrow)
+        self.redo = button("", "repeat", "Redo (Ctrl+Shift+Z)", model.redo, narrow)
+        self.reset = button("", "home", "The undeformed shape (0)", model.reset, narrow)
+        self.fit = button("", "expand", "Make everything visible (F)", canvas.fit, narrow)
         self.overlay = ipywidgets.Dropdown(
             options=[(overlay.label, name) for name, overlay in OVERLAYS.items()],
             tooltip="What the shape shows",
@@ -265,19 +285,23 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
         ipywidgets.link((canvas, "overlay"), (self.overlay, "value"))
         for name, label, tooltip in _TOGGLES:
             self.toggles[name] = toggle = ipywidgets.ToggleButton(
-                description=label, tooltip=tooltip, layout={"width": "auto"}
+                description=label, tooltip=tooltip, layout=fitting
             )
             ipywidgets.link((canvas, name), (toggle, "value"))
-        buttons = self.undo, self.redo, self.reset, self.fit
+        buttons = self.undo, self.redo, self.reset, self.fit, self.back, self.front
         super().__init__([*buttons, self.overlay, *self.toggles.values()], **kwargs)
         self.add_class("glid-tools")
         self._show("state")
         self._endings = (model.observe(self._show),)
 
+    def _raise(self, steps: int) -> None:
+        self.deformation.bring_forward(self.deformation.selection, steps)
+
     def _show(self, what: str) -> None:
-        if what == "state":
+        if what in ("state", "selection"):
             model = self.deformation
             self.undo.disabled, self.redo.disabled = not model.can_undo, not model.can_redo
+            self.back.disabled = self.front.disabled = not model.selection
 
 
 def check_size(least: int, n_vertices: Any, **sides: Any) -> tuple[int, int]:

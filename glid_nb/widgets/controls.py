@@ -23,10 +23,11 @@ def paragraph(text: str, style: str = "") -> str:
 
 
 def button(
-    label: str, icon: str, tooltip: str, act: Callable[[], None], width: str = "auto"
+    label: str, icon: str, tooltip: str, act: Callable[[], None], layout: Any = "auto"
 ) -> ipywidgets.Button:
-    """A button whose click calls ``act``."""
-    look: dict[str, Any] = {"icon": icon, "tooltip": tooltip, "layout": {"width": width}}
+    """A button whose click calls ``act``; ``layout`` is its width or a layout that it shares."""
+    layout = {"width": layout} if isinstance(layout, str) else layout
+    look: dict[str, Any] = {"icon": icon, "tooltip": tooltip, "layout": layout}
     made = ipywidgets.Button(description=label, **look)
     made.on_click(lambda _: act())
     return made

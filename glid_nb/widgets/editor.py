@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import base64
 import html
+import io
 from collections.abc import Callable
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
 import ipywidgets
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
+from PIL import Image
 
 from glid_nb._jax import once_loaded
 from glid_nb._runtime import enable_compilation_cache
@@ -27,7 +31,7 @@ from glid_nb.session.tracing import TracingProblem
 from glid_nb.solvers import Method, Pose
 from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
 from glid_nb.widgets.closing import ClosingWidget, close_on_rerun, close_with_parts
-from glid_nb.widgets.controls import PoseList
+from glid_nb.widgets.controls import REFUSED, PoseList, button, paragraph
 from glid_nb.widgets.exporting import export
 from glid_nb.widgets.file_panel import FilePanel, OpenPanel
 from glid_nb.widgets.monitor import SolverMonitor
@@ -38,6 +42,8 @@ _TRACE, _DEFORM = 0, 1
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
+
+_LINE = {"width": "0", "min_width": "100%", "height": "44px", "overflow": "hidden auto"}
 
 _LOST = "{} outside the new outline and removed with the old one; Undo brings everything back."
 _REPLACED = (
@@ -53,6 +59,9 @@ _NOT_SAVED = (
     "The session could not be saved: {error}. The next change tries again; "
     "Save in the Files tab writes it elsewhere."
 )
+
+
+_KEPT = "Work on this picture was kept when an editor ended, last on {:%d %B at %H:%M}."
 
 
 class Editor(ClosingWidget, ipywidgets.VBox):
@@ -142,9 +151,12 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             layout={"display": "none", "height": "0", "margin": "0", "overflow": "visible"}
         )
         """Why the session file is not up to date; hidden while it is."""
-        super().__init__([self.unsaved, self.tabs], **kwargs)
+        self.kept = ipywidgets.HBox(layout={"display": "none", "align_items": "center"})
+        """Offers what an earlier editor of the picture has kept; hidden without that."""
+        super().__init__([self.unsaved, self.kept, self.tabs], **kwargs)
         self.add_class("glid-editor")
         self._build()
+        self._offer()
         self.model.observe(self._on_model)
         self.tabs.observe(self._on_tab, ["selected_index"])
         self._endings = (self._end, self.model.close)
@@ -159,6 +171,27 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         return (
             f"Editor({len(state.poses)} poses, {len(state.pose)} handles in {state.current.name!r})"
         )
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
+        """The widget, and the picture as it is now for pages where no kernel runs."""
+        bundle, image = super()._repr_mimebundle_(**kwargs), self.model.tracing.image
+        if bundle is not None and image is not None:
+            bundle["image/png"] = base64.b64encode(self._snapshot(image)).decode()
+        self._displayed = True
+        self._begin()
+        return bundle
+
+    def _snapshot(self, image: NDArray[np.uint8]) -> bytes:
+        """The deformed picture with its pins; before there are any, the picture itself."""
+        if self.model.has_shape and len(self.pose):
+            from glid_nb.export.picture import animation_bytes  # noqa: PLC0415 - as in `_contents`
+
+            frame = {"size": max(self._size), "format": "apng"}
+            return animation_bytes(self.document.image, [self.map], [self.pose], **frame)
+        picture, buffer = Image.fromarray(image), io.BytesIO()
+        picture.thumbnail(self._size)
+        picture.save(buffer, "PNG")
+        return buffer.getvalue()
 
     # These parts are made once the canvas is drawn, or when asked for.
 
@@ -259,7 +292,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def export(
         self, path: str | Path, size: tuple[int, int] | None = None, view: View = "source"
     ) -> tuple[Path, ...]:
-        """Export as ``.png``, ``.obj``, ``.glb``, ``.svg``, ``.html``, ``.py`` or ``.proof.json``.
+        """Export as .png, .obj, .glb, .svg, .html, .py, .proof.json or .glid, a session.
 
         ``size`` and ``view`` of a picture are as in `glid_nb.render`. Returns the written files:
         ``path``, then those that come with it, such as ``-texture.png`` with a mesh, or
@@ -285,6 +318,33 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _on_model(self, what: str) -> None:
         self._build() if what == "replaced" else self._show_saving()
 
+    def _offer(self) -> None:
+        """Offer the work that was kept."""
+        if (path := self.model.kept) is None:
+            return
+
+        def bring() -> None:
+            try:
+                self.model.recover()
+            except (OSError, ValueError) as error:  # damaged, or gone meanwhile
+                self.kept.children[0].value = paragraph(str(error), REFUSED)
+            else:
+                self.kept.layout.display = "none"
+
+        def discard() -> None:
+            self.kept.layout.display = "none"
+            self.model.discard_kept()
+
+        at = datetime.fromtimestamp(path.stat().st_mtime)
+        self.kept.children = [
+            ipywidgets.HTML(paragraph(_KEPT.format(at))),
+            button("Bring it back", "history", "Go on with it", bring),
+            button("Discard", "trash", "Delete it", discard),
+        ]
+        for part in self.kept.children[1:]:
+            part.layout.flex = "0 0 auto"
+        self.kept.layout.display = "flex"
+
     def _build(self) -> None:
         """Make new views of new models."""
         with self.model.locked():
@@ -306,11 +366,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         """Prepare the solver for the shape, once there is one and somebody looks at it."""
         if self._displayed and self.model.has_shape:
             self.deformation.begin()
-
-    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
-        self._displayed = True
-        self._begin()
-        return super()._repr_mimebundle_(**kwargs)
 
     def _fill(self, _: Any = None) -> None:
         """Make the parts behind other tabs that are still missing."""
@@ -349,6 +404,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             layout={"min_height": f"{_PLOTS_HEIGHT + 64}px"},
         )
         self._side.observe(self._fill, ["selected_index"])
+        # However long, the status line neither widens its column nor moves what is below.
+        for name, value in _LINE.items():
+            setattr(self.monitor.line.layout, name, value)
         fixed = {"flex": "0 0 auto", "overflow": "visible"}
         side = ipywidgets.VBox(
             [self._side, self.pose_list], layout={**fixed, "width": f"{_SIDE_WIDTH + 34}px"}

@@ -22,6 +22,8 @@ _NUDGE, _NUDGE_SHIFT = 0.1, 0.5  # world units
 _CURSOR, _CURSOR_SHIFT = 6.0, 30.0  # pixels
 ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowDown": (0, -1)}
 
+DEPTHS = {"PageUp": 1, "]": 1, "PageDown": -1, "[": -1}
+
 
 class Gestures:
     """Turns events of the page into actions on a model.
@@ -72,29 +74,42 @@ class _Press:
 
 
 class PinGestures(Gestures):
-    """Pins points of a deformation and drags them; ``fit()`` makes everything visible."""
+    """Pins points of a deformation and drags them; ``fit()`` makes everything visible.
+
+    Where the picture (h, w, 4) is transparent, what lies below is pinned.
+    """
 
     takes = Gestures.takes | {"remove"}
 
-    def __init__(self, deformation: Deformation, fit: Callable[[], None]) -> None:
+    def __init__(
+        self, deformation: Deformation, fit: Callable[[], None], image: Array | None = None
+    ) -> None:
         super().__init__(deformation)
-        self.deformation = deformation
+        self.deformation, self._image = deformation, image
         self._fit = fit
         self._press: _Press | None = None
         self.cursor: list[float] | None = None
         """Where the keyboard's cursor is."""
 
     def hit(self, point: Array, reach: float) -> int | None:
-        """The handle whose target, or else whose image, is nearest within reach."""
+        """The handle whose target, or else whose image, is nearest within reach.
+
+        One that is in sight counts as nearer by a third of the reach than a hidden one.
+        """
         pose = self.deformation.pose
         if not len(pose):
             return None
+        hidden = self.deformation.sheets(self._image).hidden(pose.handles)
         for places in (pose.targets, self.deformation.moment.shown(pose.handles)):
             gap = np.linalg.norm(places - point, axis=1)
-            nearest = int(np.argmin(gap))
-            if gap[nearest] <= reach:
+            seen = np.where(gap <= reach, gap + hidden * reach / 3, np.inf)
+            nearest = int(np.argmin(seen))
+            if seen[nearest] < np.inf:
                 return nearest
         return None
+
+    def _source(self, point: Array) -> Array | None:
+        return self.deformation.sheets(self._image).source(point)
 
     def _down(self, event: Event) -> None:
         model, point = self.deformation, place(event)
@@ -109,7 +124,7 @@ class PinGestures(Gestures):
         if event["button"] != LEFT:
             return
         if hit is None:
-            source = None if event["shift"] else model.find(point)
+            source = None if event["shift"] else self._source(point)
             self._press = _Press(point, source, None)
         elif event["shift"]:
             chosen = model.selection
@@ -190,6 +205,8 @@ class PinGestures(Gestures):
             getattr(model, key)()
         elif key == "0":
             model.reset()
+        elif key in DEPTHS:
+            model.bring_forward(model.selection, DEPTHS[key])
         elif key in ("f", "F"):
             self._fit()
         elif key in (",", "."):
@@ -212,7 +229,7 @@ class PinGestures(Gestures):
         model, point = self.deformation, np.array(self.cursor)
         hit = self.hit(point, event["reach"])
         if hit is None:
-            source = model.find(point)
+            source = self._source(point)
             if source is None:
                 raise EditError("the cursor is beside the shape; move it onto the shape")
             hit = model.add_handle(source)

@@ -34,6 +34,8 @@ _LARGEST_SIDE = 2048  # pixels of a texture, which every graphics card can hold
 class Layer:
     """A mesh of (v, 2) points in the undeformed shape and (t, 3) triangles, moved by a map.
 
+    A third coordinate of the points is the height that the picture's depth test compares.
+
     Maps, at first ``map``, are evaluated by the shader if ``mover`` is a `ShaderMap`, else by it.
     ``shader`` names the files; ``attributes`` are further arrays per vertex, bytes as numbers up
     to 1. ``uniforms`` have at most one texture, as the last item: pythreejs binds every texture to
@@ -50,8 +52,7 @@ class Layer:
         triangles: Array,
         **attributes: Array,
     ) -> None:
-        flat = np.concatenate([points, np.zeros((len(points), 1))], axis=1).astype(np.float32)
-        arrays = {"position": flat, "index": triangles.astype(np.uint32).ravel(), **attributes}
+        arrays = {**_stack(points, triangles), **attributes}
         self._evaluate = None if isinstance(mover, ShaderMap) else mover
         if isinstance(mover, ShaderMap):
             uniforms = {**mover.uniforms(map), **uniforms}
@@ -74,11 +75,13 @@ class Layer:
         """The materials in drawing order."""
         self.meshes: list[Any] = []
         """What is drawn, the lowest first."""
-        self.draw(energies + glsl(f"{shader}.frag"), uniforms)
+        self.draw(energies + glsl(f"{shader}.frag"), uniforms, depth=shader == "picture")
         self.material, self.mesh = self.materials[0], self.meshes[0]
 
-    def draw(self, fragment: str, uniforms: Uniforms, side: str = "DoubleSide") -> None:
-        """Draw the mesh once more, with another material."""
+    def draw(
+        self, fragment: str, uniforms: Uniforms, side: str = "DoubleSide", depth: bool = False
+    ) -> None:
+        """Draw the mesh once more, with another material; with ``depth`` by the points' heights."""
         material = three.ShaderMaterial(
             vertexShader=self._vertex,
             fragmentShader=f"#define N_COLORS {N_COLORS}\n{glsl('colors.glsl')}\n{fragment}",
@@ -86,8 +89,8 @@ class Layer:
             side=side,
             transparent=True,
             premultipliedAlpha=True,
-            depthTest=False,
-            depthWrite=False,
+            depthTest=depth,
+            depthWrite=depth,
         )
         self.materials.append(material)
         # Culling would hide a mesh that leaves its first bounding sphere.
@@ -97,6 +100,11 @@ class Layer:
         """Give the vertices other values."""
         if not np.array_equal(self.attributes[name].array, values):
             self.attributes[name].array = values
+
+    def stack(self, points: Array, triangles: Array) -> None:
+        """Give the points other heights, and draw the triangles in another order."""
+        for name, values in _stack(points, triangles).items():
+            self.set_attribute(name, values)
 
     def set_uniforms(self, changes: Uniforms) -> None:
         """Give some uniforms other values."""
@@ -115,13 +123,19 @@ class Layer:
             part.close()
 
 
-def comparison_layer(map: MeshMap, uniforms: Uniforms) -> Layer:
+def _stack(points: Array, triangles: Array) -> dict[str, Array]:
+    position = np.zeros((len(points), 3), np.float32)
+    position[:, : points.shape[1]] = points
+    return {"position": position, "index": triangles.astype(np.uint32).ravel()}
+
+
+def comparison_layer(map: MeshMap, uniforms: Uniforms, points: Array, triangles: Array) -> Layer:
     """The picture on a mesh that another method moves; turned-over triangles have one colour.
 
     All maps are of one triangulation; ``uniforms`` are those of ``picture.frag``.
     """
     mesh = map.triangulation
-    layer = Layer("picture", uniforms, _evaluation_on(mesh), map, mesh.vertices, map.layered)
+    layer = Layer("picture", uniforms, _evaluation_on(mesh), map, points, triangles)
     # Turned-over triangles show their back, and this material draws only backs.
     mark = {"mark": {"value": [*rgb([VERMILION])[0], 0.9]}, "frame": uniforms["frame"]}
     layer.draw(glsl("turned_over.frag"), mark, "BackSide")

@@ -40,6 +40,8 @@ PANEL_LEGEND = {
 }
 """The colour bar of the boundary's panels, for the page."""
 
+_MOST_DIGITS = 22  # of all labels of a colour bar together
+
 _SHARE = 0.98  # of the boundary, where distortion is largest, lies within a colour map's range
 
 
@@ -120,10 +122,11 @@ def legend(name: str, energy: Energy, range_: tuple[float, float]) -> dict[str, 
     """The colour bar for the page; empty for none."""
     if OVERLAYS[name].number < 2 or (name == "energy" and energy.shader is None):
         return {}
-    low, high = range_
-    ticks = np.linspace(low, high, 5 if name == "energy" else 3)
-    return {
-        "title": OVERLAYS[name].label,
-        "colors": list(COLORS),
-        "ticks": [f"{value:.3g}" for value in ticks],
-    }
+    title, ticks = OVERLAYS[name].label, _ticks(*range_, 5 if name == "energy" else 3)
+    return {"title": title, "colors": list(COLORS), "ticks": ticks}
+
+
+def _ticks(low: float, high: float, count: int) -> list[str]:
+    """Labels at equal distances, fewer where they would not have room beside each other."""
+    texts = [f"{float(f'{value:.3g}'):g}" for value in np.linspace(low, high, count)]
+    return texts if len("".join(texts)) <= _MOST_DIGITS else _ticks(low, high, count - 1)

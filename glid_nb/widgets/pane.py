@@ -48,8 +48,11 @@ class Stage(Pad):
     """Centre (x, y) in world units, and the world units of one CSS pixel."""
     coefficients = traitlets.Bytes(b"").tag(sync=True)
     """The map, as ``ShaderMap.wire`` writes it; empty where the kernel evaluates."""
-    marks = traitlets.Dict({"targets": [], "images": [], "selected": []}).tag(sync=True)
-    """Targets and images of the handles, lists of [x, y], and indices of those selected."""
+    marks = traitlets.Dict({key: [] for key in ("targets", "images", "selected", "hidden")}).tag(
+        sync=True
+    )
+    """Targets and images of the handles, lists of [x, y], and indices of the selected and of the
+    hidden ones."""
     cursor = traitlets.List(default_value=None, allow_none=True).tag(sync=True)
     """Where the keyboard's cursor is, [x, y]; None while it is not used."""
     legend = traitlets.Dict({}).tag(sync=True)
@@ -158,7 +161,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         with stage.hold_sync():
             stage.materials = scene.materials
             stage.coefficients = self._wire()
-            stage.marks = marks_of(drawing.targets, drawing.images, drawing.selected)
+            stage.marks = marks_of(drawing)
             stage.legend = legend(drawing.overlay, drawing.energy, scene.color_range)
             stage.panel_legend = PANEL_LEGEND if panels else {}
         if old is not scene:
@@ -231,7 +234,8 @@ def emptiest_corner(points: Any, width: int, height: int, bars: int = 1) -> str:
     return min(CORNERS, key=hidden)  # the first of equals
 
 
-def marks_of(targets: Any, images: Any, selected: Any) -> dict[str, Any]:
+def marks_of(drawing: Drawing) -> dict[str, Any]:
     """The trait ``marks``: points rounded to what a screen can show."""
-    rounded = {"targets": np.round(targets, 5), "images": np.round(images, 5)}
-    return {**{k: points.tolist() for k, points in rounded.items()}, "selected": list(selected)}
+    points = {name: np.round(getattr(drawing, name), 5).tolist() for name in ("targets", "images")}
+    hidden = np.flatnonzero(drawing.hidden).tolist()
+    return {**points, "selected": list(drawing.selected), "hidden": hidden}

@@ -15,6 +15,7 @@ from glid_nb.geometry import MeshMap, Triangulation, triangulate, uniform_panels
 from glid_nb.geometry.panels import Panels
 from glid_nb.harmonic import FixedPoints, HarmonicMap
 from glid_nb.imaging import PixelFrame
+from glid_nb.imaging.order import Order, order_of
 from glid_nb.widgets.layers import EvaluatedIn, Layer, Uniforms, comparison_layer, picture_texture
 from glid_nb.widgets.overlays import COLORS, FULL_MARGIN, MARGIN_COLORS, OVERLAYS, color_range, rgb
 from glid_nb.widgets.ribbons import PANEL_VERTICES, cage_ribbon, offset_ribbon, panel_ribbon
@@ -27,6 +28,7 @@ N_VERTICES = 10_000
 
 _RANGE_SAMPLES = 256  # of the boundary, where distortion is largest
 _GRID_LINES = 40  # along the longer side
+_HIGHEST, _LEVELS = 4.0, 24  # world units, inside the camera's range; groups of triangles
 _COLUMN = 8.0  # width of a column of triangles in drawing order, in heights of a row
 # Lines along the boundary, the lowest first: shape, colour, opacity, half the width in pixels.
 _LINES = {
@@ -49,6 +51,10 @@ class Drawing:
     """(h, 2) where they are."""
     selected: tuple[int, ...] = ()
     """Indices of selected handles."""
+    hidden: Any = ()
+    """(h,) whether another part of the shape covers a handle."""
+    order: Order | None = None
+    """Which part of the shape covers which; by default as without depths."""
     overlay: str = "texture"
     """One of `glid_nb.widgets.overlays.OVERLAYS`."""
     energy: Energy = field(default_factory=SymmetricDirichlet)
@@ -88,8 +94,9 @@ class Scene:
         self.frame = PixelFrame(width, height)
         self._texture = picture_texture(image)
         mesh = triangulate(self.domain.cage, n_vertices)
+        self._mesh, self._order = mesh, order_of(self.domain.cage)
         textured = self._textured_uniforms()
-        self.picture = self._layer("picture", textured, mesh.vertices, drawing_order(mesh))
+        self.picture = self._layer("picture", textured, *_stacked(mesh, self._order))
         self.lines: dict[str, Layer] = {}
         """Those that have been shown, of "cage", "offset_cage" and "panels"."""
         self.comparison: Layer | None = None
@@ -121,6 +128,7 @@ class Scene:
         while self._replaced:  # by the drawing before: the page draws others by now
             self._replaced.pop().close()
         self.map = drawing.map
+        self._show_order(drawing.order or order_of(self.domain.cage))
         self._show_comparison(drawing.comparison)
         self._show_overlay(drawing)
         self._show_line("cage", self.domain if drawing.cage else None)
@@ -140,13 +148,22 @@ class Scene:
             layer.close()
         self._texture.close()
 
+    def _show_order(self, order: Order) -> None:
+        if order is self._order:
+            return
+        self._order = order
+        self.picture.stack(*_stacked(self._mesh, order))
+        if self.comparison is not None:
+            self.comparison.stack(*_stacked(self._sources["comparison"], order))
+
     def _show_comparison(self, map: MeshMap | None) -> None:
         layer, source = self.comparison, None if map is None else map.triangulation
         if layer is not None and self._sources["comparison"] is not source:
             self._replaced.append(layer)
             layer = None
         if layer is None and map is not None:
-            layer = comparison_layer(map, self._textured_uniforms())
+            stacked = _stacked(map.triangulation, self._order)
+            layer = comparison_layer(map, self._textured_uniforms(), *stacked)
         self.comparison, self._sources["comparison"] = layer, source
         if layer is not None:
             layer.show(map)
@@ -200,7 +217,7 @@ class Scene:
     ) -> Layer:
         mover = self.shader_map
         if self.evaluated_in == "kernel":
-            mover = FixedPoints(self.domain, points)
+            mover = FixedPoints(self.domain, points[:, :2])
         return Layer(shader, uniforms, mover, self.map, points, triangles, **more)
 
     def _textured_uniforms(self) -> Uniforms:
@@ -224,6 +241,20 @@ class Scene:
 
 def _uniforms(**values: Any) -> Uniforms:
     return {name: {"value": value} for name, value in values.items()}
+
+
+def _stacked(mesh: Triangulation, order: Order) -> tuple[Array, Array]:
+    """(v, 3) vertices with the order's heights as z, and (t, 3) triangles, the lower ones first.
+
+    The depth test orders them within a level; between levels, what is behind has to be drawn first
+    to be seen through the soft edges of what is in front.
+    """
+    z = order(mesh.vertices)
+    z = 2 * _HIGHEST * ((z - z.min()) / (np.ptp(z) or 1.0) - 0.5)
+    triangles = drawing_order(mesh)
+    rank = np.argsort(np.argsort(z[triangles].mean(axis=1), kind="stable"))
+    levels = rank * _LEVELS // len(rank)
+    return np.column_stack([mesh.vertices, z]), triangles[np.argsort(levels, kind="stable")]
 
 
 def drawing_order(mesh: Triangulation) -> Array:

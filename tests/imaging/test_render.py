@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.frame import PixelFrame
-from glid_nb.imaging.mesh import deformed_mesh, sheet_heights
+from glid_nb.imaging.mesh import deformed_mesh
+from glid_nb.imaging.order import order_of
 from glid_nb.imaging.render import render, rendering
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
@@ -199,8 +200,8 @@ def test_where_the_shape_overlaps_itself_one_end_lies_on_the_other(bar: Domain):
 
 def test_heights_grow_from_the_trunk_to_the_limbs(domain: Domain):
     mesh = deformed_mesh(HarmonicMap.identity(domain), 800)
-    heights = sheet_heights(domain.cage, mesh.vertices, mesh.triangles)
-    np.testing.assert_allclose(heights, mesh.heights)
+    heights = order_of(domain.cage)(mesh.vertices)
+    np.testing.assert_array_equal(heights, mesh.heights)
     # The innermost part of the rectangle with a hole near its top right is its left half.
     lowest, highest = mesh.vertices[np.argmin(heights)], mesh.vertices[np.argmax(heights)]
     assert -4 < lowest[0] < 0

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from glid_nb.session.autosave import flush
+from glid_nb.session.autosave import MOST_KEPT, flush, kept_files
 from glid_nb.session.document import DocumentError
 from glid_nb.session.document_file import load_document
 from glid_nb.session.editor_model import (
@@ -254,3 +254,66 @@ def test_saving_to_the_file_that_is_kept_up_to_date_is_no_conflict(
     flush(tmp_path / "a.glid")
     assert model.left_path is None
     assert len(load_document(tmp_path / "a.glid").poses[0].pose.handles) == 4
+
+
+class TestKeptWork:
+    """What an editor without a file leaves for the next one of the same picture."""
+
+    @pytest.fixture(autouse=True)
+    def folder(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+        monkeypatch.setenv("GLID_NB_DATA", str(tmp_path / "data"))
+        return tmp_path / "data"
+
+    def left(self, *points: tuple[float, float], width: int = 80) -> None:
+        model = EditorModel(picture(width))
+        _pin(model, *points)
+        model.close()
+
+    def test_the_next_editor_of_the_picture_goes_on_with_it(self) -> None:
+        self.left((-6, 0), (6, 0))
+        assert EditorModel(picture(60)).kept is None
+        again = EditorModel(picture())
+        assert again.kept == kept_files(picture())[0]
+        again.recover()
+        assert again.kept is None
+        assert len(again.deformation.pose) == 2
+        _pin(again, (0, 3.5))
+        again.close()
+        (path,) = kept_files()  # it went on in the same file
+        assert len(load_document(path).poses[0].pose) == 3
+
+    def test_work_that_nobody_asked_for_is_not_written_over(self) -> None:
+        self.left((-6, 0), (6, 0))
+        self.left((-6, 0))
+        counts = sorted(len(load_document(path).poses[0].pose) for path in kept_files(picture()))
+        assert counts == [1, 2]
+
+    def test_at_most_five_files_are_kept(self) -> None:
+        for width in range(60, 82, 3):
+            self.left((-4, 0), width=width)
+        assert len(kept_files()) == MOST_KEPT
+        assert not kept_files(picture(60))
+        assert kept_files(picture(81))
+
+    def test_nothing_is_kept_of_what_is_saved_discarded_or_empty(self, tmp_path: Path) -> None:
+        EditorModel(picture()).close()
+        EditorModel(picture(), path=tmp_path / "a.glid").close()
+        assert kept_files() == []
+        model = EditorModel(picture())
+        _pin(model, (-6, 0))
+        assert len(kept_files()) <= 1
+        model.save(tmp_path / "b.glid")
+        model.close()
+        assert kept_files() == []
+        self.left((-6, 0))
+        again = EditorModel(picture())
+        again.discard_kept()
+        assert (again.kept, kept_files()) == (None, [])
+
+    def test_a_folder_that_cannot_be_made_is_said_and_stops_nothing(self, folder: Path) -> None:
+        folder.write_text("a file")
+        model = EditorModel(picture())
+        _pin(model, (-6, 0))
+        assert isinstance(model.save_error, OSError)
+        assert len(model.deformation.pose) == 1
+        model.close()

@@ -147,3 +147,14 @@ def test_what_cannot_be_written_is_refused(model: TracingModel) -> None:
     custom = CustomEnergy(lambda x, y: (x + y) * (1 + 1 / (x - y) ** 2))
     with pytest.raises(DocumentError, match=r"'wave'.*Python function"):
         python_code(replace(document, poses=(replace(pose, energy=custom),)))
+
+
+def test_all_poses_are_made(solved: Document, picture: str) -> None:
+    wave = solved.poses[0]
+    rest = replace(wave, name="at\nrest", map=HarmonicMap.identity(solved.domain))
+    document = replace(solved, poses=(wave, rest, wave), active=1)
+    scope = run(python_code(document, picture, exact=True))
+    gaps = [made.distance(p.map) for made, p in zip(scope["maps"], document.poses, strict=True)]
+    assert max(gaps) < 1e-12
+    assert scope["map"] is scope["maps"][1]
+    assert python_code(document, picture).count("glid.solve(domain, pose") == 3

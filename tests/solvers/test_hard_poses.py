@@ -15,6 +15,7 @@ from glid_nb.geometry import Cage, Domain
 from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Options, Pose, Progress, Status, solve
+from glid_nb.solvers.restarts import SAME_ENERGY
 
 from ..domains import NAMES, domain, real
 from ..geometry.shapes import KINDS as CAGES
@@ -130,7 +131,7 @@ def test_ends_that_turn_over_do_so_in_opposite_directions_where_that_is_better()
     pose = Pose(handles, handles * [1, -1])
     result = solve(domain, pose, callback=lambda p: energies.append(p.energy) or False)
     reached = {attempt.name: attempt.energy for attempt in result.attempts}
-    assert result.energy == min(reached.values())
+    assert result.energy * (1 - SAME_ENERGY) < min(reached.values())
     assert reached["staged targets, left and right"] < 0.95 * reached["direct"]
     check_certified(result)
     # It can be stopped on another way; then the first way's end is the best so far.

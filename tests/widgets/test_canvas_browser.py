@@ -153,13 +153,23 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
 def test_by_keyboard_alone(open_notebook: OpenNotebook) -> None:
     book = open_notebook([SETUP, EDITOR])
     hand = Hand(book)
-    keys = hand.page.keyboard
+    keys, shown = hand.page.keyboard, hand.pad.locator(".glid-help")
+    hand.pad.get_by_text("Click the shape to pin a point").wait_for()
+    hand.pad.get_by_role("button", name="Keys and gestures").click()
+    shown.get_by_text("Ctrl+Shift+Z").wait_for()
+    book.screenshot("editor-help")
     hand.pad.focus()
+    keys.press("Shift+?")
+    assert not shown.is_visible()
+    assert book.value("len(model.pose)") == 0
     keys.press("Enter")  # the cursor appears in the middle
     for _ in range(3):
         keys.press("Shift+ArrowLeft")
     keys.press("Enter")
     book.wait_for("len(model.pose) == 1 and model.selection == (0,)")
+    assert not hand.pad.locator(".glid-notice").is_visible()
+    hand.page.mouse.move(*hand.place(hand.targets[0]))
+    assert "Pin 1: where it should be" in (hand.pad.get_attribute("title") or "")
     x = hand.handles[0][0]
     assert x < -1
     keys.press("Escape")
@@ -245,3 +255,64 @@ def test_the_canvas_says_that_it_is_warming_up_and_takes_pins_meanwhile(
     shown.wait_for(state="hidden")
     hand.settle()
     assert hand.certified()
+
+
+def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
+    open_notebook: OpenNotebook,
+) -> None:
+    book = open_notebook([SETUP, EDITOR])
+    hand, page = Hand(book), book.page
+    book.value("None", setup="model.paused = True")
+    for point in THREE:
+        hand.click(point)
+    book.wait_for("len(model.pose) == 3")
+    # Undo by keys, wherever in the editor the last click was, but not out of a text field.
+    elsewhere = (
+        page.locator(".glid-tools button", has_text="Cage"),
+        page.get_by_role("tab", name="Solver"),
+        page.locator(".glid-solver-panel .widget-label").first,
+    )
+    for left, place in zip((2, 1, 0), elsewhere, strict=True):
+        place.click()
+        page.keyboard.press("Control+z")
+        book.wait_for(f"len(model.pose) == {left}")
+    page.keyboard.press("Control+Shift+Z")
+    book.wait_for("len(model.pose) == 1")
+    page.get_by_role("tab", name="Files").click()
+    page.get_by_placeholder("Name.glid").click()
+    page.keyboard.press("Control+z")
+    page.get_by_role("tab", name="Trace").click()
+    page.get_by_role("button", name="Whole picture").click()
+    book.wait_for("editor.tracer.tracing_model.edited")
+    page.get_by_role("tab", name="Trace").click()
+    page.keyboard.press("Control+z")
+    book.wait_for("not editor.tracer.tracing_model.edited")
+    page.get_by_role("tab", name="Deform").click()
+    assert book.value("len(model.pose)") == 1
+
+    def places() -> list[object]:
+        parts = (".glid-pad", ".glid-files", ".glid-pose-list")
+        return [page.locator(f".glid-editor {part}").first.bounding_box() for part in parts]
+
+    # A long status moves nothing, and a notice lies beside the colour bar, at every width.
+    book.value("None", setup="canvas.overlay = 'energy'; stage = canvas.pane.stage")
+    page.locator(".glid-legend-bar").wait_for()
+    for width in (1366, 800):
+        page.set_viewport_size({"width": width, "height": 768})
+        before = places()
+        book.value("None", setup="editor.monitor.line.value = 'A long status. ' * 40")
+        book.value(
+            "None", setup="stage.notice = 'So it is. ' * 9; stage.legend_corner = 'top left'"
+        )
+        notice = page.locator(".glid-notice", has_text="So it is.")
+        notice.wait_for()
+        bar = page.locator(".glid-legend[data-corner='top left']")
+        bar.wait_for()
+        assert places() == before
+        above, below = bar.bounding_box(), notice.bounding_box()
+        assert above is not None
+        assert below is not None
+        assert above["y"] + above["height"] < below["y"]
+        book.screenshot(f"editor-long-status-{width}")
+        book.value("None", setup="editor.monitor.line.value = stage.notice = ''")
+    page.set_viewport_size({"width": 1366, "height": 768})

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import base64
 import gc
+import io
 import os
 import shutil
 import subprocess
@@ -30,7 +32,7 @@ from glid_nb.session.edit_state import EditError, EditState, Moment
 from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
 from glid_nb.widgets.exporting import ExportError
 from glid_nb.widgets.file_panel import OpenPanel
-from glid_nb.widgets.overlays import COLORS, N_COLORS, OVERLAYS, color_range, rgb
+from glid_nb.widgets.overlays import COLORS, N_COLORS, OVERLAYS, color_range, legend, rgb
 from glid_nb.widgets.pane import emptiest_corner
 
 from ..domains import domain
@@ -70,6 +72,14 @@ def test_the_colour_bar_goes_where_it_hides_least() -> None:
     assert emptiest_corner(list(corners.values()), *size) == "top left"
     twice = [*corners.values(), (10, 395), *corners.values()]
     assert emptiest_corner(twice, *size) == "top left"
+
+
+@pytest.mark.parametrize("top", [2.134, 54.6, 5510.3, 1.2345e7, 9.87e201])
+def test_the_labels_of_a_colour_bar_do_not_meet(top: float) -> None:
+    ticks = legend("energy", glid.SymmetricDirichlet(), (2.0, top))["ticks"]
+    assert (float(ticks[0]), float(ticks[-1])) == (2.0, pytest.approx(top, rel=5e-3))
+    assert len("".join(ticks)) <= 22  # of 6 pixels, on a bar of 190
+    assert len(ticks) == 5 or top > 1e4
 
 
 def test_the_headless_editor(editor: Editor, tmp_path: Path) -> None:
@@ -139,6 +149,46 @@ def test_code_deforms_a_guess_without_asking() -> None:
     assert editor.tabs.selected_index == 1
     assert editor.canvas is not None
     editor.close()
+
+
+@pytest.mark.parametrize("damaged", [False, True])
+def test_the_next_editor_of_a_picture_offers_what_was_done(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, damaged: bool
+) -> None:
+    monkeypatch.setenv("GLID_NB_DATA", str(tmp_path))
+    first = Editor(bar(), n_vertices=300)
+    assert first.kept.layout.display == "none"
+    first.deformation.paused = True
+    first.add_handle((-7, 0))
+    first.close()
+    again = Editor(bar(), n_vertices=300)
+    text, bring, _ = again.kept.children
+    assert "was kept" in text.value
+    if damaged:
+        again.model.kept.write_bytes(b"")
+    bring.click()
+    assert len(again.pose) == (0 if damaged else 1)
+    assert ("no zip file" in text.value) == damaged
+    assert again.kept.layout.display == ("flex" if damaged else "none")
+    again.close()
+
+
+def test_where_no_kernel_runs_a_picture_stands_for_the_editor(editor: Editor) -> None:
+    def shown() -> np.ndarray:
+        bundle = editor._repr_mimebundle_()
+        assert set(bundle) > {"application/vnd.jupyter.widget-view+json", "text/plain"}
+        with Image.open(io.BytesIO(base64.b64decode(bundle["image/png"]))) as picture:
+            return np.asarray(picture.convert("RGBA"))
+
+    np.testing.assert_array_equal(shown(), bar())
+    editor.deformation.paused = True
+    editor.add_handle((-7, 0), to=(-7, 0))
+    deformed = shown()
+    assert max(deformed.shape) == 600
+    assert (deformed[..., :3] == (200, 120, 40)).all(axis=2).mean() > 0.3
+    empty = Editor()
+    assert "image/png" not in empty._repr_mimebundle_()
+    empty.close()
 
 
 def test_a_session_file_is_kept_up_to_date(tmp_path: Path) -> None:

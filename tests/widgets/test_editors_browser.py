@@ -3,11 +3,20 @@
 from __future__ import annotations
 
 import pytest
+from playwright.sync_api import Locator
 
 from .conftest import OpenNotebook
 from .editor_page import EDITOR, SETUP, Hand, line
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
+
+
+def center(of: Locator) -> tuple[float, float]:
+    """The middle of an element on the page."""
+    box = of.bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
 
 NAMED = "{name} = glid.Editor(picture, n_vertices=500, width=480, height=300)\n{name}"
 
@@ -146,3 +155,34 @@ def test_an_opened_session_and_another_picture_are_seen(open_notebook: OpenNoteb
     assert back.handles == handles
     page.get_by_text("comes back with Redo in the Trace tab").wait_for()
     book.screenshot("editor-picture-back")
+
+
+RESTART = """() => window.jupyterapp.shell.currentWidget.sessionContext.session.kernel.restart()
+  .then(() => null)"""
+
+
+def test_work_survives_a_restart_of_the_kernel(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, EDITOR], service_workers="block")
+    page, root = book.page, book.page.locator(".glid-editor")
+    page.locator(".glid-pad").wait_for()
+    book.value("None", setup="model.paused = True")
+    page.locator(".glid-pad").click(position={"x": 280, "y": 200})
+    book.wait_for("len(editor.pose) == 1 and editor.model._autosave.file.n_saved")
+    page.evaluate(RESTART)
+    page.locator(".glid-editor.jupyter-widgets-disconnected").wait_for()
+    said = "element => getComputedStyle(element, '::after').content"
+    assert "Run the cell again; your work is kept." in root.evaluate(said)
+    icons = """() => [...document.querySelectorAll('.glid-editor .jupyter-widgets-disconnected')]
+      .filter((element) => getComputedStyle(element, '::before').display !== 'none').length"""
+    assert page.evaluate(icons) == 0
+    # Nothing below it takes a click or throws.
+    page.mouse.click(*center(page.locator(".glid-pad")))
+    page.locator(".glid-pad").focus()
+    page.keyboard.press("ArrowLeft")
+    book.screenshot("editor-restarted")
+    book.run_all()
+    page.get_by_text("was kept when an editor ended").wait_for()
+    book.screenshot("editor-kept-work")
+    page.get_by_role("button", name="Bring it back").click()
+    book.wait_for("len(editor.pose) == 1")
+    assert not page.get_by_role("button", name="Discard").is_visible()

@@ -27,6 +27,7 @@ float grid_cover() {
 
 void main() {
   vec4 texel = texture2D(map, v_uv);
+  if (texel.a < 0.004) discard;  // it must not hide what is behind
   if (overlay < 0.5) {
     gl_FragColor = texel;
     return;

@@ -1,4 +1,4 @@
-// A vertex of the picture's mesh: where the map takes it.
+// A vertex of the picture's mesh: where the map takes it, at the height of its part of the shape.
 
 uniform vec4 frame;  // the picture's lower left corner and its size, world units
 
@@ -12,5 +12,5 @@ void main() {
   harmonic_map(position.xy, f, v_fz, v_fzb_conj);
   v_source = position.xy;
   v_uv = (position.xy - frame.xy) / frame.zw;
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(f, 0.0, 1.0);
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(f, position.z, 1.0);
 }

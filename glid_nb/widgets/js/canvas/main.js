@@ -1,8 +1,9 @@
 // The pad over the renderer: sends pointers and keys, draws handles, colour bars and notices.
 
 import { make } from "../pad/dom.js";
+import { help } from "../pad/help.js";
 import { Link } from "../pad/link.js";
-import { Pad } from "../pad/pad.js";
+import { Pad, undoAround } from "../pad/pad.js";
 import { clearedContext } from "../pad/pen.js";
 import { View } from "../pad/view.js";
 import { drawMarks, markAt } from "./marks.js";
@@ -11,8 +12,30 @@ import { Shapes, drawingTime, uniformVectors } from "./shapes.js";
 const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
 const KEYS = new Set([
   "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Delete", "Backspace", "Escape", "Enter",
-  "0", "f", "F", ",", ".", "a", "A",
+  "0", "f", "F", ",", ".", "a", "A", "PageUp", "PageDown", "[", "]",
 ]);
+const HELP = [
+  ["Click the shape", "pin a point"],
+  ["Drag a pin, or the shape", "move it there; the shape follows as far as it cannot fold"],
+  ["Right-click, long touch, Delete", "remove a pin"],
+  ["Shift-click, A", "select several pins, all pins"],
+  ["Page Down, Page Up", "selected pins and what is around them go back, come forward; also [ and ]"],
+  ["Arrow keys", "nudge selected pins, with Shift farther; else move a cursor"],
+  ["Enter", "show the cursor; pin or select there"],
+  [", .", "select the pin before, the next pin"],
+  ["Page Up, Page Down, ] [", "selected pins in front, or behind, where parts overlap"],
+  ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
+  ["Esc", "cancel a drag; select nothing"],
+  ["0", "back to the undeformed shape"],
+  ["F", "see everything"],
+  ["Wheel, two fingers", "zoom"],
+  ["Middle button, Space and drag", "move the view"],
+];
+const FIRST = "Click the shape to pin a point, then drag the pin. The key ? shows what else there is.";
+const TIPS = [
+  "where it should be. Drag it; a right click removes it; Shift-click selects several",
+  "where the shape has got to. The cyan disk is where it should be",
+];
 const SAVE_VIEW_AFTER = 250; // ms
 const LEAST_SIZE = 240; // CSS pixels
 
@@ -57,13 +80,18 @@ function resizeGrip(model) {
 }
 
 function render({ model, el }) {
-  el.classList.add("glid-pad-host");
+  el.classList.add("glid-host", "glid-pad-host");
   const paper = make("canvas", { className: "glid-paper" });
   const bars = make("div", { className: "glid-legend" });
   const notice = make("div", { className: "glid-notice", role: "status" });
   const prepared = make("div", { className: "glid-prepared", role: "status" });
   const label = "Deformation canvas: arrow keys move, Enter adds a handle";
+<<<<<<< HEAD
   const box = make("div", { className: "glid-pad", role: "application", "aria-label": label }, paper, bars, notice, prepared);
+=======
+  const box = make("div", { className: "glid-pad", role: "application", "aria-label": label }, paper, bars, notice);
+  const keys = help(HELP);
+>>>>>>> main
   box.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
   el.append(box);
 
@@ -92,16 +120,21 @@ function render({ model, el }) {
   const pad = model.get("interactive") ? new Pad(box, view, link, {
     reach: REACH,
     keys: KEYS,
+    actions: { "?": keys.toggle },
     removesByLongPress: true,
     find: (point, reach) => markAt(marks(), point, reach),
     held: ({ mark }) => {
       const { selected, targets } = marks();
       return new Map((selected.includes(mark) ? selected : [mark]).map((i) => [i, targets[i]]));
     },
-    cursor: (found) => (found ? "grab" : "crosshair"),
+    cursor: (found) => {
+      box.title = found ? `Pin ${found.mark + 1}: ${TIPS[Number(found.reached)]}` : "";
+      return found ? "grab" : "crosshair";
+    },
     changed: soon,
   }) : null;
-  if (pad) box.append(resizeGrip(model));
+  if (pad) box.append(keys.button, keys.table, resizeGrip(model));
+  const forget = pad && undoAround(box, (e) => pad.keydown(e));
 
   const fit = () => {
     Object.assign(view, { width: model.get("width"), height: model.get("height") });
@@ -110,8 +143,10 @@ function render({ model, el }) {
     look();
   };
   const tell = () => {
-    notice.textContent = model.get("notice");
+    const refusal = model.get("notice"), first = pad && !marks().targets.length;
+    notice.textContent = refusal || (first ? FIRST : "");
     notice.hidden = !notice.textContent;
+    notice.classList.toggle("glid-first", !refusal);
   };
   const prepare = () => {
     const share = model.get("prepared");
@@ -130,8 +165,12 @@ function render({ model, el }) {
     "change:coefficients": () => shapes.refresh(),
     "change:marks change:cursor": soon,
     "change:legend change:panel_legend change:legend_corner": showLegend,
+<<<<<<< HEAD
     "change:notice": tell,
     "change:prepared": prepare,
+=======
+    "change:notice change:marks": tell,
+>>>>>>> main
   };
   for (const [names, listener] of Object.entries(listeners)) model.on(names, listener);
   fit();
@@ -149,6 +188,7 @@ function render({ model, el }) {
     cancelAnimationFrame(due);
     clearTimeout(saving);
     for (const [names, listener] of Object.entries(listeners)) model.off(names, listener);
+    forget?.();
     pad?.close();
     link.close();
     shapes.close();

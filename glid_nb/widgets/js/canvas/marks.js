@@ -1,7 +1,6 @@
 // Handles and targets, drawn over the shape: cyan disks where handles should go, black dots where
-// they are, and a line between the two.
+// they are, and a line between the two. Those that another part of the shape covers are faint rings.
 
-import { nearestVertex } from "../pad/hit.js";
 import { disk } from "../pad/pen.js";
 
 const TARGET = 7.5, IMAGE = 3.5, RING = 12; // radii, CSS pixels
@@ -21,6 +20,14 @@ function lines(pen, pairs, styles) {
   }
 }
 
+// A dashed ring with a border.
+function ring(pen, place) {
+  pen.setLineDash([3.5, 2.4]);
+  disk(pen, place, TARGET, null, "rgba(255,255,255,0.85)", 3.4);
+  disk(pen, place, TARGET, null, "#067a82", 1.6);
+  pen.setLineDash([]);
+}
+
 // held: where the pointer holds targets, by index.
 export function drawMarks(pen, view, marks, { hovered, held, cursor }) {
   const targets = marks.targets.map((p, i) => view.toScreen(held.get(i) || p));
@@ -31,12 +38,14 @@ export function drawMarks(pen, view, marks, { hovered, held, cursor }) {
   targets.forEach((target, i) => {
     if (marks.selected.includes(i)) disk(pen, target, RING, "rgba(0,114,178,0.28)", "#0072b2", 2);
     else if (i === hovered) disk(pen, target, RING, "rgba(0,114,178,0.14)");
-    disk(pen, target, TARGET, "#00d5e0", "#063f45", 1.4);
+    if (marks.hidden.includes(i)) ring(pen, target);
+    else disk(pen, target, TARGET, "#00d5e0", "#063f45", 1.4);
   });
-  for (const image of images) {
+  images.forEach((image, i) => {
+    if (marks.hidden.includes(i)) return;
     disk(pen, image, IMAGE + 1, "rgba(255,255,255,0.9)");
     disk(pen, image, IMAGE, "#111");
-  }
+  });
   if (!cursor) return;
   const [x, y] = view.toScreen(cursor);
   const arms = [[1, 0], [-1, 0], [0, 1], [0, -1]]
@@ -44,11 +53,17 @@ export function drawMarks(pen, view, marks, { hovered, held, cursor }) {
   lines(pen, arms, [[4, "rgba(255,255,255,0.9)"], [1.6, "#d55e00"]]);
 }
 
-// The nearest target, or else the nearest dot, within reach of a point; null for none.
+// The nearest target, or else the nearest dot, within reach of a point; null for none. As in the
+// kernel's gestures, a hidden one counts as farther away by a third of the reach.
 export function markAt(marks, point, reach) {
   for (const points of [marks.targets, marks.images]) {
-    const found = nearestVertex([points], point, reach);
-    if (found) return { mark: found.index };
+    let best = null;
+    points.forEach(([x, y], i) => {
+      const gap = Math.hypot(x - point[0], y - point[1]);
+      const far = gap + (marks.hidden.includes(i) ? reach / 3 : 0);
+      if (gap <= reach && far < (best?.far ?? Infinity)) best = { mark: i, far };
+    });
+    if (best) return { mark: best.mark, reached: points === marks.images };
   }
   return null;
 }

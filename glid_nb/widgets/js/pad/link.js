@@ -42,7 +42,11 @@ export class Link {
     if (this.waiting || !this.queue.length) return;
     this.waiting = true;
     this.awaited = this.number;
-    this.model.send({ view: this.view, events: this.queue }, undefined, this.buffers);
+    try {
+      this.model.send({ view: this.view, events: this.queue }, undefined, this.buffers);
+    } catch {
+      return; // the kernel is gone, which pad.css says; nothing is sent any more
+    }
     [this.queue, this.buffers] = [[], []];
     this.overdue = setTimeout(() => this.report({ busy: true, refusal: null }), BUSY_AFTER);
     this.timeout = setTimeout(() => this.release(), ACKNOWLEDGE_TIMEOUT);

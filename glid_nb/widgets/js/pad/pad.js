@@ -14,6 +14,25 @@ export function undoOrRedo(e) {
   return e.key.toLowerCase() === "z" && !e.shiftKey ? "undo" : "redo";
 }
 
+const TEXT = "textarea, [contenteditable], input:not([type=checkbox], [type=range], [type=radio])";
+
+// Undo and redo by keys anywhere in the editor around an element, while that is seen: calls act(e),
+// unless a text field or the element itself has the focus. Returns a function that ends this.
+export function undoAround(element, act) {
+  const on = (e) => {
+    const editor = element.closest(".glid-editor");
+    if (!editor || !editor.contains(e.target)) return;
+    if (e.type === "pointerdown") editor.tabIndex = -1; // so that a click on any part of it focuses it
+    else if (isUndo(e) && !e.altKey && element.checkVisibility()) {
+      if (!element.contains(e.target) && !e.target.matches(TEXT)) act(e);
+    }
+  };
+  for (const name of ["pointerdown", "keydown"]) window.addEventListener(name, on, true);
+  return () => {
+    for (const name of ["pointerdown", "keydown"]) window.removeEventListener(name, on, true);
+  };
+}
+
 export class Pad {
   // Options in `canvas`:
   //   reach: the radius that a pointer hits, CSS pixels, by its type

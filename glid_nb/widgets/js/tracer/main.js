@@ -1,8 +1,9 @@
 // The cage tracer's page: a toolbar, the stage with picture and cage, the panel, a status line.
 
 import { make } from "../pad/dom.js";
+import { help } from "../pad/help.js";
 import { Link } from "../pad/link.js";
-import { isUndo, undoOrRedo } from "../pad/pad.js";
+import { isUndo, undoAround, undoOrRedo } from "../pad/pad.js";
 import { iconButton } from "./icons.js";
 import { Panel } from "./panel.js";
 import { Stage } from "./stage.js";
@@ -15,6 +16,18 @@ const TOOLS = [
   ["component", "Pick the component to trace (C)"],
   ["polygon", "Draw the outline by hand (P)"],
   ["rectangle", "Draw a rectangle (R)"],
+];
+const HELP = [
+  ["V", "edit: drag a vertex, double-click an edge to add one, click a hole to drop or keep it"],
+  ["Right-click, Delete", "remove a vertex"],
+  ["[ ]", "select the vertex before, the next vertex"],
+  ["Arrow keys", "nudge the selected vertex, with Shift farther"],
+  ["B, N", "paint over the shape, over the background"],
+  ["I, C", "pick the background's colour, the component"],
+  ["P, R", "draw the outline, a rectangle; Enter closes an outline, Esc gives it up"],
+  ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
+  ["Wheel, + -, F", "zoom after a click on the picture, fit the picture"],
+  ["Drag beside the outline", "move the view"],
 ];
 const PART = 1 << 20; // bytes of a file per message
 
@@ -55,6 +68,9 @@ function render({ model, el }) {
     input.value = "";
     input.click();
   });
+  const keys = help(HELP);
+  stage.element.append(keys.table);
+  stage.actions["?"] = keys.toggle;
   const gap = () => make("span", { className: "glid-gap" });
   const toolbar = make(
     "div",
@@ -64,6 +80,7 @@ function render({ model, el }) {
     iconButton("minus", "Zoom out (-)", () => stage.zoom(false)),
     iconButton("plus", "Zoom in (+)", () => stage.zoom(true)),
     iconButton("fit", "Fit the picture (F)", () => stage.fit()),
+    keys.button,
   );
   const status = make("div", { className: "glid-status", role: "status", "aria-live": "polite" });
   root.append(toolbar, make("div", { className: "glid-body" }, stage.element, panel.element), status);
@@ -71,13 +88,17 @@ function render({ model, el }) {
   // other shortcuts with Ctrl stay. It reads this attribute before our elements' listeners run.
   const guard = (e) => root.toggleAttribute("data-lm-suppress-shortcuts", isUndo(e) || !(e.ctrlKey || e.metaKey));
   window.addEventListener("keydown", guard, true);
+  const undoByKey = (e) => {
+    act(undoOrRedo(e));
+    e.preventDefault();
+    e.stopPropagation();
+  };
+  const forget = undoAround(root, undoByKey);
   root.addEventListener("keydown", (e) => {
-    if (isUndo(e) && !e.altKey) {
-      act(undoOrRedo(e));
-      e.preventDefault();
-    } else if (e.ctrlKey || e.metaKey) return;
-    e.stopPropagation(); // arrow keys would move between cells
+    if (isUndo(e) && !e.altKey) undoByKey(e);
+    else if (!e.ctrlKey && !e.metaKey) e.stopPropagation(); // arrow keys would move between cells
   });
+  el.classList.add("glid-host");
   el.append(root);
 
   // Shown at once; the kernel changes the tool after what was done with the last one.
@@ -143,6 +164,7 @@ function render({ model, el }) {
   return () => {
     for (const [name, listener] of Object.entries(listeners)) model.off(name, listener);
     window.removeEventListener("keydown", guard, true);
+    forget();
     link.close();
     stage.close();
   };

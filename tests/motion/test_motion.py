@@ -1,0 +1,273 @@
+"""Motion as a value: what it passes through, how it is proved, what it refuses, its file."""
+
+from __future__ import annotations
+
+import itertools
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from glid_nb import Motion
+from glid_nb.certificate import certificate_of, certify
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.motion import MotionError
+from glid_nb.motion.boundary import boundary_of
+from glid_nb.motion.curve import Curve
+
+from ..domains import NAMES, domain, random_map
+from .test_pieces import turned
+
+pytestmark = pytest.mark.slow
+
+
+def same(a: HarmonicMap, b: HarmonicMap) -> bool:
+    return np.array_equal(a.phi, b.phi) and np.array_equal(a.psi, b.psi)
+
+
+def poses(name: str, *angles: float) -> list[HarmonicMap]:
+    return [turned(random_map(name, 0.01, i), a, complex(a)) for i, a in enumerate(angles)]
+
+
+def extremes(map: HarmonicMap) -> tuple[float, float]:
+    """The least sigma_2 and the largest k at the nodes."""
+    f, g = map.wirtinger(np.concatenate([*map.domain.cage.loops]))
+    return float((np.abs(f) - np.abs(g)).min()), float((np.abs(g) / np.abs(f)).max())
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_motion_passes_through_its_keyframes_and_is_proved(name: str) -> None:
+    maps = poses(name, 0, 2.0, -0.5)
+    motion = Motion(maps, [1, 2, 4.5], easing=["in-out", "linear"])
+    assert motion.certificate.certified
+    assert motion.certificate.until == motion.end == 4.5
+    for map, time in zip(maps, motion.times, strict=True):
+        assert same(motion(time), map)
+    for before, after in itertools.pairwise(motion.pieces):
+        assert before.end == after.start
+        assert before.end_map is after.start_map
+    proofs = motion.certificate.pieces
+    assert len(proofs) == len(motion.pieces)
+    for piece, proof in list(zip(motion.pieces, proofs, strict=True))[::5]:
+        found = certify(motion((piece.start + piece.end) / 2))
+        assert found.sigma2_lower >= proof.sigma2_lower * 0.97
+        assert proof.sigma2_lower >= motion.certificate.sigma2_lower
+
+
+@given(
+    st.sampled_from(NAMES),
+    st.floats(-3, 3),
+    st.tuples(*[st.integers(0, 10**6)] * 2),
+    st.sampled_from([0.01, 0.03]),
+)
+@settings(max_examples=8)
+def test_nothing_between_two_keyframes_is_worse_than_the_worse_one(
+    name: str, angle: float, seeds: tuple[int, int], size: float
+) -> None:
+    maps = [random_map(name, size, seeds[0]), turned(random_map(name, size, seeds[1]), angle)]
+    if not all(certificate_of(map).certified for map in maps):
+        return
+    curve = Curve.of(Motion(maps))
+    ends = [extremes(map) for map in maps]
+    for t in (0.25, 0.5, 0.75):
+        sigma2, k = extremes(curve.map(t))
+        assert sigma2 >= 0.98 * min(s for s, _ in ends)
+        assert k <= 1.02 * max(k for _, k in ends)
+
+
+def test_the_logarithm_of_f_z_has_one_branch_on_all_loops() -> None:
+    """Its value on a hole agrees with that along any other way through the domain."""
+    map = turned(random_map("triple", 0.05, 3), 2.9)
+    boundary = boundary_of(map.domain)
+    fz, _ = boundary.derivatives(map.phi, map.psi)
+    log = boundary.logarithm(map.phi, fz)
+    assert np.abs(np.exp(log) - fz).max() < 1e-12
+    # The map is near a rotation by 2.9, so the argument is near it everywhere.
+    assert np.abs(log.imag - log.imag[0]).max() < 1.5
+
+
+def test_a_projection_gives_back_what_the_basis_holds() -> None:
+    for name in NAMES:
+        map, boundary = random_map(name, 0.05, 1), boundary_of(domain(name))
+        phi, psi = boundary.fitted(*boundary.derivatives(map.phi, map.psi))
+        fitted = HarmonicMap(map.domain, phi, psi)  # refuses logarithms that are not tied
+        shift = boundary.images(phi, psi) - boundary.images(map.phi, map.psi)
+        assert np.abs(shift - shift.mean()).max() < 1e-8
+        assert fitted.domain is map.domain
+
+
+def test_loops_close_and_ping_pong_runs_back() -> None:
+    maps = poses("ell", 0, 2.2, 4.4)  # by the short way a full turn
+    loop = Motion(maps, [0, 1, 2, 3], repeat="loop")
+    assert (loop.duration, loop.times) == (3, (0, 1, 2, 3))
+    assert Motion(maps, [0, 1, 2], repeat="loop").times == loop.times
+    assert same(loop(3), maps[0])
+    assert same(loop(4), maps[1])
+    assert loop(2.5).distance(loop(-0.5)) < 1e-9
+    angles = [np.angle(np.mean(loop(t).wirtinger([[-1, -1]])[0])) for t in np.linspace(0, 3, 19)]
+    assert np.abs(np.ptp(np.unwrap(angles)[[0, -1]]) - 2 * np.pi) < 1e-6
+    back = Motion(maps[:2], repeat="ping-pong")
+    assert back.duration == 2
+    assert len(back.pieces) == len(back.certificate.pieces)
+    assert back(1.75).distance(back(0.25)) < 1e-9
+    assert back.certificate.certified
+
+
+def test_whole_turns_are_added() -> None:
+    motion = Motion(poses("ell", 0, 0.5), turns=[1])
+    angles = [np.angle(np.mean(motion(t).wirtinger([[-1, -1]])[0])) for t in np.linspace(0, 1, 33)]
+    assert abs(np.unwrap(angles)[-1] - (2 * np.pi + 0.5)) < 0.05
+    assert motion.certificate.certified
+
+
+def test_easing_changes_when_and_not_what() -> None:
+    maps = poses("ell", 0, 1.0)
+    plain = Motion(maps)
+    for easing, s in (("in", 0.25), ("out", 0.75), ("in-out", 0.5)):
+        eased = Motion(maps, easing=easing)
+        assert eased(0.5).distance(plain(s)) < 3 * eased.tolerance * 6
+
+
+def test_pieces_follow_the_curve_within_the_tolerance() -> None:
+    maps = poses("twin", 0, 1.5, 0.3)
+    for tolerance in (0.01, 0.001):
+        motion = Motion(maps, tolerance=tolerance)
+        curve, size = Curve.of(motion), motion.domain.cage.longer_side
+        times = np.linspace(0, 2, 23)
+        off = max(motion(t).distance(curve.map(float(t)), 100) for t in times)
+        assert off <= 1.5 * tolerance * size
+
+
+def test_resampling_gives_even_times() -> None:
+    motion = Motion(poses("ell", 0, 1.0), [2, 3])
+    times, maps = motion.resample(30)
+    assert len(times) == len(maps) == 31
+    assert (times[0], times[-1]) == (2, 3)
+    times, maps = Motion(poses("ell", 0, 1.0), repeat="loop").resample(12)
+    assert len(maps) == 24
+
+
+def test_a_motion_that_folds_between_its_frames_is_refused() -> None:
+    first = random_map("ell", 0.01, 2)
+    motion = Motion([first, turned(first, np.pi)], [0, 0.1], between="linear")
+    _, frames = motion.resample(30)
+    assert len(frames) == 4
+    assert all(certify(frame).certified for frame in frames)
+    proof = motion.certificate
+    assert not proof.certified
+    assert 0.045 < proof.until <= 0.05
+    assert proof.reason.startswith("Certified up to t = 0.04")
+    assert "the panel near (" in proof.reason
+    assert Motion(motion.keyframes, [0, 0.1]).certificate.certified  # the rotation by itself
+
+
+def test_solved_motion_goes_through_certified_maps() -> None:
+    maps = poses("ell", 0, 1.4)
+    motion = Motion(maps, between="solved", handles=[[-2, 2], [-2, -2], [2, -2]])
+    assert motion.certificate.certified
+    assert same(motion(1), maps[1])
+    middle = motion(0.5)
+    assert 0.5 < np.angle(middle.wirtinger([[-1, -1]])[0][0]) < 0.9
+
+
+def test_keyframes_that_turn_otherwise_are_refused() -> None:
+    """The ring turned inside out: no motion of locally injective maps leads there."""
+    d = domain("ring")
+    vertices = np.concatenate(d.offset_cage.loops_complex)
+    phi = np.append(9 / (vertices - d.hole_points_complex[0]), 0)  # Cauchy's integral formula
+    inverse = HarmonicMap(d, phi, np.zeros_like(phi))
+    assert certificate_of(inverse).windings == (-2, 2)
+    with pytest.raises(MotionError, match=r"keyframes 0 and 1 cannot be joined.*hole 1"):
+        Motion([HarmonicMap.identity(d), inverse])
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"keyframes": 1}, "a list of at least 2 keyframes"),
+        ({"times": [0, 0]}, r"times\[1\] is 0 and times\[0\] is 0; times must increase"),
+        ({"times": [0, 1, 2]}, "there are 3 times for 2 keyframes; give 2"),
+        ({"times": [0, np.nan]}, r"times\[1\] is nan; it must be a finite number"),
+        ({"easing": "bounce"}, r"easing\[0\] is 'bounce'; it must be one of linear, in, out"),
+        ({"easing": ["in", "out"]}, "easing has 2 values for 1 intervals; give 1"),
+        ({"repeat": "forever"}, "repeat is 'forever'; it must be one of once, loop, ping-pong"),
+        ({"between": "cubic"}, "between is 'cubic'"),
+        ({"tolerance": 0}, "tolerance is 0; it must be a finite number greater than 0"),
+        ({"turns": [0.5]}, r"turns\[0\] is 0.5; it must be a whole number"),
+    ],
+)
+def test_wrong_settings_are_named(change: dict[str, Any], message: str) -> None:
+    maps = {"keyframes": [random_map("ell", 0.01, 1), random_map("ell", 0.01, 2)]}
+    with pytest.raises(MotionError, match=message):
+        Motion(**{**maps, **change})
+
+
+def test_wrong_keyframes_are_named() -> None:
+    good = random_map("ell", 0.01, 1)
+    with pytest.raises(MotionError, match="keyframe 1 lives on another domain"):
+        Motion([good, random_map("ring", 0.01, 1)])
+    with pytest.raises(MotionError, match=r"keyframe 1 is not certified.* -0.32 near"):
+        Motion([good, random_map("ell", 2, 3)])
+    with pytest.raises(MotionError, match="keyframe 1 has no harmonic map but is a str"):
+        Motion([good, "walk"])
+    with pytest.raises(MotionError, match="the time 3 is outside the motion, from 0 to 1 s"):
+        Motion([good, good])(3)
+
+
+def test_a_saved_motion_reads_back_bit_for_bit_and_is_proved_anew(tmp_path: Path) -> None:
+    path = tmp_path / "walk.motion"
+    motion = Motion(poses("twin", 0, 1.0, 0.4), repeat="loop", easing="in-out")
+    motion.save(path)
+    back = Motion.load(path)
+    assert back.times == motion.times
+    assert back.easing == motion.easing
+    assert back.certificate.certified
+    assert back.certificate.sigma2_lower == motion.certificate.sigma2_lower
+    for a, b in zip(motion.pieces, back.pieces, strict=True):
+        assert (a.start, a.end) == (b.start, b.end)
+        assert same(a.start_map, b.start_map)
+        assert same(a.end_map, b.end_map)
+
+
+def test_a_folded_file_is_not_believed(tmp_path: Path) -> None:
+    path = tmp_path / "walk.motion"
+    first = random_map("ell", 0.01, 2)
+    Motion([first, turned(first, 0.4)]).save(path)
+    data = json.loads(path.read_text())
+    last = turned(first, np.pi)
+    data["knots"] = [data["knots"][0], {**data["knots"][-1], **_pairs(last)}]
+    path.write_text(json.dumps(data))
+    assert not Motion.load(path).certificate.certified
+
+
+def _pairs(map: HarmonicMap) -> dict[str, Any]:
+    both = {"phi": map.phi, "psi": map.psi}
+    return {key: np.stack([v.real, v.imag], axis=1).tolist() for key, v in both.items()}
+
+
+def test_a_wrong_file_is_refused_by_key(tmp_path: Path) -> None:
+    path = tmp_path / "walk.motion"
+    Motion(poses("ell", 0, 0.3)).save(path)
+    good = json.loads(path.read_text())
+    for change, message in (
+        ({"format": "glid_nb-map"}, 'the key "format" is not'),
+        ({"version": 9}, "motion version 9 is not supported"),
+        ({"times": [0, 0.123]}, '"times" must be times of knots'),
+        ({"extra": 1}, "unknown key 'extra'"),
+        ({"knots": good["knots"][:1]}, '"knots" must hold 2 to'),
+        ({"knots": good["knots"][::-1]}, r"knots\[1\] is not later"),
+        ({"knots": [{**good["knots"][0], "phi": []}, good["knots"][1]]}, r"knots\[0\]"),
+        ({"knots": [good["knots"][0], {"time": 1}]}, r'knots\[1\]: the keys "phi", "psi"'),
+    ):
+        path.write_text(json.dumps({**good, **change}))
+        with pytest.raises(MotionError, match=message) as error:
+            Motion.load(path)
+        assert str(path) in str(error.value)
+    text = json.dumps(good)
+    path.write_text(text.replace('"version": 1', '"version": 1, "version": 1', 1))
+    with pytest.raises(MotionError, match="given twice"):
+        Motion.load(path)
