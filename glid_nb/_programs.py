@@ -47,7 +47,7 @@ class Program:
     def __call__(self, *arguments: Any) -> Any:
         """The function's value."""
         leaves, tree = jax.tree.flatten(arguments)
-        device = jax.config.jax_default_device or jax.devices()[0]
+        device = jax.config.jax_default_device or jax.local_devices()[0]
         key = (device, tree, *map(jax.typeof, leaves))
         if key not in self._ready:
             with self._locks[key]:  # a second thread waits for what the first compiles
@@ -57,13 +57,14 @@ class Program:
 
     def _loaded_or_made(self, key: Any, arguments: Any) -> Any:
         folder = jax.config.jax_compilation_cache_dir
-        if folder is None or key[0].platform != "cpu" or not self._may_keep(*arguments):
+        alone = key[0].platform == "cpu" and jax.device_count() == 1  # it is kept for one device
+        if folder is None or not alone or not self._may_keep(*arguments):
             lowered = self._lowered(arguments, "")
             stage("compile")
             return lowered.compile()
         known_as = Path(folder) / f"glid_nb-arguments-{_digest(repr((_files(), key)))}"
-        if known_as.is_file() and (kept := _kept(Path(folder) / known_as.read_text())) is not None:
-            return kept
+        if known_as.is_file() and (known := _kept(Path(folder) / known_as.read_text())):
+            return known
         # With a name of its own JAX's cache does not know it: what comes from there loses its
         # functions when it is kept again.
         name = f"_{uuid.uuid4().hex}"

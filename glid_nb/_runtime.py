@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import functools
 import os
+import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from contextvars import ContextVar
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
@@ -107,7 +108,9 @@ def in_chunks(
     there warns of nothing.
     """
     size, parts = max(_CHUNK_ELEMENTS // n_columns, 1), []
-    with np.errstate(all="ignore"), single_blas_thread():
+    # Before SciPy's BLAS is loaded no solver runs beside it.
+    limited = single_blas_thread() if "scipy.linalg" in sys.modules else nullcontext()
+    with np.errstate(all="ignore"), limited:
         for first in range(0, max(len(rows[0]), 1), size):
             stage("rows")
             parts.append(program(*(a[first : first + size] for a in rows), *fixed))
