@@ -8,6 +8,7 @@ replaces what it wrote. The links are words: pictures of a server would need a n
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 
@@ -50,6 +51,8 @@ def with_badges(book: nbformat.NotebookNode, notebook: str, repository: str | No
 
 def main() -> None:
     repository = sys.argv[1] if len(sys.argv) > 1 else None
+    if repository and not re.fullmatch(r"[\w.-]+/[\w.-]+", repository):
+        raise SystemExit(f"{repository} is not OWNER/NAME\n\n{__doc__}")
     for path in sorted(FOLDER.glob("[0-9][0-9]_*.ipynb")):
         book = nbformat.read(path, as_version=4)
         with_badges(book, path.name, repository)

@@ -39,14 +39,6 @@ def hide_live_widgets(_app: Sphinx, document: nodes.document) -> None:
             block.replace_self(nodes.paragraph("", words, classes=["widget"]))
 
 
-def number_chapters(app: Sphinx, document: nodes.document) -> None:
-    """The number of a notebook's file before its title, where the title has none."""
-    folder, _, name = app.env.docname.partition("/")
-    title = next(document.findall(nodes.title), None)
-    if folder == "notebooks" and title and not title.astext()[:1].isdigit():
-        title.insert(0, nodes.Text(f"{int(name[:2])}. "))
-
-
 class Course(SphinxDirective):
     """A table of all notebooks: title, question, minutes."""
 
@@ -64,7 +56,5 @@ class Course(SphinxDirective):
 
 def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("course", Course)
-    # Before the titles are collected.
-    app.connect("doctree-read", number_chapters, priority=300)
     app.connect("doctree-read", hide_live_widgets)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -24,7 +24,7 @@ from glid_nb.solvers import Result
 _LOOKS = [
     {"color": color, "linestyle": line}
     for line in ("-", (0, (4, 1.5)))
-    for color in (BLUE, ORANGE, GREEN, PURPLE, INK, SKY)
+    for color in (BLUE, ORANGE, GREEN, INK, PURPLE, SKY)
 ]
 _WIDTH = 7.4  # inches
 _SAMPLES = 8000  # of the boundary
@@ -126,7 +126,7 @@ def convergence(
     for below, (name, result) in zip(range(len(results))[::-1], results.items(), strict=True):
         look = _LOOKS[(len(results) - 1 - below) % len(_LOOKS)]
         # Wider below, so that curves which lie on each other are all seen.
-        look = {**look, "linewidth": style.LINE + 1.3 * below, "markersize": 2.5 + 2.2 * below}
+        look = {**look, "linewidth": style.LINE + 0.9 * below, "markersize": 2.5 + 1.2 * below}
         steps = [result.initial, *result.history]
         seconds = np.cumsum([s.time for s in steps])
         x = seconds if against == "seconds" else np.array([s.iteration for s in steps])

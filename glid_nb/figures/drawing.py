@@ -26,7 +26,7 @@ _SHOWN_DPI = 150.0  # in a notebook, at
 _CSS_DPI = 108.0  # this many of the page's pixels per inch
 _ROUND, _COARSE = (1, 1.1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 7), (1, 2, 5)  # ticks of a decade
 
-_ON_WHITE = [withStroke(linewidth=2.0, foreground="white")]  # shows on every picture
+_ON_WHITE: Any = [withStroke(linewidth=2.0, foreground="white")]  # shows on every picture
 
 Floats = NDArray[np.float64]
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from glid_nb._errors import InputFileError
-from glid_nb._files import in_words, write_bytes_atomically
+from glid_nb._files import in_words
 from glid_nb.imaging.read import picture_format
 
 # The PNG of the picture encoded last: an editor saves the same one again and again.
@@ -29,8 +29,8 @@ _DAMAGE = (
 )
 
 
-def write_archive(path: Path, members: Mapping[str, bytes], stored: frozenset[str]) -> None:
-    """Write members to a zip file, atomically; those named in ``stored`` are not compressed."""
+def archive_bytes(members: Mapping[str, bytes], stored: frozenset[str] = frozenset()) -> bytes:
+    """Members as a zip file; those named in ``stored`` are not compressed."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, data in members.items():
@@ -38,7 +38,7 @@ def write_archive(path: Path, members: Mapping[str, bytes], stored: frozenset[st
             info = zipfile.ZipInfo(name, date_time=(1980, 1, 1, 0, 0, 0))
             info.compress_type = zipfile.ZIP_STORED if name in stored else zipfile.ZIP_DEFLATED
             archive.writestr(info, data)
-    write_bytes_atomically(path, buffer.getvalue())
+    return buffer.getvalue()
 
 
 def read_archive(path: Path, most_bytes: Mapping[str, int]) -> dict[str, bytes]:

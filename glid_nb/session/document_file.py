@@ -13,6 +13,7 @@ import numpy as np
 
 from glid_nb import _json, methods
 from glid_nb._errors import InputFileError, about
+from glid_nb._files import write_bytes_atomically
 from glid_nb.certificate import certificate_of
 from glid_nb.energies import CustomEnergy, energy_by_name
 from glid_nb.geometry import Domain, as_points
@@ -20,7 +21,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.map import complex_from_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE
-from glid_nb.session.archive import image_png, light_png, read_archive, read_png, write_archive
+from glid_nb.session.archive import archive_bytes, image_png, light_png, read_archive, read_png
 from glid_nb.session.document import Document, DocumentError, NamedPose, check_count
 from glid_nb.solvers import Newton, Options, Pose
 
@@ -54,13 +55,17 @@ _NEVER = "never"  # TraceOptions.max_edge == inf, which JSON cannot say
 
 
 def save_document(document: Document, path: str | Path) -> None:
-    """Write a document to one file, atomically: a zip of JSON and PNG.
+    """Write `document_bytes` to a file, atomically: if that fails, what was there before stays."""
+    write_bytes_atomically(Path(path), document_bytes(document))
+
+
+def document_bytes(document: Document) -> bytes:
+    """A document as one file, a zip of JSON and PNG.
 
     ``document.json`` holds everything but pixels, which are in ``image.png``; scribbled masks are
     in ``scribbles-*.png``. Numbers are written so that they read back bit for bit.
 
-    A DocumentError if a map is not certified, or an energy is a Python function. When the file is
-    not written, what was there before stays.
+    A DocumentError if a map is not certified, or an energy is a Python function.
     """
     scribbles, masks = _scribbles_to_members(document.scribbles)
     height, width = document.image.shape[:2]
@@ -76,7 +81,7 @@ def save_document(document: Document, path: str | Path) -> None:
     }
     text = json.dumps(data, allow_nan=False, default=np.generic.item).encode("utf-8")
     pixels = {_IMAGE: image_png(document.image), **masks}
-    write_archive(Path(path), {_JSON: text, **pixels}, stored=frozenset(pixels))
+    return archive_bytes({_JSON: text, **pixels}, stored=frozenset(pixels))
 
 
 def load_document(path: str | Path) -> Document:

@@ -177,6 +177,11 @@ class EditorModel(Observed):
         """The picture that is deformed; the tracing may have another one, not yet applied."""
         return None if self._session is None else self._session.image
 
+    @property
+    def name(self) -> str:
+        """What files are named after: the picture's file, or "session" where there is none."""
+        return (self._session and self._session.tracing.name) or "session"
+
     def apply_tracing(self) -> Application:
         """Deform what is traced now: a step for undo, or another session for another picture.
 
@@ -259,7 +264,7 @@ class EditorModel(Observed):
         if self.kept is not None:
             document = open_document(self.kept)
             with self.locked():
-                self._take(document)
+                self._take(document, self.tracing.state.name)
                 self._keep_in(self.kept)
                 self.kept = None
 
@@ -325,8 +330,8 @@ class EditorModel(Observed):
         self._named_path = self._named_path or path
         self._autosave = Autosave(path, on_done=self._saved, own=self.own_files)
 
-    def _take(self, document: Document) -> None:
-        self.tracing = TracingModel.from_document(document)
+    def _take(self, document: Document, name: str = "") -> None:
+        self.tracing = TracingModel.from_document(document, name)
         domain, poses = document.domain, tuple(pose.changed() for pose in document.poses)
         state = EditState(domain, poses, document.active) if poses else EditState.initial(domain)
         self._shelf.clear()

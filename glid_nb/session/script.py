@@ -19,9 +19,10 @@ from glid_nb.solvers import Newton
 def python_code(document: Document, picture: str = "picture.png", *, exact: bool = False) -> str:
     """Python code that makes the map of the document's active pose, as ``map``.
 
-    If the pose's method works on a mesh, that is a :class:`~glid_nb.MeshMap`, although the document
-    holds a harmonic map. The cage is traced from the picture if the document's options give it;
-    a cage that was edited by hand, or came from scribbles, is written out.
+    Of several poses it makes all maps, as the list ``maps``. If a pose's method works on a mesh,
+    its map is a :class:`~glid_nb.MeshMap`, although the document holds a harmonic map. The cage is
+    traced from the picture if the document's options give it; a cage that was edited by hand, or
+    came from scribbles, is written out.
 
     Parameters
     ----------
@@ -37,42 +38,45 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
     Raises
     ------
     DocumentError
-        When there is no pose, or its energy is a Python function.
+        When there is no pose, or the energy of one is a Python function.
     """
-    pose = document.active_pose
-    if pose is None:
+    if not document.poses:
         raise DocumentError("the document has no pose yet, so there is no map to make")
+    lines = ["import glid_nb as glid", "", *_domain_lines(document, picture)]
+    if len(document.poses) == 1:
+        lines += _map_lines(document.poses[0], exact)
+    else:
+        lines.append("maps = []")
+        for pose in document.poses:
+            lines += ["", f"# {pose.name!r}", *_map_lines(pose, exact), "maps.append(map)"]
+        lines += ["", f"map = maps[{document.active}]"]
+    return "\n".join(lines) + "\n"
+
+
+def _map_lines(pose: NamedPose, exact: bool) -> list[str]:
     if isinstance(pose.energy, CustomEnergy):
         raise DocumentError(
             f"the pose {pose.name!r}: its energy is a Python function, which cannot be written down"
         )
-    lines = ["import glid_nb as glid", ""]
-    lines += _domain_lines(document, picture)
+    posed = _pose_lines(pose) if not exact or pose.pose.depths.any() else []
     if exact:
         phi, psi = pose.map.phi.tolist(), pose.map.psi.tolist()
-        lines.append(f"map = glid.HarmonicMap(domain, {phi}, {psi})")
-    else:
-        lines += _solve_lines(pose)
-    return "\n".join(lines) + "\n"
+        return [*posed, f"map = glid.HarmonicMap(domain, {phi}, {psi})"]
+    return [*posed, *_solve_lines(pose)]
+
+
+def _pose_lines(pose: NamedPose) -> list[str]:
+    given = pose.pose.to_dict().items()
+    return ["pose = glid.Pose(", *(f"    {key}={values}," for key, values in given), ")"]
 
 
 def _solve_lines(pose: NamedPose) -> list[str]:
-    handles, targets = pose.pose.handles.tolist(), pose.pose.targets.tolist()
-    depths = [f"    depths={pose.pose.depths.tolist()},"] if pose.pose.depths.any() else []
     arguments = ["domain", "pose", _made(pose.energy)]
     if options := _changed(pose.options, pose.method.options):
         arguments.append(f"glid.Options({options})")
     if not isinstance(pose.method, Newton):
         arguments.append(f"method={_made(pose.method, 'glid.methods')}")
-    return [
-        "pose = glid.Pose(",
-        f"    handles={handles},",
-        f"    targets={targets},",
-        *depths,
-        ")",
-        f"result = glid.solve({', '.join(arguments)})",
-        "map = result.map",
-    ]
+    return [f"result = glid.solve({', '.join(arguments)})", "map = result.map"]
 
 
 def _domain_lines(document: Document, picture: str) -> list[str]:

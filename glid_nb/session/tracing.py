@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import functools
+import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -54,6 +56,8 @@ class TracingState:
     """The loops as edited by hand, world coordinates; None when they are as traced."""
     fallback: Domain | None = None
     """The last valid domain before this state, used while this state's own is not valid."""
+    name: str = ""
+    """The name of the picture's file, without its suffix; empty if it came from none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,17 +105,18 @@ class TracingModel(Observed):
     ) -> None:
         super().__init__()
         pixels = None if image is None else _pixels(image)
-        self.history = History(_state(pixels, options or TraceOptions()))
+        state = _state(pixels, options or TraceOptions())
+        self.history = History(replace(state, name=_name_of(image)))
         """The undo history."""
         self._tracer: Tracer | None = None
         self._outcome_of = functools.lru_cache(_KEPT_OUTCOMES)(weakly(self._evaluate))
 
     @classmethod
-    def from_document(cls, document: Document) -> TracingModel:
+    def from_document(cls, document: Document, name: str = "") -> TracingModel:
         """A model with the document's picture, options, scribbles and cage."""
         model = cls()
         state = _state(document.image, document.trace_options, document.scribbles)
-        state = replace(state, loops=document.cage.loops, fallback=document.domain)
+        state = replace(state, loops=document.cage.loops, fallback=document.domain, name=name)
         model.history = History(state)
         # A cage that tracing gives again was not edited by hand.
         tracing = model.outcome.tracing
@@ -206,9 +211,12 @@ class TracingModel(Observed):
 
     # Actions
 
-    def open(self, image: ImageSource) -> None:
-        """Open another picture, with the default options; no change if it cannot be read."""
-        self._step(TracingState(image=_pixels(image)))
+    def open(self, image: ImageSource, name: str | None = None) -> None:
+        """Open another picture, with the default options; no change if it cannot be read.
+
+        ``name`` is that of the picture's file, where the picture is not given by its path.
+        """
+        self._step(TracingState(image=_pixels(image), name=_name_of(name or image)))
 
     def set_options(self, gesture: Any = None, **changes: Any) -> None:
         """Trace with other options, fields of `TraceOptions`; discards edits by hand.
@@ -453,6 +461,12 @@ def _problem(error: TraceError | GeometryError, frame: PixelFrame) -> TracingPro
         x, y = frame.to_pixel(point)
         point = (float(x), float(y))
     return TracingProblem(str(error), error.plain, point)
+
+
+def _name_of(image: ImageSource | None) -> str:
+    """The name of a picture's file, as far as it is known, without its suffix."""
+    named = image if isinstance(image, (str, os.PathLike)) else getattr(image, "filename", "")
+    return Path(named).stem
 
 
 def _pixels(image: ImageSource) -> NDArray[np.uint8]:

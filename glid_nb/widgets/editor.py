@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import base64
 import html
+import io
 from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
@@ -10,7 +12,8 @@ from typing import Any
 
 import ipywidgets
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
+from PIL import Image
 
 from glid_nb._jax import once_loaded
 from glid_nb._runtime import enable_compilation_cache
@@ -32,11 +35,13 @@ from glid_nb.widgets.controls import REFUSED, PoseList, button, paragraph
 from glid_nb.widgets.exporting import export
 from glid_nb.widgets.file_panel import FilePanel, OpenPanel
 from glid_nb.widgets.monitor import SolverMonitor
+from glid_nb.widgets.pins import PinBar
 from glid_nb.widgets.solver_panel import SolverPanel
 from glid_nb.widgets.tracer import CageTracer
 
 _TRACE, _DEFORM = 0, 1
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
+_PINS_HEIGHT = "36px"  # kept free until the pins' numbers are made
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
 
@@ -169,6 +174,25 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             f"Editor({len(state.poses)} poses, {len(state.pose)} handles in {state.current.name!r})"
         )
 
+    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
+        """The widget, and the picture as it is now for pages where no kernel runs."""
+        bundle, image = super()._repr_mimebundle_(**kwargs), self.model.tracing.image
+        if bundle is not None and image is not None:
+            bundle["image/png"] = base64.b64encode(self._snapshot(image)).decode()
+        return bundle
+
+    def _snapshot(self, image: NDArray[np.uint8]) -> bytes:
+        """The deformed picture with its pins; before there are any, the picture itself."""
+        if self.model.has_shape and len(self.pose):
+            from glid_nb.export.picture import animation_bytes  # noqa: PLC0415 - as in `_contents`
+
+            frame = {"size": max(self._size), "format": "apng"}
+            return animation_bytes(self.document.image, [self.map], [self.pose], **frame)
+        picture, buffer = Image.fromarray(image), io.BytesIO()
+        picture.thumbnail(self._size)
+        picture.save(buffer, "PNG")
+        return buffer.getvalue()
+
     # These parts are made once the canvas is drawn, or when asked for.
 
     @property
@@ -268,7 +292,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def export(
         self, path: str | Path, size: tuple[int, int] | None = None, view: View = "source"
     ) -> tuple[Path, ...]:
-        """Export as ``.png``, ``.obj``, ``.glb``, ``.svg``, ``.html``, ``.py`` or ``.proof.json``.
+        """Export as .png, .obj, .glb, .svg, .html, .py, .proof.json or .glid, a session.
 
         ``size`` and ``view`` of a picture are as in `glid_nb.render`. Returns the written files:
         ``path``, then those that come with it, such as ``-texture.png`` with a mesh, or
@@ -348,6 +372,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         """One of these parts, in its box."""
         makers: dict[str, Callable[[], ipywidgets.Widget]] = {
             "tracer": lambda: CageTracer(model=self.model.tracing, height=self._size[1]),
+            "pins": lambda: PinBar(self.deformation),
             "solver": lambda: SolverPanel(self.deformation),
             "files": lambda: FilePanel(self.model),
         }
@@ -368,6 +393,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.pose_list = PoseList(model)
         # Boxes to be filled: if the children changed, the page would select another tab.
         self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}
+        self._boxes["pins"] = ipywidgets.VBox(layout={"min_height": _PINS_HEIGHT})
         self._side = ipywidgets.Tab(
             [self.monitor.image, self._boxes["solver"], self._boxes["files"]],
             titles=("Monitor", "Solver", "Files"),
@@ -382,7 +408,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             [self._side, self.pose_list], layout={**fixed, "width": f"{_SIDE_WIDTH + 34}px"}
         )
         left = ipywidgets.VBox(
-            [self.toolbar, self.canvas, self.monitor.line],
+            [self.toolbar, self._boxes["pins"], self.canvas, self.monitor.line],
             layout={**fixed, "margin": "0 14px 0 0"},
         )
         wrapped = {"align_items": "flex-start", "flex_flow": "row wrap", "overflow": "visible"}

@@ -10,6 +10,8 @@ from glid_nb._files import write_bytes_atomically
 from glid_nb._json import json_text
 from glid_nb.certificate.proof import proof_text
 from glid_nb.imaging.render import View
+from glid_nb.session.archive import archive_bytes
+from glid_nb.session.document_file import document_bytes
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
 
@@ -21,6 +23,7 @@ FORMATS = {
     ".html": "Page that shows it (HTML)",
     ".py": "Python script",
     ".proof.json": "Proof for glid-check (JSON)",
+    ".glid": "Session (GLID)",
 }
 """What each suffix stands for."""
 
@@ -109,6 +112,17 @@ def export(
     return files
 
 
+def download(
+    model: EditorModel, path: Path, size: tuple[int, int] | None = None, view: View = "source"
+) -> tuple[str, bytes]:
+    """What `export` writes for this name as one file: its name and content, a zip of several."""
+    contents = _contents(model, path, size, view)
+    files = dict(zip((file.name for file in files_of(path)), contents, strict=True))
+    if len(files) == 1:
+        return files.popitem()
+    return f"{path.name[: -len(_suffix(path))]}.zip", archive_bytes(files)
+
+
 def export_source(model: EditorModel, script: Path, *, replace: bool = False) -> None:
     """Write the picture that a script of this name reads, where it is not there yet.
 
@@ -144,6 +158,8 @@ def _contents(
         case ".html":
             proof = model.deformation.certificate
             return [to.page_html(image, map_, proof, path.stem, pose=pose).encode()]
+        case ".glid":
+            return [document_bytes(document)]
         case ".proof.json":
             depths = pose.to_dict() if pose.depths.any() else {}
             return [

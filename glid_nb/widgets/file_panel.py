@@ -21,6 +21,7 @@ from glid_nb.widgets.exporting import (
     FORMATS,
     OccupiedError,
     check_free,
+    download,
     export,
     export_source,
     files_of,
@@ -91,9 +92,9 @@ class OpenPanel(ipywidgets.VBox):
 
 
 class Clipboard(anywidget.AnyWidget):
-    """An invisible widget through which the page copies text.
+    """An invisible widget through which the page copies text and downloads files.
 
-    Browsers allow that only soon after a click or a key.
+    Browsers allow copying only soon after a click or a key.
     """
 
     _esm = bundle("clipboard/main.js")
@@ -114,6 +115,11 @@ class Clipboard(anywidget.AnyWidget):
         self._done = done
         self.send({"number": self._number, "text": text})
 
+    def download(self, name: str, data: bytes) -> None:
+        """Have the browser save a file."""
+        self._number += 1
+        self.send({"number": self._number, "name": name}, [data])
+
     def _receive(self, _: Any, message: dict[str, Any], _buffers: Any) -> None:
         if (done := self._done) is None or message.get("number") != self._number:
             return
@@ -131,7 +137,7 @@ class FilePanel(ipywidgets.VBox):
 
     def __init__(self, model: EditorModel) -> None:
         self.model = model
-        session = model.own_files.session or Path("session.glid")
+        session = model.own_files.session or Path(f"{model.name}{_SUFFIX}")
         self.path = ipywidgets.Text(str(session), placeholder="Name.glid", layout=_WIDE)
         """Where to save, and what to open; relative to the notebook."""
         self.autosave = ipywidgets.HTML()
@@ -165,7 +171,10 @@ class FilePanel(ipywidgets.VBox):
             "Open", "folder-open", "Go on with the session file", self._open, "Discard?"
         )
         self.export_button = self._button(
-            "Export", "download", "Write it beside the session file", self._export
+            "Export", "file-export", "Write it beside the session file", self._export
+        )
+        self.download_button = self._button(
+            "Download", "download", "Save it through the browser", self._download
         )
         self.code_button = self._button(
             "Copy as Python", "code", "Copy the lines that make this map", self._copy
@@ -174,7 +183,7 @@ class FilePanel(ipywidgets.VBox):
             [
                 _row("Session", self.path, self.save_button, self.open_button),
                 _row("", self.autosave),
-                _row("Export", self.format, self.export_button),
+                _row("Export", self.format, self.export_button, self.download_button),
                 self._picture,
                 _row("", self.code_button, self.clipboard),
                 self.message,
@@ -250,6 +259,13 @@ class FilePanel(ipywidgets.VBox):
         view: Any = self.view.value
         files = export(self.model, path, self.size, view, replace=True)
         return f"Wrote {names_of(files)} to {path.absolute().parent}"
+
+    def _download(self, _: bool) -> str:
+        path = session_path(self.path.value).with_suffix(str(self.format.value))
+        view: Any = self.view.value
+        name, data = download(self.model, path, self.size, view)
+        self.clipboard.download(name, data)
+        return f"Sent {name} to the browser's downloads"
 
     def _copy(self, sure: bool) -> str:
         script = session_path(self.path.value).with_suffix(".py")

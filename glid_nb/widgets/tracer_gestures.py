@@ -264,4 +264,4 @@ class TraceGestures(Gestures):
         data += bytes(event["data"])
         if len(data) >= size:
             self._incoming = "", bytearray()
-            self.model.open(read_image(bytes(data), name))
+            self.model.open(read_image(bytes(data), name), name)

@@ -30,6 +30,13 @@ def lambda_34(sigma1, sigma2):
     return 4 * (1 + 3 * sigma1**-4), 4 * (1 + 3 * sigma2**-4)
 
 
+# %% exercise 2: another wrong answer
+# The two are swapped: lambda_3 is the one that depends on sigma_1.
+def lambda_34(sigma1, sigma2):
+    """The eigenvalues lambda_3 and lambda_4 of K for E_iso."""
+    return 2 * (1 + 3 * sigma2**-4), 2 * (1 + 3 * sigma1**-4)
+
+
 # %% exercise 3: solution
 def minimise(v):
     """A local minimum of energy, by Newton's method from v. Use gradient(v) and hessian(v)."""

@@ -11,6 +11,7 @@ import io
 import re
 from pathlib import Path
 from typing import Any, NamedTuple
+from unittest.mock import MagicMock
 
 import nbformat
 import pytest
@@ -87,7 +88,7 @@ def without_figures(monkeypatch: pytest.MonkeyPatch) -> None:
     import ipywidgets
 
     for name in figures.__all__:
-        monkeypatch.setattr(figures, name, lambda *_, **__: None)
+        monkeypatch.setattr(figures, name, lambda *_, **__: MagicMock())
     monkeypatch.setattr(ipywidgets, "interact", lambda *_, **__: None)
 
 

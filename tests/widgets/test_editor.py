@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import base64
 import gc
+import io
 import os
 import shutil
 import subprocess
@@ -168,6 +170,24 @@ def test_the_next_editor_of_a_picture_offers_what_was_done(
     assert ("no zip file" in text.value) == damaged
     assert again.kept.layout.display == ("flex" if damaged else "none")
     again.close()
+
+
+def test_where_no_kernel_runs_a_picture_stands_for_the_editor(editor: Editor) -> None:
+    def shown() -> np.ndarray:
+        bundle = editor._repr_mimebundle_()
+        assert set(bundle) > {"application/vnd.jupyter.widget-view+json", "text/plain"}
+        with Image.open(io.BytesIO(base64.b64decode(bundle["image/png"]))) as picture:
+            return np.asarray(picture.convert("RGBA"))
+
+    np.testing.assert_array_equal(shown(), bar())
+    editor.deformation.paused = True
+    editor.add_handle((-7, 0), to=(-7, 0))
+    deformed = shown()
+    assert max(deformed.shape) == 600
+    assert (deformed[..., :3] == (200, 120, 40)).all(axis=2).mean() > 0.3
+    empty = Editor()
+    assert "image/png" not in empty._repr_mimebundle_()
+    empty.close()
 
 
 def test_a_session_file_is_kept_up_to_date(tmp_path: Path) -> None:
@@ -387,6 +407,39 @@ def test_a_frame_that_comes_late_finds_the_canvas_closed() -> None:
         model.drop_hole(0)  # the canvas would draw another scene
         assert model.solve(TIMEOUT)
     assert set(widget._instances) == before
+
+
+def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
+    from glid_nb.session.deformation import Deformation
+    from glid_nb.widgets.pins import PinBar
+
+    with Deformation(domain("ring"), begin=False) as model:
+        model.paused = True  # nothing here needs a solve
+        bar = PinBar(model)
+        assert bar.list.options == (("No pin", None),)
+        assert bar.x.disabled
+        model.add_handles([(2, 0), (-2, 0.25)])
+        model.select([0, 1])
+        assert [name for name, _ in bar.list.options] == ["No pin", "Pin 1", "Pin 2"]
+        assert (bar.list.value, bar.x.value, bar.y.value, bar.depth.value) == (1, -2, 0.25, 0)
+        bar.back.click()
+        assert model.pose.depths.tolist() == [-1, -1]
+        assert bar.depth.value == -1
+        bar.list.value = 0
+        assert model.selection == (0,)
+        bar.x.value = 2.5
+        bar.depth.value = 0.5
+        assert model.pose.targets.tolist() == [[2.5, 0], [-2, 0.25]]
+        assert model.pose.depths.tolist() == [0.5, -1]
+        model.undo()
+        assert bar.depth.value == -1
+        bar.release.click()
+        assert "still moving" in bar.refusal.value
+        assert len(model.pose) == 2
+        bar.list.value = None
+        assert model.selection == ()
+        assert bar.depth.disabled
+        bar.close()
 
 
 def test_the_panel_and_the_model_show_each_other() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -44,6 +45,20 @@ def test_the_exported_picture_is_the_rendering_and_what_the_canvas_shows(
     files.get_by_text("Wrote").wait_for()
     whole = np.array(book.value("glid.render(picture, model.map, (300, 150), view='fit').tolist()"))
     np.testing.assert_array_equal(imread(tmp_path / "bent.png"), whole)
+
+    # The same through the browser, and files that belong together as one.
+    for label, stem in (("Picture (PNG)", "bent.png"), ("Mesh and texture (OBJ)", "bent.zip")):
+        what.select_option(label=label)
+        with page.expect_download() as download:
+            files.get_by_role("button", name="Download").click()
+        assert download.value.suggested_filename == stem
+        saved = tmp_path / f"downloaded-{stem}"
+        download.value.save_as(saved)
+        if stem == "bent.png":
+            assert saved.read_bytes() == (tmp_path / stem).read_bytes()
+        else:
+            assert zipfile.is_zipfile(saved)
+    what.select_option(label="Picture (PNG)")
 
     # The lines that make it, where the page may use the clipboard and where it may not.
     for stem, forbidden in (("allowed", False), ("forbidden", True)):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -271,3 +273,37 @@ def test_lines_that_need_no_picture_write_none(panel: FilePanel) -> None:
     click(panel, panel.code_button)
     assert "read_image" not in panel.code.value
     assert bytes_here() == {}
+
+
+@pytest.mark.parametrize("suffix", FORMATS)
+def test_every_export_can_be_had_through_the_browser(
+    panel: FilePanel, sent: list[Any], suffix: str
+) -> None:
+    panel.path.value, panel.format.value = "bent", suffix
+    before = bytes_here()
+    assert "Sent bent" in click(panel, panel.download_button)
+    assert bytes_here() == before  # nothing is written
+    files = files_of(Path(f"bent{suffix}"))
+    content = next(m["content"] for m, _ in sent if m.get("method") == "custom")
+    (data,) = next(buffers for m, buffers in sent if m.get("method") == "custom")
+    written = export(panel.model, f"bent{suffix}", panel.size, panel.view.value)
+    if len(files) == 1:
+        assert content["name"] == f"bent{suffix}"
+        assert data == written[0].read_bytes()
+    else:
+        assert content["name"] == "bent.zip"
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            assert {n: archive.read(n) for n in archive.namelist()} == {
+                path.name: path.read_bytes() for path in written
+            }
+
+
+def test_files_are_named_after_the_picture(tmp_path: Path) -> None:
+    Image.fromarray(bar()).save(tmp_path / "my cat.v2.png")
+    for source in (tmp_path / "my cat.v2.png", Image.open(tmp_path / "my cat.v2.png")):
+        model = EditorModel(source)
+        assert FilePanel(model).path.value == "my cat.v2.glid"
+        model.tracing.open(bar()[:, ::-1].copy(), "dog.jpg")
+        model.apply_tracing()
+        assert FilePanel(model).path.value == "dog.glid"
+        model.close()

@@ -1,4 +1,9 @@
-// Puts text that the kernel sends into the clipboard, in pages served securely and in others.
+// Puts text that the kernel sends into the clipboard, in pages served securely and in others, and
+// saves files that it sends.
+
+import { make } from "../pad/dom.js";
+
+const saved = new Set(); // the numbers of files that another view of the same widget may hold
 
 async function copied(text) {
   try {
@@ -27,10 +32,20 @@ function copiedBySelection(text) {
   }
 }
 
+function save(name, data) {
+  const href = URL.createObjectURL(new Blob([data]));
+  make("a", { href, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(href), 60_000);
+}
+
 function render({ model }) {
-  const onText = async ({ number, text }) => model.send({ number, copied: await copied(text) });
-  model.on("msg:custom", onText);
-  return () => model.off("msg:custom", onText);
+  const onMessage = async ({ number, text, name }, [data]) => {
+    if (!name) model.send({ number, copied: await copied(text) });
+    else if (!saved.has(number)) save(name, data);
+    saved.add(number);
+  };
+  model.on("msg:custom", onMessage);
+  return () => model.off("msg:custom", onMessage);
 }
 
 export default { render };
