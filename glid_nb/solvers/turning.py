@@ -72,7 +72,7 @@ class Turning:
         """The stages of each way by name, from the shape at rest to the wanted pose."""
         lines = _WAYS[min(len(self.joints), 2)].items()
         tree = dict(zip(self.order, self.parents, strict=True))
-        return {name: self.stages(way) for name, way in lines} | rigid_ways(self.pose, tree)
+        return rigid_ways(self.pose, tree) | {name: self.stages(way) for name, way in lines}
 
     def stages(self, way: tuple[int, ...], least: int = 2) -> list[Pose]:
         """The poses between the shape at rest and the wanted one, one less than the stages.
