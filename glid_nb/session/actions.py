@@ -54,11 +54,15 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
     return state.changed(pose=Pose(*parts))
 
 
-def remove_handles(state: EditState, indices: Iterable[int]) -> EditState:
-    """Remove some handles."""
+def remove_handles(state: EditState, indices: Iterable[int], keep_shape: bool = False) -> EditState:
+    """Remove some handles; with ``keep_shape`` the pose counts as solved by the map that it has."""
     chosen = _checked_indices(state, indices)
     kept = np.setdiff1d(np.arange(len(state.pose)), chosen)
-    return state.changed(pose=state.pose.only(kept))
+    if not keep_shape:
+        return state.changed(pose=state.pose.only(kept))
+    if not state.current.solved:
+        raise EditError("the shape is still moving; wait until it has come to rest to keep it")
+    return state.with_current(replace(state.current, pose=state.pose.only(kept)))
 
 
 def clear_handles(state: EditState) -> EditState:

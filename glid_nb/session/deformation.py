@@ -201,9 +201,9 @@ class Deformation(Observed):
             self.apply(actions.add_handles, points, to)
             return tuple(range(before, len(self.pose)))
 
-    def remove_handles(self, *indices: int) -> None:
-        """Remove handles."""
-        self.apply(actions.remove_handles, indices)
+    def remove_handles(self, *indices: int, keep_shape: bool = False) -> None:
+        """Remove handles; the shape relaxes, or with ``keep_shape`` stays until the next change."""
+        self.apply(actions.remove_handles, indices, keep_shape)
 
     def set_domain(self, domain: Domain) -> None:
         """Replace the domain; handles inside the new one are kept.

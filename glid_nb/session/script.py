@@ -58,28 +58,25 @@ def _map_lines(pose: NamedPose, exact: bool) -> list[str]:
         raise DocumentError(
             f"the pose {pose.name!r}: its energy is a Python function, which cannot be written down"
         )
+    posed = _pose_lines(pose) if not exact or pose.pose.depths.any() else []
     if exact:
-        return [f"map = glid.HarmonicMap(domain, {pose.map.phi.tolist()}, {pose.map.psi.tolist()})"]
-    return _solve_lines(pose)
+        phi, psi = pose.map.phi.tolist(), pose.map.psi.tolist()
+        return [*posed, f"map = glid.HarmonicMap(domain, {phi}, {psi})"]
+    return [*posed, *_solve_lines(pose)]
+
+
+def _pose_lines(pose: NamedPose) -> list[str]:
+    given = pose.pose.to_dict().items()
+    return ["pose = glid.Pose(", *(f"    {key}={values}," for key, values in given), ")"]
 
 
 def _solve_lines(pose: NamedPose) -> list[str]:
-    handles, targets = pose.pose.handles.tolist(), pose.pose.targets.tolist()
-    depths = [f"    depths={pose.pose.depths.tolist()},"] if pose.pose.depths.any() else []
     arguments = ["domain", "pose", _made(pose.energy)]
     if options := _changed(pose.options, pose.method.options):
         arguments.append(f"glid.Options({options})")
     if not isinstance(pose.method, Newton):
         arguments.append(f"method={_made(pose.method, 'glid.methods')}")
-    return [
-        "pose = glid.Pose(",
-        f"    handles={handles},",
-        f"    targets={targets},",
-        *depths,
-        ")",
-        f"result = glid.solve({', '.join(arguments)})",
-        "map = result.map",
-    ]
+    return [f"result = glid.solve({', '.join(arguments)})", "map = result.map"]
 
 
 def _domain_lines(document: Document, picture: str) -> list[str]:

@@ -28,6 +28,8 @@ from glid_nb.solvers.turning import Turning, turning_of
 
 Descend = Callable[[Inputs], Result]
 """Follows one way down."""
+Way = Callable[[Result], Result]
+"""Follows another way, with the best result so far at hand."""
 
 # Energies above this multiple of an isometry's, if that is at least the last number, are worth all
 # other ways; those above the second are worth turning where joints may turn either way.
@@ -37,8 +39,6 @@ SAME_ENERGY = 1e-6
 STAGES = (1e-5, 1e-3, 1e-1)
 STAGE_ITERATIONS, STAGE_TOLERANCE = 8, 1e-3
 TURNING_ITERATIONS = 4
-# A stage that distorts the shape by more than so many times the first way's energy is the last.
-HOPELESS = 1.5
 # Fewer most iterations than these ask for a look at them, not for the minimum.
 FEW_ITERATIONS = 20
 
@@ -53,12 +53,12 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
     if not _is_poor(first, 1):
         return first
     turning = turning_of(inputs.pose, inputs.domain.cage)
-    ways = _ways(first, inputs, descend, turning)[: inputs.options.restarts]
+    ways = _ways(inputs, descend, turning)[: inputs.options.restarts]
     best, tried = first, [("direct", first)]
     for name, way, joints in ways:
         if not _is_poor(best, joints):
             continue
-        result = way()
+        result = way(best)
         tried.append((name, result))
         if result.status is Status.STOPPED:
             best = replace(min(best, result, key=lambda r: r.energy), status=Status.STOPPED)
@@ -76,22 +76,20 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
     )
 
 
-def _ways(
-    first: Result, inputs: Inputs, descend: Descend, turning: Turning
-) -> list[tuple[str, Callable[[], Result], int]]:
+def _ways(inputs: Inputs, descend: Descend, turning: Turning) -> list[tuple[str, Way, int]]:
     """All other ways by name, those first that help most, and the joints that they turn."""
-    ways: list[tuple[str, Callable[[], Result], int]] = []
+    ways: list[tuple[str, Way, int]] = []
     if not inputs.energy.is_barrier:
-        barrier = functools.partial(_from_barrier, first, inputs, descend)
+        barrier = functools.partial(_from_barrier, inputs, descend)
         ways.append(("from the symmetric Dirichlet minimum", barrier, 0))
     for name, stages in turning.ways.items():
-        turned = functools.partial(_turned, first, inputs, descend, stages)
+        turned = functools.partial(_turned, inputs, descend, stages)
         ways.append((name, turned, len(turning.joints)))
     if inputs.options.align:
         still = _with(inputs, align=False)
         staged = functools.partial(_staged, still, descend)
         ways.append(("staged weights from the identity", staged, 0))
-        ways.append(("from the identity", functools.partial(descend, still), 0))
+        ways.append(("from the identity", lambda best: descend(still), 0))  # noqa: ARG005
     return [*ways, ("staged weights", functools.partial(_staged, inputs, descend), 0)]
 
 
@@ -112,7 +110,7 @@ def isometry_energy(energy: Energy) -> float:
     return float(energy.density(jnp.ones(1), jnp.zeros(1))[0])
 
 
-def _staged(inputs: Inputs, descend: Descend) -> Result:
+def _staged(inputs: Inputs, descend: Descend, best: Result) -> Result:  # noqa: ARG001
     """Descend with a rising weight of the targets; the history holds all stages."""
     options = inputs.options
     most = STAGE_ITERATIONS if options.max_iterations is None else options.max_iterations
@@ -132,8 +130,12 @@ def _staged(inputs: Inputs, descend: Descend) -> Result:
     return _joined(done)
 
 
-def _turned(first: Result, inputs: Inputs, descend: Descend, stages: Sequence[Pose]) -> Result:
-    """Descend along the stages of a way to turn; their own history is left out."""
+def _turned(inputs: Inputs, descend: Descend, stages: Sequence[Pose], best: Result) -> Result:
+    """Descend along the stages of a way to turn; their own history is left out.
+
+    A shape is distorted the more the further it turns, so a stage that distorts it more than the
+    best result is the last.
+    """
     options, done = inputs.options, list[Result]()
     most = TURNING_ITERATIONS if options.max_iterations is None else options.max_iterations
     loose = _with(inputs, max_iterations=min(TURNING_ITERATIONS, most), tolerance=STAGE_TOLERANCE)
@@ -141,18 +143,18 @@ def _turned(first: Result, inputs: Inputs, descend: Descend, stages: Sequence[Po
         stage = _with(replace(loose, pose=pose), align=not done)
         done.append(descend(replace(stage, start=done[-1] if done else None)))
         if done[-1].status is Status.STOPPED:
-            return replace(first, status=Status.STOPPED)
-        if done[-1].energy_iso > HOPELESS * first.energy:
+            return replace(best, status=Status.STOPPED)
+        if done[-1].energy_iso > best.energy:
             return replace(done[-1], **_times(done))
     done.append(descend(replace(_with(inputs, align=False), start=done[-1])))
     return replace(done[-1], **_times(done))
 
 
-def _from_barrier(first: Result, inputs: Inputs, descend: Descend) -> Result:
+def _from_barrier(inputs: Inputs, descend: Descend, best: Result) -> Result:
     """Descend from the symmetric Dirichlet minimum, whose own history is left out."""
     barrier = descend(replace(inputs, energy=SymmetricDirichlet()))
     if barrier.status is Status.STOPPED:
-        return replace(first, status=Status.STOPPED)
+        return replace(best, status=Status.STOPPED)
     result = descend(replace(_with(inputs, align=False), start=barrier))
     return replace(result, **_times([barrier, result]))
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import time
 from collections.abc import Sequence
 from typing import Any
@@ -264,14 +263,6 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
         self.deformation = model = canvas.deformation
         # Shared: every widget delays the first canvas.
         narrow, fitting = ipywidgets.Layout(width="38px"), ipywidgets.Layout(width="auto")
-        tip = "{} where parts overlap (Page {})"
-        self.back, self.front = (
-            button("", icon, tip.format(*words), functools.partial(self._raise, steps), narrow)
-            for icon, words, steps in (
-                ("level-down", ("Send selected pins back", "Down"), -1),
-                ("level-up", ("Bring selected pins forward", "Up"), 1),
-            )
-        )
         self.undo = button("", "undo", "Undo (Ctrl+Z)", model.undo, narrow)
         self.redo = button("", "repeat", "Redo (Ctrl+Shift+Z)", model.redo, narrow)
         self.reset = button("", "home", "The undeformed shape (0)", model.reset, narrow)
@@ -288,20 +279,16 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
                 description=label, tooltip=tooltip, layout=fitting
             )
             ipywidgets.link((canvas, name), (toggle, "value"))
-        buttons = self.undo, self.redo, self.reset, self.fit, self.back, self.front
+        buttons = self.undo, self.redo, self.reset, self.fit
         super().__init__([*buttons, self.overlay, *self.toggles.values()], **kwargs)
         self.add_class("glid-tools")
         self._show("state")
         self._endings = (model.observe(self._show),)
 
-    def _raise(self, steps: int) -> None:
-        self.deformation.bring_forward(self.deformation.selection, steps)
-
     def _show(self, what: str) -> None:
-        if what in ("state", "selection"):
+        if what == "state":
             model = self.deformation
             self.undo.disabled, self.redo.disabled = not model.can_undo, not model.can_redo
-            self.back.disabled = self.front.disabled = not model.selection
 
 
 def check_size(least: int, n_vertices: Any, **sides: Any) -> tuple[int, int]:

@@ -35,11 +35,13 @@ from glid_nb.widgets.controls import REFUSED, PoseList, button, paragraph
 from glid_nb.widgets.exporting import export
 from glid_nb.widgets.file_panel import FilePanel, OpenPanel
 from glid_nb.widgets.monitor import SolverMonitor
+from glid_nb.widgets.pins import PinBar
 from glid_nb.widgets.solver_panel import SolverPanel
 from glid_nb.widgets.tracer import CageTracer
 
 _TRACE, _DEFORM = 0, 1
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
+_PINS_HEIGHT = "36px"  # kept free until the pins' numbers are made
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
 
@@ -378,6 +380,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         """One of these parts, in its box."""
         makers: dict[str, Callable[[], ipywidgets.Widget]] = {
             "tracer": lambda: CageTracer(model=self.model.tracing, height=self._size[1]),
+            "pins": lambda: PinBar(self.deformation),
             "solver": lambda: SolverPanel(self.deformation),
             "files": lambda: FilePanel(self.model),
         }
@@ -398,6 +401,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.pose_list = PoseList(model)
         # Boxes to be filled: if the children changed, the page would select another tab.
         self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}
+        self._boxes["pins"] = ipywidgets.VBox(layout={"min_height": _PINS_HEIGHT})
         self._side = ipywidgets.Tab(
             [self.monitor.image, self._boxes["solver"], self._boxes["files"]],
             titles=("Monitor", "Solver", "Files"),
@@ -412,7 +416,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             [self._side, self.pose_list], layout={**fixed, "width": f"{_SIDE_WIDTH + 34}px"}
         )
         left = ipywidgets.VBox(
-            [self.toolbar, self.canvas, self.monitor.line],
+            [self.toolbar, self._boxes["pins"], self.canvas, self.monitor.line],
             layout={**fixed, "margin": "0 14px 0 0"},
         )
         wrapped = {"align_items": "flex-start", "flex_flow": "row wrap", "overflow": "visible"}

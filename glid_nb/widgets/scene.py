@@ -28,7 +28,7 @@ N_VERTICES = 10_000
 
 _RANGE_SAMPLES = 256  # of the boundary, where distortion is largest
 _GRID_LINES = 40  # along the longer side
-_HIGHEST, _LEVELS = 4.0, 24  # world units, inside the camera's range; groups of triangles
+_HIGHEST, _LEVELS = 4.0, 8  # world units, inside the camera's range; groups of triangles
 _COLUMN = 8.0  # width of a column of triangles in drawing order, in heights of a row
 # Lines along the boundary, the lowest first: shape, colour, opacity, half the width in pixels.
 _LINES = {

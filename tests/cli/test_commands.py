@@ -175,6 +175,25 @@ def test_render_warps_the_picture(run, picture: Path, solved: Path, tmp_path: Pa
         assert (warped.size, warped.mode) == ((160, 120), "RGBA")
 
 
+def test_depths_go_from_the_problem_into_the_map_and_its_picture(
+    run, picture: Path, problem: Path, tmp_path: Path
+) -> None:
+    data = {**read(problem), "depths": [0, 0, -1.5]}
+    problem.write_text(json.dumps(data), encoding="utf-8")
+    out, warped = tmp_path / "map.json", tmp_path / "warped.png"
+    assert run("solve", problem, "--out", out).code == 0
+    assert read(out)["depths"] == [0, 0, -1.5]
+    assert glid_nb.Problem.load(problem).pose.depths.tolist() == [0, 0, -1.5]
+    assert run("render", picture, out, "--out", warped).code == 0
+    expected = glid_nb.render(
+        glid_nb.read_image(picture), glid_nb.HarmonicMap.load(out), pose=glid_nb.load_pose(problem)
+    )
+    with Image.open(warped) as image:
+        np.testing.assert_array_equal(np.array(image), expected)
+    out.write_text(json.dumps({**read(out), "depths": [1]}), encoding="utf-8")
+    assert "depths must be 3 numbers" in run("render", picture, out, "--out", warped).err
+
+
 def test_render_takes_a_size_and_a_view(run, picture: Path, solved: Path, tmp_path: Path) -> None:
     out = tmp_path / "warped.png"
     words = ("--size", 200, 90, "--view", "fit")

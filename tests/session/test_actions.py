@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,8 +11,9 @@ import pytest
 from glid_nb.energies import AMIPS
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session import actions
+from glid_nb.session.document import Solution
 from glid_nb.session.edit_state import EditError, EditState
-from glid_nb.solvers import OptionError, Pose
+from glid_nb.solvers import OptionError, Pose, PoseError, Status
 
 from ..domains import domain
 
@@ -123,3 +125,43 @@ def test_the_list_of_poses(state: EditState) -> None:
     fewer = actions.delete_pose(three, 0)
     assert (len(fewer.poses), fewer.active) == (2, 0)
     assert actions.rename_pose(fewer, 1, " right ").poses[1].name == "right"
+
+
+def test_depths_move_nothing_and_are_a_step_of_their_own(state: EditState) -> None:
+    solution = Solution(Status.CONVERGED, "done", (), ())
+    state = state.with_current(replace(state.current, solution=solution))
+    new = actions.bring_forward(actions.set_depths(state, [0], -2.5), [0, 1])
+    assert new.pose.depths.tolist() == [-1.5, 1]
+    assert new.map is state.map
+    assert new.current.solution is solution  # nothing is solved again
+    assert actions.set_depths(new, [1], 1.0) is new
+    assert actions.bring_forward(new, [1], 1000).pose.depths.tolist() == [-1.5, 100]
+    assert actions.remove_handles(new, [0]).pose.depths.tolist() == [1]
+    assert actions.set_domain(new, new.domain).pose.depths.tolist() == [-1.5, 1]
+    assert actions.move_target(new, 0, (3, 0)).pose.depths.tolist() == [-1.5, 1]
+    with pytest.raises(EditError, match="depths must be a number, or one per handle"):
+        actions.set_depths(state, [0, 1], [1.0, 2.0, 3.0])
+    with pytest.raises(PoseError, match="depths must be 2 numbers"):
+        actions.set_depths(state, [0], float("nan"))
+
+
+def test_a_new_handle_has_the_depth_of_the_shape_there(state: EditState) -> None:
+    assert actions.add_handles(state, (0, 2)).pose.depths.tolist() == [0, 0, 0]
+    deep = actions.add_handles(actions.set_depths(state, [0], -1), [(1.9, 0.1), (-1.9, 0.1)])
+    assert -1 < deep.pose.depths[2] < -0.5
+    assert abs(deep.pose.depths[3]) < 0.1
+    points = np.array([[2.2, 0.3], [0.0, 2.0], [-2.2, 0.0]])
+    before = actions.set_depths(state, [0], -1).order(points)
+    np.testing.assert_allclose(deep.order(points), before, atol=0.02)
+
+
+def test_a_handle_can_be_removed_without_moving_the_shape(state: EditState) -> None:
+    with pytest.raises(EditError, match="still moving"):
+        actions.remove_handles(state, [0], keep_shape=True)
+    solution = Solution(Status.CONVERGED, "done", (), ())
+    solved = state.with_current(replace(state.current, solution=solution))
+    kept = actions.remove_handles(solved, [0], keep_shape=True)
+    assert kept.pose.handles.tolist() == [[-2, 0]]
+    assert kept.map is solved.map
+    assert kept.current.solved
+    assert not actions.remove_handles(solved, [0]).current.solved

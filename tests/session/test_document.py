@@ -54,6 +54,7 @@ def document(seed: int = 1, scribbles: Scribbles | None = None) -> Document:
             random_map("ring", 0.01, seed),
             energy=AMIPS(0.1 + 0.2),
             options=Options(p2p_weight=np.float64(1 / 3), conformal=True),
+            pose=Pose([[2.0, 0.1], [-2.0, 1 / 3]], [[2.5, 0.0], [-2.0, 0.0]], [-1.0, 0.1 + 0.2]),
             method=AQP(kappa=1000 / 3),
         ),
     )
@@ -98,6 +99,7 @@ def assert_same(a: Document, b: Document) -> None:
             (pose.map.psi, other.map.psi),
             (pose.pose.handles, other.pose.handles),
             (pose.pose.targets, other.pose.targets),
+            (pose.pose.depths, other.pose.depths),
         ):
             assert one.tobytes() == same.tobytes()
 
@@ -251,18 +253,33 @@ def test_a_document_of_version_1_opens_with_our_method(
     tmp_path: Path, valid: dict[str, bytes]
 ) -> None:
     data = json.loads(valid["document.json"])
-    old = [{k: v for k, v in pose.items() if k != "method"} for pose in data["poses"]]
+    new = ("method", "depths")
+    old = [{k: v for k, v in pose.items() if k not in new} for pose in data["poses"]]
     written = {**data, "version": 1, "poses": old}
     path = tmp_path / "old.glid"
     path.write_bytes(zipped({**valid, "document.json": json.dumps(written).encode()}))
     assert [pose.method for pose in load_document(path).poses] == [Newton()] * 2
     # What version 1 did not have does not belong into one.
-    written["poses"] = data["poses"]
+    written["poses"] = [{**pose, "method": data["poses"][0]["method"]} for pose in old]
     refuse(
         tmp_path / "new",
         zipped({**valid, "document.json": json.dumps(written).encode()}),
         "unknown key 'method'",
     )
+
+
+def test_a_document_of_version_2_opens_without_depths(
+    tmp_path: Path, valid: dict[str, bytes]
+) -> None:
+    data = json.loads(valid["document.json"])
+    assert data["version"] == 3
+    old = [{k: v for k, v in pose.items() if k != "depths"} for pose in data["poses"]]
+    text = json.dumps({**data, "version": 2, "poses": old}).encode()
+    path = tmp_path / "old.glid"
+    path.write_bytes(zipped({**valid, "document.json": text}))
+    assert not any(pose.pose.depths.any() for pose in load_document(path).poses)
+    text = json.dumps({**data, "version": 2}).encode()
+    refuse(tmp_path / "new", zipped({**valid, "document.json": text}), "unknown key 'depths'")
 
 
 def refuse(folder: Path, data: bytes, culprit: str) -> None:

@@ -34,7 +34,7 @@ def run(code: str) -> dict[str, Any]:
 def document_of(model: TracingModel, **changes: Any) -> Document:
     assert model.domain is not None
     assert model.image is not None
-    pose = Pose(HANDLES, TARGETS)
+    pose = changes.pop("pose", Pose(HANDLES, TARGETS))
     energy, options = changes.pop("energy", SymmetricDirichlet()), changes.pop("options", Options())
     domain = changes.pop("domain", model.domain)
     map = changes.pop("map", None) or solve(domain, pose, energy, options).map
@@ -104,6 +104,16 @@ def test_options_energy_and_edits_are_written() -> None:
     pose = document.active_pose
     assert pose is not None
     assert scope["map"].distance(pose.map) < 1e-6
+
+
+def test_depths_are_written(model: TracingModel, picture: str) -> None:
+    assert model.domain is not None
+    point = model.domain.cage.polygon.representative_point()
+    pose = Pose([[point.x, point.y]], [[1.0, 2.0]], [-2.0])
+    document = document_of(model, map=HarmonicMap.identity(model.domain), pose=pose)
+    assert "    depths=[-2.0],\n" in python_code(document, picture)
+    scope = run(python_code(document, picture, exact=True))
+    assert scope["pose"].depths.tolist() == [-2.0]
 
 
 def test_exact_lines_need_no_solve(model: TracingModel, picture: str) -> None:

@@ -34,7 +34,8 @@ def targets(count: int) -> np.ndarray:
 @pytest.mark.slow
 def test_a_batch_is_the_poses_one_by_one() -> None:
     goals = targets(5)
-    results = solve_batch(domain("ell"), HANDLES, goals)
+    depths = np.arange(len(HANDLES))
+    results = solve_batch(domain("ell"), HANDLES, goals, depths=depths)
     assert len(results) == 5
     for goal, result in zip(goals, results, strict=True):
         alone = solve(domain("ell"), Pose(HANDLES, goal))
@@ -42,6 +43,7 @@ def test_a_batch_is_the_poses_one_by_one() -> None:
         assert result.energy == pytest.approx(alone.energy, rel=1e-6)
         check_certified(result)
         np.testing.assert_array_equal(result.pose.targets, goal)
+        np.testing.assert_array_equal(result.pose.depths, depths)
         numbers = [entry.iteration for entry in result.history]
         assert numbers == list(range(1, len(numbers) + 1))
 

@@ -410,6 +410,39 @@ def test_a_frame_that_comes_late_finds_the_canvas_closed() -> None:
     assert set(widget._instances) == before
 
 
+def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
+    from glid_nb.session.deformation import Deformation
+    from glid_nb.widgets.pins import PinBar
+
+    with Deformation(domain("ring"), begin=False) as model:
+        model.paused = True  # nothing here needs a solve
+        bar = PinBar(model)
+        assert bar.list.options == (("No pin", None),)
+        assert bar.x.disabled
+        model.add_handles([(2, 0), (-2, 0.25)])
+        model.select([0, 1])
+        assert [name for name, _ in bar.list.options] == ["No pin", "Pin 1", "Pin 2"]
+        assert (bar.list.value, bar.x.value, bar.y.value, bar.depth.value) == (1, -2, 0.25, 0)
+        bar.back.click()
+        assert model.pose.depths.tolist() == [-1, -1]
+        assert bar.depth.value == -1
+        bar.list.value = 0
+        assert model.selection == (0,)
+        bar.x.value = 2.5
+        bar.depth.value = 0.5
+        assert model.pose.targets.tolist() == [[2.5, 0], [-2, 0.25]]
+        assert model.pose.depths.tolist() == [0.5, -1]
+        model.undo()
+        assert bar.depth.value == -1
+        bar.release.click()
+        assert "still moving" in bar.refusal.value
+        assert len(model.pose) == 2
+        bar.list.value = None
+        assert model.selection == ()
+        assert bar.depth.disabled
+        bar.close()
+
+
 def test_the_panel_and_the_model_show_each_other() -> None:
     from glid_nb.session.deformation import Deformation
     from glid_nb.widgets import PoseList, SolverPanel

@@ -61,6 +61,20 @@ def test_a_click_adds_a_handle_below_the_pointer(hand: Hand) -> None:
     assert hand.model.selection == ()
 
 
+def test_keys_send_selected_handles_back_and_forward(hand: Hand) -> None:
+    hand.click(2, 0)
+    hand.click(-2, 0)
+    for key, depth in (("PageDown", -1), ("[", -2), ("PageUp", -1), ("]", 0), ("PageUp", 1)):
+        hand.key(key)
+        assert hand.model.pose.depths.tolist() == [0, depth]
+    hand.key("undo")
+    assert hand.model.pose.depths.tolist() == [0, 0]
+    hand.key("redo")
+    hand.model.select([])
+    hand.key("PageUp")
+    assert hand.model.pose.depths.tolist() == [0, 1]
+
+
 @pytest.mark.slow
 def test_a_drag_moves_a_target_and_a_trembling_click_does_not(hand: Hand) -> None:
     hand.click(2, 0)

@@ -11,7 +11,8 @@ from playwright.sync_api import Page
 
 from glid_nb.energies import ENERGIES
 from glid_nb.geometry import triangulate
-from glid_nb.widgets.scene import Drawing, Scene, drawing_order
+from glid_nb.imaging.order import order_of
+from glid_nb.widgets.scene import Drawing, Scene, _stacked, drawing_order
 from glid_nb.widgets.shader import ShaderMap, energy_defines, energy_uniform, glsl
 
 from ..domains import NAMES, domain, random_map
@@ -209,6 +210,19 @@ def test_vertices_are_shaded_little_more_than_once(name: str) -> None:
     assert sorted(map(tuple, ordered)) == sorted(map(tuple, mesh.triangles))
     assert shaded(ordered) < 1.4 * len(mesh.vertices)
     assert shaded(mesh.triangles) > 2 * shaded(ordered)
+
+
+@pytest.mark.parametrize("name", ["ell", "triple"])
+def test_layers_cost_few_more_vertices_and_lie_in_order(name: str) -> None:
+    mesh, order = triangulate(domain(name).cage, 4_000), order_of(domain(name).cage)
+    points, ordered = _stacked(mesh, order)
+    assert sorted(map(tuple, ordered)) == sorted(map(tuple, mesh.triangles))
+    assert shaded(ordered) < 1.4 * len(mesh.vertices)
+    heights = order(mesh.vertices)
+    share = (heights - heights.min()) / np.ptp(heights)
+    np.testing.assert_allclose(points[:, 2], 8 * share - 4, atol=1e-12)  # the camera sees 5
+    rank = np.argsort(np.argsort(points[ordered, 2].mean(axis=1)))
+    assert (np.maximum.accumulate(rank) - rank).max() <= len(ordered) / 8 + 1
 
 
 def test_a_mesh_of_a_few_triangles_has_no_rows() -> None:

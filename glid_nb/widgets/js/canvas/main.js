@@ -115,7 +115,7 @@ function render({ model, el }) {
     shapes.look(view);
     soon();
   };
-  const link = new Link(model);
+  const link = new Link(model, el);
   const marks = () => model.get("marks");
   const pad = model.get("interactive") ? new Pad(box, view, link, {
     reach: REACH,
