@@ -232,7 +232,9 @@ class EditorModel(Observed):
             save_document(self.document, path)
         self._saved_work = _work_of(self.deformation.state)
         self.own_files.note_session(path)
-        self.discard_kept()
+        with self.locked():
+            if (kept := self._end_keeping()) is not None:
+                kept.unlink(missing_ok=True)  # it is in a file now
 
     def load(self, path: str | Path) -> None:
         """Go on with the document in a file, which an autosave, if there is one, then saves to.
@@ -269,15 +271,10 @@ class EditorModel(Observed):
                 self.kept = None
 
     def discard_kept(self) -> None:
-        """Delete what was kept of this work, as it is saved now, or what was `kept` before."""
-        with self.locked():
-            if self._named_path is None and self._autosave is not None:
-                self._autosave.close()
-                self._autosave.file.path.unlink(missing_ok=True)
-                self._autosave = None
-            elif self.kept is not None:
-                self.kept.unlink(missing_ok=True)
-                self.kept = None
+        """Delete the work that was `kept`."""
+        if self.kept is not None:
+            self.kept.unlink(missing_ok=True)
+            self.kept = None
 
     def close(self) -> None:
         """Save what is pending, with a warning if that fails, and end all threads."""
@@ -286,14 +283,25 @@ class EditorModel(Observed):
             autosave, self._autosave = self._autosave, None
         if autosave is not None:
             autosave.close()
-            if autosave.file.error is not None:
-                text = f"the session was not saved: {autosave.file.error}"
+            if self.save_error is not None:
+                text = f"the session was not saved: {self.save_error}"
                 warnings.warn(text, RuntimeWarning, stacklevel=2)
         if self._session is not None:
             self._session.deformation.close()
 
     def _keep_in(self, path: Path) -> None:
-        self._autosave = Autosave(path, on_done=self._saved, own=OwnFiles())
+        def done(error: Exception | None) -> None:  # what no file can hold is said when it is saved
+            self._saved(None if isinstance(error, DocumentError) else error)
+
+        self._autosave = Autosave(path, on_done=done, own=OwnFiles())
+
+    def _end_keeping(self) -> Path | None:
+        """Stop keeping work that is in no session file; where it was kept."""
+        if self._named_path is not None or self._autosave is None:
+            return None
+        self._autosave.close()
+        path, self._autosave = self._autosave.file.path, None
+        return path
 
     def _session_of(self, deformation: Deformation) -> _Session:
         domain, state = self.tracing.domain, self.tracing.state
@@ -338,9 +346,7 @@ class EditorModel(Observed):
         self._replace(Deformation.from_history(History(state)))
 
     def _replace(self, deformation: Deformation) -> None:
-        if self._named_path is None and self._autosave is not None:
-            self._autosave.close()  # it was kept of the session before
-            self._autosave = None
+        self._end_keeping()
         old, self._session = self._session, self._session_of(deformation)
         if old is not None:
             self._afterwards(old.deformation.close)  # its thread may wait for the lock

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from glid_nb.energies import CustomEnergy
 from glid_nb.session.autosave import MOST_KEPT, flush, kept_files
 from glid_nb.session.document import DocumentError
 from glid_nb.session.document_file import load_document
@@ -307,8 +308,20 @@ class TestKeptWork:
         assert kept_files() == []
         self.left((-6, 0))
         again = EditorModel(picture())
+        _pin(again, (6, 0))  # meanwhile
         again.discard_kept()
-        assert (again.kept, kept_files()) == (None, [])
+        again.close()
+        assert again.kept is None
+        (path,) = kept_files()
+        assert load_document(path).poses[0].pose.handles[0, 0] == 6
+
+    def test_what_no_file_can_hold_raises_no_alarm(self) -> None:
+        model = EditorModel(picture())
+        model.deformation.paused = True
+        model.deformation.set_energy(CustomEnergy(lambda x, y: (x + y) * (1 + 1 / (x - y) ** 2)))
+        _pin(model, (-6, 0))
+        model.close()
+        assert model.save_error is None
 
     def test_a_folder_that_cannot_be_made_is_said_and_stops_nothing(self, folder: Path) -> None:
         folder.write_text("a file")

@@ -7,8 +7,8 @@ const ACKNOWLEDGE_TIMEOUT = 2000; // ms until events are sent without an answer
 
 export class Link {
   // report({busy, refusal}): an answer came, or is overdue. idle(flag): whether all is answered.
-  constructor(model, report = () => {}, idle = () => {}) {
-    Object.assign(this, { model, report, showIdle: idle });
+  constructor(model, element, report = () => {}, idle = () => {}) {
+    Object.assign(this, { model, element, report, showIdle: idle });
     this.view = Math.random().toString(36).slice(2);
     this.queue = [];
     this.buffers = [];
@@ -43,9 +43,14 @@ export class Link {
     this.waiting = true;
     this.awaited = this.number;
     try {
+      const { kernel } = this.model.widget_manager; // undefined where the page does not tell
+      if (kernel === null || kernel?.isDisposed) throw new Error("the kernel was shut down");
       this.model.send({ view: this.view, events: this.queue }, undefined, this.buffers);
     } catch {
-      return; // the kernel is gone, which pad.css says; nothing is sent any more
+      // The kernel is gone. Nothing is sent any more, and the page says so if it does not yet.
+      const { element } = this;
+      (element.closest(".glid-editor") ?? element).classList.add("jupyter-widgets-disconnected");
+      return;
     }
     [this.queue, this.buffers] = [[], []];
     this.overdue = setTimeout(() => this.report({ busy: true, refusal: null }), BUSY_AFTER);

@@ -34,7 +34,7 @@ const PART = 1 << 20; // bytes of a file per message
 function render({ model, el }) {
   let refusal = null, busy = false;
   const root = make("div", { className: "glid-tracer" });
-  const link = new Link(model, (report) => {
+  const link = new Link(model, el, (report) => {
     busy = report.busy;
     if (report.refusal || !busy) refusal = report.refusal;
     showStatus();
