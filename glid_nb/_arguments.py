@@ -88,6 +88,7 @@ def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str
         return ""
     if kind is int:
         return f"a whole number {f'from {least} to' if most else 'of at least'} {most or least}"
+    end = "" if most is None else f" and at most {most:g}"
     if "above" in limits:
-        return f"a finite number greater than {above:g}"
-    return f"a finite number {'' if 'least' in limits else 'of '}at least {least:g}"
+        return f"a finite number greater than {above:g}{end}"
+    return f"a finite number {'' if 'least' in limits else 'of '}at least {least:g}{end}"

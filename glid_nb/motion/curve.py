@@ -16,7 +16,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion.boundary import boundary_of
 from glid_nb.motion.bounded import Bounded, Coefficients
 from glid_nb.motion.settings import EASINGS
-from glid_nb.motion.solved import solved_on_the_way
+from glid_nb.motion.solved import through_solved
 
 if TYPE_CHECKING:
     from glid_nb.motion.motion import Motion
@@ -68,7 +68,7 @@ class Curve:
         elif motion.between == "bounded":
             between = Bounded.through(maps, times, motion.turns, closed)
         else:
-            between = _through_solved(maps, times, motion.turns, motion.handles, closed)
+            between = through_solved(maps, times, motion.turns, motion.handles, closed)
         return cls(maps, times, motion.easing, between)
 
     def map(self, time: float) -> HarmonicMap:
@@ -108,28 +108,3 @@ class Curve:
 def _blended(maps: Sequence[HarmonicMap], piece: int, s: float) -> Coefficients:
     a, b = maps[piece], maps[piece + 1]
     return a.phi + s * (b.phi - a.phi), a.psi + s * (b.psi - a.psi)
-
-
-def _through_solved(
-    maps: Sequence[HarmonicMap],
-    times: Sequence[float],
-    turns: Sequence[int],
-    handles: Array | None,
-    closed: bool,
-) -> Callable[[int, float], Coefficients]:
-    """The bounded interpolation through the keyframes and maps that are solved between them."""
-    ways = [solved_on_the_way(*ends, handles) for ends in itertools.pairwise(maps)]
-    all_maps, all_times, all_turns, first = [maps[0]], [times[0]], [], [0]
-    for way, (start, end), turn in zip(ways, itertools.pairwise(times), turns, strict=True):
-        all_maps += way
-        all_times += [start + (end - start) * (j + 1) / len(way) for j in range(len(way))]
-        all_turns += [turn, *[0] * (len(way) - 1)]
-        first.append(len(all_maps) - 1)
-    curve = Bounded.through(all_maps, all_times, all_turns, closed)
-
-    def between(piece: int, s: float) -> Coefficients:
-        place = s * (first[piece + 1] - first[piece])
-        inner = min(int(place), first[piece + 1] - first[piece] - 1)
-        return curve(first[piece] + inner, place - inner)
-
-    return between

@@ -65,8 +65,11 @@ def load(path: str | Path, cls: type[Motion]) -> Motion:
         _json.check_fields(data, "the motion", _REQUIRED, _OPTIONAL)
         times, knots = _knots(data)
         closed = data["repeat"] == "loop"
-        wanted = [t for t in data["times"] if t in times]
-        if len(wanted) != len(data["times"]) or [times[0], times[-1]] != [wanted[0], wanted[-1]]:
+        wanted = data["times"]
+        if any(t not in times for t in wanted) or [times[0], times[-1]] != [
+            *wanted[:1],
+            *wanted[-1:],
+        ]:
             raise MotionError('"times" must be times of knots, the first and the last included')
         at = [knots[times.index(t)] for t in wanted]
         if closed and not _same(at[0], at[-1]):

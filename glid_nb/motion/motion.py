@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from glid_nb._arrays import Array, read_only
+from glid_nb._arrays import Array, number_pairs, read_only
 from glid_nb._runtime import single_blas_thread
 from glid_nb.certificate.pieces import PieceCertificate, certify_pieces
 from glid_nb.certificate.rounding import rounded_down
@@ -108,7 +108,9 @@ class Motion:
         maps = checked_keyframes(keyframes)
         all_times = checked_times(times, len(maps), repeat == "loop")
         count = len(all_times) - 1
-        points = None if handles is None else read_only(np.array(handles, dtype=float))
+        if handles is not None:
+            wanted = "handles must be a list of [x, y] pairs"
+            handles = read_only(number_pairs(handles, wanted, MotionError))
         vars(self).update(
             keyframes=maps,
             times=all_times,
@@ -117,7 +119,7 @@ class Motion:
             between=checked("between", Between, between),
             tolerance=checked("tolerance", float, tolerance, above=0),
             turns=checked_each("turns", int, turns, count, least=-100, most=100),
-            handles=points,
+            handles=handles,
         )
 
     @property
@@ -200,7 +202,7 @@ class Motion:
 
         A motion that repeats leaves out its end, which is its start.
         """
-        fps = checked("fps", float, fps, above=0)
+        fps = checked("fps", float, fps, above=0, most=10_000)
         count = max(round(self.duration * fps), 1)
         times = self.start + np.arange(count + (self.repeat == "once")) * self.duration / count
         times = np.minimum(times, self.end)

@@ -33,9 +33,9 @@ class _Motion(NamedTuple):
     shift: complex
 
 
-def stage_times(angles: Sequence[float], least: int = 2) -> list[float]:
-    """Times between 0 and 1 of so many stages or more, where nothing turns by over 40 degrees."""
-    count = max(int(np.ceil(np.abs(angles).max() / _STAGE)), least)
+def stage_times(angles: Sequence[float]) -> list[float]:
+    """Times between 0 and 1 of two stages or more, where nothing turns by over 40 degrees."""
+    count = max(int(np.ceil(np.abs(angles).max() / _STAGE)), 2)
     return [k / count for k in range(1, count)]
 
 

@@ -74,20 +74,16 @@ class Turning:
         tree = dict(zip(self.order, self.parents, strict=True))
         return rigid_ways(self.pose, tree) | {name: self.stages(way) for name, way in lines}
 
-    def stages(self, way: tuple[int, ...], least: int = 2) -> list[Pose]:
-        """The poses between the shape at rest and the wanted one, one less than the stages.
-
-        Joints turn left (1) or right (-1) in turn, the short way for (). There are at least so many
-        stages.
-        """
+    def stages(self, way: tuple[int, ...]) -> list[Pose]:
+        """The poses between the shape at rest and the wanted one; joints turn left or right."""
         turns = list(self.turns)
-        for i, k in enumerate(self.joints if way else ()):
+        for i, k in enumerate(self.joints):
             side = way[i % len(way)]
             turns[k] = side * (side * turns[k] % (2 * np.pi))
         angles = np.full(len(self.pose), self.whole)
         for k, (i, j) in enumerate(zip(self.order[1:], self.parents[1:], strict=True), start=1):
             angles[i] = angles[j] + turns[k]
-        return [self._at(time, angles) for time in stage_times([*angles, *turns], least)]
+        return [self._at(time, angles) for time in stage_times([*angles, *turns])]
 
     def _at(self, time: float, angles: Array) -> Pose:
         z, w = as_complex(self.pose.handles), as_complex(self.pose.targets)
@@ -99,19 +95,15 @@ class Turning:
         return self.pose.with_targets(as_points(at))
 
 
-def turning_of(pose: Pose, cage: Cage, at_rest: Array | None = None) -> Turning:
-    """The tree of a pose's handles, of which there is at least one, and how its lines turn.
-
-    ``at_rest`` are the handles' places in the cage where the pose starts from other ones.
-    """
+def turning_of(pose: Pose, cage: Cage) -> Turning:
+    """The tree of a pose's handles, of which there is at least one, and how its lines turn."""
     z, w = as_complex(pose.handles), as_complex(pose.targets)
     whole = float(np.angle(rigid_motion(z, w)[0]))
     i, j = np.triu_indices(len(z), 1)
     lines = (w[i] - w[j]) / (z[i] - z[j]) * np.exp(-1j * whole)
     calm = np.all(np.abs(np.angle(lines)) < _BEND / 2) and np.all(np.abs(lines) > _CLOSE)
     # Where no line can be a joint, any tree will do.
-    places = pose.handles if at_rest is None else at_rest
-    distances = cdist(places, places) if calm else _distances(cage, places)
+    distances = cdist(pose.handles, pose.handles) if calm else _distances(cage, pose.handles)
     tree = csgraph.minimum_spanning_tree(distances)
     root = int(np.argmin(distances.sum(axis=0)))
     order, before = csgraph.breadth_first_order(tree, root, directed=False)

@@ -1,22 +1,25 @@
-"""The page of the proof names code and tests that exist."""
+"""The pages of the proofs name code and tests that exist."""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[2]
-PAGE = ROOT / "docs" / "proof.md"
 
 
-def test_every_lemma_names_its_code_and_its_test() -> None:
-    text = PAGE.read_text(encoding="utf-8")
+@pytest.mark.parametrize(("name", "least"), [("proof.md", 20), ("motion.md", 10)])
+def test_every_lemma_names_its_code_and_its_test(name: str, least: int) -> None:
+    page = ROOT / "docs" / name
+    text = page.read_text(encoding="utf-8")
     for name, target in re.findall(r"\[([^\]]+)\]\(([^)]+)\)", text):
-        source = (PAGE.parent / target).read_text(encoding="utf-8")
+        source = (page.parent / target).read_text(encoding="utf-8")
         for word in re.findall(r"`(?:\w+\.)*(\w+)`", name):
             assert re.search(rf"\b{word}\b", source), (word, target)
     tests = re.findall(r"`(tests/[\w/]+\.py)::(\w+)`", text)
-    assert len(tests) > 20
+    assert len(tests) > least
     for file, name in tests:
         assert f"def {name}(" in (ROOT / file).read_text(encoding="utf-8"), name
     numbers = re.findall(r"\*\*Lemma (\d+) \(", text)

@@ -143,3 +143,19 @@ def test_along_one_direction_bounds_hold_at_every_time(seed: int, spread: float)
             assert min(bound.sigma2_lower[0] for bound in bounds) <= (f - g).min() + 1e-12
             assert max(bound.k_upper[0] for bound in bounds) >= (g / f).max() - 1e-12
         assert max(bound.sigma1_upper[0] for bound in bounds) >= (f + g).max() - 1e-12
+
+
+def test_maps_between_are_as_good_as_the_exact_ones() -> None:
+    """A motion far from the origin, where coefficients are rounded most."""
+    first, last = (turned(random_map("ring", 0.02, i), i, 1e5) for i in (1, 2))
+    (proof,) = certify_pieces([first, last])
+    near = [turned(map, 0, -1e5 + 1) for map in (first, last)]
+    assert proof.certified
+    assert 0.97 < proof.sigma2_lower / certify_pieces(near)[0].sigma2_lower <= 1
+    dense = dense_check("ring", 4000)
+    for t in np.linspace(0, 1, 23):
+        pairs = ((first.phi, last.phi), (first.psi, last.psi))
+        between = [a + t * (b - a) for a, b in pairs]
+        found = dense.measure(*between)
+        assert found.sigma2 >= proof.sigma2_lower
+        assert found.k <= proof.k_upper
