@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import functools
 import os
+import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
+from contextvars import ContextVar
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
@@ -28,9 +30,27 @@ COMPILER_OPTIONS = {"xla_cpu_use_fusion_emitters": False}
 
 _CHUNK_ELEMENTS = 1 << 15
 
+_watcher: ContextVar[Callable[[str], None] | None] = ContextVar("watcher", default=None)
+
 _lock = threading.Lock()
 _depth = 0
 _limiter: Any = None
+
+
+@contextmanager
+def watched(by: Callable[[str], None]) -> Iterator[None]:
+    """Call ``by`` with the name of every stage that begins within; what it raises ends the work."""
+    token = _watcher.set(by)
+    try:
+        yield
+    finally:
+        _watcher.reset(token)
+
+
+def stage(name: str) -> None:
+    """Tell whoever watches this thread that a stage of its work begins."""
+    if (by := _watcher.get()) is not None:
+        by(name)
 
 
 @contextmanager
@@ -87,12 +107,13 @@ def in_chunks(
     the result is the pytree for all rows, which may be none. What overflows or is not defined
     there warns of nothing.
     """
-    size = max(_CHUNK_ELEMENTS // n_columns, 1)
-    with np.errstate(all="ignore"), single_blas_thread():
-        parts = [
-            program(*(a[first : first + size] for a in rows), *fixed)
-            for first in range(0, max(len(rows[0]), 1), size)
-        ]
+    size, parts = max(_CHUNK_ELEMENTS // n_columns, 1), []
+    # Before SciPy's BLAS is loaded no solver runs beside it.
+    limited = single_blas_thread() if "scipy.linalg" in sys.modules else nullcontext()
+    with np.errstate(all="ignore"), limited:
+        for first in range(0, max(len(rows[0]), 1), size):
+            stage("rows")
+            parts.append(program(*(a[first : first + size] for a in rows), *fixed))
     one = len(parts) == 1
     return parts[0] if one else jax.tree.map(lambda *column: np.concatenate(column), *parts)
 

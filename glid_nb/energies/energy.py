@@ -94,11 +94,19 @@ def register_energy(cls: type[E]) -> type[E]:
         lambda: jax.tree_util.register_pytree_node(
             cls,
             lambda energy: (tuple(vars(energy).values()), cls),
-            lambda known, parameters: known(*parameters),
+            _rebuilt,
         )
     )
     ENERGIES[cls.name] = cls
     return cls
+
+
+def _rebuilt(cls: type[E], parameters: tuple[Any, ...]) -> E:
+    """An energy whose parameters are whatever JAX puts into a tree, unchecked."""
+    energy = object.__new__(cls)
+    for name, value in zip(cls.parameters(), parameters, strict=True):
+        object.__setattr__(energy, name, value)
+    return energy
 
 
 def energy_by_name(name: str, s: float | None = None) -> Energy:
@@ -130,13 +138,12 @@ def as_energy(energy: Energy | str | None) -> Energy:
 def _checked_parameter(energy: str, name: str, value: Any) -> Any:
     """A parameter as a positive finite float.
 
-    JAX tracers, whose range was checked outside the traced program, and the plain objects with
-    which JAX rebuilds pytrees are returned unchanged.
+    JAX tracers, whose range was checked outside the traced program, are returned unchanged.
     """
     number = float(value) if isinstance(value, Real) and not isinstance(value, bool) else math.nan
     if 0 < number < math.inf:
         return number
-    if type(value) is object or isinstance(value, jax.Array | jax.ShapeDtypeStruct):
+    if isinstance(value, jax.Array):
         return value
     raise EnergyError(
         f"{name} of the energy {energy!r} must be positive and finite, got {value!r:.60}"

@@ -91,8 +91,9 @@ class Deformation(Observed):
         self._chain = 0
         self._frame: Frame | None = None
         self._error: Exception | None = None
-        solver = LiveSolver(self._accept, self._fail)
-        self._worker = LatestWins(solver.solve, self, "live solver")
+        self._prepared = 1.0
+        solver = LiveSolver(self._accept, self._fail, self._prepare)
+        self._worker = LatestWins(solver.solve, self, "live solver", waits=False)
         self._closed = False
         if begin:
             self.begin()
@@ -133,6 +134,7 @@ class Deformation(Observed):
                 self._error,
                 self.selection,
                 self.dragged,
+                self._prepared,
             )
 
     @property
@@ -374,7 +376,7 @@ class Deformation(Observed):
             self._submit(single=True)
 
     def close(self) -> None:
-        """End the solver's thread. The state can still be read, and no longer be changed."""
+        """End the solver, at once. The state can still be read, and no longer be changed."""
         with self.locked():
             self._closed = True
             self._observers.clear()
@@ -413,7 +415,7 @@ class Deformation(Observed):
 
     def _accept(self, frame: Frame) -> None:
         with self.locked():
-            if frame.task.chain != self._chain:
+            if frame.task.chain != self._chain or self._closed:
                 return
             if frame.mesh is None:
                 current = self.state.current
@@ -422,6 +424,11 @@ class Deformation(Observed):
                 self.history = self.history.refined(self.state.with_current(new))
             self._frame, self._error = frame, None
             self._tell("frame", "status")
+
+    def _prepare(self, share: float) -> None:
+        with self.locked():
+            self._prepared = share
+            self._tell("status")
 
     def _fail(self, error: Exception) -> None:
         with self.locked():

@@ -139,6 +139,8 @@ class Moment:
     """Indices of the selected handles."""
     dragged: tuple[int, ...] = ()
     """Indices of the handles that are being dragged."""
+    prepared: float = 1.0
+    """How much is done, from 0 to 1, of what the first solve of a shape needs."""
 
     @property
     def map(self) -> HarmonicMap:

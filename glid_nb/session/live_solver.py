@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 import time
 from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
+from glid_nb._runtime import stage, watched
 from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.document import NamedPose, Solution
@@ -24,17 +26,30 @@ MOST_ITERATIONS = 200
 _MOST_REFINED = 3.0
 
 
+# How far the preparation for a shape is when a stage of it begins.
+_PREPARED = {"start": 0.0, "basis": 0.2, "load": 0.6, "trace": 0.3, "lower": 0.4, "compile": 0.5}
+
+
+class _Cancelled(Exception):  # noqa: N818 - it is no error
+    """The task was cancelled while it prepared the solver."""
+
+
 class LiveSolver:
     """Solves one task after the other, each from the map that the one before has reached.
 
     ``publish`` is called with every :class:`Frame`, ``failed`` with the exception that a solve
-    raised; both are bound methods whose objects are not kept alive.
+    raised, ``prepared`` with how much of the preparation for a shape is done, from 0 to 1; all are
+    bound methods whose objects are not kept alive.
     """
 
     def __init__(
-        self, publish: Callable[[Frame], None], failed: Callable[[Exception], None]
+        self,
+        publish: Callable[[Frame], None],
+        failed: Callable[[Exception], None],
+        prepared: Callable[[float], None],
     ) -> None:
-        self._publish, self._failed = weakly(publish), weakly(failed)
+        self._publish, self._failed, self._prepared = map(weakly, (publish, failed, prepared))
+        self._share: float | None = None  # of the preparation; None before the first task
         self._last: Result | None = None
         self._chain: int | None = None
         # Of the gesture: the iterations before this task, and the first ones of all its tasks.
@@ -55,16 +70,34 @@ class LiveSolver:
         earlier = (i for i in self._starts if before and before[0].iteration <= i < start)
         self._starts = (*earlier, start)
         try:
-            result = self._result(task, worker)
+            with watched(functools.partial(self._watch, worker)):
+                if self._share is None:
+                    stage("start")  # JAX is imported first
+                result = self._result(task, worker)
+        except _Cancelled:
+            return
         except Exception as error:  # shown to the user; the next task starts from its own map
             self._last = None
             self._failed(error)
             return
+        self._tell_prepared(1.0)
         frame = self._frame(task, result)
         solution = Solution(result.status, result.message, frame.history, frame.starts)
         self._last, self._chain, self._before = result, task.chain, frame.history
         self._published = time.monotonic()
         self._publish(replace(frame, solution=solution))
+
+    def _watch(self, worker: LatestWins[Task], name: str) -> None:
+        """Tell how far the preparation is when a stage begins; end a task that was cancelled."""
+        if worker.cancelled:
+            raise _Cancelled
+        if (share := _PREPARED.get(name)) is not None:
+            self._tell_prepared(share)
+
+    def _tell_prepared(self, share: float) -> None:
+        if share != self._share:
+            self._share = share
+            self._prepared(share)
 
     def _result(self, task: Task, worker: LatestWins[Task]) -> Result:
         edited, method = task.pose, task.pose.method
@@ -72,6 +105,7 @@ class LiveSolver:
 
         def callback(progress: Progress) -> bool:
             nonlocal calls, iterations
+            self._tell_prepared(1.0)
             if progress.sigma2_lower is None and not progress.history:
                 # The report before the first iteration: every task takes at least a step.
                 return worker.cancelled

@@ -40,7 +40,8 @@ def describe(moment: Moment) -> StatusLine:
     state, frame, solution = moment.state, moment.frame, moment.solution
     if moment.busy and not moment.paused:
         if frame is None:
-            return StatusLine("working", "Preparing the solver…")
+            done = "" if moment.prepared == 1 else f" {moment.prepared:.0%}"
+            return StatusLine("working", f"Preparing the solver…{done}")
         iteration = f", iteration {frame.history[-1].iteration}" if frame.history else ""
         return StatusLine("working", f"Working{iteration}{_bound(frame)}")
 

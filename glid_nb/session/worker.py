@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import atexit
+import functools
 import sys
 import threading
 import time
@@ -21,7 +23,8 @@ class LatestWins(Generic[T]):
     ``work`` is called with a task and this worker; a long task ends early when ``overtaken`` or
     ``cancelled`` say so. It must not keep the ``owner``, for whom it works, alive: see
     :func:`weakly`. From the end of a task to the beginning of the next ``interval`` seconds pass.
-    Closing drops the pending task, or does it first with ``finish``.
+    Closing drops the pending task, or does it first with ``finish``; it waits for the running one
+    if it ``waits``. The end of the process waits in any case.
     """
 
     def __init__(
@@ -32,8 +35,10 @@ class LatestWins(Generic[T]):
         *,
         interval: float = 0.0,
         finish: bool = False,
+        waits: bool = True,
     ) -> None:
         self._work, self._name, self._interval, self._finish = work, name, interval, finish
+        self._waits = waits
         self._changed = threading.Condition()
         # The pending task, and whether it is done although the worker is paused.
         self._pending: tuple[T, bool] | None = None
@@ -43,7 +48,6 @@ class LatestWins(Generic[T]):
         self.thread: threading.Thread | None = None
         """The thread; None before the first task."""
         self._ended = -float("inf")
-        # This also ends the thread at the end of the process, before the interpreter shuts down.
         self._finalizer = weakref.finalize(owner, self._close)
 
     def submit(self, task: T, *, at_once: bool = False) -> None:
@@ -112,15 +116,15 @@ class LatestWins(Generic[T]):
             self._changed.notify_all()
 
     def close(self) -> None:
-        """End the thread and wait for that; later tasks are ignored."""
+        """End the thread; later tasks are ignored."""
         self._finalizer()
 
-    def _close(self) -> None:
+    def _close(self, at_exit: bool = False) -> None:
         with self._changed:
             self.closed = True
             self._changed.notify_all()
             thread = self.thread
-        if thread is not None and thread is not threading.current_thread():
+        if thread not in (None, threading.current_thread()) and (self._waits or at_exit):
             thread.join()
 
     def _due(self) -> bool:
@@ -141,6 +145,15 @@ class LatestWins(Generic[T]):
                     return (task,)
 
     def _run(self) -> None:
+        # A compiler that is still at work must not outlive the interpreter.
+        end = functools.partial(self._close, at_exit=True)
+        atexit.register(end)
+        try:
+            self._do_all()
+        finally:
+            atexit.unregister(end)
+
+    def _do_all(self) -> None:
         while (taken := self._next()) is not None:
             try:
                 self._work(*taken, self)

@@ -44,7 +44,7 @@ def solve(factor: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " 
 
 
 def _by_platform(lapack: Callable, portable: Callable, *arguments: Array) -> Array:
-    if not _understood():
+    if not understood():
         return portable(*arguments)
     return lax.platform_dependent(*arguments, cpu=lapack, default=portable)
 
@@ -91,7 +91,7 @@ def _letter(letter: str) -> np.uint8:
 
 
 @functools.cache
-def _understood() -> bool:
+def understood() -> bool:
     """Whether this JAX calls LAPACK as we do. To ask also makes LAPACK ready to be called."""
 
     def both(h: Array, b: Array) -> Array:

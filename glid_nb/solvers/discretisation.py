@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from glid_nb._jax import jax
-from glid_nb._runtime import double_precision, in_chunks, single_blas_thread
+from glid_nb._runtime import double_precision, in_chunks, single_blas_thread, stage
 from glid_nb.certificate import PROOFS, CertificateKind, PanelProof, rounding
 from glid_nb.certificate.panels import split
 from glid_nb.geometry import Domain, graded_panels, uniform_panels
@@ -174,6 +174,7 @@ def discretise(
     rule on each, and the midpoint rule for the Hessian, on pairs of panels where they are small.
     ``uniform``: the paper's samples with the plain mean (31), the Hessian on every tenth (33).
     """
+    stage("basis")
     basis, graded = basis_of(domain), sampling == "graded"
     panels = graded_panels(domain) if graded else uniform_panels(domain.cage, UNIFORM_SAMPLES)
     rows = _evaluated(basis, certificate, panels.start, panels.end, graded)
@@ -224,6 +225,7 @@ def _assembled(
         along = rows.ends[index], share
     padding = bucket if t is None else _rung
     if t is None:
+        stage("whitening")
         basis = basis_of(domain)
         (anchor,) = basis_rows(cauchy.cauchy_coordinates, panels.start[:1], basis)
         t = whitening(*along, anchor, basis)

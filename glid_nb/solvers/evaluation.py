@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from glid_nb._jax import jnp, lax
+import numpy as np
+
+from glid_nb._jax import jax, jnp, lax
 from glid_nb.certificate import EndValues, PanelBounds, fz_vanishes, rounding
 from glid_nb.certificate.panels import modulus
 from glid_nb.certificate.paper import turning
@@ -129,10 +131,15 @@ def has_zeros(matrices: Matrices, panel: PanelBounds) -> Bool[Array, ""]:
     return fz_vanishes(jnp.where(matrices.real, panel.turning, 0))
 
 
-def tightened_by_splitting(problem: Problem, point: Point) -> Bool[Array, " p"]:
-    """Panels whose bounds are loose by more than rounding, which no splitting lessens."""
-    truncation = _truncation(problem, point.coefficients)
-    return jnp.max(truncation, axis=0) > problem.matrices.rounding * point.largest
+def tightened_by_splitting(problem: Problem, point: Point) -> Bool[np.ndarray, " p"]:
+    """Panels whose bounds are loose by more than rounding, which no splitting lessens.
+
+    Computed on the host, for it is rarely asked.
+    """
+    matrices, point = jax.tree.map(np.asarray, (problem.matrices, point))
+    re, im = np.moveaxis(point.coefficients.reshape(2, 2, -1), 1, 0)
+    truncation = matrices.proof.remainder(re + 1j * im, problem.singularities)
+    return truncation.max(axis=0) > matrices.rounding * point.largest
 
 
 def reach(problem: Problem, y: Float[Array, " 4c"]) -> Float[Array, ""]:

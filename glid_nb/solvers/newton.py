@@ -4,22 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from glid_nb._arrays import Array
 from glid_nb._jax import jit, jnp
 from glid_nb._runtime import double_precision
-from glid_nb.solvers import status, step
+from glid_nb.solvers import evaluation, status, step
 from glid_nb.solvers.loop import Advance, Ending, Stopwatch, follow
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.options import Options
+from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Iteration, Result
 from glid_nb.solvers.status import Status
 from glid_nb.solvers.subspace import SubspaceDescent
+from glid_nb.solvers.unknowns import restrict_rows
+from glid_nb.solvers.whitening import pulled_back
 
-# Without two handles a rotation costs nothing and the Hessian is singular (Appendix I).
+# Without two handles a rotation costs nothing and the Hessian is singular (Appendix I). To begin
+# with the epsilon is one with which it is definite in single precision too.
+_SINGULAR_RIDGE = 1e-6
 _RIDGE, _LARGEST_RIDGE = 1e-9, 1e-2
 _RIDGE_FACTOR = 100.0
 # When to put the Hessian on all nodes: many iterations, or a short step that gains little.
@@ -65,7 +71,9 @@ class NewtonDescent(SubspaceDescent):
 
     def __init__(self, method: Method, inputs: Inputs) -> None:
         super().__init__(method, inputs, reduced=True)
-        self.ridge = self._least_ridge = _RIDGE if len(inputs.pose) < 2 else 0.0
+        self.problem = self.problem._replace(p2p_hessian=_p2p_hessian(self.problem))
+        singular = len(inputs.pose) < 2
+        self.ridge, self._least_ridge = (_SINGULAR_RIDGE, _RIDGE) if singular else (0.0, 0.0)
         self.full_since: int | None = None
         if isinstance(inputs.start, Result) and self._continues(inputs.start):
             # The result keeps its own.
@@ -120,14 +128,18 @@ class NewtonDescent(SubspaceDescent):
         if not hasattr(self, "initial"):
             iso, p2p = float(state.start_iso), float(state.start_p2p)
             self.initial = Iteration(iteration=0, energy_iso=iso, energy_p2p=p2p, time=0.0)
-        columns = {k: np.asarray(v)[:taken].tolist() for k, v in state.records._asdict().items()}
-        for values in zip(*columns.values(), strict=True):
-            known = dict(zip(columns, values, strict=True), panels_split=self.just_split)
+        for row in np.asarray(state.records)[:taken].tolist():
+            known: dict[str, Any] = dict(zip(step.Record._fields, row, strict=True))
+            known["hessian_modified"] = bool(known["hessian_modified"])
+            known |= {"corrections": int(row[-1]), "panels_split": self.just_split}
             self.record(Iteration(iteration=0, time=seconds / taken, panels=len(panels), **known))
             self.just_split = 0
+        refused = np.asarray(state.refused)
+        if refused.any():
+            refused = refused & evaluation.tightened_by_splitting(self.problem, self.point)
         # After a split the map is still where its Hessian was taken.
         self.reuse = end == status.REFUSED and bool(self.inputs.options.corrections)
-        return Advance(end, taken, np.asarray(state.refused))
+        return Advance(end, taken, refused)
 
     def adapt(self, done: Advance) -> Ending | None:
         """Take the full Hessian or another ridge where that may help; else end."""
@@ -183,6 +195,16 @@ class NewtonDescent(SubspaceDescent):
         promised = self.decrement**2 / 2
         small = promised <= _ROUNDING * abs(float(self.point.energy))
         return Ending(Status.STATIONARY if small else Status.BLOCKED)
+
+
+def _p2p_hessian(problem: Problem) -> Array:
+    """The Hessian of the positional energy, the identity where there is no unknown."""
+    positional, unknowns = problem.positional, problem.unknowns
+    rows = pulled_back(positional.matrix, np.asarray(problem.matrices.whitening))
+    rows = restrict_rows(rows, unknowns)
+    h = rows.T @ (positional.weights[:, None] * rows)
+    h[np.diag_indices_from(h)] += 1 - unknowns.free
+    return h
 
 
 def _is_slow(history: Sequence[Iteration]) -> bool:

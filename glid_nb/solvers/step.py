@@ -5,8 +5,9 @@ from __future__ import annotations
 import functools
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from glid_nb._jax import AnyArray, jax, jit, jnp, lax
-from glid_nb._runtime import COMPILER_OPTIONS
+from glid_nb._jax import AnyArray, jax, jnp, lax
+from glid_nb._programs import Program
+from glid_nb.energies import table1
 from glid_nb.solvers import cholesky, evaluation, line_search, whitening
 from glid_nb.solvers.evaluation import Line, Point
 from glid_nb.solvers.hessian import (
@@ -58,15 +59,16 @@ class Settings(NamedTuple):
 
 
 class Record(NamedTuple):
-    """History of one iteration, the state after its step."""
+    """History of one iteration, the state after its step, all as one row of numbers."""
 
     energy_iso: Float[AnyArray, ""]
     energy_p2p: Float[AnyArray, ""]
     step: Float[AnyArray, ""]
     decrement: Float[AnyArray, ""]
     sigma2_lower: Float[AnyArray, ""]
-    hessian_modified: Bool[AnyArray, ""]
-    corrections: Int[AnyArray, ""]
+    hessian_modified: Float[AnyArray, ""]
+    """1 where it was."""
+    corrections: Float[AnyArray, ""]
 
 
 class State(NamedTuple):
@@ -80,9 +82,10 @@ class State(NamedTuple):
     iteration: Int[Array, ""]
     outcome: Int[Array, ""]
     decrement: Float[Array, ""]
-    records: Record
+    records: Float[Array, "i r"]
+    """A :class:`Record` in each row."""
     refused: Bool[Array, " p"]
-    """Panels that refused the last preferred step and may allow it once they are split."""
+    """Panels that refused the last preferred step."""
     sigma2_lower: Float[Array, " p"]
     """Certified bound per panel at ``point``, once a step was taken."""
     turning: Float[Array, " p"]
@@ -95,15 +98,6 @@ class State(NamedTuple):
     """What the last step gained."""
 
 
-class _Call(NamedTuple):
-    """What a call is given, and what it computes of that once."""
-
-    problem: Problem
-    settings: Settings
-    p2p_hessian: Float[Array, "4u 4u"]
-    """Of the positional energy, in whitened coordinates."""
-
-
 def iterations(
     problem: Problem,
     coefficients: Float[Array, " 4c"],
@@ -114,20 +108,16 @@ def iterations(
 
     An iteration is a step with a Hessian of its own and, close to the minimum, corrections: steps
     by the same factor from gradients of their own (Shamanskii's method), for a fraction of the cost
-    of another Hessian. All are turns of one loop, so that one body is compiled.
+    of another Hessian. All are turns of one loop, so that one body is compiled. What can be
+    computed on the host is, for to compile it takes longer.
     """
-    positional = problem.positional
-    rows = whitening.pulled_back(positional.matrix, problem.matrices.whitening)
-    p2p_hessian = rows.T @ (positional.weights[:, None] * rows)
-    p2p_hessian = restrict_hessian(p2p_hessian, problem.unknowns)
-    call = _Call(problem, settings, p2p_hessian)
 
     def goes_on(state: State) -> Bool[Array, ""]:
         more = state.corrects | (state.iteration < settings.iterations)
         return (state.outcome == RUNNING) & more
 
     point = evaluation.evaluated(problem, coefficients)
-    real, blank = problem.matrices.real, jnp.full(MOST_PER_CALL, jnp.nan)
+    real = problem.matrices.real
     start = State(
         point=point,
         start_iso=point.energy_iso,
@@ -135,15 +125,7 @@ def iterations(
         iteration=jnp.array(0),
         outcome=jnp.array(RUNNING),
         decrement=jnp.array(jnp.inf),
-        records=Record(
-            energy_iso=blank,
-            energy_p2p=blank,
-            step=blank,
-            decrement=blank,
-            sigma2_lower=blank,
-            hessian_modified=jnp.zeros(MOST_PER_CALL, bool),
-            corrections=jnp.zeros(MOST_PER_CALL, int),
-        ),
+        records=jnp.zeros((MOST_PER_CALL, len(Record._fields))),
         refused=jnp.zeros_like(real),
         sigma2_lower=jnp.full(real.shape, jnp.nan),
         turning=jnp.zeros(real.shape),
@@ -151,22 +133,17 @@ def iterations(
         corrects=jnp.array(False),
         gain=jnp.array(jnp.inf),
     )
-    end = lax.while_loop(goes_on, functools.partial(_step, call), start)
-
-    def helped() -> Bool[Array, " p"]:
-        return end.refused & evaluation.tightened_by_splitting(problem, end.point)
-
-    return end._replace(refused=lax.cond(jnp.any(end.refused), helped, lambda: end.refused))
+    return lax.while_loop(goes_on, functools.partial(_step, problem, settings), start)
 
 
-def _step(call: _Call, state: State) -> State:
+def _step(problem: Problem, settings: Settings, state: State) -> State:
     """One step of Algorithm 1, the first of an iteration or a correction."""
-    problem, settings, point, corrects = call.problem, call.settings, state.point, state.corrects
+    point, corrects = state.point, state.corrects
     # The Hessian and its factor, projected where it is not positive definite.
-    factor, modified = _factorised(call, state)
+    factor, modified = _factorised(problem, settings, state)
     definite = jnp.isfinite(factor[-1, -1])
     # The direction.
-    line = _newton_line(call, point, factor)
+    line = _newton_line(problem, point, factor)
     decrement = jnp.sqrt(jnp.maximum(line.squared_decrement, 0))
     # Stop on the decrement.
     scale = jnp.maximum(jnp.abs(point.energy), LEAST_ENERGY)
@@ -180,17 +157,21 @@ def _step(call: _Call, state: State) -> State:
     outcome = jnp.where(definite, outcome, INDEFINITE)
     # Step.
     stepped = outcome == RUNNING
-    there = _where(stepped, there, point)
+    there, sigma2_lower, turning = lax.cond(
+        stepped,
+        lambda: (there, panel.sigma2_lower, panel.turning),
+        lambda: (point, state.sigma2_lower, state.turning),
+    )
     i = state.iteration - corrects
-    known = jax.tree.map(lambda column: column[i], state.records)
+    known = Record(*state.records[i])
     first = Record(
         energy_iso=there.energy_iso,
         energy_p2p=there.energy_p2p,
         step=step,
         decrement=decrement,
-        sigma2_lower=jnp.min(jnp.where(problem.matrices.real, panel.sigma2_lower, jnp.inf)),
-        hessian_modified=modified,
-        corrections=jnp.array(0),
+        sigma2_lower=jnp.min(jnp.where(problem.matrices.real, sigma2_lower, jnp.inf)),
+        hessian_modified=modified.astype(float),
+        corrections=jnp.array(0.0),
     )
     corrected = known._replace(
         energy_iso=first.energy_iso,
@@ -198,7 +179,8 @@ def _step(call: _Call, state: State) -> State:
         sigma2_lower=first.sigma2_lower,
         corrections=known.corrections + 1,
     )
-    record = _where(stepped, _where(corrects, corrected, first), known)
+    first, corrected = jnp.stack(first), jnp.stack(corrected)
+    record = jnp.where(stepped, jnp.where(corrects, corrected, first), state.records[i])
     # A correction that fails only ends the iteration, and the solve where it has no more to gain.
     ends = corrects & minimal & (known.corrections > 0)
     outcome = jnp.where(corrects, jnp.where(ends, CONVERGED, RUNNING), outcome)
@@ -209,23 +191,24 @@ def _step(call: _Call, state: State) -> State:
         iteration=i + (stepped | corrects),
         outcome=outcome,
         decrement=jnp.where(corrects & ~ends, state.decrement, decrement),
-        records=jax.tree.map(lambda column, new: column.at[i].set(new), state.records, record),
+        records=state.records.at[i].set(record),
         refused=jnp.where(corrects, state.refused, refused),
-        sigma2_lower=jnp.where(stepped, panel.sigma2_lower, state.sigma2_lower),
-        turning=jnp.where(stepped, panel.turning, state.turning),
+        sigma2_lower=sigma2_lower,
+        turning=turning,
         factor=factor,
-        corrects=stepped & pays & (record.corrections < settings.corrections),
+        corrects=stepped & pays & (record[-1] < settings.corrections),
         gain=gain,
     )
 
 
-def _factorised(call: _Call, state: State) -> tuple[Float[Array, "4u 4u"], Bool[Array, ""]]:
+def _factorised(
+    problem: Problem, settings: Settings, state: State
+) -> tuple[Float[Array, "4u 4u"], Bool[Array, ""]]:
     """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected.
 
     The factor that the call was given, where its first iteration is to take that. A loop, for its
     turns write into the same memory.
     """
-    problem, settings = call.problem, call.settings
     matrices, energy = problem.matrices, problem.energy
     first_step = jnp.logical_not(settings.reuse) | (state.iteration > 0)
     wanted = first_step & ~state.corrects
@@ -256,7 +239,7 @@ def _factorised(call: _Call, state: State) -> tuple[Float[Array, "4u 4u"], Bool[
             h = lax.cond(count == 0, assembled, project, h)
         else:
             h = assembled(h)
-        whole = restrict_hessian(h, problem.unknowns, call.p2p_hessian, settings.ridge)
+        whole = restrict_hessian(h, problem.unknowns, problem.p2p_hessian, settings.ridge)
         return cholesky.factorise(whole), h, count + 1
 
     def goes_on(carry: tuple) -> Bool[Array, ""]:
@@ -269,24 +252,25 @@ def _factorised(call: _Call, state: State) -> tuple[Float[Array, "4u 4u"], Bool[
     return factor, wanted & ((count == 2) | settings.projects_first)
 
 
-def _newton_line(call: _Call, point: Point, factor: Float[Array, "4u 4u"]) -> Line:
+def _newton_line(problem: Problem, point: Point, factor: Float[Array, "4u 4u"]) -> Line:
     """The line in the direction ``-H^-1 gradient``, computed in whitened coordinates."""
-    unknowns, t = call.problem.unknowns, call.problem.matrices.whitening
-    gradient = evaluation.gradient(call.problem, point)
+    unknowns, t = problem.unknowns, problem.matrices.whitening
+    gradient = evaluation.gradient(problem, point)
     gradient = restrict_gradient(whitening.pulled_back(gradient, t), unknowns)
     step = -cholesky.solve(factor, gradient)
     step = jnp.where(jnp.isfinite(factor[-1, -1]), step, 0)
     direction = whitening.coefficients(expand(step, unknowns), t)
-    return evaluation.line_along(call.problem, direction, jnp.dot(gradient, step))
+    return evaluation.line_along(problem, direction, jnp.dot(gradient, step))
 
 
 def _where(condition: Bool[AnyArray, ""] | bool, one: Any, other: Any) -> Any:
     return jax.tree.map(lambda a, b: jnp.where(condition, a, b), one, other)
 
 
-run = jit(
-    iterations,
-    donate_argnames=("factor",),
-    compiler_options=COMPILER_OPTIONS,
-)
+def _is_ours(problem: Problem, *_: Any) -> bool:
+    """Whether the energy is one of Table 1, not a user's. A kept program needs LAPACK ready."""
+    return cholesky.understood() and type(problem.energy).__module__ == table1.__name__
+
+
+run = Program(iterations, donated=2, may_keep=_is_ours)
 """:func:`iterations` compiled, for one pose; the factor that it is given is gone afterwards."""

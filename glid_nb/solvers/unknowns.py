@@ -58,6 +58,15 @@ def restrict_gradient(g: Float[Array, " 4u"], unknowns: Unknowns) -> Float[Array
     return g * unknowns.free
 
 
+def restrict_rows(rows: Float[np.ndarray, "h 4u"], unknowns: Unknowns) -> Float[np.ndarray, "h 4u"]:
+    """:func:`restrict_gradient` for each row, on the host."""
+    phi, psi, sign = _hole_slices(rows.shape[1], unknowns)
+    if phi is not None:
+        rows = rows.copy()
+        rows[:, phi] += sign * rows[:, psi]
+    return rows * unknowns.free
+
+
 def restrict_hessian(
     h: Float[Array, "4u 4u"],
     unknowns: Unknowns,

@@ -114,7 +114,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         # Frames come from the solver's thread, events from the page's; both hold the model's lock.
         # While the solver works, its next frame acknowledges events, so it sets the pace.
         with model.locked():
-            self.pane.stage.serve(model, self.handle, busy=lambda: model.busy)
+            self.pane.stage.serve(model, self.handle, busy=self._is_behind)
             stop = model.observe(self._on_model)
             self._draw("state")
             if len(model.state.pose):
@@ -157,7 +157,16 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         if what in ("state", "frame", "selection"):
             self._draw(what)
         if what in ("frame", "status"):
+            self.pane.stage.prepared = self.deformation.moment.prepared
             self.pane.stage.acknowledge()
+
+    def _is_behind(self) -> bool:
+        """Whether frames will follow. While the solver is prepared the hand can go on."""
+        return self.deformation.busy and self.deformation.moment.prepared == 1
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
+        self.deformation.begin()  # before the page has drawn anything
+        return super()._repr_mimebundle_(**kwargs)
 
     def _draw(self, what: str) -> None:
         """Draw the model after a change of ``what``; legends move only where they do not jump."""

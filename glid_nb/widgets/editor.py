@@ -111,7 +111,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     >>> editor.close()
     """
 
-    _closed = False
+    _closed = _displayed = False
     _told_path: Path | None = None
 
     def __init__(
@@ -179,6 +179,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         bundle, image = super()._repr_mimebundle_(**kwargs), self.model.tracing.image
         if bundle is not None and image is not None:
             bundle["image/png"] = base64.b64encode(self._snapshot(image)).decode()
+        self._displayed = True
+        self._begin()
         return bundle
 
     def _snapshot(self, image: NDArray[np.uint8]) -> bytes:
@@ -356,10 +358,16 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             else:
                 self._deform_box.children = [ipywidgets.HTML(_EMPTY), OpenPanel(self.model)]
             self.tabs.selected_index = _DEFORM if self.model.has_shape else _TRACE
+            self._begin()
             if self.canvas is None:
                 self._fill()
             else:
                 self.canvas.pane.stage.observe(self._fill, ["drawn"])
+
+    def _begin(self) -> None:
+        """Prepare the solver for the shape, once there is one and somebody looks at it."""
+        if self._displayed and self.model.has_shape:
+            self.deformation.begin()
 
     def _fill(self, _: Any = None) -> None:
         """Make the parts behind other tabs that are still missing."""

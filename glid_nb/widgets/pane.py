@@ -63,6 +63,8 @@ class Stage(Pad):
     """Where the colour bars are."""
     notice = traitlets.Unicode("").tag(sync=True)
     """Why the last action was refused; empty for nothing."""
+    prepared = traitlets.Float(1.0).tag(sync=True)
+    """How much is done, from 0 to 1, of what the first solve of a shape needs."""
     interactive = traitlets.Bool(True).tag(sync=True)
     """Whether the pad takes pointers and keys."""
     uniform_vectors = traitlets.Int(0).tag(sync=True)

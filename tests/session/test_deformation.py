@@ -7,10 +7,12 @@ import signal
 import threading
 import weakref
 from collections.abc import Iterator
+from queue import Queue
 
 import numpy as np
 import pytest
 
+from glid_nb._runtime import stage
 from glid_nb.certificate import certify
 from glid_nb.energies import AMIPS
 from glid_nb.session.deformation import Deformation
@@ -273,8 +275,63 @@ def test_the_thread_dies_with_the_model() -> None:
     assert not thread.is_alive()
 
 
+class Preparation:
+    """Stands in for ``solve``: it goes through the stages that it is told, and never ends."""
+
+    def __init__(self) -> None:
+        self._names, self._begun = Queue[str](), Queue[str]()
+
+    def solve(self, *_: object, **__: object) -> None:
+        while True:
+            stage(name := self._names.get(timeout=TIMEOUT))
+            self._begun.put(name)
+
+    def go_on(self, *names: str, wait: bool = True) -> None:
+        """Begin these stages, one after the other."""
+        for name in names:
+            self._names.put(name)
+            if wait:
+                assert self._begun.get(timeout=TIMEOUT) == name
+
+
+@pytest.fixture
+def preparation(monkeypatch: pytest.MonkeyPatch) -> Preparation:
+    preparation = Preparation()
+    monkeypatch.setattr("glid_nb.session.live_solver.solve", preparation.solve)
+    return preparation
+
+
+def test_the_status_says_how_far_the_solver_is_prepared(preparation: Preparation) -> None:
+    deformation, seen = Deformation(domain("ring"), begin=False), []
+    deformation.observe(lambda _: seen.append(deformation.moment.prepared))
+    deformation.begin()
+    preparation.go_on("basis", "rows", "trace", "compile")
+    assert sorted(set(seen)) == [0.0, 0.2, 0.3, 0.5, 1.0]
+    assert deformation.status.text == "Preparing the solver… 50%"
+    handle = deformation.add_handle((2, 0))  # the hand can go on
+    deformation.drag(handle, to=(3, 0))
+    assert deformation.busy
+    deformation.close()
+    preparation.go_on("rows", wait=False)
+
+
+def test_closing_does_not_wait_for_a_solver_that_is_prepared(preparation: Preparation) -> None:
+    deformation = Deformation(domain("ring"))
+    preparation.go_on("trace")
+    thread, before = deformation._worker.thread, deformation.state
+    assert thread is not None
+    deformation.close()
+    assert thread.is_alive()
+    preparation.go_on("compile", wait=False)  # it never begins
+    thread.join(TIMEOUT)
+    assert not thread.is_alive()
+    assert deformation.moment.prepared < 0.5
+    assert deformation.state is before
+
+
 def test_closing_ends_the_thread(ring: Deformation) -> None:
     ring.close()
+    ring._worker.thread.join(TIMEOUT)
     assert not ring._worker.thread.is_alive()
     state = ring.state
     for change in (

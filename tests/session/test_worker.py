@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import gc
+import subprocess
+import sys
 import threading
 import time
 from typing import Any
@@ -87,6 +89,38 @@ def test_a_paused_worker_does_only_what_is_wanted_at_once() -> None:
     slow.worker.paused = False
     assert slow.worker.wait(TIMEOUT)
     assert slow.done == [2, 3]
+
+
+def test_closing_need_not_wait_for_the_running_task() -> None:
+    slow = Slow(waits=False)
+    slow.submit(1)
+    slow.worker.close()
+    assert slow.done == []
+    slow.may.release()
+    slow.worker.thread.join(TIMEOUT)
+    assert slow.told == (True, True)
+
+
+def test_the_end_of_the_process_waits_for_the_running_task() -> None:
+    source = """
+import sys, threading, time
+from glid_nb.session.worker import LatestWins
+class Owner: pass
+owner, begun = Owner(), threading.Event()
+def work(task, worker):
+    begun.set()
+    while not worker.cancelled:
+        time.sleep(0.01)
+    print("ended")
+worker = LatestWins(work, owner, "slow", waits=False)
+worker.submit(1)
+begun.wait()
+if "closed" in sys.argv:
+    worker.close()
+"""
+    for arguments in ([], ["closed"]):
+        command = [sys.executable, "-c", source, *arguments]
+        assert subprocess.run(command, capture_output=True, text=True).stdout == "ended\n"
 
 
 @pytest.mark.parametrize(("finish", "done"), [(True, [1, 2]), (False, [1])])

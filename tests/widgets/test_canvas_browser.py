@@ -239,6 +239,24 @@ def test_touch_drags_and_pinches(open_notebook: OpenNotebook) -> None:
     np.testing.assert_allclose(hand.place([1.0, 0.5]), target, atol=0.5)
 
 
+def test_the_canvas_says_that_it_is_warming_up_and_takes_pins_meanwhile(
+    open_notebook: OpenNotebook,
+) -> None:
+    book = open_notebook([SETUP, EDITOR])
+    hand, shown = Hand(book), book.page.locator(".glid-prepared")
+    assert not shown.is_visible()
+    book.value("model._prepare(0.5)")
+    shown.get_by_text("Warming up: 50 %").wait_for()
+    for point in THREE:
+        hand.click(point)
+    book.wait_for("len(model.pose) == 3")
+    book.screenshot("editor-warming-up")
+    book.value("model._prepare(1.0)")
+    shown.wait_for(state="hidden")
+    hand.settle()
+    assert hand.certified()
+
+
 def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
     open_notebook: OpenNotebook,
 ) -> None:

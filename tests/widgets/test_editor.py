@@ -25,6 +25,7 @@ import glid_check
 import glid_nb as glid
 from glid_nb.figures.style import distortion_colors
 from glid_nb.session.autosave import flush
+from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import DocumentError
 from glid_nb.session.document_file import load_document
 from glid_nb.session.edit_state import EditError, EditState, Moment
@@ -713,3 +714,48 @@ def test_an_empty_editor_opens_sessions(editor: Editor, tmp_path: Path) -> None:
     assert empty.document.cage.equals(editor.document.cage)
     assert empty.tabs.selected_index == 1
     empty.close()
+
+
+def test_the_solver_is_prepared_as_soon_as_the_editor_is_displayed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def solve(*_: object, **__: object) -> None:
+        raise EditError("nothing is solved here")
+
+    monkeypatch.setattr("glid_nb.session.live_solver.solve", solve)
+    model = Deformation(domain("ring"), begin=False)
+    for widget in (Editor(bar(), n_vertices=300), DeformCanvas(bar(), model, n_vertices=300)):
+        assert not widget.deformation.begun
+        widget._repr_mimebundle_()
+        assert widget.deformation.begun
+        widget.close()
+
+
+def test_the_canvas_says_how_far_the_solver_is_prepared_and_answers_meanwhile(
+    editor: Editor, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    model, stage = editor.deformation, editor.canvas.pane.stage
+    answers: list[dict[str, Any]] = []
+    monkeypatch.setattr(stage, "send", lambda content, **_: answers.append(content))
+    monkeypatch.setattr(model._worker, "submit", lambda *_, **__: None)
+    monkeypatch.setattr(type(model._worker), "busy", True)
+
+    def click(number: int, x: float) -> None:
+        place = {"x": x, "y": 1.5, "unit": 0.04, "reach": 0.5, "button": 0, "shift": False}
+        events = [
+            {"type": kind, "seq": 2 * number + i, "time": 0, **place}
+            for i, kind in enumerate(("down", "up"))
+        ]
+        stage._receive(stage, {"view": "page", "events": events}, [])
+
+    model._prepare(0.3)
+    assert stage.prepared == 0.3
+    click(1, -6.0)
+    click(2, 6.0)
+    assert [answer["ack"] for answer in answers] == [3, 5]
+    assert len(model.pose) == 2
+    model._prepare(1.0)
+    assert stage.prepared == 1.0
+    answers.clear()
+    click(3, 0.0)
+    assert answers == []  # the next frame answers

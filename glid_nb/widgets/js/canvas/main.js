@@ -31,7 +31,7 @@ const HELP = [
   ["Wheel, two fingers", "zoom"],
   ["Middle button, Space and drag", "move the view"],
 ];
-const FIRST = "Click the shape to pin a point, then drag the pin. The key ? shows what else there is.";
+const FIRST = "Click the shape to pin a point, then drag the pin · ? shows all keys";
 const TIPS = [
   "where it should be. Drag it; a right click removes it; Shift-click selects several",
   "where the shape has got to. The cyan disk is where it should be",
@@ -84,9 +84,14 @@ function render({ model, el }) {
   const paper = make("canvas", { className: "glid-paper" });
   const bars = make("div", { className: "glid-legend" });
   const notice = make("div", { className: "glid-notice", role: "status" });
+  const prepared = make("div", { className: "glid-prepared", role: "status" });
   const label = "Deformation canvas: arrow keys move, Enter adds a handle";
+<<<<<<< HEAD
+  const box = make("div", { className: "glid-pad", role: "application", "aria-label": label }, paper, bars, notice, prepared);
+=======
   const box = make("div", { className: "glid-pad", role: "application", "aria-label": label }, paper, bars, notice);
   const keys = help(HELP);
+>>>>>>> main
   box.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
   el.append(box);
 
@@ -143,6 +148,12 @@ function render({ model, el }) {
     notice.hidden = !notice.textContent;
     notice.classList.toggle("glid-first", !refusal);
   };
+  const prepare = () => {
+    const share = model.get("prepared");
+    prepared.hidden = share >= 1;
+    prepared.textContent = `Warming up: ${Math.round(100 * share)} %`;
+    prepared.style.backgroundSize = `${100 * share}% 100%, auto`;
+  };
   const showLegend = () => {
     const shown = [model.get("legend"), model.get("panel_legend")].filter((bar) => bar.title);
     bars.replaceChildren(...shown.map(colorBar));
@@ -154,12 +165,18 @@ function render({ model, el }) {
     "change:coefficients": () => shapes.refresh(),
     "change:marks change:cursor": soon,
     "change:legend change:panel_legend change:legend_corner": showLegend,
+<<<<<<< HEAD
+    "change:notice": tell,
+    "change:prepared": prepare,
+=======
     "change:notice change:marks": tell,
+>>>>>>> main
   };
   for (const [names, listener] of Object.entries(listeners)) model.on(names, listener);
   fit();
   showLegend();
   tell();
+  prepare();
   let gone = false;
   shapes.load().then(() => drawingTime(box, shapes)).then((time) => {
     if (!gone) save(model, { drawn: true, drawing_time: time });

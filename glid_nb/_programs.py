@@ -1,0 +1,126 @@
+"""Compiled programs that are kept, as executables, between processes.
+
+JAX's own cache keeps the result of XLA, and a program must be traced and lowered before it is found
+there, which takes four times as long as reading it. Here a program is found by the arguments that
+it is called with, as long as the package's files are the same, and else by its lowered text.
+Whoever waits for one can watch the stages that it goes through, and end them
+(:func:`glid_nb._runtime.watched`).
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import importlib
+import os
+import pickle
+import threading
+import uuid
+import zlib
+from collections import defaultdict
+from collections.abc import Callable
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from glid_nb._files import write_bytes_atomically
+from glid_nb._jax import jax
+from glid_nb._runtime import COMPILER_OPTIONS, stage
+
+
+class Program:
+    """A function compiled once for each kind of arguments, also where several threads want it.
+
+    The call takes its argument number ``donated``. ``may_keep(*arguments)`` says whether their
+    types and our own code tell what is compiled.
+    """
+
+    def __init__(
+        self, function: Callable[..., Any], donated: int, may_keep: Callable[..., bool]
+    ) -> None:
+        self._function, self._donated, self._may_keep = function, donated, may_keep
+        self._ready: dict[Any, Any] = {}
+        self._locks: defaultdict[Any, threading.Lock] = defaultdict(threading.Lock)
+
+    def __call__(self, *arguments: Any) -> Any:
+        """The function's value."""
+        leaves, tree = jax.tree.flatten(arguments)
+        device = jax.config.jax_default_device or jax.local_devices()[0]
+        key = (device, tree, *map(jax.typeof, leaves))
+        if key not in self._ready:
+            with self._locks[key]:  # a second thread waits for what the first compiles
+                if key not in self._ready:
+                    self._ready[key] = self._loaded_or_made(key, arguments)
+        return self._ready[key](*arguments)
+
+    def _loaded_or_made(self, key: Any, arguments: Any) -> Any:
+        folder = jax.config.jax_compilation_cache_dir
+        alone = key[0].platform == "cpu" and jax.device_count() == 1  # it is kept for one device
+        if folder is None or not alone or not self._may_keep(*arguments):
+            lowered = self._lowered(arguments, "")
+            stage("compile")
+            return lowered.compile()
+        known_as = Path(folder) / f"glid_nb-arguments-{_digest(repr((_files(), key)))}"
+        if known_as.is_file() and (known := _kept(Path(folder) / known_as.read_text())):
+            return known
+        # With a name of its own JAX's cache does not know it: what comes from there loses its
+        # functions when it is kept again.
+        name = f"_{uuid.uuid4().hex}"
+        lowered = self._lowered(arguments, name)
+        path = Path(folder) / f"glid_nb-program-{_digest(lowered.as_text().replace(name, ''))}"
+        kept = _kept(path)
+        if kept is None:
+            stage("compile")
+            kept = lowered.compile()
+            content = zlib.compress(pickle.dumps(_serialization().serialize(kept)), 1)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            write_bytes_atomically(path, hashlib.sha256(content).digest() + content)
+        write_bytes_atomically(known_as, path.name.encode())
+        return kept
+
+    def _lowered(self, arguments: Any, name: str) -> Any:
+        def program(*arguments: Any) -> Any:
+            return self._function(*arguments)
+
+        program.__name__ = self._function.__name__ + name
+        jitted = jax.jit(program, donate_argnums=self._donated, compiler_options=COMPILER_OPTIONS)
+        stage("trace")
+        traced = jitted.trace(*arguments)
+        stage("lower")
+        return traced.lower()
+
+
+def _kept(path: Path) -> Any:
+    """What an earlier process has compiled; None if there is nothing, or not all of it."""
+    data = path.read_bytes() if path.is_file() else b""
+    checksum, content = data[:32], data[32:]
+    if hashlib.sha256(content).digest() != checksum:
+        return None
+    stage("load")
+    return _serialization().deserialize_and_load(*pickle.loads(zlib.decompress(content)))
+
+
+def _serialization() -> Any:
+    return importlib.import_module("jax.experimental.serialize_executable")
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(f"{_here()}{text}".encode()).hexdigest()
+
+
+@functools.cache
+def _here() -> tuple[Any, ...]:
+    """What every program depends on: the libraries, their flags and the processor."""
+    features = np._core._multiarray_umath.__cpu_features__  # type: ignore[attr-defined]
+    versions = [version(name) for name in ("jax", "jaxlib")]
+    return versions, os.environ.get("XLA_FLAGS"), sorted(features.items())
+
+
+@functools.cache
+def _files() -> list[tuple[Any, ...]]:
+    """The package's files, and when they were changed."""
+    root = Path(__file__).parent
+    files = [(str(path.relative_to(root)), path.stat()) for path in sorted(root.glob("**/*.py"))]
+    return [(name, stat.st_size, stat.st_mtime_ns) for name, stat in files]

@@ -1,0 +1,117 @@
+"""Programs that are compiled once, and kept between processes."""
+
+from __future__ import annotations
+
+import threading
+from pathlib import Path
+from typing import Any
+
+import jax
+import numpy as np
+import pytest
+
+from glid_nb import _programs
+from glid_nb._programs import Program
+from glid_nb._runtime import watched
+
+TIMEOUT = 60.0
+
+
+def double(x: Any, y: Any) -> Any:
+    return 2 * x + y
+
+
+def made(function: Any = double) -> Program:
+    """A program that a new process has not run yet."""
+    return Program(function, donated=1, may_keep=lambda *_: True)
+
+
+def stages(program: Program, *arguments: Any) -> list[str]:
+    """The stages that a call goes through."""
+    seen: list[str] = []
+    with watched(seen.append):
+        np.testing.assert_array_equal(program(*arguments), double(*arguments))
+    return seen
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path) -> Any:
+    before = jax.config.jax_compilation_cache_dir
+    jax.config.update("jax_compilation_cache_dir", str(tmp_path))
+    yield tmp_path
+    jax.config.update("jax_compilation_cache_dir", before)
+
+
+ONES, TWOS = np.ones(3, np.float32), np.full(3, 2, np.float32)
+
+
+def test_a_program_is_compiled_once_for_each_kind_of_arguments() -> None:
+    program = made()
+    assert stages(program, ONES, ONES) == ["trace", "lower", "compile"]
+    assert stages(program, TWOS, ONES) == []
+    assert stages(program, ONES[:2], ONES[:2]) == ["trace", "lower", "compile"]
+
+
+def test_another_process_finds_it_without_tracing() -> None:
+    made()(ONES, ONES)
+    assert stages(made(), TWOS, ONES) == ["load"]
+
+
+def test_after_a_change_of_the_package_it_is_found_by_its_text(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    made()(ONES, ONES)
+    monkeypatch.setattr(_programs, "_files", lambda: ["changed"])
+    assert stages(made(), TWOS, ONES) == ["trace", "lower", "load"]
+    assert stages(made(), TWOS, ONES) == ["load"]
+
+
+def test_a_damaged_file_is_compiled_again(folder: Path) -> None:
+    made()(ONES, ONES)
+    (path,) = folder.glob("glid_nb-program-*")
+    path.write_bytes(path.read_bytes()[:-1])
+    assert stages(made(), TWOS, ONES) == ["trace", "lower", "compile"]
+    assert stages(made(), TWOS, ONES) == ["load"]
+
+
+def test_what_must_not_be_kept_is_not(folder: Path) -> None:
+    program = Program(double, donated=1, may_keep=lambda *_: False)
+    assert stages(program, ONES, ONES) == ["trace", "lower", "compile"]
+    assert not list(folder.glob("glid_nb-*"))
+
+
+def test_a_second_thread_waits_for_what_the_first_compiles() -> None:
+    traced, go_on, calls = threading.Event(), threading.Event(), []
+
+    def slow(x: Any, y: Any) -> Any:
+        calls.append(threading.get_ident())
+        traced.set()
+        assert go_on.wait(TIMEOUT)
+        return double(x, y)
+
+    program, results = made(slow), []
+    threads = [
+        threading.Thread(target=lambda: results.append(program(ONES, ONES))) for _ in range(2)
+    ]
+    for thread in threads:
+        thread.start()
+    assert traced.wait(TIMEOUT)
+    go_on.set()
+    for thread in threads:
+        thread.join(TIMEOUT)
+    assert len(calls) == 1
+    np.testing.assert_array_equal(results, np.full((2, 3), 3.0))
+
+
+def test_whoever_watches_can_end_it() -> None:
+    class Ended(Exception):  # noqa: N818
+        pass
+
+    def end(name: str) -> None:
+        if name == "compile":
+            raise Ended
+
+    program = made()
+    with pytest.raises(Ended), watched(end):
+        program(ONES, ONES)
+    assert stages(program, ONES, ONES) == ["trace", "lower", "compile"]
