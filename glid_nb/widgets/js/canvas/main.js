@@ -31,7 +31,7 @@ const HELP = [
   ["Wheel, two fingers", "zoom"],
   ["Middle button, Space and drag", "move the view"],
 ];
-const FIRST = "Click the shape to pin a point, then drag the pin. The key ? shows what else there is.";
+const FIRST = "Click the shape to pin a point, then drag the pin · ? shows all keys";
 const TIPS = [
   "where it should be. Drag it; a right click removes it; Shift-click selects several",
   "where the shape has got to. The cyan disk is where it should be",
