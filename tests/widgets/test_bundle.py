@@ -7,8 +7,11 @@ from pathlib import Path
 
 import pytest
 
+import glid_nb
 from glid_nb.widgets import bundle as bundling
 from glid_nb.widgets.bundle import bundle, stylesheet
+
+_TEXTS = (".py", ".js", ".css", ".glsl", ".frag", ".vert", ".html")
 
 
 def test_every_module_comes_once_and_before_its_users() -> None:
@@ -51,3 +54,10 @@ def test_the_stylesheet_uses_only_variables_that_it_defines() -> None:
     text = stylesheet("tracer/tracer.css")
     defined = set(re.findall(r"(--glid-[\w-]+):", text)) | {"--glid-height"}
     assert set(re.findall(r"var\((--glid-[\w-]+)", text)) <= defined
+
+
+def test_no_file_holds_the_marks_of_a_merge() -> None:
+    files = [path for path in Path(glid_nb.__file__).parent.rglob("*") if path.suffix in _TEXTS]
+    marked = [path for path in files if re.search("^(<{7}|>{7}) ", path.read_text(), re.MULTILINE)]
+    assert files
+    assert marked == []
