@@ -304,8 +304,10 @@ def end_values(
 
     The sums are the derivatives of (k, c) coefficients, ``f_z`` for phi and the like.
     """
-    edges, chord = cauchy.edge_coefficients(coefficients, singularities), end - start
-    parts = rounding.derivatives(np.concatenate([start, end]), edges, singularities)
+    chord: Any = end - start
+    edges: Any = cauchy.edge_coefficients(coefficients, singularities)
+    both: Any = np.concatenate([start, end])
+    parts: Any = rounding.derivatives(both, edges, singularities)
     (values, slopes, slack), (values_end, slopes_end, slack_end) = (
         (first, chord * second, first_off + modulus(chord) * second_off)
         for first, second, first_off, second_off in zip(

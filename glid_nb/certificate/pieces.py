@@ -24,7 +24,7 @@ from glid_nb._runtime import in_chunks
 from glid_nb.certificate import rounding
 from glid_nb.certificate.certify import Known, end_values, refined
 from glid_nb.certificate.hermite import Hermite
-from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
+from glid_nb.certificate.panels import EndValues, PanelBounds
 from glid_nb.certificate.paper import beside, jumps
 from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
@@ -83,7 +83,7 @@ def certify_pieces(
     from values that are attained, and so is time, for tightness down to an eighth of a piece.
     """
     panels = graded_panels(maps[0].domain)
-    size = modulus(_rows(maps)).max(axis=0)
+    size = np.abs(_rows(maps)).max(axis=0)
     proofs = []
     for first in range(0, len(maps) - 1, _GROUP):
         group = maps[first : first + _GROUP + 1]
@@ -103,9 +103,10 @@ def _prove(
         begin, end, a, b, values = intervals.pop()
         evaluate, panels = _evaluated([a, b], size), graded_panels(a.domain)
         values = evaluate(panels.start, panels.end) if values is None else values
+        along = _bounds(values)
         panels, known = refined(
             panels,
-            _bounds(values),
+            along,
             lambda start, end, evaluate=evaluate: _bounds(evaluate(start, end)),
             tightness,
         )
@@ -113,7 +114,9 @@ def _prove(
         unproved = ~np.asarray(own.injective)
         extremes = own.sigma2_lower.min(), own.sigma1_upper.max(), own.k_upper.max()
         sigma2, k = values.seen
-        loose = extremes[0] < (1 - tightness) * sigma2 or extremes[2] > (1 + tightness) * k + 1e-3
+        # What a common u costs, at the ends of panels.
+        loose = along.sigma2_seen.min() < (1 - tightness) * sigma2
+        loose |= along.k_seen.max() > (1 + tightness) * k + 1e-3
         if end - begin > (_SHORTEST if unproved.any() else _TIGHT) and (unproved.any() or loose):
             middle = _between(a, b)
             half = (begin + end) / 2
@@ -133,7 +136,7 @@ def _between(a: HarmonicMap, b: HarmonicMap) -> HarmonicMap:
     return HarmonicMap(a.domain, a.phi + (b.phi - a.phi) / 2, a.psi + (b.psi - a.psi) / 2)
 
 
-def _rows(maps: Sequence[HarmonicMap]) -> Array:
+def _rows(maps: Sequence[HarmonicMap]) -> Any:
     basis = basis_of(maps[0].domain)
     return np.stack([basis.pad(c) for map in maps for c in (map.phi, map.psi)])
 
@@ -149,7 +152,7 @@ def _evaluated(maps: Sequence[HarmonicMap], size: Array) -> Any:
 
 
 def _values(
-    start: Array, end: Array, coefficients: Array, size: Array, singularities: Singularities
+    start: Any, end: Any, coefficients: Any, size: Any, singularities: Singularities
 ) -> _Values:
     ends, slack = end_values(start, end, coefficients, singularities)
     slack = slack + _coefficient_rounding(start, end, size, singularities)
@@ -162,9 +165,7 @@ def _values(
     return _Values(*(np.moveaxis(values, 2, 0) for values in by_map))
 
 
-def _coefficient_rounding(
-    start: Array, end: Array, size: Array, singularities: Singularities
-) -> Array:
+def _coefficient_rounding(start: Any, end: Any, size: Any, singularities: Singularities) -> Any:
     """What rounding the coefficients of a map between others changes: (p,).
 
     ``a + t (b - a)`` is off by less than 6 roundoffs of the largest, ``size``, and a middle of
@@ -172,22 +173,21 @@ def _coefficient_rounding(
     """
     vertices, following, _, _ = singularities
     m = len(vertices)
-    edges = (size[:m] + size[following]) / modulus(vertices[following] - vertices)
+    edges = (size[:m] + size[following]) / np.abs(vertices[following] - vertices)
     off = 32 * rounding.UPWARD * rounding.UNIT_ROUNDOFF * np.concatenate([edges, size[m:]])
-    z = np.concatenate([start, end])
+    z: Any = np.concatenate([start, end])
     first, second = (
         np.split(np.abs(by_edges(z, singularities)) @ off, 2)
         for by_edges in (cauchy.first_by_edges, cauchy.second_by_edges)
     )
-    return np.maximum(*first) + modulus(end - start) * np.maximum(*second)
+    return np.maximum(*first) + np.abs(end - start) * np.maximum(*second)
 
 
 def _bounds(values: _Values) -> Known:
     """What is proved for all times between two maps; what is seen of it is along ``u`` too."""
-    (fz, fzb_conj), errors = (
-        [[EndValues(*values.ends[:, i, k].T) for i in (0, 1)] for k in (0, 1)],
-        values.errors,
-    )
+    ends: Any = values.ends
+    errors: Any = values.errors
+    fz, fzb_conj = ([EndValues(*ends[:, i, k].T) for i in (0, 1)] for k in (0, 1))
     f, g = (np.concatenate([np.stack(side[:2]) for side in each]) for each in (fz, fzb_conj))
     u = _common_direction(f, g)
     proved = [Hermite.bounds(fz[i], fzb_conj[i], errors[:, i, :, 0].T, u) for i in (0, 1)]
@@ -196,10 +196,11 @@ def _bounds(values: _Values) -> Known:
         least([getattr(each, name) for each in proved], axis=0)
         for least, name in ((np.min, "sigma2_lower"), (np.max, "sigma1_upper"), (np.max, "k_upper"))
     )
-    sigma2 = np.where(known & (sigma2 > -np.inf), sigma2, -np.inf)
+    sigma2: Any = np.where(known & (sigma2 > -np.inf), sigma2, -np.inf)
+    k: Any = np.where(known, k, np.inf)
     along = np.real(u.conj() * f)
     return Known(
-        PanelBounds(sigma2, sigma1, np.where(known, k, np.inf), known, proved[0].turning),
+        PanelBounds(sigma2, sigma1, k, known, proved[0].turning),
         (along - np.abs(g)).min(axis=0),
         (np.abs(f) + np.abs(g)).max(axis=0),
         (np.abs(g) / along).max(axis=0),
@@ -208,7 +209,7 @@ def _bounds(values: _Values) -> Known:
     )
 
 
-def _common_direction(f: Array, g: Array) -> Array:
+def _common_direction(f: Array, g: Array) -> Any:
     """(p,) ``u`` between those of both times, for which the least ``Re(conj(u) f) - |g|`` is most.
 
     ``f`` and ``g`` are (4, p) values: at both ends of the panels at the first time, and the last.

@@ -6,7 +6,6 @@ import functools
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg
 import shapely
 
 from glid_nb._arrays import Array
@@ -120,8 +119,8 @@ def _fit(
     end = t.shape[1] - n_padded
     t_single = t[:, 1:end][:, np.any(t[:, 1:end] != 0, axis=0)]
     t_log = t[:, end : end + n_holes]
-    q, r = scipy.linalg.qr(root * (first @ t_single), mode="economic")
-    t_single = scipy.linalg.solve_triangular(r, t_single.T, trans="T").T
+    q, r = np.linalg.qr(root * (first @ t_single))
+    t_single = np.linalg.solve(r.T, t_single.T).T
     log = root * (first @ t_log)
     along = q.conj().T @ log
     rest = log - q @ along
@@ -149,11 +148,9 @@ def _branches(domain: Domain, start: Array, end: Array, loop: Array) -> tuple[Br
         near, far = panel_at(i, line[0]), panel_at(j, line[1])
         stops = np.array([start[near], *line, start[far]])
         steps = np.arange(1, 3 * _ON_LINK) / _ON_LINK
-        points = np.interp(steps, range(4), stops.real) + 1j * np.interp(
-            steps, range(4), stops.imag
-        )
+        x, y = (np.interp(steps, range(4), part) for part in (np.real(stops), np.imag(stops)))
         basis = basis_of(domain)
-        link = complex_basis(cauchy.first_derivatives, points, basis)[:, basis.columns]
+        link = complex_basis(cauchy.first_derivatives, x + 1j * y, basis)[:, basis.columns]
         first = 2 * int(np.flatnonzero(own[j] == far)[0])
         branches.append(Branch(np.roll(nodes[j], -first), near, link))
         inside.add(j)

@@ -132,8 +132,8 @@ def _frame(boundary: Boundary, map: HarmonicMap, before: list[_Frame], turns: in
     phi, psi = boundary.translated(map.phi, -mean) / turn, map.psi * turn
     fz, fzb_conj = boundary.derivatives(phi, psi)
     log = boundary.logarithm(phi, fz)
-    middle = float(boundary.mean @ log.imag)
-    wanted = float(boundary.mean @ before[0].fields[: len(log)].imag) if before else 0.0
+    middle = float(boundary.mean @ np.imag(log))
+    wanted = float(boundary.mean @ np.imag(before[0].fields[: len(log)])) if before else 0.0
     log += 1j * (_nearest(middle, wanted) - middle)
     fields = np.concatenate([log, fzb_conj / fz])
     return _Frame(angle, mean, fields, np.stack([phi, psi]) - _fitted(boundary, fields))
@@ -155,7 +155,7 @@ def _extremes(fields: Array) -> tuple[float, float]:
     """The least sigma_2 and the largest k at the nodes."""
     log, nu = np.split(fields, 2)
     k = np.abs(nu)
-    return float((np.exp(log.real) * (1 - k)).min()), float(k.max())
+    return float((np.exp(np.real(log)) * (1 - k)).min()), float(k.max())
 
 
 def _nearest(angle: float, to: float) -> float:

@@ -75,7 +75,7 @@ def checked_keyframes(keyframes: Any) -> tuple[HarmonicMap, ...]:
         maps.append(map)
         turns = [certificate_of(maps[0]).windings, proof.windings]
         if turns[0] != turns[1]:
-            loop = int(np.flatnonzero(np.not_equal(*turns))[-1])
+            loop = max(j for j, (a, b) in enumerate(zip(*turns, strict=True)) if a != b)
             raise MotionError(
                 f"keyframes 0 and {i} cannot be joined without folding: along the "
                 f"{loop_name(loop)} f_z turns {turns[0][loop]} times in one and {turns[1][loop]} "

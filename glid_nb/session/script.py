@@ -49,7 +49,9 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
         lines.append("maps = []")
         for pose in document.poses:
             lines += ["", f"# {pose.name!r}", *_map_lines(pose, exact), "maps.append(map)"]
+        shown = document.poses[document.active]
         lines += ["", f"map = maps[{document.active}]"]
+        lines += _pose_lines(shown) if shown.pose.depths.any() else []
     return "\n".join(lines) + "\n"
 
 

@@ -114,6 +114,9 @@ def test_depths_are_written(model: TracingModel, picture: str) -> None:
     assert "    depths=[-2.0],\n" in python_code(document, picture)
     scope = run(python_code(document, picture, exact=True))
     assert scope["pose"].depths.tolist() == [-2.0]
+    other = replace(document.poses[0], name="other", pose=Pose([[point.x, point.y]], [[1.0, 2.0]]))
+    both = replace(document, poses=(document.poses[0], other))
+    assert run(python_code(both, picture, exact=True))["pose"].depths.tolist() == [-2.0]
 
 
 def test_exact_lines_need_no_solve(model: TracingModel, picture: str) -> None:

@@ -8,7 +8,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from glid_nb.geometry import Cage, Domain
@@ -60,8 +60,10 @@ def test_absurd_targets_end_certified(name: str, kind: str, seed: int) -> None:
 @settings(max_examples=5)
 def test_tangled_domains_end_certified(cage_kind: str, seed: int, holes: int, kind: str) -> None:
     cage = random_cage(cage_kind, seed, holes)
-    rng = np.random.default_rng(seed)
     shape = Domain.from_cage(cage)
+    # Larger ones share no compiled program, and compiling is most of the time.
+    assume(shape.n_coefficients <= 60)
+    rng = np.random.default_rng(seed)
     low, high = np.reshape(cage.bounds, (2, 2))
     points = rng.uniform(low, high, size=(400, 2))
     points = points[cage.contains(points)][:4]

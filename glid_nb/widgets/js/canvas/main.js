@@ -31,7 +31,7 @@ const HELP = [
   ["Wheel, two fingers", "zoom"],
   ["Middle button, Space and drag", "move the view"],
 ];
-const FIRST = "Click the shape to pin a point, then drag the pin. The key ? shows what else there is.";
+const FIRST = "Click the shape to pin a point, then drag the pin · ? shows all keys";
 const TIPS = [
   "where it should be. Drag it; a right click removes it; Shift-click selects several",
   "where the shape has got to. The cyan disk is where it should be",
@@ -86,12 +86,8 @@ function render({ model, el }) {
   const notice = make("div", { className: "glid-notice", role: "status" });
   const prepared = make("div", { className: "glid-prepared", role: "status" });
   const label = "Deformation canvas: arrow keys move, Enter adds a handle";
-<<<<<<< HEAD
   const box = make("div", { className: "glid-pad", role: "application", "aria-label": label }, paper, bars, notice, prepared);
-=======
-  const box = make("div", { className: "glid-pad", role: "application", "aria-label": label }, paper, bars, notice);
   const keys = help(HELP);
->>>>>>> main
   box.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
   el.append(box);
 
@@ -165,12 +161,8 @@ function render({ model, el }) {
     "change:coefficients": () => shapes.refresh(),
     "change:marks change:cursor": soon,
     "change:legend change:panel_legend change:legend_corner": showLegend,
-<<<<<<< HEAD
-    "change:notice": tell,
-    "change:prepared": prepare,
-=======
     "change:notice change:marks": tell,
->>>>>>> main
+    "change:prepared": prepare,
   };
   for (const [names, listener] of Object.entries(listeners)) model.on(names, listener);
   fit();
