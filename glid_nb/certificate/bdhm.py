@@ -20,7 +20,9 @@ from glid_nb.certificate.paper import beside_by, clearance, segment_bounds
 from glid_nb.harmonic.cauchy import Singularities
 
 if TYPE_CHECKING:
-    from jaxtyping import Array, Complex, Float, Int
+    from typing import Any as Array  # of NumPy or of JAX
+
+    from jaxtyping import Complex, Float, Int
 
 
 class BDHM(NamedTuple):

@@ -18,7 +18,9 @@ from glid_nb.certificate.paper import beside, derivative_bound_weights, jumps, t
 from glid_nb.harmonic.cauchy import Singularities
 
 if TYPE_CHECKING:
-    from jaxtyping import Array, Complex, Float
+    from typing import Any as Array  # of NumPy or of JAX
+
+    from jaxtyping import Complex, Float
 
     # A cubic by its four Bezier control points, a real sextic by its seven Bernstein coefficients.
     Cubic = list[Complex[Array, " p"]] | list[Float[Array, " p"]]

@@ -15,7 +15,9 @@ from glid_nb.geometry._loops import next_index
 from glid_nb.harmonic.cauchy import Singularities
 
 if TYPE_CHECKING:
-    from jaxtyping import Array, Bool, Complex, Float
+    from typing import Any as Array  # of NumPy or of JAX
+
+    from jaxtyping import Bool, Complex, Float
 
 
 class EndValues(NamedTuple):

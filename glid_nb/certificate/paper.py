@@ -20,7 +20,9 @@ from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
 from glid_nb.harmonic.cauchy import Singularities, slope_jumps
 
 if TYPE_CHECKING:
-    from jaxtyping import Array, Bool, Complex, Float
+    from typing import Any as Array  # of NumPy or of JAX
+
+    from jaxtyping import Bool, Complex, Float
 
 
 def segment_bounds(

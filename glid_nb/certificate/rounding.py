@@ -23,7 +23,9 @@ from glid_nb.harmonic import cauchy
 from glid_nb.harmonic.cauchy import Singularities
 
 if TYPE_CHECKING:
-    from jaxtyping import Array, Bool, Complex, Float
+    from typing import Any as Array  # of NumPy or of JAX
+
+    from jaxtyping import Bool, Complex, Float
 
 UNIT_ROUNDOFF = 2.0**-53
 

@@ -17,7 +17,9 @@ import numpy as np
 from glid_nb._jax import AnyArray
 
 if TYPE_CHECKING:
-    from jaxtyping import Array, Complex, Int
+    from typing import Any as Array  # of NumPy or of JAX
+
+    from jaxtyping import Complex, Int
 
 _TWO_PI_I = 2j * np.pi
 

@@ -136,10 +136,10 @@ def tightened_by_splitting(problem: Problem, point: Point) -> Bool[np.ndarray, "
 
     Computed on the host, for it is rarely asked.
     """
-    matrices, point = jax.tree.map(np.asarray, (problem.matrices, point))
-    re, im = np.moveaxis(point.coefficients.reshape(2, 2, -1), 1, 0)
+    matrices: Matrices = jax.tree.map(np.asarray, problem.matrices)
+    re, im = np.moveaxis(np.asarray(point.coefficients).reshape(2, 2, -1), 1, 0)
     truncation = matrices.proof.remainder(re + 1j * im, problem.singularities)
-    return truncation.max(axis=0) > matrices.rounding * point.largest
+    return truncation.max(axis=0) > matrices.rounding * float(point.largest)
 
 
 def reach(problem: Problem, y: Float[Array, " 4c"]) -> Float[Array, ""]:

@@ -32,8 +32,8 @@ class Problem(NamedTuple):
     unknowns: Unknowns
     positional: Positional
     energy: Energy
-    p2p_hessian: Float[AnyArray, "4u 4u"] | float = 0.0
-    """Of the positional energy, in whitened coordinates, for Newton's method."""
+    p2p_hessian: Any = None
+    """(4u, 4u), of the positional energy in whitened coordinates; for Newton's method."""
     anchor: Float[AnyArray, " 4c"] | float = 0.0
     """Coefficients of a constant map, relative to which derivatives are computed: a translation
     then costs no accuracy."""

@@ -18,7 +18,9 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.basis import Basis
 
 if TYPE_CHECKING:
-    from jaxtyping import Array, Float
+    from typing import Any as Array  # of NumPy or of JAX
+
+    from jaxtyping import Float
 
 
 class Unknowns(NamedTuple):

@@ -32,7 +32,9 @@ from glid_nb._jax import AnyArray, jnp
 from glid_nb.harmonic.basis import Basis, column_bucket
 
 if TYPE_CHECKING:
-    from jaxtyping import Array, Complex, Float, Int
+    from typing import Any as Array  # of NumPy or of JAX
+
+    from jaxtyping import Complex, Float, Int
 
 # Raises the Gram matrix's diagonal, relative to its mean, should columns be dependent.
 _RIDGE = 1e-13
