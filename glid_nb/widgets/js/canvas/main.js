@@ -23,7 +23,6 @@ const HELP = [
   ["Arrow keys", "nudge selected pins, with Shift farther; else move a cursor"],
   ["Enter", "show the cursor; pin or select there"],
   [", .", "select the pin before, the next pin"],
-  ["Page Up, Page Down, ] [", "selected pins in front, or behind, where parts overlap"],
   ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
   ["Esc", "cancel a drag; select nothing"],
   ["0", "back to the undeformed shape"],
