@@ -117,6 +117,7 @@ function render({ model, el }) {
   }
 
   function showStatus() {
+    if (!model.get("shown").loops) return;
     const { size, loops, problems, n_components: count, component, discarded, doubt } = model.get("shown");
     const n = loops.reduce((sum, loop) => sum + loop.length, 0);
     const holes = Math.max(loops.length - 1, 0);
@@ -135,6 +136,7 @@ function render({ model, el }) {
 
   function showState() {
     const shown = model.get("shown");
+    if (!shown.loops) return; // the first state is still on its way
     stage.update(shown);
     panel.update(shown);
     undo.disabled = !shown.can_undo;
