@@ -47,7 +47,7 @@ class Program:
     def __call__(self, *arguments: Any) -> Any:
         """The function's value."""
         leaves, tree = jax.tree.flatten(arguments)
-        device = jax.config.jax_default_device or jax.local_devices()[0]
+        device = _config().jax_default_device or jax.local_devices()[0]
         key = (device, tree, *map(jax.typeof, leaves))
         if key not in self._ready:
             with self._locks[key]:  # a second thread waits for what the first compiles
@@ -56,7 +56,7 @@ class Program:
         return self._ready[key](*arguments)
 
     def _loaded_or_made(self, key: Any, arguments: Any) -> Any:
-        folder = jax.config.jax_compilation_cache_dir
+        folder = _config().jax_compilation_cache_dir
         alone = key[0].platform == "cpu" and jax.device_count() == 1  # it is kept for one device
         if folder is None or not alone or not self._may_keep(*arguments):
             lowered = self._lowered(arguments, "")
@@ -104,6 +104,10 @@ def _kept(path: Path) -> Any:
 
 def _serialization() -> Any:
     return importlib.import_module("jax.experimental.serialize_executable")
+
+
+def _config() -> Any:
+    return jax.config  # its options are known at run time only
 
 
 def _digest(text: str) -> str:

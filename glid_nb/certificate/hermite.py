@@ -66,21 +66,19 @@ class Hermite(NamedTuple):
         p, q = _control_points(fz), _control_points(fzb_conj)
         e_f, e_g = remainder[0], remainder[1]
         p_most = _greatest([modulus(point) for point in p])
-        known = direction
-        if direction is None:
-            direction = p[0] / modulus(p[0]) + p[3] / modulus(p[3])
-            direction = direction / modulus(direction)
-        along = [(direction.conj() * point).real for point in p]
-        if known is not None:
+        mean = p[0] / modulus(p[0]) + p[3] / modulus(p[3])
+        u = mean / modulus(mean) if direction is None else direction
+        along = [(u.conj() * point).real for point in p]
+        if direction is not None:
             e_f = e_f + rounding.BERNSTEIN * p_most  # of u itself and the products
         halves = [
             _piece_bounds(p_half, q_half, e_f, e_g)
             for p_half, q_half in zip(
-                _halves(p if known is None else along), _halves(q), strict=True
+                _halves(p if direction is None else along), _halves(q), strict=True
             )
         ]
         sigma2, sigma1, k = zip(*halves, strict=True)
-        if known is not None:
+        if direction is not None:
             sigma1 = [p_most + _greatest([modulus(point) for point in q]) + e_f + e_g]
 
         # If the control points lie in a half plane further than e_f from 0, f_z avoids 0 there.

@@ -57,7 +57,7 @@ class Triangulation:
         a, b = self.triangles.ravel(), np.roll(self.triangles, -1, axis=1).ravel()
         lengths = np.linalg.norm(self.vertices[a] - self.vertices[b], axis=1)
         # All triangles are counter-clockwise, so no directed edge occurs twice.
-        one_way = coo_array((lengths, (a, b)), shape=(len(self.vertices),) * 2).tocsr()
+        one_way: Any = coo_array((lengths, (a, b)), shape=(len(self.vertices),) * 2).tocsr()
         return one_way.maximum(one_way.T)
 
     @cached_property

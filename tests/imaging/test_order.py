@@ -51,6 +51,12 @@ def halves() -> NDArray[np.uint8]:
     return image
 
 
+def source(sheets: Sheets, place: Array) -> Array:
+    found = sheets.source(place)
+    assert found is not None
+    return found
+
+
 def overlap() -> tuple[Array, Array]:
     """Points of the left end and of the right one with nearly the same images, (k, 2) each."""
     along, across = np.meshgrid(np.linspace(6.6, 8.4, 13), np.linspace(-0.6, 0.6, 5))
@@ -89,7 +95,7 @@ def test_pictures_animations_meshes_and_picking_show_the_same_end(
     assert ((order(right) > order(left)) == wanted).all()
     sheets = Sheets(map, order, halves())
     for place, seen in zip(map(right), right if wanted else left, strict=True):
-        np.testing.assert_allclose(sheets.source(place), seen, atol=0.06)
+        np.testing.assert_allclose(source(sheets, place), seen, atol=0.06)
     assert (sheets.hidden(left) == wanted).all()
     assert (sheets.hidden(right) != wanted).all()
     mesh = textured_mesh(halves(), map, 1500, pose=pose)
@@ -119,9 +125,9 @@ def test_transparent_parts_hide_nothing_and_are_not_picked() -> None:
     assert Sheets(curled(), order).hidden(left).all()
     sheets = Sheets(curled(), order, clear)
     assert not sheets.hidden(left).any()
-    np.testing.assert_allclose(sheets.source(curled()(right[:1])[0]), left[0], atol=0.06)
+    np.testing.assert_allclose(source(sheets, curled()(right[:1])[0]), left[0], atol=0.06)
     nothing = Sheets(curled(), order, 0 * clear)
-    np.testing.assert_allclose(nothing.source(curled()(right[:1])[0]), right[0], atol=1e-6)
+    np.testing.assert_allclose(source(nothing, curled()(right[:1])[0]), right[0], atol=1e-6)
     assert sheets.source([0.0, 2.4]) is None
 
 
@@ -130,7 +136,7 @@ def test_maps_of_meshes_are_layered_by_the_same_order() -> None:
     map, (left, right) = MeshMap(mesh, curled()(mesh.vertices)), overlap()
     for depth, front, back in ((0.0, right, left), (-1.0, left, right)):
         sheets = Sheets(map, order_of(bar().cage, posed(0.0, 0.0, depth)))
-        np.testing.assert_allclose(sheets.source(map(front)[7]), front[7], atol=1e-6)
+        np.testing.assert_allclose(source(sheets, map(front)[7]), front[7], atol=1e-6)
         assert sheets.hidden(back).all()
         assert not sheets.hidden(front).any()
 
