@@ -24,7 +24,7 @@ class PinBar(EditControls):
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
         model = deformation
         self.list = ipywidgets.Dropdown(
-            options=[("No pin", None)], tooltip="The selected pin", layout={"width": "92px"}
+            options=[("No pin", -1)], tooltip="The selected pin", layout={"width": "92px"}
         )
         look: dict[str, Any] = {
             "layout": ipywidgets.Layout(width="100px"),
@@ -69,10 +69,10 @@ class PinBar(EditControls):
     def _show(self) -> None:
         with self.deformation.locked():
             pose, selection = self.deformation.pose, self.deformation.selection
-        names = (("No pin", None), *((f"Pin {i + 1}", i) for i in range(len(pose))))
+        names = (("No pin", -1), *((f"Pin {i + 1}", i) for i in range(len(pose))))
         if self.list.options != names:
             self.list.options = names
-        self.list.value = selection[-1] if selection else None
+        self.list.value = selection[-1] if selection else -1
         for control in (self.x, self.y, self.depth, self.back, self.front, self.release):
             control.disabled = not selection
         if selection:
@@ -80,7 +80,7 @@ class PinBar(EditControls):
             self.depth.value = float(pose.depths[selection[-1]])
 
     def _select(self, change: Any) -> None:
-        chosen = [] if change["new"] is None else [change["new"]]
+        chosen = [] if change["new"] == -1 else [change["new"]]
         self._act(partial(self.deformation.select, chosen))
 
     def _move(self) -> None:

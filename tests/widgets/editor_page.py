@@ -65,6 +65,15 @@ _FRAMES = """async () => {
   for (let i = 0; i < 3; i++) await new Promise((go) => requestAnimationFrame(go));
 }"""
 
+_STILL = """async (pad) => {
+  const place = () => JSON.stringify(pad.getBoundingClientRect());
+  for (let same = 0, before = place(); same < 3; ) {
+    await new Promise((go) => requestAnimationFrame(go));
+    const now = place();
+    [same, before] = [now === before ? same + 1 : 0, now];
+  }
+}"""
+
 _PIXEL = """(pane, [u, v]) => {
   const canvas = pane.querySelector('.jupyter-threejs canvas');
   const copy = document.createElement('canvas');
@@ -99,16 +108,21 @@ class Hand:
 
     def places(self, points: Sequence[Sequence[float]]) -> list[tuple[float, float]]:
         """Where points are in the page, which is scrolled to show the pad."""
-        self.pad.scroll_into_view_if_needed()
-        box = self.pad.bounding_box()
-        assert box is not None
         (cx, cy, unit), width, height = self.book.value(
             "[stage.view, stage.width, stage.height]", f"stage = {self.canvas}.pane.stage"
         )
+        self.pad.scroll_into_view_if_needed()
+        self.wait_until_still()
+        box = self.pad.bounding_box()
+        assert box is not None
         return [
             (box["x"] + (x - cx) / unit + width / 2, box["y"] + (cy - y) / unit + height / 2)
             for x, y in points
         ]
+
+    def wait_until_still(self) -> None:
+        """Wait until the page has stopped moving the pad, as it does after loading or resizing."""
+        self.pad.evaluate(_STILL)
 
     def click(self, point: Sequence[float], **options: Any) -> None:
         self.page.mouse.click(*self.place(point), **options)

@@ -299,6 +299,7 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
     page.locator(".glid-legend-bar").wait_for()
     for width in (1366, 800):
         page.set_viewport_size({"width": width, "height": 768})
+        hand.wait_until_still()
         before = places()
         book.value("None", setup="editor.monitor.line.value = 'A long status. ' * 40")
         book.value(

@@ -417,7 +417,7 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
     with Deformation(domain("ring"), begin=False) as model:
         model.paused = True  # nothing here needs a solve
         bar = PinBar(model)
-        assert bar.list.options == (("No pin", None),)
+        assert bar.list.options == (("No pin", -1),)
         assert bar.x.disabled
         model.add_handles([(2, 0), (-2, 0.25)])
         model.select([0, 1])
@@ -437,7 +437,7 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
         bar.release.click()
         assert "still moving" in bar.refusal.value
         assert len(model.pose) == 2
-        bar.list.value = None
+        bar.list.value = -1
         assert model.selection == ()
         assert bar.depth.disabled
         bar.close()
