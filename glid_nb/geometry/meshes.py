@@ -65,6 +65,14 @@ class Triangulation:
         triangles: Any = shapely.polygons(self.vertices[self.triangles])
         return shapely.STRtree(triangles)
 
+    def find(self, x: Any, y: Any) -> NDArray[np.int64]:
+        """The triangle of each point, -1 for none; x and y are numbers or arrays."""
+        places: Any = np.asarray(shapely.points(x, y), dtype=object)
+        triangle = np.full(places.shape, -1)
+        which, found = self._tree.query(places.ravel(), predicate="intersects")
+        triangle.flat[which] = found
+        return triangle
+
     def weights(self, points: ArrayLike) -> Any:
         """The sparse (k, v) matrix that interpolates linearly at (k, 2) points.
 
@@ -73,11 +81,9 @@ class Triangulation:
         from scipy.sparse import csr_array  # noqa: PLC0415 - not always needed
 
         points = np.reshape(np.asarray(points, dtype=float), (-1, 2))
-        places, triangle = np.asarray(shapely.points(points)), np.full(len(points), -1)
-        which, found = self._tree.query(places, predicate="intersects")
-        triangle[which] = found
+        triangle = self.find(*points.T)
         beside = triangle < 0
-        triangle[beside] = self._tree.nearest(places[beside])
+        triangle[beside] = self._tree.nearest(np.asarray(shapely.points(points[beside])))
         corners = self.triangles[triangle]
         weights = barycentric(self.vertices[corners], points)
         rows, shape = np.repeat(np.arange(len(points)), 3), (len(points), len(self.vertices))
