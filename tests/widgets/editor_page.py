@@ -197,9 +197,9 @@ class Hand:
 
     def color_at(self, point: Sequence[float]) -> list[int]:
         """RGBA of the canvas below a point of the world."""
+        x, y = self.place(point)  # which may scroll
         box = self.pad.bounding_box()
         assert box is not None
-        x, y = self.place(point)
         return self.pane.evaluate(
             _PIXEL, [(x - box["x"]) / box["width"], (y - box["y"]) / box["height"]]
         )

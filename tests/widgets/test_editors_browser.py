@@ -167,7 +167,9 @@ def test_work_survives_a_restart_of_the_kernel(open_notebook: OpenNotebook) -> N
     page.locator(".glid-pad").wait_for()
     book.value("None", setup="model.paused = True")
     page.locator(".glid-pad").click(position={"x": 280, "y": 200})
-    book.wait_for("len(editor.pose) == 1 and editor.model._autosave.file.n_saved")
+    book.wait_for(
+        "len(editor.pose) == 1 and editor.model._autosave and editor.model._autosave.file.n_saved"
+    )
     page.evaluate(RESTART)
     page.locator(".glid-editor.jupyter-widgets-disconnected").wait_for()
     said = "element => getComputedStyle(element, '::after').content"
