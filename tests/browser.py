@@ -46,6 +46,8 @@ CHROMIUM_FLAGS = (
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
+    "--disable-gpu-rasterization",
+    "--disable-gpu-compositing",
     "--no-first-run",
     "--disable-dev-shm-usage",
 )

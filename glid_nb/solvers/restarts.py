@@ -82,15 +82,14 @@ def _ways(inputs: Inputs, descend: Descend, turning: Turning) -> list[tuple[str,
     if not inputs.energy.is_barrier:
         barrier = functools.partial(_from_barrier, inputs, descend)
         ways.append(("from the symmetric Dirichlet minimum", barrier, 0))
+    joints = len(turning.joints)
     for name, stages in turning.ways.items():
-        turned = functools.partial(_turned, inputs, descend, stages)
-        ways.append((name, turned, len(turning.joints)))
+        ways.append((name, functools.partial(_turned, inputs, descend, stages), joints))
     if inputs.options.align:
         still = _with(inputs, align=False)
-        staged = functools.partial(_staged, still, descend)
-        ways.append(("staged weights from the identity", staged, 0))
-        ways.append(("from the identity", lambda best: descend(still), 0))  # noqa: ARG005
-    return [*ways, ("staged weights", functools.partial(_staged, inputs, descend), 0)]
+        ways.append(("staged weights from the identity", lambda _: _staged(still, descend), 0))
+        ways.append(("from the identity", lambda _: descend(still), 0))
+    return [*ways, ("staged weights", lambda _: _staged(inputs, descend), 0)]
 
 
 def _is_poor(result: Result, joints: int) -> bool:
@@ -110,7 +109,7 @@ def isometry_energy(energy: Energy) -> float:
     return float(energy.density(jnp.ones(1), jnp.zeros(1))[0])
 
 
-def _staged(inputs: Inputs, descend: Descend, best: Result) -> Result:  # noqa: ARG001
+def _staged(inputs: Inputs, descend: Descend) -> Result:
     """Descend with a rising weight of the targets; the history holds all stages."""
     options = inputs.options
     most = STAGE_ITERATIONS if options.max_iterations is None else options.max_iterations

@@ -173,14 +173,7 @@ def _step(problem: Problem, settings: Settings, state: State) -> State:
         hessian_modified=modified.astype(float),
         corrections=jnp.array(0.0),
     )
-    corrected = known._replace(
-        energy_iso=first.energy_iso,
-        energy_p2p=first.energy_p2p,
-        sigma2_lower=first.sigma2_lower,
-        corrections=known.corrections + 1,
-    )
-    first, corrected = jnp.stack(first), jnp.stack(corrected)
-    record = jnp.where(stepped, jnp.where(corrects, corrected, first), state.records[i])
+    record = jnp.where(stepped, _recorded(known, first, corrects), state.records[i])
     # A correction that fails only ends the iteration, and the solve where it has no more to gain.
     ends = corrects & minimal & (known.corrections > 0)
     outcome = jnp.where(corrects, jnp.where(ends, CONVERGED, RUNNING), outcome)
@@ -199,6 +192,17 @@ def _step(problem: Problem, settings: Settings, state: State) -> State:
         corrects=stepped & pays & (record[-1] < settings.corrections),
         gain=gain,
     )
+
+
+def _recorded(known: Record, first: Record, corrects: Bool[Array, ""]) -> Float[Array, " r"]:
+    """The row after a step: a new one, or the iteration's own after one more correction."""
+    corrected = known._replace(
+        energy_iso=first.energy_iso,
+        energy_p2p=first.energy_p2p,
+        sigma2_lower=first.sigma2_lower,
+        corrections=known.corrections + 1,
+    )
+    return jnp.where(corrects, jnp.stack(corrected), jnp.stack(first))
 
 
 def _factorised(

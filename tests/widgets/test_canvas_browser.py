@@ -167,7 +167,7 @@ def test_by_keyboard_alone(open_notebook: OpenNotebook) -> None:
         keys.press("Shift+ArrowLeft")
     keys.press("Enter")
     book.wait_for("len(model.pose) == 1 and model.selection == (0,)")
-    assert not hand.pad.locator(".glid-notice").is_visible()
+    hand.pad.locator(".glid-notice").wait_for(state="hidden")
     hand.page.mouse.move(*hand.place(hand.targets[0]))
     assert "Pin 1: where it should be" in (hand.pad.get_attribute("title") or "")
     x = hand.handles[0][0]
