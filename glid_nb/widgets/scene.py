@@ -14,12 +14,13 @@ from glid_nb.figures.style import BLUE, GREY
 from glid_nb.geometry import MeshMap, Triangulation, triangulate, uniform_panels
 from glid_nb.geometry.panels import Panels
 from glid_nb.harmonic import FixedPoints, HarmonicMap
+from glid_nb.harmonic.shader_map import ShaderMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.order import Order, order_of
 from glid_nb.widgets.layers import EvaluatedIn, Layer, Uniforms, comparison_layer, picture_texture
 from glid_nb.widgets.overlays import COLORS, FULL_MARGIN, MARGIN_COLORS, OVERLAYS, color_range, rgb
 from glid_nb.widgets.ribbons import PANEL_VERTICES, cage_ribbon, offset_ribbon, panel_ribbon
-from glid_nb.widgets.shader import UNIFORM_VECTORS, ShaderMap, energy_uniform
+from glid_nb.widgets.shader import UNIFORM_VECTORS, energy_uniform
 
 Range = Literal["keep", "widen", "fit"]
 
