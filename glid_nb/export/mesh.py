@@ -24,23 +24,15 @@ _RELIEF = 0.02  # world units from the lowest to the highest sheet of an overlap
 
 @dataclass(frozen=True, eq=False)
 class TexturedMesh:
-    """A deformed shape, ready for a program that draws triangles.
-
-    Attributes
-    ----------
-    positions : (v, 3) array
-        World units, y up. z rises by 0.02 from the lowest sheet to the highest, so that viewers
-        with a depth buffer draw an overlapping shape in the right order.
-    texture_coordinates : (v, 2) array
-        (u, v) in the picture, (0, 0) at its bottom left corner.
-    triangles : (t, 3) int array
-        Counter-clockwise, the lower ones first.
-    texture : (h, w, 4) uint8 array
-    """
+    """A deformed shape, ready for a program that draws triangles."""
 
     positions: NDArray[np.float64]
+    """(v, 3) world units, y up. z rises by 0.02 from the lowest sheet to the highest, so that
+    viewers with a depth buffer draw an overlapping shape in the right order."""
     texture_coordinates: NDArray[np.float64]
+    """(v, 2) (u, v) in the picture, (0, 0) at its bottom left corner."""
     triangles: NDArray[np.int32]
+    """(t, 3) counter-clockwise, the lower ones first."""
     texture: NDArray[np.uint8]
 
 

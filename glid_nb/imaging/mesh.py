@@ -40,26 +40,18 @@ Ints = NDArray[np.int32]
 
 @dataclass(frozen=True, eq=False)
 class DeformedMesh:
-    """A triangulated domain and its image.
-
-    Attributes
-    ----------
-    vertices, images : (v, 2) arrays
-        The vertices and where the map takes them, world coordinates.
-    triangles : (t, 3) int32 array
-        Counter-clockwise, the lower ones first.
-    heights : (v,) array
-        Where the image overlaps itself the higher part lies over the lower; see `order_of`.
-    error : float
-        Largest distance between the image of an edge's midpoint and the middle of the edge's end
-        points, world units: how far straight edges stray from the map.
-    """
+    """A triangulated domain and its image."""
 
     vertices: Floats
     images: Floats
+    """(v, 2) the vertices and where the map takes them, world coordinates."""
     triangles: Ints
+    """(t, 3) counter-clockwise, the lower ones first."""
     heights: Floats
+    """(v,) where the image overlaps itself the higher part lies over the lower; see `order_of`."""
     error: float
+    """Largest distance between the image of an edge's midpoint and the middle of the edge's end
+    points, world units: how far straight edges stray from the map."""
 
     def __post_init__(self) -> None:
         for array in (self.vertices, self.images, self.triangles, self.heights):

@@ -30,24 +30,16 @@ _LEAST_DIFFERENCE = 0.02  # between a pixel and the level, relative to the level
 
 @dataclass(frozen=True)
 class Component:
-    """A connected part of the foreground.
-
-    Attributes
-    ----------
-    rank
-        By area, from 0 for the largest.
-    area
-        Number of pixels.
-    bounds
-        Bounding box (xmin, ymin, xmax, ymax) in pixel coordinates.
-    pixel
-        Centre (x, y) of one of its pixels.
-    """
+    """A connected part of the foreground."""
 
     rank: int
+    """By area, from 0 for the largest."""
     area: int
+    """Number of pixels."""
     bounds: tuple[int, int, int, int]
+    """Bounding box (xmin, ymin, xmax, ymax) in pixel coordinates."""
     pixel: Point
+    """Centre (x, y) of one of its pixels."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -39,54 +39,37 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, eq=False)
 class Tracing:
-    """A traced cage and how it was made.
-
-    Attributes
-    ----------
-    cage
-        The boundary P, in world coordinates.
-    mask
-        (h, w) read-only, the pixels of the shape; holes that were dropped are filled.
-    frame
-        Conversion between pixel and world coordinates.
-    notes
-        Sentences about what was chosen, filled, moved or repaired.
-    doubt
-        Why the foreground is no more than a guess; empty where it is clear or the options say how
-        to find it.
-    method
-        How the foreground was found, never ``"auto"``.
-    threshold, offset, simplify
-        The values used, given or automatic, in the terms of `TraceOptions`.
-    component
-        The component that was traced.
-    components
-        The largest components of the foreground, at most fifty.
-    n_components
-        Their number without that limit.
-    outline
-        (n, 2) read-only, the shape's exterior outline in pixel coordinates before the offset.
-    holes
-        The shape's holes, the largest first, then those that the offset made; kept or not.
-    n_filled
-        Number of holes that are filled, with the many small ones that `holes` leaves out.
-    """
+    """A traced cage and how it was made."""
 
     cage: Cage
+    """The boundary P, in world coordinates."""
     mask: NDArray[np.bool_]
+    """(h, w) read-only, the pixels of the shape; holes that were dropped are filled."""
     frame: PixelFrame
+    """Conversion between pixel and world coordinates."""
     notes: tuple[str, ...]
+    """Sentences about what was chosen, filled, moved or repaired."""
     doubt: str
+    """Why the foreground is no more than a guess; empty where it is clear or the options say how to
+    find it."""
     method: str
+    """How the foreground was found, never ``"auto"``."""
     threshold: float
     offset: float
     simplify: float
+    """The values used, given or automatic, in the terms of `TraceOptions`."""
     component: Component
+    """The component that was traced."""
     components: tuple[Component, ...]
+    """The largest components of the foreground, at most fifty."""
     n_components: int
+    """Their number without that limit."""
     outline: NDArray[np.float64]
+    """(n, 2) read-only, the shape's exterior outline in pixel coordinates before the offset."""
     holes: tuple[Hole, ...]
+    """The shape's holes, the largest first, then those that the offset made; kept or not."""
     n_filled: int
+    """Number of holes that are filled, with the many small ones that `holes` leaves out."""
 
 
 def trace(image: ImageSource, options: TraceOptions | None = None, **changes: Any) -> Tracing:
