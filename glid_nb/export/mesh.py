@@ -45,22 +45,10 @@ def textured_mesh(
 ) -> TexturedMesh:
     """Triangulate a map's domain and give each vertex its image and its place in the picture.
 
-    Parameters
-    ----------
-    image : (h, w, 4), (h, w, 3) or (h, w) array
-        The picture that the map's cage was traced from.
-    map : HarmonicMap
-    n_vertices : int
-        About how many vertices to spread evenly, at least 3.
-    tolerance : float, optional
-        World units: edges that stray further than this from the map are split.
-    pose : Pose, optional
-        Whose depths say which part is in front where the shape overlaps itself.
-
-    Raises
-    ------
-    ValueError
-        When an argument is out of range; the message names it.
+    The image, (h, w), (h, w, 3) or (h, w, 4), is the one that the map's cage was traced from. There
+    are about ``n_vertices`` evenly spread vertices, at least 3; edges that stray further from the
+    map than a ``tolerance`` in world units are split. The depths of a pose say which part is in
+    front where the shape overlaps itself. Raises a ValueError that names an argument out of range.
     """
     texture = as_rgba8(image)
     height, width = texture.shape[:2]

@@ -54,29 +54,15 @@ def overview(
     the deformed shape. The lower row: the energies and the Newton steps per iteration, and along
     the boundary the certified lower bound on sigma_2 and the sampled sigma_2.
 
-    Parameters
-    ----------
-    image : (h, w, c) or (h, w) array
-        The picture that the cage was traced from.
-    result : Result
-        What :func:`glid_nb.solve` returned.
-    pose : Pose, optional
-        Handles and targets to show instead of the solve's.
-    width : float
-        Inches, at least 4.5; the text's size does not depend on it.
+    The image, (h, w) or (h, w, c), is the one that the cage was traced from; the result is what
+    :func:`glid_nb.solve` returned. A pose has handles and targets to show instead of the solve's.
+    The width is in inches, at least 4.5; the text's size does not depend on it.
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-        With its own Agg canvas and 300 dots per inch, unknown to pyplot. A notebook shows it,
-        ``figure.savefig(path)`` writes it to a file, `figure_png` to memory.
+    The figure has its own Agg canvas and 300 dots per inch, unknown to pyplot. A notebook shows it,
+    ``figure.savefig(path)`` writes it to a file, `figure_png` to memory.
 
-    Raises
-    ------
-    ValueError
-        The width is too small, or the image is not a picture.
-    TypeError
-        The result's map is a map of a mesh.
+    Raises a ValueError when the width is too small or the image is not a picture, a TypeError when
+    the result's map is a map of a mesh.
     """
     if not width >= _NARROWEST:
         raise ValueError(f"width is {width} inches; the text needs at least {_NARROWEST}")

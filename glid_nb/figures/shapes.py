@@ -127,18 +127,13 @@ def distortion(
 ) -> NotebookFigure:
     """Fields of distortion on the deformed shapes, side by side, with one scale of colours.
 
-    Dark is distorted, vermilion is folded; under the title stands how many triangles a MeshMap
-    turns over.
+    ``maps`` is a HarmonicMap or MeshMap, or several, each with its title. Dark is distorted,
+    vermilion is folded; under the title stands how many triangles a MeshMap turns over. Of a pose
+    the targets (cyan) and the handles' images (black) are drawn.
 
-    Parameters
-    ----------
-    maps : HarmonicMap or MeshMap, or several
-    quantity : "sigma1", "sigma2", "k", "distortion" or "energy", or an Energy
-        The singular values (Equation (2)), the little dilatation, max(sigma_1, 1 / sigma_2), the
-        symmetric Dirichlet density, or the density of this energy.
-    pose : Pose, optional
-        Targets (cyan) and the handles' images (black) to draw.
-    titles : one for each map
+    The quantity is "sigma1", "sigma2" (the singular values, Equation (2)), "k" (the little
+    dilatation), "distortion" (max(sigma_1, 1 / sigma_2)), "energy" (the symmetric Dirichlet
+    density), or an Energy, for its density.
     """
     maps, sheets = _listed(maps, pose)
     figure, grid = _side_by_side(maps, sheets, pose, titles, 1.0)
@@ -177,13 +172,8 @@ def picture(
 ) -> NotebookFigure:
     """A picture under each map, side by side; turned-over triangles are vermilion.
 
-    Parameters
-    ----------
-    image : picture that the cage was traced from, or None for a chequered one
-    maps : HarmonicMap or MeshMap, or several
-    pose : Pose, optional
-        Targets (cyan) and the handles' images (black) to draw.
-    titles : one for each map
+    The image is the one that the cage was traced from, or None for a chequered one. Maps, pose and
+    titles are as in `distortion`.
     """
     maps, sheets = _listed(maps, pose)
     figure, grid = _side_by_side(maps, sheets, pose, titles, 0.4)
@@ -208,16 +198,10 @@ def draw_deformed(axes: Axes, image: ArrayLike | None, sheet: Sheet, pixels: flo
 def basis(domain: Domain, j: int, part: Literal["re", "im", "abs"] = "re") -> NotebookFigure:
     """One basis function inside the offset cage, and the cage on which maps are certified.
 
-    The offset cage's vertices, where the functions are singular, are dots, the hole points
-    crosses; the one of this function is green.
-
-    Parameters
-    ----------
-    j : int
-        Column of the basis: the Cauchy coordinate C_j (Equation (8)) of the offset cage's vertex
-        j, counted loop by loop from 0; after the last vertex, the logarithm ln|z - rho| of each
-        hole.
-    part : "re", "im" or "abs"
+    ``j`` is the column of the basis: the Cauchy coordinate C_j (Equation (8)) of the offset cage's
+    vertex j, counted loop by loop from 0; after the last vertex, the logarithm ln|z - rho| of each
+    hole. The part is "re", "im" or "abs". The offset cage's vertices, where the functions are
+    singular, are dots, the hole points crosses; the one of this function is green.
     """
     n, n_vertices = domain.n_coefficients, domain.n_coefficients - domain.n_holes
     if not 0 <= j < n:

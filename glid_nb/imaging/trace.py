@@ -73,21 +73,11 @@ class Tracing:
 
 
 def trace(image: ImageSource, options: TraceOptions | None = None, **changes: Any) -> Tracing:
-    """Trace a cage around the shape in a picture.
+    """Trace a cage around the shape in a picture, which is given as to `read_image`.
 
-    Parameters
-    ----------
-    image
-        A picture, as in `read_image`.
-    options
-        How to trace; the default suits most drawings and many photographs.
-    changes
-        Fields of `TraceOptions` to set.
-
-    Raises
-    ------
-    TraceError
-        The picture cannot be read or shows no shape, or an option is out of range.
+    The default options suit most drawings and many photographs; ``changes`` are fields of
+    `TraceOptions` to set. Raises a TraceError when the picture cannot be read or shows no shape, or
+    an option is out of range.
 
     Examples
     --------
@@ -112,12 +102,8 @@ class Tracer:
     """Traces one picture repeatedly and reuses what changed options do not affect.
 
     The stages are foreground, components, outline, holes, dilation and simplification. A stage runs
-    again if one of its options, or a result that it depends on, has changed. Not thread-safe.
-
-    Parameters
-    ----------
-    image
-        A picture, as in `read_image`. An array is not copied and must not be changed afterwards.
+    again if one of its options, or a result that it depends on, has changed. Not thread-safe. The
+    picture is given as to `read_image`; an array is not copied and must not be changed afterwards.
     """
 
     def __init__(self, image: ImageSource) -> None:

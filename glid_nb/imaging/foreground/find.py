@@ -40,12 +40,8 @@ def find_foreground(
     """Score the pixels of an (h, w, 4) RGBA image, without smoothing.
 
     The parameters are those of `TraceOptions`; ``scaled`` returns the image's `scaled_picture`, so
-    that callers can keep it between scribbles.
-
-    Raises
-    ------
-    TraceError
-        The image has one colour only, or nothing that the method could use.
+    that callers can keep it between scribbles. Raises a TraceError when the image has one colour
+    only, or nothing that the method could use.
     """
     _check_not_uniform(image)
     notes: tuple[str, ...] = ()
