@@ -11,8 +11,7 @@ import numpy as np
 from glid_nb._arrays import Array
 from glid_nb._jax import jnp
 from glid_nb.energies import Energy
-from glid_nb.figures.style import COLORS as COLORS
-from glid_nb.figures.style import rgb as rgb
+from glid_nb.figures.style import COLORS
 from glid_nb.solvers.restarts import isometry_energy
 
 # Green, orange, vermilion: visible on white, on black and beside those above.
