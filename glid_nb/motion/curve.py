@@ -82,23 +82,21 @@ class Curve:
             self.known[time] = HarmonicMap(self.maps[0].domain, *coefficients)
         return self.known[time]
 
-    def breaks(self, tolerance: float) -> list[float]:
-        """The keyframes' times, and others between which images move straight up to a distance.
+    def breaks(self, interval: int, tolerance: float) -> list[float]:
+        """Times from a keyframe to the next between which images move straight up to a distance.
 
         A piece of length h is off by ``h^2 / 8`` times the second derivative, so pieces are as
         short as the square root of that is large.
         """
-        breaks = [self.times[0]]
-        for start, end in itertools.pairwise(self.times):
-            samples = np.linspace(start, end, _SAMPLES + 1)
-            images = np.stack([self._images(float(time)) for time in samples])
-            bend = np.abs(np.diff(images, 2, axis=0)).max(axis=1)
-            needed = np.sqrt(np.concatenate([bend[:1], bend, bend[-1:]]) / (8 * tolerance))
-            along = np.append(0, np.cumsum((needed[1:] + needed[:-1]) / 2))
-            count = int(np.ceil(np.clip(along[-1], 1, _MOST_PIECES)))
-            inside = np.interp(np.arange(1, count) / count * along[-1], along, samples)
-            breaks += [*map(float, inside), end]
-        return breaks
+        start, end = self.times[interval : interval + 2]
+        samples = np.linspace(start, end, _SAMPLES + 1)
+        images = np.stack([self._images(float(time)) for time in samples])
+        bend = np.abs(np.diff(images, 2, axis=0)).max(axis=1)
+        needed = np.sqrt(np.concatenate([bend[:1], bend, bend[-1:]]) / (8 * tolerance))
+        along = np.append(0, np.cumsum((needed[1:] + needed[:-1]) / 2))
+        count = int(np.ceil(np.clip(along[-1], 1, _MOST_PIECES)))
+        inside = np.interp(np.arange(1, count) / count * along[-1], along, samples)
+        return [start, *map(float, inside), end]
 
     def _images(self, time: float) -> Array:
         map = self.map(time)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bisect
 import functools
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -208,18 +209,39 @@ class Motion:
         times = np.minimum(times, self.end)
         return times, tuple(self(float(time)) for time in times)
 
-    @functools.cached_property
     @single_blas_thread()
+    def interval(self, index: int) -> tuple[tuple[Piece, ...], tuple[PieceCertificate, ...]]:
+        """The pieces from a keyframe to the next, and their proofs; computed on first use."""
+        if index not in self._intervals:
+            self._intervals[index] = self._made(index)
+        return self._intervals[index]
+
+    @functools.cached_property
+    def _intervals(self) -> dict[int, tuple[tuple[Piece, ...], tuple[PieceCertificate, ...]]]:
+        return {}
+
+    @functools.cached_property
+    def _curve(self) -> Curve:
+        return Curve.of(self)
+
+    @functools.cached_property
     def _proved(self) -> tuple[tuple[Piece, ...], tuple[PieceCertificate, ...]]:
-        """The pieces there, shorter ones where they are not proved, and their proofs."""
+        """The pieces there, and their proofs."""
+        intervals = [self.interval(i) for i in range(len(self.times) - 1)]
+        pieces, proofs = (itertools.chain(*each) for each in zip(*intervals, strict=True))
+        return tuple(pieces), tuple(proofs)
+
+    def _made(self, index: int) -> tuple[tuple[Piece, ...], tuple[PieceCertificate, ...]]:
+        """The pieces of an interval, shorter ones where they are not proved, and their proofs."""
         known = vars(self).get("_knots")
         if known is not None:
-            pieces = linear_pieces(*known)
-            return pieces, certify_pieces(known[1])
-        curve, tolerance = Curve.of(self), self.tolerance * self.domain.cage.longer_side
+            first, last = (known[0].index(time) for time in self.times[index : index + 2])
+            times, maps = (each[first : last + 1] for each in known)
+            return linear_pieces(times, maps), certify_pieces(maps)
+        tolerance = self.tolerance * self.domain.cage.longer_side
         for _ in range(1 if self.between == "linear" else _ATTEMPTS):
-            times = curve.breaks(tolerance)
-            maps = [curve.map(time) for time in times]
+            times = self._curve.breaks(index, tolerance)
+            maps = [self._curve.map(time) for time in times]
             proofs = certify_pieces(maps)
             if all(proof.certified for proof in proofs):
                 break

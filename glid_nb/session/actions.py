@@ -5,8 +5,10 @@ An action keeps the certified map or goes back to the identity; moving it is the
 
 from __future__ import annotations
 
+import bisect
+import itertools
 import operator
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -18,7 +20,8 @@ from glid_nb._arrays import Array, real_array
 from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.session.document import NamedPose
+from glid_nb.motion.settings import Easing, Repeat
+from glid_nb.session.document import NamedPose, check_count
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.solvers import Method, Pose
 from glid_nb.solvers.pose import DEEPEST
@@ -193,8 +196,62 @@ def delete_pose(state: EditState, index: int) -> EditState:
     if len(state.poses) == 1:
         raise EditError("the only pose cannot be deleted; reset it instead")
     poses = state.poses[:index] + state.poses[index + 1 :]
-    active = state.active - (index < state.active)
-    return replace(state, poses=poses, active=min(active, len(poses) - 1))
+    active = min(state.active - (index < state.active), len(poses) - 1)
+    return replace(state, poses=poses, active=active, timeline=state.timeline.without(index))
+
+
+def move_pose(state: EditState, index: int, time: float) -> EditState:
+    """Show a pose at another time, seconds; the index behind the last is a loop's return."""
+    if not (index == len(state.poses) and state.timeline.repeat == "loop"):
+        _checked_pose(state, index)
+    timeline, order = state.timeline.moved(index, time)
+    if timeline == state.timeline:
+        return state
+    poses = tuple(state.poses[i] for i in order)
+    return replace(state, poses=poses, active=order.index(state.active), timeline=timeline)
+
+
+def set_easing(state: EditState, index: int, easing: Easing) -> EditState:
+    """Ease the motion from a pose to the next in another way."""
+    return replace(state, timeline=state.timeline.eased(_checked_pose(state, index), easing))
+
+
+def set_repeat(state: EditState, repeat: Repeat) -> EditState:
+    """Play once, in a loop, or there and back."""
+    return replace(state, timeline=replace(state.timeline, repeat=repeat))
+
+
+def keep_between(state: EditState, time: float, map: HarmonicMap) -> EditState:
+    """Keep a map between two poses as a pose at its time, with the handles of the one before."""
+    index = bisect.bisect_right(state.timeline.times, time)
+    if not index or time in state.timeline.times:
+        raise EditError(f"there is a pose at {time:g} s already, or none before")
+    before = state.poses[index - 1]
+    targets = map(before.pose.handles) if len(before.pose) else []
+    pose = before.changed(pose=before.pose.with_targets(targets), map=map)
+    named = replace(pose, name=_free_name(state, before.name))
+    return _with_inserted(state, index, named, time)
+
+
+def record(
+    state: EditState, first: NamedPose, poses: Sequence[NamedPose], offsets: Sequence[float]
+) -> EditState:
+    """Put a recorded drag into the timeline: its first pose in place of the edited one, then more.
+
+    ``offsets`` are seconds since the first, of ``poses`` and of the pose that is edited, the last.
+    """
+    check_count((*state.poses, *poses, first))
+    names = itertools.islice(_free_names(state, first.name), len(offsets))
+    new = (*poses, state.current)
+    named = (replace(pose, name=name) for pose, name in zip(new, names, strict=True))
+    index = state.active
+    before, after = state.poses[:index], state.poses[index + 1 :]
+    return replace(
+        state,
+        poses=(*before, first, *named, *after),
+        active=index + len(offsets),
+        timeline=state.timeline.recorded(index, offsets),
+    )
 
 
 def go_to_pose(state: EditState, index: int) -> EditState:
@@ -202,9 +259,13 @@ def go_to_pose(state: EditState, index: int) -> EditState:
     return replace(state, active=_checked_pose(state, index))
 
 
-def _with_inserted(state: EditState, index: int, pose: NamedPose) -> EditState:
+def _with_inserted(
+    state: EditState, index: int, pose: NamedPose, time: float | None = None
+) -> EditState:
+    check_count((*state.poses, pose))
     poses = (*state.poses[:index], pose, *state.poses[index:])
-    return replace(state, poses=poses, active=index)
+    timeline = state.timeline.inserted(index, time)
+    return replace(state, poses=poses, active=index, timeline=timeline)
 
 
 def _points(values: ArrayLike, name: str) -> Array:
@@ -255,11 +316,15 @@ def _checked_name(name: str) -> str:
 
 
 def _free_name(state: EditState, name: str) -> str:
-    """``name`` with the next free number at its end."""
+    return next(_free_names(state, name))
+
+
+def _free_names(state: EditState, name: str) -> Iterator[str]:
+    """``name`` with the free numbers at its end."""
     stem = name.rstrip("0123456789").rstrip() or "Pose"
     taken = {pose.name for pose in state.poses} | {name}
-    numbers = (f"{stem[:190]} {i}" for i in range(1, len(taken) + 2))
-    return next(candidate for candidate in numbers if candidate not in taken)
+    numbers = (f"{stem[:190]} {i}" for i in itertools.count(1))
+    return (candidate for candidate in numbers if candidate not in taken)
 
 
 def _text(point: Array) -> str:

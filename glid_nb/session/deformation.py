@@ -19,6 +19,7 @@ from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.sheets import Sheets
 from glid_nb.session import actions
+from glid_nb.session.document import NamedPose
 from glid_nb.session.edit_state import EditError, EditState, Frame, Moment, Task
 from glid_nb.session.live_solver import LiveSolver
 from glid_nb.session.model import History, Observed
@@ -189,6 +190,10 @@ class Deformation(Observed):
     rename_pose = _step(actions.rename_pose)
     delete_pose = _step(actions.delete_pose)
     go_to_pose = _step(actions.go_to_pose)
+    move_pose = _step(actions.move_pose)
+    set_easing = _step(actions.set_easing)
+    set_repeat = _step(actions.set_repeat)
+    keep_between = _step(actions.keep_between)
 
     def add_handle(self, point: ArrayLike, to: ArrayLike | None = None) -> int:
         """Add a handle at a point of the undeformed shape; returns its index."""
@@ -296,6 +301,14 @@ class Deformation(Observed):
             if self.dragged:
                 self.dragged = ()
                 self._set(self.history.cancelled())
+
+    def record(
+        self, first: NamedPose, poses: Sequence[NamedPose], offsets: Sequence[float]
+    ) -> None:
+        """`actions.record`, as a part of the last step, which was the drag."""
+        with self.locked():
+            self._check_open()
+            self._set(self.history.refined(actions.record(self.state, first, poses, offsets)))
 
     # Undo
 

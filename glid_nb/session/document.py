@@ -15,6 +15,7 @@ from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import Scribbles, TraceOptions
+from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Iteration, Method, Newton, Options, Pose, Status
 
 MOST_POSES = 1000
@@ -127,6 +128,8 @@ class Document:
         At most a thousand.
     active : int
         Which pose is shown; 0 when there are none.
+    timeline : Timeline, optional
+        When the poses are shown in an animation; by default a second apart.
 
     Raises
     ------
@@ -141,6 +144,7 @@ class Document:
     scribbles: Scribbles | None
     poses: tuple[NamedPose, ...]
     active: int
+    timeline: Timeline | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "image", _checked_image(self.image))
@@ -164,6 +168,10 @@ class Document:
         last = max(len(self.poses) - 1, 0)
         if type(self.active) is not int or not 0 <= self.active <= last:
             raise DocumentError(f"active must be 0 to {last}, not {self.active!r}")
+        if self.timeline is not None and len(self.timeline) != len(self.poses):
+            raise DocumentError(
+                f"timeline has {len(self.timeline)} keyframes for {len(self.poses)} poses"
+            )
 
     @property
     def active_pose(self) -> NamedPose | None:

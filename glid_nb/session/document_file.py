@@ -23,12 +23,13 @@ from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE
 from glid_nb.session.archive import archive_bytes, image_png, light_png, read_archive, read_png
 from glid_nb.session.document import Document, DocumentError, NamedPose, check_count
+from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Newton, Options, Pose
 
 T = TypeVar("T")
 
 FORMAT = "glid_nb-document"
-FORMAT_VERSION = 3
+FORMAT_VERSION = 4
 
 _JSON, _IMAGE = "document.json", "image.png"
 _MASKS = {key: f"scribbles-{key}.png" for key in ("foreground", "background")}
@@ -67,6 +68,7 @@ def document_bytes(document: Document) -> bytes:
 
     A DocumentError if a map is not certified, or an energy is a Python function.
     """
+    timeline = {} if document.timeline is None else {"timeline": document.timeline.to_dict()}
     scribbles, masks = _scribbles_to_members(document.scribbles)
     height, width = document.image.shape[:2]
     data = {
@@ -78,6 +80,7 @@ def document_bytes(document: Document) -> bytes:
         "scribbles": scribbles,
         "poses": [_pose_to_dict(i, pose) for i, pose in enumerate(document.poses)],
         "active": document.active,
+        **timeline,
     }
     text = json.dumps(data, allow_nan=False, default=np.generic.item).encode("utf-8")
     pixels = {_IMAGE: image_png(document.image), **masks}
@@ -98,7 +101,8 @@ def load_document(path: str | Path) -> Document:
         version = _checked_version(data)
         since_2 = {"method": _json.anything} if version > 1 else {}
         since_3 = {"depths": _json.anything} if version > 2 else {}
-        _json.check_fields(data, _JSON, _KEYS, {"scribbles": _json.check_object})
+        since_4 = {"timeline": _json.check_object} if version > 3 else {}
+        _json.check_fields(data, _JSON, _KEYS, {"scribbles": _json.check_object, **since_4})
         size = _checked_size(data["image_size_px"])
         image = np.asarray(read_png(members[_IMAGE], size, "RGBA", _IMAGE), dtype=np.uint8)
         scribbles = _scribbles_from_members(data.get("scribbles"), members, size)
@@ -109,7 +113,10 @@ def load_document(path: str | Path) -> Document:
             _pose_from_dict(f"poses[{i}]", pose, domain, {**_POSE_KEYS, **since_2}, since_3)
             for i, pose in enumerate(data["poses"])
         )
-        return Document(image, domain.cage, domain, options, scribbles, poses, data["active"])
+        with about("timeline"):
+            timeline = Timeline.from_dict(data["timeline"]) if "timeline" in data else None
+        active = data["active"]
+        return Document(image, domain.cage, domain, options, scribbles, poses, active, timeline)
 
 
 def _checked_version(data: Any) -> int:
@@ -117,9 +124,9 @@ def _checked_version(data: Any) -> int:
     if data.get("format") != FORMAT:
         raise DocumentError(f'{_JSON}: the key "format" is not "{FORMAT}"')
     version = data.get("version")
-    if version not in (1, 2, 3) or isinstance(version, bool | float):
+    if version not in range(1, FORMAT_VERSION + 1) or isinstance(version, bool | float):
         raise DocumentError(
-            f"version {version!r:.20} of the format is not supported, only 1 to 3; a newer "
+            f"version {version!r:.20} of the format is not supported, only 1 to 4; a newer "
             "glid_nb may have written it: update this one"
         )
     return version

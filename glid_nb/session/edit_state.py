@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from glid_nb._errors import InputError
@@ -14,6 +14,7 @@ from glid_nb.geometry import Domain, MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import Order, order_of
 from glid_nb.session.document import NamedPose, Solution
+from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import DeformationMap, Iteration, Options, Pose
 
 LIVE_OPTIONS = Options(restarts=0, iterations_per_call=1)
@@ -34,6 +35,11 @@ class EditState:
     """At least one. Their maps are the best ones so far, and always certified."""
     active: int = 0
     """Index of the pose that is edited."""
+    timeline: Timeline = field(default_factory=Timeline)
+    """When the poses are shown: each is a keyframe, and they are in the order of time."""
+
+    def __post_init__(self) -> None:
+        assert len(self.timeline) == len(self.poses)
 
     @classmethod
     def initial(

@@ -27,6 +27,7 @@ from glid_nb.session.document import Document, DocumentError
 from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.model import History, Observed
+from glid_nb.session.timeline import Timeline
 from glid_nb.session.tracing import TracingModel, TracingState
 
 Array = NDArray[np.uint8]
@@ -220,6 +221,7 @@ class EditorModel(Observed):
             traced.scribbles or traced.options.scribbles,
             state.poses,
             state.active,
+            state.timeline,
         )
 
     def save(self, path: str | Path) -> None:
@@ -341,7 +343,10 @@ class EditorModel(Observed):
     def _take(self, document: Document, name: str = "") -> None:
         self.tracing = TracingModel.from_document(document, name)
         domain, poses = document.domain, tuple(pose.changed() for pose in document.poses)
-        state = EditState(domain, poses, document.active) if poses else EditState.initial(domain)
+        state = EditState.initial(domain)
+        if poses:
+            timeline = document.timeline or Timeline.even(len(poses))
+            state = EditState(domain, poses, document.active, timeline)
         self._shelf.clear()
         self._replace(Deformation.from_history(History(state)))
 
@@ -391,7 +396,8 @@ def _apply(deformation: Deformation, domain: Domain) -> int:
 
 def _work_of(state: EditState) -> tuple[Any, ...]:
     """The user's choices in all poses, to be compared."""
-    return tuple((p.name, p.pose, p.energy, p.options, p.method) for p in state.poses)
+    poses = ((p.name, p.pose, p.energy, p.options, p.method) for p in state.poses)
+    return (state.timeline, *poses)
 
 
 def _check_place(path: Path) -> None:

@@ -27,6 +27,7 @@ from glid_nb.methods import AQP
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.problem import Problem, load_pose
+from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Newton, Options, Pose
 
 from ..domains import domain, random_map
@@ -65,7 +66,10 @@ def document(seed: int = 1, scribbles: Scribbles | None = None) -> Document:
         max_edge=math.inf,
         drop_holes=[(1.5, 2.5)],
     )
-    return Document(picture(), ring.cage, ring, options, scribbles, poses, 1)
+    return Document(picture(), ring.cage, ring, options, scribbles, poses, 1, TIMELINE)
+
+
+TIMELINE = Timeline((1 / 3, 2.0), ("in", "in-out"), "loop", 0.7)
 
 
 def assert_same(a: Document, b: Document) -> None:
@@ -88,6 +92,7 @@ def assert_same(a: Document, b: Document) -> None:
                 assert stroke.dtype == same.dtype
                 assert stroke.tobytes() == same.tobytes()
     assert a.active == b.active
+    assert a.timeline == b.timeline
     for pose, other in zip(a.poses, b.poses, strict=True):
         assert pose.name == other.name
         assert pose.energy == other.energy
@@ -131,13 +136,13 @@ def test_maps_are_bit_identical(
     base = document()
     pose = named("any", random_map("ring", size, seed))
     path = tmp_path_factory.mktemp("documents") / "a.glid"
-    before = replace(base, poses=(pose,), active=0)
+    before = replace(base, poses=(pose,), active=0, timeline=None)
     save_document(before, path)
     assert_same(before, load_document(path))
 
 
 def test_a_document_may_have_no_poses(tmp_path: Path) -> None:
-    before = replace(document(), poses=(), active=0)
+    before = replace(document(), poses=(), active=0, timeline=None)
     assert before.active_pose is None
     save_document(before, tmp_path / "a.glid")
     assert_same(before, load_document(tmp_path / "a.glid"))
@@ -225,7 +230,7 @@ def test_what_could_not_be_opened_is_not_saved(
     save_document(document(), path)
     before = path.read_bytes()
     with pytest.raises(DocumentError, match=culprit):
-        save_document(replace(document(), poses=(pose,), active=0), path)
+        save_document(replace(document(), poses=(pose,), active=0, timeline=None), path)
     assert path.read_bytes() == before
     assert [p.name for p in tmp_path.iterdir()] == ["a.glid"]
 
@@ -255,6 +260,7 @@ def test_a_document_of_version_1_opens_with_our_method(
     data = json.loads(valid["document.json"])
     new = ("method", "depths")
     old = [{k: v for k, v in pose.items() if k not in new} for pose in data["poses"]]
+    del data["timeline"]
     written = {**data, "version": 1, "poses": old}
     path = tmp_path / "old.glid"
     path.write_bytes(zipped({**valid, "document.json": json.dumps(written).encode()}))
@@ -272,7 +278,7 @@ def test_a_document_of_version_2_opens_without_depths(
     tmp_path: Path, valid: dict[str, bytes]
 ) -> None:
     data = json.loads(valid["document.json"])
-    assert data["version"] == 3
+    assert (data["version"], data.pop("timeline")["back"]) == (4, 0.7)
     old = [{k: v for k, v in pose.items() if k != "depths"} for pose in data["poses"]]
     text = json.dumps({**data, "version": 2, "poses": old}).encode()
     path = tmp_path / "old.glid"
@@ -280,6 +286,29 @@ def test_a_document_of_version_2_opens_without_depths(
     assert not any(pose.pose.depths.any() for pose in load_document(path).poses)
     text = json.dumps({**data, "version": 2}).encode()
     refuse(tmp_path / "new", zipped({**valid, "document.json": text}), "unknown key 'depths'")
+
+
+def test_a_document_of_version_3_opens_without_a_timeline(
+    tmp_path: Path, valid: dict[str, bytes]
+) -> None:
+    data = json.loads(valid["document.json"])
+    timeline, path = data.pop("timeline"), tmp_path / "old.glid"
+    path.write_bytes(
+        zipped({**valid, "document.json": json.dumps({**data, "version": 3}).encode()})
+    )
+    assert load_document(path).timeline is None
+    for change, culprit in (
+        ({"times": [2, 1]}, r"timeline: times\[1\] is 1 and times\[0\] is 2; times must increase"),
+        ({"times": [0, 1, 2], "easing": ["in"] * 3}, "timeline has 3 keyframes for 2 poses"),
+        ({"easing": ["in", "sideways"]}, "easing.*one of linear"),
+        ({"repeat": 1}, "repeat is 1"),
+        ({"back": float("1e99")}, "back"),
+        ({"more": 1}, "keys back, easing"),
+    ):
+        text = json.dumps({**data, "timeline": {**timeline, **change}})
+        refuse(tmp_path / "new", zipped({**valid, "document.json": text.encode()}), culprit)
+    text = json.dumps({**data, "version": 3, "timeline": timeline}).encode()
+    refuse(tmp_path / "new", zipped({**valid, "document.json": text}), "unknown key 'timeline'")
 
 
 def refuse(folder: Path, data: bytes, culprit: str) -> None:
@@ -311,7 +340,7 @@ NAN, INFINITY = float("nan"), float("inf")
 BAD: list[tuple[str, Callable[[Data], Any], str]] = [
     ("a list", lambda d: [d], "object"),
     ("another format", changed(format="glid_nb-map"), "format"),
-    ("a newer version", changed(version=4), "version 4 .*newer"),
+    ("a newer version", changed(version=5), "version 5 .*newer"),
     ("a version as text", changed(version="1"), "version '1'"),
     *[
         (f"no {key}", without(key), key)

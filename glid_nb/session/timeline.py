@@ -1,0 +1,173 @@
+"""When kept poses are shown: times, easing and repetition, as plain values."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from glid_nb._arrays import Array
+from glid_nb.motion.settings import (
+    Easing,
+    MotionError,
+    Repeat,
+    checked,
+    checked_each,
+    checked_times,
+)
+
+LATEST = 3600.0
+"""Seconds; no keyframe is moved beyond it."""
+
+_USUAL = 1.0  # seconds between keyframes
+_GRID = 0.01  # seconds, where keyframes are put by hand
+_LEAST = 1e-3  # seconds; where there is less between keyframes, a new one moves the later ones
+
+
+@dataclass(frozen=True)
+class Timeline:
+    """The keyframes of as many poses: each has a time, and an easing towards the next one.
+
+    Raises MotionError for times that do not increase, and other settings that are not valid.
+    """
+
+    times: tuple[float, ...] = (0.0,)
+    """Seconds, at least 0, increasing."""
+    easing: tuple[Easing, ...] = ("linear",)
+    """From each keyframe to the next; the last one's is that of a loop's way back."""
+    repeat: Repeat = "once"
+    back: float = _USUAL
+    """Seconds that a loop takes from the last keyframe to the first."""
+
+    def __post_init__(self) -> None:
+        if not self.times:
+            raise MotionError("times is empty; a timeline has at least one keyframe")
+        times = checked_times(self.times, len(self.times), False)
+        checked("the first of times", float, times[0], most=1e9)
+        easing = checked_each("easing", Easing, self.easing, len(times))
+        checked("repeat", Repeat, self.repeat)
+        back = checked("back", float, self.back, above=0, most=1e9)
+        vars(self).update(times=times, easing=easing, back=back)
+
+    @classmethod
+    def even(cls, count: int) -> Timeline:
+        """Keyframes a second apart."""
+        return cls(tuple(_USUAL * i for i in range(count)), ("linear",) * count)
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Timeline:
+        """The timeline that `to_dict` wrote; MotionError says what is wrong with other data."""
+        keys = set(cls.__dataclass_fields__)
+        if not isinstance(data, dict) or set(data) != keys:
+            raise MotionError(f"it must be an object with the keys {', '.join(sorted(keys))}")
+        if not isinstance(data["times"], list | tuple):
+            raise MotionError("times must be a list of numbers")
+        return cls(**data)
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return asdict(self)
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+    @property
+    def closed_times(self) -> tuple[float, ...]:
+        """The times of the keyframes, and of a loop's return."""
+        return (*self.times, self.end) if self.repeat == "loop" else self.times
+
+    @property
+    def end(self) -> float:
+        """When the last keyframe, or the first one again, is reached."""
+        return self.times[-1] + (self.back if self.repeat == "loop" else 0.0)
+
+    def inserted(self, index: int, time: float | None = None) -> Timeline:
+        """With a keyframe more at an index, not the first; by default midway to the next one."""
+        before, after = self.times[:index], self.times[index:]
+        if time is None:
+            gap = after[0] - before[-1] if after else 2 * self._usual
+            if gap < 2 * _LEAST:
+                gap = 2 * _USUAL
+                after = tuple(t + gap for t in after)
+            time = before[-1] + gap / 2
+        eased = self.easing[index - 1]
+        easing = (*self.easing[:index], eased, *self.easing[index:])
+        return replace(self, times=(*before, time, *after), easing=easing)
+
+    def recorded(self, index: int, offsets: Sequence[float]) -> Timeline:
+        """With keyframes after one, so many seconds later each; those behind move by the last."""
+        first = self.times[index]
+        new = (first + offset for offset in offsets)
+        later = (time + offsets[-1] for time in self.times[index + 1 :])
+        easing = ("linear",) * len(offsets)
+        return replace(
+            self,
+            times=(*self.times[: index + 1], *new, *later),
+            easing=(*self.easing[:index], *easing, *self.easing[index:]),
+        )
+
+    def without(self, index: int) -> Timeline:
+        """With a keyframe less."""
+        times, easing = ((*each[:index], *each[index + 1 :]) for each in (self.times, self.easing))
+        return replace(self, times=times, easing=easing)
+
+    def moved(self, index: int, time: float) -> tuple[Timeline, list[int]]:
+        """With a keyframe at another time, the nearest that is free, and the keyframes' new order.
+
+        The index behind the last is a loop's return to the first keyframe.
+        """
+        time = round(checked("time", float, time, least=-LATEST, most=2 * LATEST) / _GRID) * _GRID
+        if index == len(self):
+            back = max(time - self.times[-1], _GRID)
+            return replace(self, back=round(back, 6)), list(range(len(self)))
+        others = self.without(index).times if len(self) > 1 else ()
+        time = round(min(max(time, 0.0), LATEST), 6)
+        steps = (sign * n * _GRID for n in itertools.count() for sign in (1, -1))
+        free = (round(time + step, 6) for step in steps)
+        time = next(
+            t for t in free if t >= 0 and all(abs(t - other) >= _GRID / 2 for other in others)
+        )
+        times = [*self.times[:index], time, *self.times[index + 1 :]]
+        order = sorted(range(len(self)), key=times.__getitem__)
+        moved = replace(
+            self,
+            times=tuple(times[i] for i in order),
+            easing=tuple(self.easing[i] for i in order),
+        )
+        return moved, order
+
+    def eased(self, index: int, easing: Easing) -> Timeline:
+        """With another easing from a keyframe to the next."""
+        return replace(self, easing=(*self.easing[:index], easing, *self.easing[index + 1 :]))
+
+    @property
+    def _usual(self) -> float:
+        """Seconds between keyframes on average."""
+        if len(self) < 2:
+            return _USUAL
+        return max((self.times[-1] - self.times[0]) / (len(self) - 1), _LEAST)
+
+
+def thinned(times: Array, points: Array, tolerance: float) -> list[int]:
+    """Which of some places (n, h, 2) to keep, so that straight lines in time meet the others.
+
+    The first and the last are kept, then, of those between two that are kept, the one that is
+    furthest off its line, until none is off by more than the tolerance (Ramer 1972; Douglas and
+    Peucker 1973, with time as the abscissa).
+    """
+    kept, open_ = {0, len(times) - 1}, [(0, len(times) - 1)]
+    while open_:
+        first, last = open_.pop()
+        if last - first < 2:
+            continue
+        s = (times[first + 1 : last] - times[first]) / max(times[last] - times[first], 1e-300)
+        line = points[first] + s[:, None, None] * (points[last] - points[first])
+        off = np.linalg.norm(points[first + 1 : last] - line, axis=-1).max(axis=1, initial=0)
+        worst = int(np.argmax(off))
+        if off[worst] > tolerance:
+            kept.add(middle := first + 1 + worst)
+            open_ += [(first, middle), (middle, last)]
+    return sorted(kept)
