@@ -32,6 +32,10 @@ from glid_nb.solvers.status import Status
 from glid_nb.solvers.unknowns import canonical, unknowns_of
 
 
+# How often free angles and scales of handles are measured anew, and from which change on.
+_MOST_PINS, _SAME_PINS = 12, 1e-5
+
+
 class StartError(InputError):
     """The map to start from cannot be used."""
 
@@ -64,6 +68,7 @@ class SubspaceDescent(Descent):
     discretisation: Discretisation
     point: Point
     proved: tuple[Panels, Array, Array] | None = None
+    _pins = 0
 
     def __init__(self, method: Method, inputs: Inputs, reduced: bool) -> None:
         super().__init__(method, inputs)
@@ -85,9 +90,24 @@ class SubspaceDescent(Descent):
             images = handle_images(self.problem.positional, basis, map_)[: len(pose)]
             map_ = aligned(map_, pose, images)
         self.start = map_
+        self.pin(map_)
         self.coefficients: Any = real_coefficients(basis, map_)
         self.problem = self.problem._replace(anchor=anchor_of(basis, self.coefficients))
         self.just_split = 0
+
+    def pin(self, map: HarmonicMap) -> bool:
+        """Measure angles and scales from this map; whether that changes what is minimised."""
+        pose, before = self.inputs.pose, self.problem.positional
+        if not pose.turned.any() or self._pins == _MOST_PINS:
+            return False
+        weight = self.inputs.options.p2p_weight
+        positional = positional_energy(self.inputs.domain, pose, weight, map)
+        y = real_coefficients(self.discretisation.basis, map)
+        gaps = [np.sqrt(p.weights / weight) * p.residual(y) for p in (before, positional)]
+        self._pins += 1
+        self.problem = self.problem._replace(positional=positional)
+        same = np.array_equal(before.weights, positional.weights)
+        return not same or bool(np.abs(gaps[0] - gaps[1]).max() > _SAME_PINS)
 
     def reached(self) -> Reached:
         point, domain = self.point, self.inputs.domain
