@@ -15,9 +15,9 @@ import glid_nb
 SAMPLE, SECONDS, SIZE, FPS = "gecko", 1.2, 400, 20
 # Which pins swing, by how much to the side and along, and in which part of the step.
 _SWING = {
-    0: ((-0.9, 0.1), 0.0),  # head
-    1: ((0.3, 1.5), 0.0),  # right hand
-    2: ((-0.3, 1.5), 0.5),  # left hand
+    0: ((-0.6, 0.1), 0.0),  # head
+    1: ((0.4, 1.1), 0.0),  # right hand
+    2: ((-0.4, 1.3), 0.5),  # left hand
     3: ((0.3, 1.4), 0.5),  # right foot
     4: ((-0.3, 1.4), 0.0),  # left foot
     5: ((0.35, 0.0), 0.5),  # chest
@@ -40,7 +40,7 @@ def walk() -> tuple[glid_nb.Motion, list[glid_nb.Pose]]:
             # A limb swings forward close to the body, and back on the ground, further out.
             targets[pin] += [side * np.cos(turn), along * np.sin(turn)]
         results.append(glid_nb.solve(domain, rest.with_targets(targets)))
-    times = np.linspace(0, SECONDS, 6)
+    times = np.linspace(0, SECONDS, 6).tolist()
     return glid_nb.Motion(results, times, repeat="loop"), [result.pose for result in results]
 
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from glid_nb._errors import InputError
@@ -16,6 +17,8 @@ from glid_nb.export.mesh import motion_glb
 from glid_nb.export.moving import Progress, Stopped, frames
 from glid_nb.export.page import page_html
 from glid_nb.export.picture import png
+from glid_nb.imaging import PixelFrame
+from glid_nb.imaging.render import check_fits
 from glid_nb.motion import Motion
 from glid_nb.solvers import Pose
 
@@ -101,6 +104,7 @@ def motion_files(
     """
     suffix = _suffix(name)
     encode.check_settings(size, frames_per_second, background)
+    check_fits(PixelFrame(*np.shape(image)[1::-1]), motion.keyframes[0])
     if background is None and suffix in _SOLID:
         raise InputError(
             f"{name}: {suffix[1:].upper()} has no transparency; choose a background, or .apng or "

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -57,52 +56,36 @@ class MovingMesh:
     @classmethod
     def of(
         cls,
-        motion: Motion,
-        poses: Sequence[Pose] | None,
+        shown: Motion | HarmonicMap,
+        pose: Sequence[Pose] | Pose | None,
         n_vertices: int,
         tolerance: float | None = None,
     ) -> MovingMesh:
         """The mesh that is fine enough for all maps, and each keyframe's pose for what is in front.
 
-        Raises an InputError where there is not a pose for each keyframe.
+        A map stands still. Raises an InputError where there is not a pose for each keyframe.
         """
-        wanted = len(motion.keyframes)
-        if poses is not None and len(poses) != wanted:
-            raise InputError(f"there are {wanted} keyframes but {len(poses)} poses; give one each")
-        pieces = motion.pieces_forth
-        maps = [pieces[0].start_map, *(piece.end_map for piece in pieces)]
-        times = [pieces[0].start, *(piece.end for piece in pieces)]
-        back = poses[:1] if poses is not None and motion.repeat == "loop" else []
-        each = [None] if poses is None else [*poses, *back]
-        return cls._on(maps, times, each, motion.times, n_vertices, tolerance)
-
-    @classmethod
-    def still(
-        cls, map: HarmonicMap, pose: Pose | None, n_vertices: int, tolerance: float | None = None
-    ) -> MovingMesh:
-        """A mesh that does not move."""
-        return cls._on([map, map], [0, 1], [pose], [0, 1], n_vertices, tolerance)
-
-    @classmethod
-    def _on(
-        cls,
-        maps: Sequence[HarmonicMap],
-        times: Sequence[float],
-        poses: Sequence[Pose | None],
-        pose_times: Sequence[float],
-        *fineness: Any,
-    ) -> MovingMesh:
-        cage = maps[0].domain.cage
+        poses = [pose] if pose is None or isinstance(pose, Pose) else list(pose)
+        maps, times, pose_times = (shown, shown), (0.0, 1.0), (0.0, 1.0)
+        if isinstance(shown, Motion):
+            wanted, given = len(shown.keyframes), len(poses)
+            if pose is not None and given != wanted:
+                raise InputError(f"there are {wanted} keyframes but {given} poses; give one each")
+            pieces, pose_times = shown.pieces_forth, shown.times
+            maps = (pieces[0].start_map, *(piece.end_map for piece in pieces))
+            times = (pieces[0].start, *(piece.end for piece in pieces))
+            poses += poses[: shown.repeat == "loop"]
+        cage = shown.domain.cage
         vertices, images, triangles, error = fine_mesh(
-            cage, lambda points: images_under(maps, points), *fineness
+            cage, lambda points: images_under(maps, points), n_vertices, tolerance
         )
-        orders = [order_of(cage, pose) for pose in poses]
+        orders = [order_of(cage, one) for one in poses]
         if all(order is orders[0] for order in orders):
             del orders[1:]
         heights = np.stack([order(vertices) for order in orders])
         images = np.moveaxis(images.reshape(len(vertices), -1, 2), 1, 0)
         triangles = triangles[np.argsort(heights[0][triangles].mean(axis=1), kind="stable")]
-        both = np.array(times, float), np.array(pose_times, float)
+        both = np.array(times), np.array(pose_times)
         return cls(vertices, triangles, both[0], images, both[1], heights, error)
 
     def at(self, time: float) -> DeformedMesh:

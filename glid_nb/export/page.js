@@ -161,7 +161,7 @@ import { Motion } from "../widgets/js/motion/motion.js";
   document.documentElement.style.setProperty("--colors", Array.from({ length: stops }, (_, i) => css(i)).join());
   for (const name of Object.keys(data.ranges)) {
     const [value, text] = LABELS[name];
-    overlay.append(Object.assign(new Option(text, value)));
+    overlay.append(new Option(text, value));
     overlay.lastChild.dataset.name = name;
   }
   const down = (x) => (Math.floor(1000 * x) / 1000).toFixed(3), up = (x) => (Math.ceil(1000 * x) / 1000).toFixed(3);
@@ -279,7 +279,7 @@ import { Motion } from "../widgets/js/motion/motion.js";
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
-    if (data.moving) prepare();
+    if (motion.keyframes.length) prepare();
     new ResizeObserver(fit).observe(canvas);
     fit();
     document.documentElement.dataset.ready = "true";

@@ -89,9 +89,8 @@ def page_html(
     loop : bool
         Whether a motion that plays begins again at its end.
     """
-    moving = isinstance(map, Motion)
-    mesh = (MovingMesh.of if moving else MovingMesh.still)(map, pose, _VERTICES, tolerance)
-    proof = map.certificate if moving else certificate
+    mesh = MovingMesh.of(map, pose, _VERTICES, tolerance)
+    proof = map.certificate if isinstance(map, Motion) else certificate
     texture = as_rgba8(image)
     height, width = texture.shape[:2]
     data = {
@@ -102,13 +101,12 @@ def page_html(
         "grid": map.domain.cage.longer_side / _GRID_LINES,
         "colors": rgb(COLORS).ravel().round(4).tolist(),
         "ranges": _ranges(proof),
-        "moving": moving,
         "loop": loop,
         "picture": "data:image/png;base64," + _base64(png(texture)),
     }
     parts = {
         "title": html.escape(title),
-        "caption": html.escape(_moving_caption(proof) if moving else _caption(map, certificate)),
+        "caption": html.escape(_caption(map, proof)),
         "style": _read("page.css"),
         "script": bundle("../../export/page.js"),
         "data": json.dumps(data, allow_nan=False),
@@ -170,22 +168,15 @@ def _ranges(proof: Certificate | MotionCertificate | None) -> dict[str, list[flo
     return {name: range_ for name, range_ in ends.items() if np.isfinite(range_[1])}
 
 
-def _moving_caption(proof: MotionCertificate) -> str:
-    if not proof.certified:
-        return proof.reason
-    return f"Proved not to fold over or tear at any point, at any time. {_stated(proof)}"
-
-
-def _caption(map: HarmonicMap, certificate: Certificate | None) -> str:
-    if certificate is None or not certificate.certified:
-        return ""
-    whole = global_injectivity(map, certificate)
-    told = _OVERLAPS[whole.verdict]
-    return f"Proved not to fold over or tear at any point; {told}. {_stated(certificate)}"
-
-
-def _stated(proof: Certificate | MotionCertificate) -> str:
+def _caption(shown: HarmonicMap | Motion, proof: Certificate | MotionCertificate | None) -> str:
+    if proof is None or not proof.certified:
+        return proof.reason if isinstance(proof, MotionCertificate) else ""
+    told = "point, at any time"
+    if isinstance(shown, HarmonicMap):
+        assert isinstance(proof, Certificate)
+        told = f"point; {_OVERLAPS[global_injectivity(shown, proof).verdict]}"
     return (
+        f"Proved not to fold over or tear at any {told}. "
         f"Bounds: σ₂ ≥ {rounded_down(proof.sigma2_lower)}, "
         f"σ₁ ≤ {rounded_up(proof.sigma1_upper)}, k ≤ {rounded_up(proof.k_upper)}"
     )
