@@ -66,8 +66,9 @@ class MovingMesh:
         A map stands still. Raises an InputError where there is not a pose for each keyframe.
         """
         poses = [pose] if pose is None or isinstance(pose, Pose) else list(pose)
-        maps, times, pose_times = (shown, shown), (0.0, 1.0), (0.0, 1.0)
-        if isinstance(shown, Motion):
+        if isinstance(shown, HarmonicMap):
+            maps, times, pose_times = (shown, shown), (0.0, 1.0), (0.0, 1.0)
+        else:
             wanted, given = len(shown.keyframes), len(poses)
             if pose is not None and given != wanted:
                 raise InputError(f"there are {wanted} keyframes but {given} poses; give one each")
