@@ -15,9 +15,8 @@ from glid_nb.figures.style import CYAN, INK
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.mesh import deformed_loops, deformed_mesh
-from glid_nb.imaging.order import order_of
+from glid_nb.imaging.order import Sheets, order_of
 from glid_nb.imaging.render import View, draw_mesh, render
-from glid_nb.imaging.sheets import Sheets
 from glid_nb.imaging.texture import Texture
 from glid_nb.solvers import Pose
 
