@@ -56,7 +56,7 @@ class Components:
     @cached_property
     def largest(self) -> tuple[Component, ...]:
         """At most fifty."""
-        return tuple(map(self.component, range(min(len(self.areas), _LISTED))))
+        return tuple(map(self._described, range(min(len(self.areas), _LISTED))))
 
     def component(self, rank: int) -> Component:
         """The component of a rank; a TraceError if there is none."""
@@ -67,6 +67,9 @@ class Components:
                 "counted from 0, the largest",
                 f"The component that was chosen is gone, {count} {are} left; choose another",
             )
+        return self.largest[rank] if rank < _LISTED else self._described(rank)
+
+    def _described(self, rank: int) -> Component:
         rows, columns = self.boxes[rank]
         left = columns.start + int(np.argmax(self.found[rows.start, columns] == rank + 1))
         bounds = columns.start, rows.start, columns.stop, rows.stop
