@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Iterable, Mapping
-from dataclasses import fields
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import field, fields
 from numbers import Integral, Real
 from types import NoneType
 from typing import Any, Literal, get_args, get_origin, get_type_hints
@@ -49,6 +49,25 @@ def check_keywords(
             raise error(f"{name} has no argument {keyword!r:.60}{hint}")
 
 
+def option(
+    default: Any,
+    help: str,
+    label: str = "",
+    choices: Mapping[str, str] | None = None,
+    **limits: Any,
+) -> Any:
+    """A dataclass's field; how flags and controls present it, its values' labels, its range."""
+    shown = {"help": help, "label": label, "choices": choices or {}}
+    return field(default=default, metadata={**shown, **limits})
+
+
+def plain(value: Any) -> Any:
+    """Lists and arrays as tuples, NumPy's numbers as Python's; anything else as it is."""
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    return tuple(map(plain, value)) if isinstance(value, list | tuple) else value
+
+
 @functools.cache
 def field_kinds(cls: type) -> dict[str, Any]:
     """The annotations of a dataclass's fields, resolved."""
@@ -60,12 +79,16 @@ def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str
     """What a value of an annotated kind must be, if this one is not; empty if it is.
 
     ``limits``, such as a field's metadata, may hold the ends of a number's range: "least" and
-    "most", or "above". By default numbers are at least 0.
+    "most", or "above". By default numbers are at least 0. For a tuple of numbers or a sequence they
+    say in "form" how it is written.
     """
+    limits = limits or {}
     if get_origin(kind) is Literal:
         allowed = get_args(kind)
         known = any(type(value) is type(one) and value == one for one in allowed)
         return "" if known else f"one of {', '.join(map(str, allowed))}"
+    if get_origin(kind) in (tuple, Sequence):
+        return "" if _holds(kind, value, limits) else limits["form"]
     if get_args(kind):
         each = [unmet(one, value, limits) for one in get_args(kind)]
         return "" if "" in each else " or ".join(text for text in each if text != "None")
@@ -75,12 +98,11 @@ def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str
         return "" if isinstance(value, bool | np.bool_) else "True or False"
     if kind not in (int, float):
         return "" if isinstance(value, kind) else f"a {kind.__name__}"
-    limits = limits or {}
     least, most, above = limits.get("least", 0), limits.get("most"), limits.get("above", -math.inf)
     if (
         isinstance(value, Integral if kind is int else Real)
         and not isinstance(value, bool)
-        and math.isfinite(value)
+        and (math.isfinite(value) or value == most)
         and least <= value
         and above < value
         and (most is None or value <= most)
@@ -88,7 +110,18 @@ def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str
         return ""
     if kind is int:
         return f"a whole number {f'from {least} to' if most else 'of at least'} {most or least}"
-    end = "" if most is None else f" and at most {most:g}"
+    number = "a number" if most == math.inf else "a finite number"
+    end = "" if most in (None, math.inf) else f" and at most {most:g}"
     if "above" in limits:
-        return f"a finite number greater than {above:g}{end}"
-    return f"a finite number {'' if 'least' in limits else 'of '}at least {least:g}{end}"
+        return f"{number} greater than {above:g}{end}"
+    return f"{number} {'' if 'least' in limits else 'of '}at least {least:g}{end}"
+
+
+def _holds(kind: Any, value: Any, limits: Mapping[str, Any]) -> bool:
+    """Whether a value is a tuple of what a tuple's or a sequence's annotation says."""
+    if not isinstance(value, tuple):
+        return False
+    kinds = get_args(kind) if get_origin(kind) is tuple else get_args(kind) * len(value)
+    if len(kinds) != len(value):
+        return False
+    return not any(unmet(one, v, limits) for one, v in zip(kinds, value, strict=True))

@@ -88,9 +88,9 @@ def run(chosen: argparse.Namespace) -> None:
 
 def _source(image: str) -> tuple[Path, str | None]:
     """The picture's file, and the sample's name if it is one. A file of that name has priority."""
-    path, names = Path(image), glid_nb.samples.names()
-    if path.exists():
-        return path, None
+    if Path(image).exists():
+        return Path(image), None
+    names = glid_nb.samples.names()
     if image not in names:
         raise InputFileError(
             f"{image}: there is no such file, and no sample of that name ({', '.join(names)})"

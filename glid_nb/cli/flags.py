@@ -1,4 +1,4 @@
-"""The flags of the energy, the solver and the tracing, named like the fields that they set.
+"""The flags of the energy, the solver and the tracing, made from the fields that they set.
 
 A flag that is not given is None and leaves its field at the library's default. The library checks
 the values and lists the choices.
@@ -8,63 +8,61 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, get_args, get_type_hints
+from typing import Any, Literal, get_args, get_origin
 
 import glid_nb
+from glid_nb._arguments import field_kinds
 from glid_nb.energies import ENERGIES
 
 _WITH_S = " and ".join(name for name, energy in ENERGIES.items() if "s" in energy.parameters())
 
+_PIXEL = {"type": float, "nargs": 2, "metavar": ("X", "Y")}
+_ARGUMENTS: dict[Any, dict[str, Any]] = {
+    bool: {"action": argparse.BooleanOptionalAction},
+    int: {"type": int, "metavar": "N"},
+    float: {"type": float, "metavar": "X"},
+    tuple[float, float]: _PIXEL,
+    Sequence[tuple[float, float]]: {**_PIXEL, "action": "append"},
+    tuple[float, float, float]: {"type": float, "nargs": 3, "metavar": ("R", "G", "B")},
+    glid_nb.Scribbles: {"type": Path, "metavar": "FILE.json"},
+}
+"""What argparse is told of a field, by its annotation."""
+
 
 def add_solver_flags(parser: argparse.ArgumentParser) -> None:
-    add = parser.add_argument_group("energy and solver").add_argument
+    group = parser.add_argument_group("energy and solver")
     energies = "; ".join(f"{name}: {energy.label}" for name, energy in ENERGIES.items())
-    add("--energy", metavar=f"{{{','.join(ENERGIES)}}}", default="iso", help=energies)
-    add("--s", type=float, metavar="S", help=f"parameter of {_WITH_S}, above 0 (default 1)")
-    kinds = get_type_hints(glid_nb.Options)
-    for field in dataclasses.fields(glid_nb.Options):
-        kind, choices = kinds[field.name], field.metadata["choices"]
-        text = field.metadata["help"][0].lower() + field.metadata["help"][1:]
-        if field.default is not None:
-            text += f" (default {field.default})"
-        flag = f"--{field.name.replace('_', '-')}"
-        if choices:
-            text += "; " + ", ".join(f"{value}: {label}" for value, label in choices.items())
-            add(flag, metavar=f"{{{','.join(choices)}}}", help=text)
-        elif kind is bool:
-            add(flag, action=argparse.BooleanOptionalAction, help=text)
-        else:
-            add(flag, type=get_args(kind)[0] if get_args(kind) else kind, metavar="N", help=text)
+    names = f"{{{','.join(ENERGIES)}}}"
+    group.add_argument("--energy", metavar=names, default="iso", help=energies)
+    s = f"parameter of {_WITH_S}, above 0 (default 1)"
+    group.add_argument("--s", type=float, metavar="S", help=s)
+    _add_flags(group, glid_nb.Options)
 
 
 def add_trace_flags(parser: argparse.ArgumentParser) -> None:
-    add = parser.add_argument_group("tracing").add_argument
-    pixel: dict[str, Any] = {"type": float, "nargs": 2, "metavar": ("X", "Y")}
-    add(
-        "--method",
-        metavar="{auto,alpha,threshold,color,scribbles}",
-        help="how the foreground is found (default: what suits the picture)",
-    )
-    strokes = "strokes, as lists of [x, y] pixels, under the keys foreground and background"
-    add("--scribbles", type=Path, metavar="FILE.json", help=strokes)
-    add("--invert", action=argparse.BooleanOptionalAction, help="swap foreground and background")
-    add("--threshold", type=float, metavar="T", help="least value of the foreground, 0 to 1")
-    color = "background colour, each 0 to 1 (default: estimated from the border)"
-    add("--background", type=float, nargs=3, metavar=("R", "G", "B"), help=color)
-    add("--background-at", help="a pixel that shows the background's colour", **pixel)
-    add("--smoothing", type=float, metavar="PX", help="blur before the outline is taken")
-    add("--component", type=int, metavar="I", help="which component, 0 being the largest")
-    add("--component-at", help="a pixel in the component to trace", **pixel)
-    add("--min-hole-area", type=float, metavar="PX2", help="smaller holes are filled")
-    add("--offset", type=float, metavar="PX", help="distance of the cage from the outline")
-    add("--simplify", type=float, metavar="PX", help="how far simplification may move it")
-    add("--max-vertices", type=int, metavar="N", help="most vertices of the cage")
-    add("--min-edge", type=float, metavar="PX", help="shorter edges are merged")
-    add("--max-edge", type=float, metavar="PX", help="longer edges are divided")
-    for verb, done in (("keep", "kept"), ("drop", "filled")):
-        text = f"a pixel in a hole that is {done} whatever its size; may be repeated"
-        add(f"--{verb}-hole", dest=f"{verb}_holes", action="append", help=text, **pixel)
+    _add_flags(parser.add_argument_group("tracing"), glid_nb.TraceOptions)
+
+
+def _add_flags(group: Any, settings: Any) -> None:
+    """A flag for every field of a dataclass, ``--keep-hole`` for ``keep_holes``."""
+    for field in dataclasses.fields(settings):
+        kind, flag = field_kinds(settings)[field.name], f"--{field.name.replace('_', '-')}"
+        if type(None) in get_args(kind):
+            kind = get_args(kind)[0]
+        text = field.metadata["help"][0].lower() + field.metadata["help"][1:]
+        if field.default not in (None, ()):
+            text += f" (default {field.default})"
+        if labels := field.metadata["choices"]:
+            text += "; " + ", ".join(f"{value}: {label}" for value, label in labels.items())
+        if get_origin(kind) is Literal:
+            argument = {"metavar": f"{{{','.join(get_args(kind))}}}"}
+        else:
+            argument = _ARGUMENTS[kind]
+        if argument.get("action") == "append":
+            text, flag = f"{text}; may be repeated", flag.removesuffix("s")
+        group.add_argument(flag, dest=field.name, help=text, **argument)
 
 
 def energy_of(chosen: argparse.Namespace) -> glid_nb.Energy:
@@ -88,5 +86,5 @@ def trace_options_of(chosen: argparse.Namespace) -> glid_nb.TraceOptions:
 
 def _given(chosen: argparse.Namespace, kind: Any) -> dict[str, Any]:
     """The fields of a dataclass whose flags are given, with their values."""
-    known = {field.name for field in dataclasses.fields(kind)}
+    known = field_kinds(kind)
     return {k: value for k, value in vars(chosen).items() if k in known and value is not None}

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from glid_nb._errors import InputFileError
-from glid_nb._files import write_bytes_atomically, write_text_atomically
+from glid_nb._files import write_bytes_atomically
 from glid_nb.certificate.rounding import rounded_down, rounded_up
 
 _TIMES = {"compile": 2, "solve": 3, "certify": 3}
@@ -36,15 +36,10 @@ def check_files(outputs: Iterable[Path | None], inputs: Iterable[str | Path | No
         if not path.parent.is_dir():
             raise FileNotFoundError(2, "there is no such folder to write to", str(path.parent))
         for other, why in taken:
-            if _same_file(path, other):
+            linked = path.is_file() and other.exists() and path.samefile(other)
+            if linked or os.path.realpath(path) == os.path.realpath(other):
                 raise InputFileError(f"{path} would be overwritten, but {why}; name another file")
         taken.append((path, "another result goes there"))
-
-
-def _same_file(one: Path, other: Path) -> bool:
-    if one.exists() and other.exists():
-        return one.is_file() and one.samefile(other)
-    return os.path.realpath(one) == os.path.realpath(other)
 
 
 def check_folder(path: Path) -> None:
@@ -57,10 +52,7 @@ def check_folder(path: Path) -> None:
 def write_all(files: dict[Path, bytes | str]) -> None:
     """Write several files, each atomically."""
     for path, data in files.items():
-        if isinstance(data, str):
-            write_text_atomically(path, data)
-        else:
-            write_bytes_atomically(path, data)
+        write_bytes_atomically(path, data.encode() if isinstance(data, str) else data)
 
 
 def summary_json(report: Mapping[str, Any], files: Iterable[Path], **extra: Any) -> str:
@@ -78,11 +70,10 @@ def summary_text(
     written = written or ["nothing; name files with --out and --report"]
     table = [*rows, *_rows(report), *(("written", text) for text in written)]
     width = max(len(name) for name, _ in table)
-    names = [name for name, _ in table]
-    lines = (
-        f"{'' if name == before else name:<{width}}  {text}".rstrip()
-        for before, (name, text) in zip(["", *names], table, strict=False)
-    )
+    lines, before = [], ""
+    for name, text in table:
+        lines.append(f"{'' if name == before else name:<{width}}  {text}".rstrip())
+        before = name
     return "\n".join(lines)
 
 
@@ -109,7 +100,10 @@ def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("iterations", f"{report['iterations']}"),
         ("energy", f"{e}  ({energy}: {e_iso}, targets: {e_p2p})"),
         *(("ways", _attempt(one)) for one in report["attempts"]),
-        *(("bases", _refinement(one)) for one in report["refinements"]),
+        *(
+            ("bases", f"{one['unknowns']} unknowns: {one['energy']:.6g}, {one['solve_time']:.3f} s")
+            for one in report["refinements"]
+        ),
         ("certified", "yes" if report["certified"] else "no"),
         ("sigma_2", f">= {_bounded(report['sigma2_lower'], rounded_down, 6)}"),
         ("sigma_1", f"<= {_bounded(report['sigma1_upper'], rounded_up, 6)}"),
@@ -123,10 +117,6 @@ def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
 def _attempt(one: Mapping[str, Any]) -> str:
     energy = _bounded(one["energy"], "{:.6g}".format)
     return f"{one['name']}: " + ("given up" if one["given_up"] else f"{energy}, {one['status']}")
-
-
-def _refinement(one: Mapping[str, Any]) -> str:
-    return f"{one['unknowns']} unknowns: {one['energy']:.6g}, {one['solve_time']:.3f} s"
 
 
 def _bounded(value: float | None, written: Any, *digits: int) -> str:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import argparse
 import json
+from typing import get_args
 
 from glid_nb import samples
 
-_KINDS = ("gentle", "extreme")
+_KINDS = get_args(samples.PoseKind)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
+
+import numpy as np
+
+from glid_nb._arrays import Array
 
 if TYPE_CHECKING:  # matplotlib takes half a second to import; the editor's first canvas needs none
     from matplotlib.axes import Axes
@@ -36,6 +41,12 @@ LEGEND = {
 }
 """The look of every legend: keywords of matplotlib's."""
 
+COLORS = (
+    *("#fcf4b6", "#fecc8f", "#fea16e", "#f8765c", "#e75263"),
+    *("#c43c75", "#a02f7f", "#7b2382", "#57157e", "#331067"),
+)
+"""From isometric to distorted: ten stops of `distortion_colors`, without matplotlib."""
+
 
 def distortion_colors() -> Colormap:
     """Pale where the map is isometric, dark where it is not: magma's scale without its black.
@@ -47,6 +58,11 @@ def distortion_colors() -> Colormap:
 
     magma = colormaps["magma_r"]
     return ListedColormap([magma(0.02 + 0.8 * i / 255) for i in range(256)], name="distortion")
+
+
+def rgb(colors: Sequence[str]) -> Array:
+    """(n, 3) colours of ``#rrggbb`` texts."""
+    return np.array([[int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)] for color in colors])
 
 
 def tidy(axes: Axes) -> None:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from typing import Any, Literal
 
-from glid_nb._arguments import field_kinds, unmet
+from glid_nb._arguments import field_kinds, option, unmet
 from glid_nb._errors import InputError
 from glid_nb.certificate.rounding import CARRIED_STEPS
 from glid_nb.solvers.discretisation import CertificateKind, Sampling
@@ -19,14 +19,6 @@ HessianKind = Literal["adaptive", "projected", "exact"]
 
 class OptionError(InputError):
     """A setting is out of range."""
-
-
-def _option(
-    default: Any, label: str, help: str, choices: dict[str, str] | None = None, **limits: float
-) -> Any:
-    """A field; how flags and controls present it, its values and their labels, its range."""
-    shown = {"label": label, "help": help, "choices": choices or {}}
-    return field(default=default, metadata={**shown, **limits})
 
 
 @dataclass(frozen=True)
@@ -75,47 +67,47 @@ class Options:
         When a value is out of range; the message names it.
     """
 
-    sampling: Sampling = _option(
+    sampling: Sampling = option(
         "graded",
-        "Sampling",
         "Where the energy is integrated",
+        "Sampling",
         {"graded": "Graded panels", "uniform": "Uniform (paper)"},
     )
-    certificate: CertificateKind = _option(
+    certificate: CertificateKind = option(
         "hermite",
-        "Certificate",
         "How local injectivity is proved",
+        "Certificate",
         {
             "hermite": "Hermite–Bernstein",
             "lipschitz": "Lipschitz (paper)",
             "bdhm": "Lipschitz (BDHM)",
         },
     )
-    hessian: HessianKind = _option(
+    hessian: HessianKind = option(
         "adaptive",
-        "Hessian",
         "The matrix of Newton's method",
+        "Hessian",
         {"adaptive": "Adaptive", "projected": "Projected (paper)", "exact": "Exact"},
     )
-    p2p_weight: float = _option(
-        1e5, "Weight λ", "How strongly handles are drawn to their targets", above=0
+    p2p_weight: float = option(
+        1e5, "How strongly handles are drawn to their targets", "Weight λ", above=0
     )
-    conformal: bool = _option(False, "Conformal maps only", "No shear anywhere")
-    align: bool = _option(True, "Align", "Begin at the best rigid motion to the targets")
-    restarts: int = _option(10, "Restarts", "Other ways to try after a high energy")
-    max_iterations: int | None = _option(
-        None, "Iterations", "Most iterations of one attempt; Newton's method makes 200"
+    conformal: bool = option(False, "No shear anywhere", "Conformal maps only")
+    align: bool = option(True, "Begin at the best rigid motion to the targets", "Align")
+    restarts: int = option(10, "Other ways to try after a high energy", "Restarts")
+    max_iterations: int | None = option(
+        None, "Most iterations of one attempt; Newton's method makes 200", "Iterations"
     )
-    tolerance: float = _option(
-        1e-10, "Tolerance", "Relative decrease at which the solve ends", least=0
+    tolerance: float = option(
+        1e-10, "Relative decrease at which the solve ends", "Tolerance", least=0
     )
-    corrections: int = _option(
-        MOST_CORRECTIONS, "Corrections", "Most steps by an old Hessian", most=MOST_CORRECTIONS
+    corrections: int = option(
+        MOST_CORRECTIONS, "Most steps by an old Hessian", "Corrections", most=MOST_CORRECTIONS
     )
-    iterations_per_call: int = _option(
+    iterations_per_call: int = option(
         MOST_PER_CALL,
-        "Iterations / frame",
         "Iterations between two frames",
+        "Iterations / frame",
         least=1,
         most=MOST_PER_CALL,
     )

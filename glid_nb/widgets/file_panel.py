@@ -11,11 +11,11 @@ import anywidget
 import ipywidgets
 
 from glid_nb._errors import InputError
+from glid_nb._scripts import bundle
 from glid_nb.imaging.read import MAX_SIDE
 from glid_nb.session.document import DocumentError
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
-from glid_nb.widgets.bundle import bundle
 from glid_nb.widgets.controls import REFUSED, button, paragraph
 from glid_nb.widgets.exporting import (
     FORMATS,

@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from glid_nb._arrays import Array
 from glid_nb._jax import jnp
 from glid_nb.energies import Energy
+from glid_nb.figures.style import COLORS
 from glid_nb.solvers.restarts import isometry_energy
-
-COLORS = (
-    *("#fcf4b6", "#fecc8f", "#fea16e", "#f8765c", "#e75263"),
-    *("#c43c75", "#a02f7f", "#7b2382", "#57157e", "#331067"),
-)
-"""From isometric to distorted: as `figures.style.distortion_colors`, which needs matplotlib."""
 
 # Green, orange, vermilion: visible on white, on black and beside those above.
 MARGIN_COLORS = (
@@ -111,11 +105,6 @@ def color_range(
         wanted = max(wanted, float(np.quantile(away, _SHARE)))
     # ``least`` is one of the steps, up to rounding.
     return start, next((end for end in ends if abs(end - start) >= wanted - 1e-9), ends[-1])
-
-
-def rgb(colors: Sequence[str]) -> NDArray[np.float64]:
-    """(n, 3) colours of ``#rrggbb`` texts."""
-    return np.array([[int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)] for color in colors])
 
 
 def legend(name: str, energy: Energy, range_: tuple[float, float]) -> dict[str, Any]:

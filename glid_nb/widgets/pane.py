@@ -9,9 +9,9 @@ import numpy as np
 import traitlets
 
 from glid_nb._arrays import Array
+from glid_nb._scripts import bundle, stylesheet
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import DeformationMap
-from glid_nb.widgets.bundle import bundle, stylesheet
 from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import PANEL_LEGEND, legend

@@ -10,7 +10,7 @@ import pythreejs as three
 
 from glid_nb._arrays import Array
 from glid_nb.energies import Energy, SymmetricDirichlet
-from glid_nb.figures.style import BLUE, GREY
+from glid_nb.figures.style import BLUE, COLORS, GREY, rgb
 from glid_nb.geometry import MeshMap, Triangulation, triangulate, uniform_panels
 from glid_nb.geometry.panels import Panels
 from glid_nb.harmonic import FixedPoints, HarmonicMap
@@ -18,7 +18,7 @@ from glid_nb.harmonic.shader_map import ShaderMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.order import Order, order_of
 from glid_nb.widgets.layers import EvaluatedIn, Layer, Uniforms, comparison_layer, picture_texture
-from glid_nb.widgets.overlays import COLORS, FULL_MARGIN, MARGIN_COLORS, OVERLAYS, color_range, rgb
+from glid_nb.widgets.overlays import FULL_MARGIN, MARGIN_COLORS, OVERLAYS, color_range
 from glid_nb.widgets.ribbons import PANEL_VERTICES, cage_ribbon, offset_ribbon, panel_ribbon
 from glid_nb.widgets.shader import UNIFORM_VECTORS, energy_uniform
 

@@ -1,15 +1,11 @@
-"""Texts of the shaders; uniforms and defines of the energies."""
+"""Uniforms and defines of the energies' shader."""
 
 from __future__ import annotations
-
-from pathlib import Path
 
 from glid_nb.energies import ENERGIES, Energy
 
 UNIFORM_VECTORS = 1024
 """Vectors of uniforms that a vertex shader is assumed to hold until the page says otherwise."""
-
-_GLSL = Path(__file__).parent / "glsl"
 
 
 def energy_defines() -> str:
@@ -23,8 +19,3 @@ def energy_uniform(energy: Energy) -> list[float]:
     """The number of an energy and its parameter, as ``energy.glsl`` takes them."""
     number = list(ENERGIES).index(energy.name) if energy.shader else -1
     return [float(number), float(getattr(energy, "s", 1.0))]
-
-
-def glsl(name: str) -> str:
-    """The text of a shader file."""
-    return (_GLSL / name).read_text(encoding="utf-8")

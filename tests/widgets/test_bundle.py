@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import glid_nb
-from glid_nb.widgets import bundle as bundling
-from glid_nb.widgets.bundle import bundle, stylesheet
+from glid_nb import _scripts
+from glid_nb._scripts import bundle, stylesheet
 
 _TEXTS = (".py", ".js", ".css", ".glsl", ".frag", ".vert", ".html")
 
@@ -30,7 +30,7 @@ def test_top_level_names_differ(entry: str) -> None:
 
 
 def test_imports_name_what_is_exported() -> None:
-    folder = Path(bundling.__file__).parent / "js"
+    folder = _scripts._FOLDER
     for module in folder.glob("*/*.js"):
         text = module.read_text()
         for names, other in re.findall(r'^import \{ ([^}]*) \} from "([^"]+)";', text, re.M):
@@ -45,7 +45,7 @@ def test_imports_name_what_is_exported() -> None:
 def test_a_circle_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "a.js").write_text('import { b } from "./b.js";\nexport const a = b;\n')
     (tmp_path / "b.js").write_text('import { a } from "./a.js";\nexport const b = a;\n')
-    monkeypatch.setattr(bundling, "_FOLDER", tmp_path)
+    monkeypatch.setattr(_scripts, "_FOLDER", tmp_path)
     with pytest.raises(ValueError, match=r"a\.js imports itself by way of b\.js"):
         bundle("a.js")
 

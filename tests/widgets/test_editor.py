@@ -23,7 +23,7 @@ from PIL import Image
 
 import glid_check
 import glid_nb as glid
-from glid_nb.figures.style import distortion_colors
+from glid_nb.figures.style import COLORS, distortion_colors, rgb
 from glid_nb.session.autosave import flush
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import DocumentError
@@ -32,7 +32,7 @@ from glid_nb.session.edit_state import EditError, EditState, Moment
 from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
 from glid_nb.widgets.exporting import ExportError
 from glid_nb.widgets.file_panel import OpenPanel
-from glid_nb.widgets.overlays import COLORS, N_COLORS, OVERLAYS, color_range, legend, rgb
+from glid_nb.widgets.overlays import N_COLORS, OVERLAYS, color_range, legend
 from glid_nb.widgets.pane import emptiest_corner
 
 from ..domains import domain

@@ -11,9 +11,9 @@ import pytest
 from playwright.sync_api import Page
 
 from glid_nb import Motion
+from glid_nb._scripts import bundle
 from glid_nb.harmonic.shader_map import ShaderMap
 from glid_nb.motion.playing import playing
-from glid_nb.widgets.bundle import bundle
 
 from ..domains import random_map
 

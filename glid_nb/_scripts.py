@@ -1,17 +1,18 @@
-"""JavaScript modules that import each other, joined into the one module that a widget may have."""
+"""What runs in the browser: modules joined into one, style sheets, shaders."""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
 
-_FOLDER = Path(__file__).parent / "js"
+_WIDGETS = Path(__file__).parent / "widgets"
+_FOLDER = _WIDGETS / "js"
 _IMPORT = re.compile(r'^import\s+\{[^}]*\}\s+from\s+"(\.\.?/[\w./-]+)";\n', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=(?:async )?(?:class|const|function) )", re.MULTILINE)
 
 
 def bundle(entry: str) -> str:
-    """The text of ``js/entry`` after that of all modules it imports, each once.
+    """The text of ``widgets/js/entry`` after that of all modules it imports, each once.
 
     Modules import by name, ``import { a, b } from "./other.js";``, and share one scope when joined,
     so their top-level names must differ. Only the entry has a default export.
@@ -41,3 +42,8 @@ def stylesheet(name: str) -> str:
     """The text of ``js/name``, after the rules that the canvas and the tracer share."""
     parts = (_FOLDER / "pad/pad.css", _FOLDER / name)
     return "\n".join(part.read_text(encoding="utf-8") for part in parts)
+
+
+def glsl(name: str) -> str:
+    """The text of a shader file."""
+    return (_WIDGETS / "glsl" / name).read_text(encoding="utf-8")
