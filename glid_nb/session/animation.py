@@ -31,6 +31,8 @@ class Span(NamedTuple):
 
     start: float
     end: float
+    map: HarmonicMap
+    """Of its first keyframe."""
     status: Literal["computing", "proved", "fails", "refused"] = "computing"
     reason: str = ""
     """Why it fails, and until when it is proved, or why it is refused."""
@@ -66,7 +68,8 @@ class _Task(NamedTuple):
     def spans(self) -> tuple[Span, ...]:
         """The intervals, still to be computed."""
         times = self.timeline.closed_times if len(self.poses) > 1 else ()
-        return tuple(Span(*ends) for ends in itertools.pairwise(times))
+        ends = itertools.pairwise(times)
+        return tuple(Span(*e, p.map) for e, p in zip(ends, self.poses, strict=False))
 
 
 class Animation(Observed):
@@ -98,12 +101,11 @@ class Animation(Observed):
 
     def at(self, time: float) -> HarmonicMap | None:
         """The proved map at a time, or the last proved one before it; None outside the motion."""
-        spans = self.spans
-        span = next((s for s in spans if s.start <= time <= s.end), None)
+        span = next((s for s in self.spans if s.start <= time <= s.end), None)
         if span is None:
             return None
         if not span.pieces:
-            return self._task.poses[spans.index(span)].map
+            return span.map
         piece = next((p for p in span.pieces if time <= p.end), span.pieces[-1])
         return piece.at(min(time, piece.end))
 
@@ -154,7 +156,7 @@ class Animation(Observed):
             self._worker.cancel()
             self._asked = False
             spans = task.spans
-            if [(*s[:2], "computing") for s in spans] != [s[:3] for s in self.spans]:
+            if [(*s[:2], "computing") for s in spans] != [(*s[:2], s.status) for s in self.spans]:
                 self.spans = spans
                 self._tell("motion")
         self._task = task
