@@ -52,35 +52,21 @@ def render(
     view: View = "source",
     pose: Pose | None = None,
 ) -> NDArray[np.uint8]:
-    """Warp a picture through a map.
+    """Warp a picture through a map; (h, w, 4) uint8 RGBA with straight alpha.
 
-    Parameters
-    ----------
-    image : (h, w, 4), (h, w, 3) or (h, w) array, or Texture
-        The picture that the map's cage was traced from, or one of the same aspect ratio; its longer
-        side is 20 world units.
-    map : HarmonicMap
-    size : (w, h), optional
-        Pixels of the result; by default the image's own.
-    n_vertices : int, optional
-        About how many vertices the mesh gets, evenly spread. By default it is refined until its
-        straight edges stray from the map by less than 0.25 output pixels.
-    view : "source" or "fit"
-        Show the rectangle of the image, letter-boxed if ``size`` has another aspect ratio; or all
-        of the deformed shape, with a margin.
-    pose : Pose, optional
-        Whose depths say which part is in front where the shape overlaps itself.
+    The image, (h, w), (h, w, 3), (h, w, 4) or a Texture, is the one that the map's cage was traced
+    from, or one of the same aspect ratio; its longer side is 20 world units. The result has
+    ``size``, (w, h) pixels, by default the image's own, and is transparent where the deformed shape
+    is not.
 
-    Returns
-    -------
-    (h, w, 4) uint8 array
-        RGBA with straight alpha, transparent where the deformed shape is not.
+    The view is "source", the rectangle of the image, letter-boxed if ``size`` has another aspect
+    ratio; or "fit", all of the deformed shape, with a margin. The depths of a pose say which part
+    is in front where the shape overlaps itself. The mesh gets about ``n_vertices``, evenly spread;
+    by default it is refined until its straight edges stray from the map by less than 0.25 output
+    pixels.
 
-    Raises
-    ------
-    RenderError
-        An argument is out of range, the map's cage does not fit the picture, or the map collapses
-        the shape; the message says which.
+    Raises a RenderError that says which argument is out of range, or that the map's cage does not
+    fit the picture or the map collapses the shape.
     """
     return rendering(image, map, size, n_vertices, view, pose).picture
 

@@ -81,15 +81,10 @@ def _clear(loops: Loops, vertices: NDArray[np.intp], gap: float) -> NDArray[np.b
     own = (edge[:, np.newaxis] == around[triangle, :4]).any(axis=1)
     clear = np.ones(len(vertices), dtype=bool)
     clear[triangle[~own]] = False
-    clear &= _angles(corners[:, 0], corners[:, 1], corners[:, 3]) > _LEAST_ANGLE
-    clear &= _angles(corners[:, 1], corners[:, 3], corners[:, 4]) > _LEAST_ANGLE
+    z = corners @ [1, 1j]
+    for a, b, c in ((0, 1, 3), (1, 3, 4)):
+        clear &= np.abs(np.angle((z[:, c] - z[:, b]) / (z[:, a] - z[:, b]))) > _LEAST_ANGLE
     return clear
-
-
-def _angles(a: Points, b: Points, c: Points) -> NDArray[np.float64]:
-    """(k,) angles at b in [0, pi]."""
-    u, v = a - b, c - b
-    return np.arctan2(np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]), np.sum(u * v, axis=1))
 
 
 def divide_long_edges(loops: Loops, max_edge: float | None, max_vertices: int | None) -> Loops:
