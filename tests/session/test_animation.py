@@ -70,9 +70,10 @@ def test_all_is_proved_once_the_poses_have_come_to_rest(
         assert shown is not None
         np.testing.assert_array_equal(shown.phi, motion(time).phi)
     assert animation.at(2.5) is None
-    # A drag makes it stale at once, and the solved pose proves it again.
+    # A drag makes it stale, and the solved pose proves it again.
     model.begin_drag([0])
     model.drag_to((2.8, 0))
+    assert model.solve(TIMEOUT)
     assert statuses(animation) == ["computing", "computing"]
     assert animation.at(0.5) is model.state.poses[0].map
     model.end_drag()
@@ -101,6 +102,7 @@ def test_what_lies_between_is_kept_where_it_is_proved(
     assert animation.wait(TIMEOUT)
     model.begin_drag([0])
     model.drag_to((2.8, 0))
+    assert model.solve(TIMEOUT)
     with pytest.raises(EditError, match=r"nothing is proved at 0\.10 s"):
         animation.keep(0.1)
     model.cancel_drag()
