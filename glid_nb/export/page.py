@@ -67,27 +67,14 @@ def page_html(
 ) -> str:
     """A page that shows the warped picture, with zoom, pan and colours for the distortion.
 
-    A motion is played and scrubbed; a click on a pose leads there along the motion, so that all
-    that is seen is proved. The shaders are those of the canvas, which evaluate the map itself on
-    the vertices of a triangulation. The page's security policy blocks the network.
-
-    Parameters
-    ----------
-    image : (h, w, 4), (h, w, 3) or (h, w) array
-        The picture that the map's cage was traced from.
-    map : HarmonicMap or Motion
-    certificate : Certificate, optional
-        The map's certificate, to state its bounds and whether the shape overlaps itself. A motion
-        has its own.
-    title : str
-        The page's title and heading.
-    tolerance : float
-        World units that the mesh's straight edges may stray from the map, at any time.
-    pose : Pose, optional
-        Whose depths say which part is in front where the shape overlaps itself; of a motion, one
-        for each keyframe.
-    loop : bool
-        Whether a motion that plays begins again at its end.
+    The image, (h, w), (h, w, 3) or (h, w, 4), is the one that the cage was traced from. A motion is
+    played and scrubbed; a click on a pose leads there along the motion, so that all that is seen is
+    proved; with ``loop`` it begins again at its end. The shaders are those of the canvas, which
+    evaluate the map itself on the vertices of a triangulation, whose straight edges may stray from
+    it by the tolerance, world units, at any time. With its certificate the page states a map's
+    bounds and whether the shape overlaps itself; a motion has its own. The depths of a pose, of a
+    motion one for each keyframe, say which part is in front where the shape overlaps itself. The
+    security policy blocks the network.
     """
     mesh = MovingMesh.of(map, pose, _VERTICES, tolerance)
     proof = map.certificate if isinstance(map, Motion) else certificate
