@@ -1,6 +1,6 @@
 """Make a moving picture from the poses of a session.
 
-SOURCE is a session (.glid), whose poses are the keyframes in their order, or a file of
+SOURCE is a session (.glid), whose poses are the keyframes, as its timeline has them, or a file of
 `Motion.save`, which needs --picture. The suffix of --out says the format: .gif, .apng, .mp4 and
 .webm (with the extra `video`), .html for a page, .glb for a mesh with morph targets, .sheet.png for
 a sprite sheet with its JSON, .zip for frames as PNG, none for a folder of them.
@@ -9,16 +9,17 @@ a sprite sheet with its JSON, .zip for frames as PNG, none for a folder of them.
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from PIL import ImageColor
 
 import glid_nb
 from glid_nb._errors import InputError, InputFileError
 from glid_nb.cli.output import check_files, check_folder
 from glid_nb.cli.progress import step
+from glid_nb.session.timeline import Timeline
 
 _SETTINGS = ("easing", "repeat", "between", "tolerance", "turns", "handles")
 
@@ -31,9 +32,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     size = "pixels of the longer side (default: %(default)s); not for .html and .glb"
     add("--size", type=int, default=480, metavar="N", help=size)
     add("--fps", type=float, default=25.0, metavar="N", help="frames per second, 0 to 100")
-    seconds = "length of the whole (default: a second from pose to pose; a saved motion's own)"
+    seconds = "length of the whole (default: as the timeline or the saved motion has it)"
     add("--seconds", type=float, metavar="S", help=seconds)
-    loop = "what follows on the last pose: the first one (default), the way back, or nothing"
+    loop = "after the last pose: the first one, the way back, or nothing (default: as above)"
     add("--loop", choices=("loop", "ping-pong", "once"), help=loop)
     color = "a name or #rrggbb, or `transparent`, for all but .gif and .mp4 (default: white)"
     add("--background", type=_color, default="white", metavar="COLOR", help=color)
@@ -81,11 +82,12 @@ def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb
             )
         if chosen.picture is not None:
             raise InputError("--picture is for saved motions; a session holds its picture")
-        maps, repeat = [pose.map for pose in document.poses], chosen.loop or "loop"
-        intervals = (len(maps) - (repeat != "loop")) * (2 if repeat == "ping-pong" else 1)
-        step_ = _seconds(chosen, float(intervals)) / intervals
-        times = step_ * np.arange(len(maps) + (repeat == "loop"))
-        motion = glid_nb.Motion(maps, times.tolist(), repeat=repeat)
+        timeline = document.timeline or replace(Timeline.even(len(document.poses)), repeat="loop")
+        timeline = replace(timeline, repeat=chosen.loop or timeline.repeat)
+        if chosen.seconds is not None:
+            there = 2 if timeline.repeat == "ping-pong" else 1
+            timeline = timeline.lasting(_seconds(chosen) / there)
+        motion = timeline.motion([pose.map for pose in document.poses])
         return document.image, motion, [pose.pose for pose in document.poses]
     motion = glid_nb.Motion.load(chosen.source)
     if chosen.picture is None or chosen.loop not in (None, motion.repeat):
@@ -94,17 +96,16 @@ def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb
             "--loop, for it has its own"
         )
     if chosen.seconds is not None:
-        longer = _seconds(chosen, 0.0) / motion.duration
+        longer = _seconds(chosen) / motion.duration
         own = {key: getattr(motion, key) for key in _SETTINGS}
         motion = glid_nb.Motion(motion.keyframes, [longer * t for t in motion.times], **own)
     return glid_nb.read_image(chosen.picture), motion, None
 
 
-def _seconds(chosen: argparse.Namespace, default: float) -> float:
-    seconds = default if chosen.seconds is None else chosen.seconds
-    if not 0 < seconds < 1e6:
-        raise InputError(f"--seconds is {seconds:g}; it must be above 0, at most a million")
-    return seconds
+def _seconds(chosen: argparse.Namespace) -> float:
+    if not 0 < chosen.seconds < 1e6:
+        raise InputError(f"--seconds is {chosen.seconds:g}; it must be above 0, up to a million")
+    return chosen.seconds
 
 
 def _color(text: str) -> tuple[int, int, int] | None:

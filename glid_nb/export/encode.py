@@ -7,15 +7,14 @@ from __future__ import annotations
 
 import importlib.util
 import io
-import itertools
 import json
 import math
 import subprocess
 import tempfile
 import zipfile
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +24,16 @@ from glid_nb._errors import InputError
 
 Frames = Iterable[NDArray[np.uint8]]
 Color = tuple[int, int, int]
+
+
+class Drawn(NamedTuple):
+    """Frames that are drawn one after the other, when they are wanted."""
+
+    size: tuple[int, int]
+    """Width and height, pixels."""
+    count: int
+    pictures: Iterator[NDArray[np.uint8]]
+
 
 _LARGEST_SHEET = 16384  # pixels of a side
 # ffmpeg's settings: close to lossless for drawings, colours as browsers expect them.
@@ -82,61 +91,57 @@ def check_video() -> None:
         )
 
 
-def video(frames: Frames, fps: float, kind: str, transparent: bool = False) -> bytes:
-    """An MP4 (H.264) or WebM (VP9) video; frames have even sides. WebM may be transparent.
+def video(drawn: Drawn, fps: float, kind: str, transparent: bool = False) -> bytes:
+    """An MP4 (H.264) or WebM (VP9) video of even sides. WebM may be transparent.
 
     ffmpeg runs as a process of its own, to which frames are sent as they are drawn.
     """
     check_video()
     from imageio_ffmpeg import get_ffmpeg_exe  # noqa: PLC0415 - an extra
 
-    first, rest = next(frames := iter(frames)), frames
-    height, width = first.shape[:2]
-    given = ["-f", "rawvideo", "-pix_fmt", "rgba", "-s", f"{width}x{height}", "-r", f"{fps}"]
+    size = "x".join(map(str, drawn.size))
+    given = ["-f", "rawvideo", "-pix_fmt", "rgba", "-s", size, "-r", str(fps), "-i", "-"]
     pixels = ["-pix_fmt", "yuva420p" if transparent else "yuv420p"]
     with tempfile.TemporaryDirectory(prefix="glid_nb-") as folder:
         path, log = Path(folder) / f"frames.{kind}", Path(folder) / "log"
-        command = [get_ffmpeg_exe(), "-v", "error", *given, "-i", "-", *_CODECS[kind], *_COLORS]
-        with log.open("wb") as told:
-            ffmpeg = subprocess.Popen(
-                [*command, *pixels, str(path)], stdin=subprocess.PIPE, stderr=told
-            )
+        command = [get_ffmpeg_exe(), "-v", "error", *given, *_CODECS[kind], *_COLORS, *pixels]
+        with (
+            log.open("wb") as told,
+            subprocess.Popen([*command, str(path)], stdin=subprocess.PIPE, stderr=told) as ffmpeg,
+        ):
             assert ffmpeg.stdin is not None
             try:
-                for frame in itertools.chain([first], rest):
+                for frame in drawn.pictures:
                     ffmpeg.stdin.write(frame.tobytes())
-                ffmpeg.stdin.close()
-            except BaseException as error:
+            except BrokenPipeError:
+                pass  # its log says why
+            except BaseException:
                 ffmpeg.kill()
-                if not isinstance(error, BrokenPipeError):
-                    raise
-            finally:
-                ffmpeg.wait()
+                raise
         if ffmpeg.returncode:
             raise OSError(f"ffmpeg could not write the {kind} video: {log.read_text()[-500:]}")
         return path.read_bytes()
 
 
-def sprite_sheet(frames: Frames, fps: float, name: str, png: Callable[..., bytes]) -> list[bytes]:
+def sprite_sheet(drawn: Drawn, fps: float, name: str, png: Callable[..., bytes]) -> list[bytes]:
     """A picture of all frames side by side, and JSON that says where each is.
 
     The JSON is TexturePacker's "hash" with Pixi's ``animations``; durations are milliseconds.
     """
-    pictures = list(frames)
-    (height, width), columns = pictures[0].shape[:2], math.ceil(math.sqrt(len(pictures)))
-    rows = math.ceil(len(pictures) / columns)
-    if max(columns * width, rows * height) > _LARGEST_SHEET:
+    (width, height), columns = drawn.size, math.ceil(math.sqrt(drawn.count))
+    sides = columns * width, math.ceil(drawn.count / columns) * height
+    if max(sides) > _LARGEST_SHEET:
         raise InputError(
-            f"{len(pictures)} frames of {width} x {height} pixels need a sheet of "
-            f"{columns * width} x {rows * height}; {_LARGEST_SHEET} is the most, so choose a "
-            "smaller size or fewer frames per second"
+            f"{drawn.count} frames of {width} x {height} pixels need a sheet of {sides[0]} x "
+            f"{sides[1]}; {_LARGEST_SHEET} is the most, so choose a smaller size or fewer frames "
+            "per second"
         )
-    sheet = np.zeros((rows * height, columns * width, 4), np.uint8)
+    sheet = np.zeros((*sides[::-1], 4), np.uint8)
     size, found = {"w": width, "h": height}, {}
-    for i, (picture, frame_name) in enumerate(zip(pictures, names(len(pictures)), strict=True)):
+    for i, (picture, frame) in enumerate(zip(drawn.pictures, names(drawn.count), strict=True)):
         x, y = i % columns * width, i // columns * height
         sheet[y : y + height, x : x + width] = picture
-        found[frame_name] = {
+        found[frame] = {
             "frame": {"x": x, "y": y, **size},
             "rotated": False,
             "trimmed": False,
@@ -145,15 +150,11 @@ def sprite_sheet(frames: Frames, fps: float, name: str, png: Callable[..., bytes
             "duration": 1000 / fps,
         }
     meta = {
-        "app": "glid_nb",
-        "version": "1.0",
-        "image": name,
-        "format": "RGBA8888",
-        "size": {"w": sheet.shape[1], "h": sheet.shape[0]},
-        "scale": "1",
+        **{"app": "glid_nb", "version": "1.0", "image": name, "format": "RGBA8888"},
+        **{"size": dict(zip("wh", sides, strict=True)), "scale": "1"},
     }
-    told = {"frames": found, "animations": {Path(name).name.partition(".")[0]: list(found)}}
-    return [png(sheet), json.dumps({**told, "meta": meta}, indent=1).encode()]
+    told = {"frames": found, "animations": {name.partition(".")[0]: list(found)}, "meta": meta}
+    return [png(sheet), json.dumps(told, indent=1).encode()]
 
 
 def names(count: int) -> list[str]:

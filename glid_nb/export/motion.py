@@ -121,16 +121,16 @@ def motion_files(
         match suffix:
             case ".gif":
                 assert background is not None
-                return {name: encode.gif(drawn, frames_per_second, background, loop)}
+                return {name: encode.gif(drawn.pictures, frames_per_second, background, loop)}
             case ".apng":
-                return {name: encode.apng(drawn, frames_per_second, loop)}
+                return {name: encode.apng(drawn.pictures, frames_per_second, loop)}
             case ".mp4" | ".webm":
                 kind, clear = suffix[1:], background is None
                 return {name: encode.video(drawn, frames_per_second, kind, clear)}
             case ".sheet.png":
                 both = encode.sprite_sheet(drawn, frames_per_second, name, png)
                 return dict(zip((name, f"{name[:-4]}.json"), both, strict=True))
-        files = [png(frame) for frame in drawn]
+        files = [png(frame) for frame in drawn.pictures]
     except Stopped:
         return {}
     named = dict(zip(encode.names(len(files)), files, strict=True))
@@ -142,7 +142,7 @@ def motion_files(
 def _suffix(name: str) -> str:
     """The one of `MOTION_FORMATS` that a name ends in, "" for a folder."""
     found = next((suffix for suffix in MOTION_FORMATS if name.lower().endswith(suffix)), "")
-    if (Path(name).suffix and len(name) <= len(found)) or (Path(name).suffix and not found):
+    if len(name) == len(found) or (not found and Path(name).suffix):
         raise InputError(
             f"{name!r:.200} cannot be written: the name must end in {', '.join(MOTION_FORMATS)}, "
             "or have no suffix for a folder of frames"

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
-from glid_nb.export.encode import Color
+from glid_nb.export.encode import Color, Drawn
 from glid_nb.export.picture import frame_around, on_background
 from glid_nb.harmonic import HarmonicMap, images_under
 from glid_nb.imaging import as_rgba8
@@ -21,7 +21,7 @@ from glid_nb.imaging.texture import Texture
 from glid_nb.motion import Motion
 from glid_nb.solvers import Pose
 
-_VERTICES = 3000  # evenly spread ones, before refinement
+_VERTICES = 1500  # evenly spread ones, before refinement
 _TOLERANCE_PX = 0.25  # straight edges stray from every map by less than this
 
 Progress = Callable[[int, int], bool | None]
@@ -117,23 +117,27 @@ def frames(
     fps: float,
     background: Color | None,
     progress: Progress | None = None,
-) -> Iterator[NDArray[np.uint8]]:
-    """(h, w, 4) pictures at even times; all show the same part of the plane, which holds them all.
+) -> Drawn:
+    """Pictures at even times; all show the same part of the plane, which holds them all.
 
-    Raises `Stopped` when ``progress(done, total)``, called before each and at the end, is true.
+    Drawing raises `Stopped` when ``progress(done, count)``, called before each frame and at the
+    end, is true.
     """
     corners = images_under(motion.keyframes, motion.domain.cage.exterior).reshape(-1, 2)
     tolerance = _TOLERANCE_PX * float(np.ptp(corners, axis=0).max()) / size
     mesh = MovingMesh.of(motion, poses, _VERTICES, tolerance)
-    frame, texture = (
-        frame_around(mesh.images.reshape(-1, 2), size),
-        Texture.from_image(as_rgba8(image)),
-    )
-    times, _ = motion.resample(fps)
-    for i, time in enumerate(times):
-        if progress is not None and progress(i, len(times)):
+    frame = frame_around(mesh.images.reshape(-1, 2), size)
+    texture, (times, _) = Texture.from_image(as_rgba8(image)), motion.resample(fps)
+
+    def tell(done: int) -> None:
+        if progress is not None and progress(done, len(times)):
             raise Stopped
-        pixels = draw_mesh(texture, mesh.at(float(time)), frame)
-        yield pixels if background is None else np.asarray(on_background(pixels, background))
-    if progress is not None and progress(len(times), len(times)):
-        raise Stopped
+
+    def pictures() -> Iterator[NDArray[np.uint8]]:
+        for i, time in enumerate(times):
+            tell(i)
+            pixels = draw_mesh(texture, mesh.at(float(time)), frame)
+            yield pixels if background is None else np.asarray(on_background(pixels, background))
+        tell(len(times))
+
+    return Drawn((frame.width, frame.height), len(times), pictures())
