@@ -13,7 +13,7 @@ from typing import Any as Array  # of NumPy or of JAX
 
 from glid_nb._jax import Bool, Complex, Float
 from glid_nb.harmonic import cauchy
-from glid_nb.harmonic.cauchy import Singularities
+from glid_nb.harmonic.cauchy import Points, Singularities
 
 UNIT_ROUNDOFF = 2.0**-53
 
@@ -66,7 +66,7 @@ def _is_exact(a: Float[Array, ""]) -> Bool[Array, ""]:
 
 
 def derivatives(
-    z: Complex[Array, " k"], edges: Complex[Array, "2 n"], singularities: Singularities
+    z: Points, edges: Complex[Array, "2 n"], singularities: Singularities
 ) -> tuple[Complex[Array, "2 k"], Complex[Array, "2 k"], Float[Array, "2 k"], Float[Array, "2 k"]]:
     """``f_z`` and ``conj(f_zbar)``, their derivatives, and bounds on the errors of both.
 
@@ -100,7 +100,7 @@ def panel_scale(
 
 
 def term_scale(
-    z: Complex[Array, " k"], singularities: Singularities
+    z: Points, singularities: Singularities
 ) -> tuple[Float[Array, " k"], Float[Array, " k"]]:
     """Sums of the moduli of all terms of ``D(z)``, with the logarithms' errors, and of ``D'(z)``.
 

@@ -12,6 +12,8 @@ from glid_nb._jax import AnyArray, Array, Bool, Float, Int, jnp, lax
 from glid_nb.certificate import PanelBounds, fz_vanishes
 from glid_nb.solvers.evaluation import (
     Line,
+    Nodes,
+    Number,
     Point,
     bounds,
     fz_turning,
@@ -45,7 +47,7 @@ class Search(NamedTuple):
     """The candidate of least energy."""
 
 
-def largest_step(nodes: Float[Array, "4 s"], change: Float[Array, "4 s"]) -> Float[Array, ""]:
+def largest_step(nodes: Nodes, change: Nodes) -> Number:
     """The step at which the first sample becomes inverted, or infinity, in closed form.
 
     ``|f + t df|^2 - |g + t dg|^2`` is a quadratic in ``t`` that is positive at 0.
@@ -59,7 +61,7 @@ def largest_step(nodes: Float[Array, "4 s"], change: Float[Array, "4 s"]) -> Flo
     return jnp.min(jnp.where(hits, 2 * c / jnp.where(hits, denominator, 1), jnp.inf))
 
 
-def _difference_of_squares(a: Float[Array, "4 s"], b: Float[Array, "4 s"]) -> Float[Array, " s"]:
+def _difference_of_squares(a: Nodes, b: Nodes) -> Float[Array, " s"]:
     """``|f|^2 - |g|^2`` as a bilinear form."""
     return a[0] * b[0] + a[1] * b[1] - a[2] * b[2] - a[3] * b[3]
 
@@ -102,7 +104,7 @@ class Backtracking(NamedTuple):
 
     outcome: Int[Array, ""]
     """RUNNING where ``step`` is certified."""
-    step: Float[Array, ""]
+    step: Number
     point: Point
     panel: PanelBounds
     """The bounds at ``point``, a step ``step`` along the line."""

@@ -71,31 +71,18 @@ class Reached(NamedTuple):
 
 
 class Descent:
-    """A method at work: what the loop asks of it.
-
-    Attributes
-    ----------
-    method : Method
-    inputs : Inputs
-    history : list of Iteration
-        All iterations so far.
-    initial : Iteration
-        The start; known at the latest after the first advance.
-    shows_start : bool
-        Whether a callback is shown the start too.
-    uses_lapack : bool
-        Whether XLA factorises for it, which several BLAS threads would slow down.
-    discretisation : Discretisation or None
-        The panels, which may be split.
-    factor : array or None
-        Cholesky factor of the last Hessian, for a solve that goes on from here.
-    """
+    """A method at work: what the loop asks of it."""
 
     initial: Iteration
+    """The start; known at the latest after the first advance."""
     shows_start = True
+    """Whether a callback is shown the start too."""
     uses_lapack = False
+    """Whether XLA factorises for it, which several BLAS threads would slow down."""
     discretisation: Discretisation | None = None
+    """The panels, which may be split."""
     factor: Any = None
+    """Cholesky factor of the last Hessian, for a solve that goes on from here."""
 
     def __init__(self, method: Method, inputs: Inputs) -> None:
         self.method, self.inputs = method, inputs

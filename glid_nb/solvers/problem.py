@@ -14,7 +14,7 @@ from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.harmonic.basis import Basis
 from glid_nb.harmonic.cauchy import Singularities
-from glid_nb.solvers.discretisation import Matrices, basis_rows
+from glid_nb.solvers.discretisation import Matrices, complex_basis
 from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.unknowns import Unknowns
 
@@ -72,9 +72,9 @@ def positional_energy(domain: Domain, pose: Pose, weight: float) -> Positional:
 def _matrix_at(domain: Domain, handles: bytes, size: int) -> NDArray[Any]:
     """``A``, kept for the next targets of the same handles."""
     basis, points = basis_of(domain), np.frombuffer(handles).reshape(-1, 2) @ np.array([1, 1j])
-    rows = np.zeros((size, 2 * basis.n_columns))
-    rows[: len(points)] = basis_rows(cauchy.cauchy_coordinates, points, basis)
-    re, minus_im = np.split(rows, 2, axis=1)
+    rows = np.zeros((size, basis.n_columns), dtype=complex)
+    rows[: len(points)] = complex_basis(cauchy.cauchy_coordinates, points, basis)
+    re, minus_im = np.real(rows), -np.imag(rows)
     return np.block([[re, minus_im, re, minus_im], [-minus_im, re, minus_im, -re]])
 
 

@@ -9,7 +9,7 @@ from glid_nb._jax import AnyArray, Array, Bool, Float, Int, jax, jnp, lax
 from glid_nb._programs import Program
 from glid_nb.energies import table1
 from glid_nb.solvers import cholesky, evaluation, line_search, whitening
-from glid_nb.solvers.evaluation import Line, Point
+from glid_nb.solvers.evaluation import Coefficients, Line, Number, Point
 from glid_nb.solvers.hessian import (
     LocalHessian,
     assemble,
@@ -21,6 +21,8 @@ from glid_nb.solvers.options import MOST_PER_CALL
 from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.status import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.unknowns import expand, restrict_gradient, restrict_hessian
+
+Factor = Float[Array, "4u 4u"]
 
 # A correction that gains more than this share of what the step before it gained is slow: the
 # Hessian has changed, and a new one gains more for its cost.
@@ -73,12 +75,12 @@ class State(NamedTuple):
 
     point: Point
     """Certified, once a step was taken."""
-    start_iso: Float[Array, ""]
+    start_iso: Number
     """Energies before the first iteration of this call."""
-    start_p2p: Float[Array, ""]
+    start_p2p: Number
     iteration: Int[Array, ""]
     outcome: Int[Array, ""]
-    decrement: Float[Array, ""]
+    decrement: Number
     records: Float[Array, "i r"]
     """A :class:`Record` in each row."""
     refused: Bool[Array, " p"]
@@ -87,18 +89,18 @@ class State(NamedTuple):
     """Certified bound per panel at ``point``, once a step was taken."""
     turning: Float[Array, " p"]
     """The proved change of ``arg f_z`` along each panel there."""
-    factor: Float[Array, "4u 4u"]
+    factor: Factor
     """Cholesky factor of the last Hessian, in whitened coordinates."""
     corrects: Bool[Array, ""]
     """Whether the next step is a correction."""
-    gain: Float[Array, ""]
+    gain: Number
     """What the last step gained."""
 
 
 def iterations(
     problem: Problem,
-    coefficients: Float[Array, " 4c"],
-    factor: Float[Array, "4u 4u"],
+    coefficients: Coefficients,
+    factor: Factor,
     settings: Settings,
 ) -> State:
     """Up to ``settings.iterations`` (at most `MOST_PER_CALL`) Newton iterations, to be compiled.
@@ -204,7 +206,7 @@ def _recorded(known: Record, first: Record, corrects: Bool[Array, ""]) -> Float[
 
 def _factorised(
     problem: Problem, settings: Settings, state: State
-) -> tuple[Float[Array, "4u 4u"], Bool[Array, ""]]:
+) -> tuple[Factor, Bool[Array, ""]]:
     """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected.
 
     The factor that the call was given, where its first iteration is to take that. A loop, for its
@@ -225,12 +227,12 @@ def _factorised(
             lambda a: a.astype(dtype), (matrices.hessian_weights, *evaluation.directions(nodes))
         )
 
-        def assembled(_: Any) -> Float[Array, "4u 4u"]:
+        def assembled(_: Any) -> Factor:
             k = _where(settings.projects_first | (count > 0), projected, local)
             k = LocalHessian(*(part.astype(dtype) for part in k))
             return assemble(matrices.whitened, weights, f, g, k)
 
-        def project(h: Float[Array, "4u 4u"]) -> Float[Array, "4u 4u"]:
+        def project(h: Factor) -> Factor:
             # The Hessian that was not definite lacks this block alone.
             across = (projected.across_f - local.across_f).astype(dtype)
             block = assemble_across_f(matrices.whitened, weights, f, across)
@@ -253,7 +255,7 @@ def _factorised(
     return factor, wanted & ((count == 2) | settings.projects_first)
 
 
-def _newton_line(problem: Problem, point: Point, factor: Float[Array, "4u 4u"]) -> Line:
+def _newton_line(problem: Problem, point: Point, factor: Factor) -> Line:
     """The line in the direction ``-H^-1 gradient``, computed in whitened coordinates."""
     unknowns, t = problem.unknowns, problem.matrices.whitening
     gradient = evaluation.gradient(problem, point)

@@ -48,22 +48,16 @@ class SubspaceDescent(Descent):
     """A method at work on maps of the harmonic subspace.
 
     ``reduced``: the unknowns are those of the whitened coordinates, not of all columns.
-
-    Attributes
-    ----------
-    problem : Problem
-    point : Point
-        Where it is; known at the latest after the first advance.
-    proved : (Panels, array, array) or None
-        What the last step was proved by: panels, bounds on sigma_2 and turnings.
-    just_split : int
-        Panels split since the last iteration.
     """
 
     uses_lapack = True
     discretisation: Discretisation
     point: Point
+    """Where it is; known at the latest after the first advance."""
     proved: tuple[Panels, Array, Array] | None = None
+    """What the last step was proved by: panels, bounds on sigma_2 and turnings."""
+    just_split = 0
+    """Panels split since the last iteration."""
 
     def __init__(self, method: Method, inputs: Inputs, reduced: bool) -> None:
         super().__init__(method, inputs)
@@ -87,7 +81,6 @@ class SubspaceDescent(Descent):
         self.start = map_
         self.coefficients: Any = real_coefficients(basis, map_)
         self.problem = self.problem._replace(anchor=anchor_of(basis, self.coefficients))
-        self.just_split = 0
 
     def reached(self) -> Reached:
         point, domain = self.point, self.inputs.domain

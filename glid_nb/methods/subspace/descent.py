@@ -87,25 +87,18 @@ class SecondOrderMethod(SubspaceMethod):
 
 
 class DirectedDescent(SubspaceDescent):
-    """Follows a method's directions by Newton's own line search and certificate.
-
-    Attributes
-    ----------
-    gradient : (4c,) array
-        With respect to the unknowns, 0 elsewhere.
-    memory
-        What the method remembers.
-    step : float or None
-        Length of the last step.
-    """
+    """Follows a method's directions by Newton's own line search and certificate."""
 
     method: SubspaceMethod
+    gradient: Array
+    """(4c,) with respect to the unknowns, 0 elsewhere."""
+    step: float | None = None
+    """Length of the last step."""
 
     @double_precision
     def __init__(self, method: SubspaceMethod, inputs: Inputs) -> None:
         super().__init__(method, inputs, reduced=False)
         self.memory = method.remembered()
-        self.step: float | None = None
         self._chosen: Array | None = None
         self._ending: Ending | None = None
         self._seconds = 0.0
