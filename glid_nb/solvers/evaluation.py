@@ -42,7 +42,6 @@ class Point(NamedTuple):
 
     @property
     def energy(self) -> Number:
-        """The total energy, (20)."""
         return self.energy_iso + self.energy_p2p
 
 

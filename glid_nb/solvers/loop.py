@@ -34,7 +34,6 @@ class Stopwatch:
 
     @property
     def compiling(self) -> float:
-        """Seconds of compiling."""
         return self._clock.seconds - self._compiled
 
     @property
@@ -97,7 +96,6 @@ class Descent:
         raise NotImplementedError
 
     def reached(self) -> Reached:
-        """Where it is now."""
         raise NotImplementedError
 
     def adapt(self, done: Advance) -> Ending | None:
@@ -110,11 +108,9 @@ class Descent:
 
     @property
     def left(self) -> int:
-        """How many iterations it may still make."""
         return self.method.limit(self.inputs.options) - len(self.history)
 
     def record(self, entry: Iteration) -> None:
-        """Add an iteration to the history."""
         self.history.append(replace(entry, iteration=len(self.history) + 1))
 
     def _course(self, entry: Iteration) -> dict[str, Any]:
@@ -128,12 +124,10 @@ class Descent:
         }
 
     def progress(self) -> Progress:
-        """What a callback sees."""
         now = self.reached()
         return Progress(make=now.make, sigma2_lower=now.sigma2_lower, **self._course(now.entry))
 
     def result(self, ending: Ending, compile_time: float, solve_time: float) -> Result:
-        """What a solve returns."""
         now = self.reached()
         made = now.make()
         harmonic = isinstance(made, Certificate)

@@ -53,7 +53,6 @@ class Newton(Method):
     options = tuple(Options.__dataclass_fields__)
 
     def run(self, inputs: Inputs) -> Result:
-        """One descent and, where it ends badly without a start, others."""
         first = descend(inputs, self)
         return first if inputs.start is not None else improve(first, inputs, descend)
 
@@ -182,7 +181,7 @@ class NewtonDescent(SubspaceDescent):
         self.ridge = max(relaxed if relaxed >= _RIDGE else 0.0, self._least_ridge)
 
     def _raise_ridge(self) -> Ending | None:
-        """A larger epsilon where the Hessian is singular to rounding: two handles in one place."""
+        # The Hessian is singular to rounding where two handles are in one place.
         if self.inputs.options.hessian == "exact":
             return Ending(Status.INDEFINITE)
         self.ridge = max(_RIDGE_FACTOR * self.ridge, _RIDGE)

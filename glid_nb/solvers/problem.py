@@ -46,15 +46,12 @@ class Positional(NamedTuple):
     """``lambda`` for a handle, 0 for padding."""
 
     def residual(self, y: Float[Array, " 4c"]) -> Float[AnyArray, " 2h"]:
-        """``A y - b``."""
         return self.matrix @ y - self.aims
 
     def energy(self, y: Float[Array, " 4c"]) -> Float[Array, ""]:
-        """The energy at the coefficients ``y``."""
         return 0.5 * jnp.sum(self.weights * self.residual(y) ** 2)
 
     def gradient(self, y: Float[Array, " 4c"]) -> Float[AnyArray, " 4c"]:
-        """Its gradient."""
         return self.matrix.T @ (self.weights * self.residual(y))
 
 
@@ -80,8 +77,7 @@ def _matrix_at(domain: Domain, handles: bytes, size: int) -> NDArray[Any]:
 
 def handle_images(positional: Positional, basis: Basis, map: HarmonicMap) -> NDArray[Any]:
     """(h,) complex images of the padded handles."""
-    real_parts = np.asarray(positional.matrix[: len(positional.aims) // 2])
-    re, minus_im, *_ = np.split(real_parts, 4, axis=1)
+    re, minus_im, *_ = np.split(positional.matrix[: len(positional.aims) // 2], 4, axis=1)
     rows = re - 1j * minus_im
     return rows @ basis.pad(map.phi) + np.conj(rows @ basis.pad(map.psi))
 

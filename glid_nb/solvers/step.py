@@ -71,8 +71,6 @@ class Record(NamedTuple):
 
 
 class State(NamedTuple):
-    """State of the loop."""
-
     point: Point
     """Certified, once a step was taken."""
     start_iso: Number
@@ -228,8 +226,9 @@ def _factorised(
         )
 
         def assembled(_: Any) -> Factor:
-            k = _where(settings.projects_first | (count > 0), projected, local)
-            k = LocalHessian(*(part.astype(dtype) for part in k))
+            projects = settings.projects_first | (count > 0)
+            pairs = zip(projected, local, strict=True)
+            k = LocalHessian(*(jnp.where(projects, *pair).astype(dtype) for pair in pairs))
             return assemble(matrices.whitened, weights, f, g, k)
 
         def project(h: Factor) -> Factor:
@@ -264,10 +263,6 @@ def _newton_line(problem: Problem, point: Point, factor: Factor) -> Line:
     step = jnp.where(jnp.isfinite(factor[-1, -1]), step, 0)
     direction = whitening.coefficients(expand(step, unknowns), t)
     return evaluation.line_along(problem, direction, jnp.dot(gradient, step))
-
-
-def _where(condition: Bool[AnyArray, ""] | bool, one: Any, other: Any) -> Any:
-    return jax.tree.map(lambda a, b: jnp.where(condition, a, b), one, other)
 
 
 def _is_ours(problem: Problem, *_: Any) -> bool:

@@ -59,20 +59,14 @@ class SubspaceMethod(Method):
         """A descent direction (4c,), or the end of the method."""
         raise NotImplementedError
 
-    def remembered(self) -> Any:
-        """What one solve remembers of its earlier steps."""
-        return None
-
     def forget(self, memory: Any) -> bool:  # noqa: ARG002
-        """Drop it, after a direction that led nowhere; False if there was nothing to drop."""
+        """Drop what a solve remembers, after a direction that led nowhere; False for nothing."""
         return False
 
     def started(self, inputs: Inputs) -> DirectedDescent:
-        """The method at work."""
         return DirectedDescent(self, inputs)
 
     def run(self, inputs: Inputs) -> Result:
-        """Follow the directions by Newton's own line search and certificate."""
         return follow(lambda: self.started(inputs))
 
 
@@ -92,13 +86,14 @@ class DirectedDescent(SubspaceDescent):
     method: SubspaceMethod
     gradient: Array
     """(4c,) with respect to the unknowns, 0 elsewhere."""
+    memory: Any = None
+    """What the method remembers of its earlier steps."""
     step: float | None = None
     """Length of the last step."""
 
     @double_precision
     def __init__(self, method: SubspaceMethod, inputs: Inputs) -> None:
         super().__init__(method, inputs, reduced=False)
-        self.memory = method.remembered()
         self._chosen: Array | None = None
         self._ending: Ending | None = None
         self._seconds = 0.0
