@@ -8,15 +8,8 @@ from typing import Any, NamedTuple
 from glid_nb._jax import AnyArray, Array, Bool, Float, Int, jax, jnp, lax
 from glid_nb._programs import Program
 from glid_nb.energies import table1
-from glid_nb.solvers import cholesky, evaluation, line_search, whitening
+from glid_nb.solvers import cholesky, evaluation, hessian, line_search, whitening
 from glid_nb.solvers.evaluation import Coefficients, Line, Number, Point
-from glid_nb.solvers.hessian import (
-    LocalHessian,
-    assemble,
-    assemble_across_f,
-    local_hessian,
-    positive_part,
-)
 from glid_nb.solvers.options import MOST_PER_CALL
 from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.status import CONVERGED, INDEFINITE, RUNNING
@@ -219,8 +212,8 @@ def _factorised(
         _, h, count = carry
         nodes = state.point.samples.nodes[:, matrices.hessian_index]
         x, y = evaluation.squares(nodes)
-        local = local_hessian(energy.differentials(x, y), x, y)
-        projected = positive_part(local)
+        local = hessian.local_hessian(energy.differentials(x, y), x, y)
+        projected = hessian.positive_part(local)
         weights, f, g = jax.tree.map(
             lambda a: a.astype(dtype), (matrices.hessian_weights, *evaluation.directions(nodes))
         )
@@ -228,13 +221,13 @@ def _factorised(
         def assembled(_: Any) -> Factor:
             projects = settings.projects_first | (count > 0)
             pairs = zip(projected, local, strict=True)
-            k = LocalHessian(*(jnp.where(projects, *pair).astype(dtype) for pair in pairs))
-            return assemble(matrices.whitened, weights, f, g, k)
+            k = hessian.LocalHessian(*(jnp.where(projects, *pair).astype(dtype) for pair in pairs))
+            return hessian.assemble(matrices.whitened, weights, f, g, k)
 
         def project(h: Factor) -> Factor:
             # The Hessian that was not definite lacks this block alone.
             across = (projected.across_f - local.across_f).astype(dtype)
-            block = assemble_across_f(matrices.whitened, weights, f, across)
+            block = hessian.assemble_across_f(matrices.whitened, weights, f, across)
             return h.at[: block.shape[0], : block.shape[0]].add(block)
 
         if energy.indefinite_across_f_only:

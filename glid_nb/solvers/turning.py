@@ -159,8 +159,7 @@ def stage_times(angles: Sequence[float]) -> list[float]:
 def rigid_ways(pose: Pose, parents: dict[int, int]) -> dict[str, list[Pose]]:
     """The stages of the ways by name: parts turn the short way, or all to one side.
 
-    ``parents`` tell which handle each hangs at, in an order that has parents first; the root is its
-    own.
+    ``parents``, in an order that has them first, tell which handle each hangs at; the root its own.
     """
     z, w = as_complex(pose.handles), as_complex(pose.targets)
     extent = float(np.abs(z - z.mean()).max())

@@ -50,7 +50,6 @@ class DistortionBounds:
                 )
 
     def hold(self, certificate: Certificate) -> bool:
-        """Whether they are proved on the whole domain."""
         return (
             certificate.certified
             and certificate.k_upper <= self.k

@@ -35,13 +35,7 @@ class MeshProblem:
 
     @classmethod
     def of(cls, inputs: Inputs, n_vertices: int) -> MeshProblem:
-        """The problem on the start's mesh, or on a new one of about ``n_vertices`` vertices.
-
-        Raises
-        ------
-        MethodError
-            When a handle is no vertex of the start's mesh.
-        """
+        """The problem on the start's mesh, or on a new one of about ``n_vertices`` vertices."""
         pose, start = inputs.pose, inputs.start_map
         if isinstance(start, MeshMap):
             mesh = start.triangulation
@@ -80,7 +74,6 @@ class MeshProblem:
 
 
 def _vertices_at(mesh: Triangulation, points: Array, tolerance: float) -> Array:
-    """(h,) indices of the vertices at points."""
     if not len(points):
         return np.empty(0, dtype=np.int32)
     gap = np.linalg.norm(mesh.vertices[:, None] - points, axis=2)
