@@ -49,7 +49,7 @@ def carried_slack_factor(n_columns: int) -> float:
 
 
 def allowance(slack: Float[Array, "*k p"], probe: Float[Array, ""]) -> Float[Array, "*k p"]:
-    """Errors with that of underflow; infinite, so that nothing is proved, under fast math.
+    """Errors with that of underflow; infinite under fast math (Lemmas 13 and 14).
 
     ``probe`` is any positive number that the compiler does not know.
     """
@@ -90,8 +90,7 @@ def panel_scale(
 ) -> Float[Array, " p"]:
     """Per panel, the larger scale of the terms of ``f_z`` and ``l f_z'`` at its two ends.
 
-    :func:`slack_factor` times this and the largest coefficient bounds the error of
-    ``sum_j D_j phi_j`` and ``l sum_j D'_j phi_j`` together.
+    :func:`slack_factor` times this and the largest coefficient bounds the error of both together.
     """
     xp = start.__array_namespace__()
     length = xp.abs(end - start)

@@ -125,12 +125,12 @@ class NewtonDescent(SubspaceDescent):
             self.prove(state.sigma2_lower, state.turning)
         if not hasattr(self, "initial"):
             iso, p2p = float(state.start_iso), float(state.start_p2p)
-            self.initial = Iteration(iteration=0, energy_iso=iso, energy_p2p=p2p, time=0.0)
+            self.initial = Iteration(energy_iso=iso, energy_p2p=p2p)
         for row in np.asarray(state.records)[:taken].tolist():
             known: dict[str, Any] = dict(zip(step.Record._fields, row, strict=True))
             known["hessian_modified"] = bool(known["hessian_modified"])
             known |= {"corrections": int(row[-1]), "panels_split": self.just_split}
-            self.record(Iteration(iteration=0, time=seconds / taken, panels=len(panels), **known))
+            self.record(Iteration(time=seconds / taken, panels=len(panels), **known))
             self.just_split = 0
         refused = np.asarray(state.refused)
         if refused.any():

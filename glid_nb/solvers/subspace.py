@@ -78,7 +78,7 @@ class SubspaceDescent(Descent):
     def reached(self) -> Reached:
         point, domain = self.point, self.inputs.domain
         iso, p2p = float(point.energy_iso), float(point.energy_p2p)
-        entry = Iteration(iteration=0, energy_iso=iso, energy_p2p=p2p, time=0.0)
+        entry = Iteration(energy_iso=iso, energy_p2p=p2p)
         if self.proved is None:
             return Reached(entry, lambda: self.start_proof)
         proved, kind = self.proved, self.discretisation.certificate

@@ -116,10 +116,8 @@ class _Descent:
     def reached(self, now: Iterate) -> Reached:
         iso, p2p = self.problem.energies(now.v)
         entry = Iteration(
-            iteration=0,
             energy_iso=iso,
             energy_p2p=p2p,
-            time=0.0,
             step=now.step,
             sigma2_lower=now.certificate.sigma2_lower,
         )

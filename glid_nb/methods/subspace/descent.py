@@ -14,7 +14,7 @@ from glid_nb._jax import Array as DeviceArray
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision
 from glid_nb.certificate import PanelBounds
 from glid_nb.solvers import Method, Result, Status, evaluation, line_search
-from glid_nb.solvers.evaluation import Point
+from glid_nb.solvers.evaluation import Coefficients, Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
 from glid_nb.solvers.loop import Advance, Ending, Reached, Stopwatch, follow
 from glid_nb.solvers.method import Inputs
@@ -211,7 +211,7 @@ class Move(NamedTuple):
 
     outcome: Int[AnyArray, ""]
     point: Point
-    gradient: Float[DeviceArray, " 4c"]
+    gradient: Coefficients
     step: Float[AnyArray, ""]
     bounds: PanelBounds
     """The certificate there."""
@@ -219,9 +219,7 @@ class Move(NamedTuple):
 
 
 @functools.partial(jit, compiler_options=COMPILER_OPTIONS)
-def _evaluate(
-    problem: Problem, coefficients: Float[DeviceArray, " 4c"]
-) -> tuple[Point, Float[DeviceArray, " 4c"]]:
+def _evaluate(problem: Problem, coefficients: Coefficients) -> tuple[Point, Coefficients]:
     """A map's energies, and their gradient with respect to the unknowns, 0 elsewhere."""
     point = evaluation.evaluated(problem, coefficients)
     return point, restrict_gradient(evaluation.gradient(problem, point), problem.unknowns)
@@ -261,8 +259,8 @@ def _hessian(
 def _advance(
     problem: Problem,
     point: Point,
-    gradient: Float[DeviceArray, " 4c"],
-    direction: Float[DeviceArray, " 4c"],
+    gradient: Coefficients,
+    direction: Coefficients,
     may_refine: Bool[AnyArray, ""] | bool,
 ) -> Move:
     """The best certified step along ``direction``, a change of the unknowns."""
