@@ -14,8 +14,7 @@ from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.mesh import deformed_loops
-from glid_nb.imaging.order import order_of
-from glid_nb.imaging.sheets import Sheets
+from glid_nb.imaging.order import Sheets, order_of
 from glid_nb.solvers import Pose
 
 _MARGIN = 0.02  # around everything, as a share of the longer side
@@ -31,26 +30,14 @@ def cage_svg(
 ) -> str:
     """Draw the image of a map's cage: curves, as polylines within 0.002 world units of them.
 
-    Where the shape overlaps itself, what another part covers is dashed; a covered handle is a ring.
+    ``image_size`` (w, h) is that of the picture that the cage was traced from: the drawing's unit
+    is its pixel. With ``source`` the undeformed cage is drawn too, dashed; of a pose the targets as
+    disks and the images of the handles as dots, and its depths say which part is in front. Where
+    the shape overlaps itself, what another part covers is dashed; a covered handle is a ring.
 
-    Parameters
-    ----------
-    map : HarmonicMap
-        The map.
-    image_size : (w, h)
-        Pixels of the picture that the cage was traced from: the drawing's unit is its pixel.
-    source : bool
-        Draw the undeformed cage too, dashed.
-    pose : Pose, optional
-        Draw its targets as disks and the images of its handles as dots; its depths say which part
-        is in front.
-
-    Returns
-    -------
-    str
-        An SVG document with the paths ``cage`` and, if wanted, ``source-cage``, each with one
-        closed subpath per loop, the exterior first. Where the shape overlaps itself the path
-        ``in-sight`` lies over ``cage``, with an open subpath for every piece that is not covered.
+    The SVG document has the paths ``cage`` and, if wanted, ``source-cage``, each with one closed
+    subpath per loop, the exterior first. Where the shape overlaps itself the path ``in-sight`` lies
+    over ``cage``, with an open subpath for every piece that is not covered.
     """
     frame = PixelFrame(*image_size)
     loops = [frame.to_pixel(loop) for loop in deformed_loops(map)]

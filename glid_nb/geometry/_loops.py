@@ -23,8 +23,7 @@ class GeometryError(InputError):
     def __init__(
         self, message: str, point: ArrayLike | None = None, plain: str | None = None
     ) -> None:
-        super().__init__(message)
-        self.plain = message if plain is None else plain
+        super().__init__(message, plain)
         self.point = None if point is None else tuple(map(float, np.asarray(point)))
 
 
