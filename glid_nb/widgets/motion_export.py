@@ -56,9 +56,10 @@ class MotionExport(ipywidgets.HBox):
         self.cancel = button("Cancel", "stop", "Stop drawing", self._worker.cancel)
         self._running = (self.progress, self.cancel)
         self._show(False)
-        texts = (ipywidgets.Label(text) for text in ("px", "per second"))
-        px, fps = texts
-        super().__init__([self.size, px, self.rate, fps, *self._running])
+        self.cancel.layout.flex = "0 0 auto"
+        px, fps = (ipywidgets.Label(text, layout={"flex": "0 0 auto"}) for text in ("px", "fps"))
+        layout = {"flex": "1 1 auto", "min_width": "0"}
+        super().__init__([self.size, px, self.rate, fps, *self._running], layout=layout)
 
     def files_of(self, session: Path) -> tuple[Path, ...]:
         """What is written beside a session: the file of the format, and what comes with it."""
