@@ -108,6 +108,7 @@ class TimelinePanel(Pad):
         self.serve(model, _Actions(self).handle)
         canvas.observe(lambda _: self._show("state"), ["show_onion"])
         canvas.pane.stage.observe(lambda _: self._show("motion"), ["materials"])
+        canvas.pane.stage.observe(lambda _: self._show("state"), ["drawn"])
         self._endings = (
             model.observe(self._show),
             self.animation.observe(self._show),

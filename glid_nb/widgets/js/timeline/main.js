@@ -1,7 +1,7 @@
 // The timeline below the canvas: keyframes with thumbnails, what is proved between them, a playhead.
 
 import { make } from "../pad/dom.js";
-import { iconButton } from "../pad/icons.js";
+import { icon, iconButton } from "../pad/icons.js";
 import { Link } from "../pad/link.js";
 import { isUndo, undoOrRedo } from "../pad/pad.js";
 import { Player } from "./player.js";
@@ -11,7 +11,7 @@ const REPEATS = [["once", "Once"], ["loop", "Loop"], ["ping-pong", "Ping-pong"]]
 const STEP = 1 / 30, NUDGE = 0.1; // seconds of the arrow keys, alone and with Alt
 const SNAP = 6, STILL = 4; // CSS pixels
 const LATER = 1.15; // room behind the last keyframe, to drag it there
-const KERNEL = "Played by the kernel: this shape is too large for the page's shaders. ";
+const KERNEL = "Played by the kernel (too large for shaders). ";
 
 const seconds = (time) => `${time.toFixed(2)} s`;
 
@@ -48,7 +48,6 @@ function render({ model, el }) {
   const stop = (e) => e.stopPropagation();
 
   const play = iconButton("play", "Play, pause (Space)", () => player.play());
-  const pause = iconButton("pause", "Play, pause (Space)", () => player.play());
   const repeat = menu("Play once, in a loop, or there and back", REPEATS, (value) => act("set_repeat", { repeat: value }));
   const clock = make("span", { className: "glid-time", role: "timer" });
   const record = iconButton("record", "Record: keep the next drag as keyframes", () => act("record", { on: !shown().recording }));
@@ -61,7 +60,7 @@ function render({ model, el }) {
   const save = iconButton("export", "Export the motion", () => act("export"));
   const gap = () => make("span", { className: "glid-gap" });
   const bar = make("div", { className: "glid-bar", role: "toolbar", "aria-label": "Motion" },
-    play, pause, repeat, clock, gap(), record, onion, gap(), keep, copy, remove, name, easing, save);
+    play, repeat, clock, gap(), record, onion, gap(), keep, copy, remove, name, easing, save);
   const ruler = make("div", { className: "glid-ruler" });
   const keys = make("div", { className: "glid-keys" });
   const strip = make("div", { className: "glid-strip", role: "img", onpointerleave: () => hover("") });
@@ -82,14 +81,14 @@ function render({ model, el }) {
   const timeAt = (x) => ((x - inside().left) / inside().width) * span;
 
   function tell() {
-    const { repeat: repeats, keyframes, recording, kernel } = shown();
+    const { keyframes, recording, kernel } = shown();
     const { spans } = model.get("motion"), bad = spans.find(({ reason }) => reason);
     const least = Math.min(...spans.flatMap(({ sigma2 }) => sigma2));
     let text = keyframes.length < 2 ? "Keep a second pose to see what lies between." : "";
     if (recording) text = "Recording: drag a pin; what it does becomes keyframes.";
     else if (bad) text = bad.reason;
     else if (spans.some(({ status }) => status === "computing")) text = "Proving what lies between…";
-    else if (spans.length) text = `Proved at every instant: σ₂ ≥ ${least.toFixed(3)} ${repeats === "once" ? "" : "on all of the way "}for ${seconds(spans.at(-1).end - spans[0].start)}.`;
+    else if (spans.length) text = `Proved at every instant of ${seconds(spans.at(-1).end - spans[0].start)}: σ₂ ≥ ${least.toFixed(3)}.`;
     note.textContent = refusal || hovered || (kernel && spans.length && !bad ? KERNEL : "") + text;
     note.dataset.tone = refusal || (bad && !hovered) ? "bad" : "";
   }
@@ -105,7 +104,8 @@ function render({ model, el }) {
     const end = model.get("motion").spans.at(-1)?.end ?? keyframes.at(-1).time;
     head.style.left = at(place);
     head.classList.toggle("glid-seen", seen);
-    [play.hidden, pause.hidden] = [playing, !playing];
+    if (play.dataset.shows !== String(playing)) play.replaceChildren(icon(playing ? "pause" : "play"));
+    play.dataset.shows = playing;
     clock.textContent = `${place.toFixed(2)} / ${seconds(end)}`;
     Object.assign(slider.dataset, { time: place, span });
     slider.setAttribute("aria-valuenow", place.toFixed(2));
@@ -114,9 +114,10 @@ function render({ model, el }) {
   }
 
   function showKeys() {
+    if (drag) return; // what the pointer holds must stay in the page
     const { keyframes, active: index, repeat: repeats, back } = shown(), thumbnails = model.get("thumbnails");
     const ends = repeats === "loop" && keyframes.length > 1 ? [{ ...keyframes[0], time: keyframes.at(-1).time + back, name: `Back to ${keyframes[0].name}` }] : [];
-    if (!drag) span = Math.max(1, (ends[0] ?? keyframes.at(-1)).time) * LATER;
+    span = Math.max(1, (ends[0] ?? keyframes.at(-1)).time) * LATER;
     slider.setAttribute("aria-valuemax", span.toFixed(2));
     const focused = [...keys.children].indexOf(keys.getRootNode().activeElement);
     keys.replaceChildren(...[...keyframes, ...ends].map((key, i) => {
@@ -157,7 +158,7 @@ function render({ model, el }) {
     easing.value = active().easing;
     if (document.activeElement !== name || moved) name.value = active().name;
     remove.disabled = keyframes.length === 1;
-    play.disabled = pause.disabled = save.disabled = repeat.disabled = easing.disabled = keyframes.length < 2;
+    play.disabled = save.disabled = repeat.disabled = easing.disabled = keyframes.length < 2;
     save.hidden = !exported;
     for (const [button, pressed] of [[record, recording], [onion, on]]) {
       button.classList.toggle("glid-on", pressed);
@@ -196,7 +197,8 @@ function render({ model, el }) {
       const { moved, time } = drag;
       drag = null;
       hover("");
-      if (moved) act("move_pose", { index, time }).then(showKeys);
+      showKeys();
+      if (moved) act("move_pose", { index, time });
       else if (index < count) select(index);
     };
   }
@@ -219,6 +221,7 @@ function render({ model, el }) {
   slider.addEventListener("lostpointercapture", (e) => {
     if (drag?.scrubs !== e.pointerId) return;
     drag = null;
+    showKeys();
     if (atKey(player.place) >= 0) select(atKey(player.place));
   });
 
@@ -243,6 +246,9 @@ function render({ model, el }) {
     e.preventDefault();
     stop(e);
   });
+  root.addEventListener("keyup", (e) => e.key === " " && !bar.contains(e.target) && e.preventDefault());
+  // After a click on a button the keys are the timeline's again.
+  bar.addEventListener("click", (e) => e.detail && e.target.closest("button") && slider.focus({ preventScroll: true }));
   // A tap on the space bar over the canvas of the same editor plays too.
   const tapped = (e) => {
     if (e.target.closest(".glid-editor") === el.closest(".glid-editor")) player.play();
