@@ -99,10 +99,7 @@ class Certificate:
         return int((self.panels.depth > 0).sum())
 
     def save(self, path: str | Path) -> None:
-        """Write the proof file that ``glid-check map.json proof.json`` reads, atomically.
-
-        Raises InputError if the map is not certified.
-        """
+        """Write the proof file that ``glid-check`` reads; InputError if nothing is certified."""
         write_text_atomically(Path(path), proof_text(self))
 
 
@@ -229,9 +226,8 @@ def proved_by(
 
     A solver bounds neither sigma_1 nor k, of which only ``k < 1`` follows.
     """
-    known = np.ones(len(panels), dtype=bool)
-    unbounded = np.full(len(panels), np.inf)
-    own: Any = (sigma2_lower, unbounded, np.ones(len(panels)), known, turning)
+    every = np.ones(len(panels))
+    own: Any = (sigma2_lower, every * np.inf, every, every > 0, turning)
     bounds = PanelBounds(*own)
     turns = windings(turning, panels.loop, 1 + map.domain.n_holes)
     certified = bool((sigma2_lower > 0).all()) and sum(turns) == 0

@@ -11,8 +11,14 @@ import numpy as np
 
 from glid_nb._arrays import Array
 from glid_nb.energies import Energy, SymmetricDirichlet
-from glid_nb.methods.mesh.operators import MeshOperators, Pinned, flips, largest_step
-from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
+from glid_nb.methods.mesh.operators import (
+    MeshMethod,
+    MeshOperators,
+    MeshProblem,
+    Pinned,
+    flips,
+    largest_step,
+)
 from glid_nb.solvers import Status
 from glid_nb.solvers.loop import Ending, Steps
 
