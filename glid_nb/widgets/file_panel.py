@@ -49,8 +49,6 @@ _UNSAVED = (
 class _UnsavedError(InputError):
     """Opening a session would discard what is in no file."""
 
-    plain = _UNSAVED
-
 
 def session_path(text: str) -> Path:
     """The session file that somebody named, with its suffix; DocumentError for no such name."""
@@ -267,7 +265,7 @@ class FilePanel(ipywidgets.VBox):
     def _open(self, sure: bool) -> str:
         path = existing_path(self.path.value)
         if self.model.unsaved and not sure:
-            raise _UnsavedError
+            raise _UnsavedError(_UNSAVED)
         self.model.load(path)
         return f"Opened {path.absolute()}"
 
