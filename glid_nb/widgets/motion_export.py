@@ -57,7 +57,7 @@ class MotionExport(ipywidgets.HBox):
 
     def files_of(self, session: Path) -> tuple[Path, ...]:
         """What is written beside a session: the file of the format, and what comes with it."""
-        path = session.with_suffix(self.format.value)
+        path = session.with_suffix(str(self.format.value))
         sheet = path.name.endswith(_SHEET)
         return (path, path.with_suffix(".json")) if sheet else (path,)
 
