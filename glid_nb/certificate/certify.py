@@ -222,10 +222,7 @@ def certificate_of(map: HarmonicMap) -> Certificate:
 def proved_by(
     map: HarmonicMap, panels: Panels, sigma2_lower: Array, turning: Array, kind: CertificateKind
 ) -> Certificate:
-    """The certificate of a map by what a solver has proved, rounding included, on its panels.
-
-    A solver bounds neither sigma_1 nor k, of which only ``k < 1`` follows.
-    """
+    """The certificate by what a solver has proved, neither of sigma_1 nor of k but ``k < 1``."""
     every = np.ones(len(panels))
     own: Any = (sigma2_lower, every * np.inf, every, every > 0, turning)
     bounds = PanelBounds(*own)

@@ -165,7 +165,6 @@ class _Corners:
         self.gain_end = np.sum(self.step[self.next] * after, axis=1)
 
     def moved(self, local: Array) -> Array:
-        """(n, 2) offset vertices at the distances `local` (n,)."""
         return self.points + local[:, None] * self.step
 
     def split(self, values: Array) -> list[Array]:

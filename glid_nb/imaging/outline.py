@@ -49,9 +49,10 @@ class Components:
     Pixels that share a side or a corner are connected.
     """
 
-    found: NDArray[np.int32]  # (h, w) 1 + rank, 0 in the background
+    found: NDArray[np.int32]  # (h, w) labels, 0 in the background
+    labels: NDArray[np.intp]  # (n,) the label of each component
     areas: NDArray[np.intp]  # (n,) in pixels, descending
-    boxes: list[tuple[slice, slice]]  # (n,) rows and columns
+    boxes: list[tuple[slice, slice]]  # (n,) rows and columns, by label
 
     @cached_property
     def largest(self) -> tuple[Component, ...]:
@@ -70,34 +71,35 @@ class Components:
         return self.largest[rank] if rank < _LISTED else self._described(rank)
 
     def _described(self, rank: int) -> Component:
-        rows, columns = self.boxes[rank]
-        left = columns.start + int(np.argmax(self.found[rows.start, columns] == rank + 1))
+        rows, columns = self.boxes[self.labels[rank] - 1]
+        left = columns.start + int(np.argmax(self.found[rows.start, columns] == self.labels[rank]))
         bounds = columns.start, rows.start, columns.stop, rows.stop
         return Component(rank, int(self.areas[rank]), bounds, (left + 0.5, rows.start + 0.5))
 
     def rank_at(self, point: Point) -> int:
         """Rank of the component at a point (x, y) in pixel coordinates; a TraceError if none."""
         height, width = self.found.shape
-        found = self.found[PixelFrame(width, height).index_at(point, "component_at")]
+        row, column = PixelFrame(width=width, height=height).index_at(point, "component_at")
+        found = self.found[row, column]
         if found == 0:
             raise TraceError(
                 f"component_at: the pixel ({point[0]:g}, {point[1]:g}) is background; pick a pixel "
                 "of the shape",
                 "There is only background at the place that was picked; pick a place on the shape",
             )
-        return int(found) - 1
+        return int(np.flatnonzero(self.labels == found)[0])
 
 
 def find_components(mask: NDArray[np.bool_]) -> Components:
     """Label the components of an (h, w) mask that is not empty."""
-    labels = np.zeros(mask.shape, dtype=np.int32)
-    label(mask, np.ones((3, 3)), output=labels)
-    areas = np.bincount(labels.ravel())[1:]
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    box = slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
+    found = np.zeros(mask.shape, dtype=np.int32)
+    count = label(mask[box], np.ones((3, 3)), output=found[box])
+    areas = np.bincount(found[box].ravel())[1:]
     order = np.argsort(-areas, kind="stable")
-    ranks = np.zeros(1 + len(order), dtype=np.int32)
-    ranks[order + 1] = np.arange(1, 1 + len(order))
-    found = ranks[labels]
-    return Components(found, areas[order], find_objects(found))
+    boxes = [box] if count == 1 else find_objects(found)
+    return Components(found, order + 1, areas[order], boxes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +127,7 @@ def find_outline(
     xmin, ymin, xmax, ymax = component.bounds
     top, left = max(ymin - 1, 0), max(xmin - 1, 0)
     crop = np.s_[top : ymax + 1, left : xmax + 1]
-    framed = np.pad(components.found[crop] == rank + 1, 1)
+    framed = np.pad(components.found[crop] == components.labels[rank], 1)
     least = max(_SPECK, _SPECK_SHARE * component.area)
     specks = _fill_specks(framed, least)
     part = framed[1:-1, 1:-1]

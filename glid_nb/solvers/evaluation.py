@@ -89,7 +89,7 @@ def isometric_energy(
 
 
 def gradient(problem: Problem, point: Point) -> Coefficients:
-    """The gradient of the total energy with respect to all coefficients."""
+    """Of the total energy, with respect to all coefficients."""
     nodes = point.samples.nodes
     d = problem.energy.differentials(*squares(nodes))
     isometric = energy_gradient(problem.matrices, nodes, d)
@@ -107,7 +107,6 @@ def energy_gradient(matrices: Matrices, nodes: Nodes, d: Differentials) -> Coeff
 
 
 def bounds(problem: Problem, point: Point) -> PanelBounds:
-    """The certificate's bounds on every panel."""
     matrices, samples = problem.matrices, point.samples
     pair = jnp.stack(_complex_pair(point.coefficients))
     truncation = matrices.proof.remainder(pair, problem.singularities)

@@ -64,8 +64,6 @@ def descend(inputs: Inputs, method: Method | None = None) -> Result:
 
 
 class NewtonDescent(SubspaceDescent):
-    """Newton's method at work."""
-
     shows_start = False
 
     def __init__(self, method: Method, inputs: Inputs) -> None:

@@ -90,7 +90,6 @@ class SubspaceDescent(Descent):
 
     @property
     def sigma2_lower(self) -> Array | None:
-        """(p,) certified bound per panel, once a step was taken."""
         return None if self.proved is None else self.proved[1]
 
     def prove(self, sigma2_lower: Any, turning: Any) -> None:
@@ -166,8 +165,7 @@ def _starting_point(
 def aligned(map: HarmonicMap, pose: Pose, images: Array | None = None) -> HarmonicMap:
     """The map followed by the rigid motion that brings its handles closest to their targets.
 
-    A rigid motion changes neither the isometric energy nor the certificate. ``images`` (h, 2) are
-    the handles' images under the map, when they are known.
+    ``images`` (h, 2) are the handles' images under the map, when they are known.
     """
     if not len(pose):
         return map

@@ -92,18 +92,19 @@ class Turning:
             side = way[i % len(way)]
             turns[k] = side * (side * turns[k] % (2 * np.pi))
         angles = np.full(len(self.pose), self.whole)
-        for k, (i, j) in enumerate(zip(self.order[1:], self.parents[1:], strict=True), start=1):
-            angles[i] = angles[j] + turns[k]
-        return [self._at(time, angles) for time in stage_times([*angles, *turns])]
-
-    def _at(self, time: float, angles: Array) -> Pose:
+        lines = list(zip(self.order, self.parents, self.stretches, strict=True))[1:]
+        for turn, (i, j, _) in zip(turns[1:], lines, strict=True):
+            angles[i] = angles[j] + turn
         z, w = as_complex(self.pose.handles), as_complex(self.pose.targets)
-        at, root = np.empty_like(z), self.order[0]
-        at[root] = z[root] + time * (w[root] - z[root])
-        for k, (i, j) in enumerate(zip(self.order[1:], self.parents[1:], strict=True), start=1):
-            turned = np.exp(1j * time * angles[i]) * (1 + time * (self.stretches[k] - 1))
-            at[i] = at[j] + turned * (z[i] - z[j])
-        return self.pose.with_targets(as_points(at))
+        stages, root = [], self.order[0]
+        for time in stage_times([*angles, *turns]):
+            at = np.empty_like(z)
+            at[root] = z[root] + time * (w[root] - z[root])
+            for i, j, stretch in lines:
+                turned = np.exp(1j * time * angles[i]) * (1 + time * (stretch - 1))
+                at[i] = at[j] + turned * (z[i] - z[j])
+            stages.append(self.pose.with_targets(as_points(at)))
+        return stages
 
 
 def turning_of(pose: Pose, cage: Cage) -> Turning:

@@ -124,7 +124,6 @@ class _Descent:
         return Reached(entry, lambda: now.certificate)
 
     def advance(self, now: Iterate) -> Iterate | Ending:
-        """The next map, or why there is none."""
         self.active = self.active.around(now.v)
         outcome = self._attempt(now, 1 if self.far else _ROUNDS)
         if self.far:

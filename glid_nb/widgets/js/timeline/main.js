@@ -35,7 +35,7 @@ function render({ model, el }) {
   const player = new Player((floats, time) => {
     const shows = time === undefined ? null : floats ?? true;
     stage?.trigger("glid:motion", shows, release);
-    if (floats === null && stage) return act("frame", { time: time ?? null, replaces: "frame" });
+    if (shown().kernel && stage) return act("frame", { time: time ?? null, replaces: "frame" });
   }, () => showHead());
   const active = () => shown().keyframes[shown().active];
   const release = () => player.release(active().time);
@@ -61,20 +61,20 @@ function render({ model, el }) {
   const gap = () => make("span", { className: "glid-gap" });
   const bar = make("div", { className: "glid-bar", role: "toolbar", "aria-label": "Motion" },
     play, repeat, clock, gap(), record, onion, gap(), keep, copy, remove, name, easing, save);
-  const ruler = make("div", { className: "glid-ruler" });
+  const ruler = make("div", { className: "glid-ruler", tabIndex: 0, role: "slider", "aria-label": "Time", "aria-valuemin": 0 });
   const keys = make("div", { className: "glid-keys" });
   const strip = make("div", { className: "glid-strip", role: "img", onpointerleave: () => hover("") });
   const head = make("div", { className: "glid-playhead" });
-  const slider = make("div", { className: "glid-track", tabIndex: 0, role: "slider", "aria-label": "Time", "aria-valuemin": 0 }, ruler, keys, strip, head);
+  const track = make("div", { className: "glid-track" }, ruler, keys, strip, head);
   const note = make("div", { className: "glid-timeline-note", role: "status", "aria-live": "polite" });
-  const root = make("div", { className: "glid-skin glid-timeline", role: "group", "aria-label": "Timeline" }, bar, slider, note);
+  const root = make("div", { className: "glid-skin glid-timeline", role: "group", "aria-label": "Timeline" }, bar, track, note);
   root.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
   el.classList.add("glid-host");
   el.append(root);
 
   const at = (time) => `calc(var(--glid-inset) + ${time / span} * (100% - 2 * var(--glid-inset)))`;
   const inside = () => {
-    const { left, width } = slider.getBoundingClientRect();
+    const { left, width } = track.getBoundingClientRect();
     const inset = parseFloat(getComputedStyle(root).getPropertyValue("--glid-inset"));
     return { left: left + inset, width: width - 2 * inset };
   };
@@ -107,9 +107,9 @@ function render({ model, el }) {
     if (play.dataset.shows !== String(playing)) play.replaceChildren(icon(playing ? "pause" : "play"));
     play.dataset.shows = playing;
     clock.textContent = `${place.toFixed(2)} / ${seconds(end)}`;
-    Object.assign(slider.dataset, { time: place, span });
-    slider.setAttribute("aria-valuenow", place.toFixed(2));
-    slider.setAttribute("aria-valuetext", seconds(place));
+    Object.assign(track.dataset, { time: place, span });
+    ruler.setAttribute("aria-valuenow", place.toFixed(2));
+    ruler.setAttribute("aria-valuetext", seconds(place));
     keep.textContent = seen && atKey(place) < 0 ? "Keep it" : "Keep";
   }
 
@@ -118,7 +118,7 @@ function render({ model, el }) {
     const { keyframes, active: index, repeat: repeats, back } = shown(), thumbnails = model.get("thumbnails");
     const ends = repeats === "loop" && keyframes.length > 1 ? [{ ...keyframes[0], time: keyframes.at(-1).time + back, name: `Back to ${keyframes[0].name}` }] : [];
     span = Math.max(1, (ends[0] ?? keyframes.at(-1)).time) * LATER;
-    slider.setAttribute("aria-valuemax", span.toFixed(2));
+    ruler.setAttribute("aria-valuemax", span.toFixed(2));
     const focused = [...keys.children].indexOf(keys.getRootNode().activeElement);
     keys.replaceChildren(...[...keyframes, ...ends].map((key, i) => {
       const picture = thumbnails[key.thumbnail];
@@ -211,14 +211,14 @@ function render({ model, el }) {
     player.pause();
     player.seek(Math.min(Math.max(key?.time ?? time, player.clock.start), player.clock.times[1]));
   }
-  slider.addEventListener("pointerdown", (e) => {
+  track.addEventListener("pointerdown", (e) => {
     if (e.button !== 0 || !player.clock) return;
     drag = { scrubs: e.pointerId };
-    slider.setPointerCapture(e.pointerId);
+    track.setPointerCapture(e.pointerId);
     scrub(e);
   });
-  slider.addEventListener("pointermove", scrub);
-  slider.addEventListener("lostpointercapture", (e) => {
+  track.addEventListener("pointermove", scrub);
+  track.addEventListener("lostpointercapture", (e) => {
     if (drag?.scrubs !== e.pointerId) return;
     drag = null;
     showKeys();
@@ -241,14 +241,14 @@ function render({ model, el }) {
     const typing = bar.contains(e.target);
     if (isUndo(e) && e.target !== name) act(undoOrRedo(e));
     else if (e.ctrlKey || e.metaKey) return;
-    else if (!typing && KEYS[e.key]) KEYS[e.key](e);
+    else if (!typing && KEYS[e.key]) e.repeat && e.key === " " || KEYS[e.key](e);
     else return stop(e);
     e.preventDefault();
     stop(e);
   });
   root.addEventListener("keyup", (e) => e.key === " " && !bar.contains(e.target) && e.preventDefault());
   // After a click on a button the keys are the timeline's again.
-  bar.addEventListener("click", (e) => e.detail && e.target.closest("button") && slider.focus({ preventScroll: true }));
+  bar.addEventListener("click", (e) => e.detail && e.target.closest("button") && ruler.focus({ preventScroll: true }));
   // A tap on the space bar over the canvas of the same editor plays too.
   const tapped = (e) => {
     if (e.target.closest(".glid-editor") === el.closest(".glid-editor")) player.play();
