@@ -268,6 +268,8 @@ class TestKeptWork:
     def left(self, *points: tuple[float, float], width: int = 80) -> None:
         model = EditorModel(picture(width))
         _pin(model, *points)
+        model.deformation.save_pose()
+        model.deformation.move_pose(1, 2.5)
         model.close()
 
     def test_the_next_editor_of_the_picture_goes_on_with_it(self) -> None:
@@ -278,10 +280,11 @@ class TestKeptWork:
         again.recover()
         assert again.kept is None
         assert len(again.deformation.pose) == 2
+        assert again.deformation.state.timeline.times == (0, 2.5)
         _pin(again, (0, 3.5))
         again.close()
         (path,) = kept_files()  # it went on in the same file
-        assert len(load_document(path).poses[0].pose) == 3
+        assert len(load_document(path).poses[1].pose) == 3
 
     def test_work_that_nobody_asked_for_is_not_written_over(self) -> None:
         self.left((-6, 0), (6, 0))

@@ -89,7 +89,7 @@ function render({ model, el }) {
     else if (bad) text = bad.reason;
     else if (spans.some(({ status }) => status === "computing")) text = "Proving what lies between…";
     else if (spans.length) text = `Proved at every instant of ${seconds(spans.at(-1).end - spans[0].start)}: σ₂ ≥ ${least.toFixed(3)}.`;
-    note.textContent = refusal || hovered || (kernel && spans.length && !bad ? KERNEL : "") + text;
+    note.title = note.textContent = refusal || hovered || (kernel && spans.length && !bad ? KERNEL : "") + text;
     note.dataset.tone = refusal || (bad && !hovered) ? "bad" : "";
   }
 
