@@ -14,10 +14,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from glid_nb.certificate import Certificate, global_injectivity
 from glid_nb.certificate.rounding import rounded_down, rounded_up
-from glid_nb.export.picture import png
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.mesh import deformed_mesh
+from glid_nb.imaging.read import png
 from glid_nb.solvers import Pose
 
 _FOLDER = Path(__file__).parent

@@ -1,5 +1,6 @@
 // Draws the stage: picture, cage, vertices, holes, strokes and the places of problems.
 
+import { make } from "../pad/dom.js";
 import { disk } from "../pad/pen.js";
 
 const HALO = "rgba(255, 255, 255, 0.9)";
@@ -7,11 +8,12 @@ const SPECK = 12; // CSS pixels; dropped holes smaller than this show under the 
 const CHECK = 8; // CSS pixels per square of the checkerboard under transparent pictures
 
 export function drawStage(ctx, scene) {
-  const { width, height, view, colors } = scene;
+  const { view, colors } = scene;
   if (!scene.size) return;
   const corner = view.toScreen([0, 0]);
   const extent = scene.size.map((n) => n / view.unit);
-  drawChecks(ctx, colors, corner, extent, width, height);
+  ctx.fillStyle = checks(ctx, colors);
+  ctx.fillRect(...corner, ...extent);
   if (scene.bitmap) {
     ctx.imageSmoothingEnabled = 6 * view.unit > 1;
     ctx.imageSmoothingQuality = "high";
@@ -40,24 +42,14 @@ export function drawStage(ctx, scene) {
   }
 }
 
-function drawChecks(ctx, colors, [x, y], [w, h], width, height) {
-  // Only the visible part; a picture may be zoomed in far.
-  const [left, top] = [Math.max(x, 0), Math.max(y, 0)];
-  const [right, bottom] = [Math.min(x + w, width), Math.min(y + h, height)];
-  if (right <= left || bottom <= top) return;
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(left, top, right - left, bottom - top);
-  ctx.clip();
-  ctx.fillStyle = colors.checkLight;
-  ctx.fillRect(left, top, right - left, bottom - top);
-  ctx.fillStyle = colors.checkDark;
-  for (let j = Math.floor(top / CHECK); j * CHECK < bottom; j++) {
-    for (let i = Math.floor(left / CHECK) + ((Math.floor(left / CHECK) + j) & 1); i * CHECK < right; i += 2) {
-      ctx.fillRect(i * CHECK, j * CHECK, CHECK, CHECK);
-    }
-  }
-  ctx.restore();
+function checks(ctx, { checkLight, checkDark }) {
+  const tile = make("canvas", { width: 2 * CHECK, height: 2 * CHECK });
+  const pen = tile.getContext("2d");
+  pen.fillStyle = checkLight;
+  pen.fillRect(0, 0, tile.width, tile.height);
+  pen.fillStyle = checkDark;
+  for (const at of [0, CHECK]) pen.fillRect(at, at, CHECK, CHECK);
+  return ctx.createPattern(tile, "repeat");
 }
 
 function tracePath(ctx, loops) {
