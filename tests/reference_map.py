@@ -140,15 +140,18 @@ class DenseCheck:
         )
 
     def measure(self, phi: Points, psi: Points) -> Measured:
+        """The extremes are found in double precision, and computed at these points in extended."""
         fz, fzb = self.derivative(phi), self.derivative(psi)
         f, g = np.abs(np.concatenate(fz)), np.abs(np.concatenate(fzb))
         turns = [np.angle(np.roll(v, -1) / v).sum() / (2 * np.pi) for v in fz[:-1]]
-        sizes = [len(v) for v in fz[:-1]]
-        n_boundary = sum(sizes)
+        n_boundary = sum(len(v) for v in fz[:-1])
+        extremes = [(f - g).argmin(), (f + g).argmax(), (g / f).argmax()]
+        exact = ReferenceMap(*(_extended(v) for v in (self.loops, self.rho, phi, psi)))
+        at = _extended(np.concatenate([*self.boundary, self.inside])[extremes])
         return Measured(
-            float((f - g).min()),
-            float((f + g).max()),
-            float((g / f).max()),
+            float(exact.sigma2(at)[0]),
+            float(exact.sigma1(at)[1]),
+            float(exact.k(at)[2]),
             tuple(round(t) for t in turns),
             float((f - g)[:n_boundary].min()),
         )
@@ -168,6 +171,12 @@ class DenseCheck:
             slope = fitted[0] if k == 0 else slope
             first += len(loop)
         return [slope + d @ rest for d in [*self.d_boundary, self.d_inside]]
+
+
+def _extended(values: Any) -> Any:
+    if isinstance(values, np.ndarray):
+        return values.astype(np.clongdouble)
+    return [_extended(value) for value in values]
 
 
 @dataclass(frozen=True)

@@ -10,19 +10,16 @@ here every loop has its own affine function, and a hole's logarithm the constant
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, Self
+from typing import Any as Array  # of NumPy or of JAX
+from typing import NamedTuple, Self
 
 import numpy as np
 
+from glid_nb._jax import Complex, Float, Int
 from glid_nb.certificate import rounding
 from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
 from glid_nb.certificate.paper import beside_by, clearance, segment_bounds
 from glid_nb.harmonic.cauchy import Singularities
-
-if TYPE_CHECKING:
-    from typing import Any as Array  # of NumPy or of JAX
-
-    from jaxtyping import Complex, Float, Int
 
 
 class BDHM(NamedTuple):
@@ -43,16 +40,19 @@ class BDHM(NamedTuple):
     def on(
         cls, start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
     ) -> Self:
-        """``L_j`` on each segment, and the vertices of the affine function."""
         vertices, following, preceding, _ = map(np.asarray, singularities)
         m = len(vertices)
         d, _ = clearance(start, end, singularities)
         near = d[:, :m]
         chord = modulus(vertices[following] - vertices[preceding])
         weights = chord / (2 * np.pi * near[:, preceding] * near * near[:, following])
-        loop = _loop_labels(following)
-        candidates = np.where(weights == _largest(weights, loop), np.arange(m), -1)
-        first = _largest(candidates, loop)
+        begins = np.roll(following <= np.arange(m), 1)
+        loop = np.cumsum(begins) - 1
+
+        def largest(values: Array) -> Array:
+            return np.maximum.reduceat(values, np.flatnonzero(begins), axis=1)[:, loop]
+
+        first = largest(np.where(weights == largest(weights), np.arange(m), -1))
         take = np.take_along_axis
         after = take(weights, following[first], 1) >= take(weights, preceding[first], 1)
         second = np.where(after, following[first], preceding[first])
@@ -81,27 +81,8 @@ class BDHM(NamedTuple):
     def remainder(
         self, coefficients: Complex[Array, "k n"], singularities: Singularities
     ) -> Float[Array, "k p"]:
-        """``L l``, which does not depend on the slopes at the ends."""
         return self.length * self.constants(coefficients, singularities)
 
     @staticmethod
     def bounds(fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]) -> PanelBounds:
-        """Bounds on each segment by (26) and (27)."""
         return segment_bounds(fz, fzb_conj, remainder)
-
-
-def _loop_labels(following: Int[Array, " m"]) -> Int[Array, " m"]:
-    """The smallest index on the loop of each vertex, by pointer doubling."""
-    label = np.arange(len(following))
-    for _ in range(len(following).bit_length()):
-        label = np.minimum(label, label[following])
-        following = following[following]
-    return label
-
-
-def _largest(values: Array, loop: Int[Array, " m"]) -> Array:
-    """The largest of each row's values on the loop of each vertex, (p, m) like ``values``."""
-    result = np.empty_like(values)
-    for own in (loop == one for one in np.unique(loop)):
-        result[:, own] = values[:, own].max(axis=1, keepdims=True)
-    return result

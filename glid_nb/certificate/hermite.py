@@ -10,21 +10,18 @@ interpolation does not change sign, so the bound holds for complex functions too
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING, NamedTuple, Self
+from typing import Any as Array  # of NumPy or of JAX
+from typing import NamedTuple, Self
 
+from glid_nb._jax import Complex, Float
 from glid_nb.certificate import rounding
 from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
 from glid_nb.certificate.paper import beside, derivative_bound_weights, jumps, turning
 from glid_nb.harmonic.cauchy import Singularities
 
-if TYPE_CHECKING:
-    from typing import Any as Array  # of NumPy or of JAX
-
-    from jaxtyping import Complex, Float
-
-    # A cubic by its four Bezier control points, a real sextic by its seven Bernstein coefficients.
-    Cubic = list[Complex[Array, " p"]] | list[Float[Array, " p"]]
-    Sextic = list[Float[Array, " p"]]
+# A cubic by its four Bezier control points, a real sextic by its seven Bernstein coefficients.
+Cubic = list[Complex[Array, " p"]] | list[Float[Array, " p"]]
+Sextic = list[Float[Array, " p"]]
 
 
 class Hermite(NamedTuple):
@@ -40,14 +37,12 @@ class Hermite(NamedTuple):
     def on(
         cls, start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
     ) -> Self:
-        """The constants of the remainder on the panels."""
         weights = derivative_bound_weights(start, end, singularities, 4) / 384
         return cls((weights + beside(start, end, singularities)).T)
 
     def remainder(
         self, coefficients: Complex[Array, "k n"], singularities: Singularities
     ) -> Float[Array, "k p"]:
-        """``e_f`` and ``e_g``."""
         return jumps(coefficients, singularities) @ self.weights
 
     @staticmethod

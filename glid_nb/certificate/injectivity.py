@@ -1,19 +1,9 @@
 """Proving a locally injective map globally injective, or finding where it overlaps itself.
 
-A certified map ``f`` is injective on the closed domain if and only if it is injective on the
-boundary, that is, if the images of the loops are simple and do not meet each other. Suppose they
-are. Along a loop the image's tangent ``f_z t + f_zbar conj(t)`` turns as ``f_z t`` does, because
-``|f_z| > |f_zbar|``, so an image loop's turning number is that of the loop (1 for the exterior,
--1 for each of the ``N`` holes) plus the winding of ``f_z``. The windings add up to 0, so the
-turning numbers of the images add up to ``1 - N``. Each is 1 or -1 since the images are simple, so
-exactly one image runs counter-clockwise. ``f`` preserves orientation, so by the degree formula the
-number of preimages of a point off the images of the loops is the sum of the winding numbers about
-it: at most 1. If a point had two preimages, at most one of them on the boundary, points nearby
-off the images would have two as well.
-
-So only the boundary is searched. The image of a straight panel of length ``l`` is within
-``M l^2 / 8`` of its chord, where ``M`` bounds the second derivative along the panel. Panels are
-split until that decides.
+A certified map is injective on the closed domain if and only if it is on the boundary, so only the
+boundary is searched. The image of a straight panel of length ``l`` is within ``M l^2 / 8`` of its
+chord, where ``M`` bounds the second derivative along the panel. Panels are split until that
+decides. `docs/proof.md` has the lemmas.
 """
 
 from __future__ import annotations
@@ -137,21 +127,12 @@ def _pairs_not_apart(arcs: Arcs, panels: Panels) -> Array:
 
 
 def _simple(arcs: Arcs) -> Array:
-    """Arcs proved not to meet themselves.
-
-    The derivative differs from its mean, the chord over ``l``, by at most ``M l / 2``; where that
-    is less than the mean, the arc always advances in the chord's direction.
-    """
+    """Arcs proved not to meet themselves (Lemma 18)."""
     return np.abs(arcs.end - arcs.start) - 2 * arcs.error > 4 * arcs.sagitta
 
 
 def _corner_simple(arcs: Arcs, following: Array) -> Array:
-    """Arcs proved to meet the following one only at their common end.
-
-    Let ``p`` and ``q`` be the derivatives at that end, both pointing away from it. With
-    ``phi`` the angle between them, ``|s p - t q| >= sin(phi/2) (s |p| + t |q|)`` for all
-    ``s, t >= 0``, and the arcs are ``M s^2 / 2`` and ``M t^2 / 2`` off their tangents.
-    """
+    """Arcs proved to meet the following one only at their common end (Lemma 19)."""
     ahead = arcs.at(following)
     p, q = -arcs.tangent_end, ahead.tangent_start
     sine = np.abs(p / np.abs(p) - q / np.abs(q)) / 2
@@ -213,14 +194,7 @@ def _proved_crossing(
 
 
 def _certainly_cross(pair: Arcs) -> Array:
-    """Whether the two arcs of each pair are proved to meet in the interior of both.
-
-    On the unit square let ``F(s, t)`` be the difference of the points of the arcs at relative
-    parameters ``s`` and ``t``, and ``L(s, t)`` the same for the chords. ``L`` is affine and has
-    one simple zero if the chords cross. If ``|F - L| < |L|`` on the square's boundary, ``F`` has
-    the same degree there, 1 or -1, and so a zero. On an edge of the square one of the points is an
-    end of an arc, where arc and chord agree, so ``|F - L|`` is at most the sagitta of the other.
-    """
+    """Whether the two arcs of each pair are proved to meet in the interior of both (Lemma 20)."""
     a, b = pair.at(0), pair.at(1)
     clear = segments_cross(a.start, a.end, b.start, b.end)
     for arc, other in ((a, b), (b, a)):

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self, TypeVar
+from typing import Any, NamedTuple, Protocol, Self, TypeVar
+from typing import Any as Array  # of NumPy or of JAX
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._jax import jax
+from glid_nb._jax import Bool, Complex, Float, jax
 from glid_nb.certificate.rounding import UNIT_ROUNDOFF
 from glid_nb.geometry import Cage, GeometryError, Panels, loop_name, place
 from glid_nb.geometry._loops import next_index
 from glid_nb.harmonic.cauchy import Singularities
-
-if TYPE_CHECKING:
-    from typing import Any as Array  # of NumPy or of JAX
-
-    from jaxtyping import Bool, Complex, Float
 
 
 class EndValues(NamedTuple):
@@ -94,15 +90,16 @@ def check_tiling(panels: Panels, cage: Cage) -> None:
     whole = np.array_equal(np.unique(panels.loop), np.arange(1 + cage.n_holes))
     whole = whole and bool((np.diff(panels.loop) >= 0).all())
     if not whole or not np.array_equal(panels.next, next_index(panels.loop)):
-        raise GeometryError(_not_tiled("they do not run along its loops in order"))
+        raise _not_tiled("they do not run along its loops in order")
     joined = panels.end == panels.start[panels.next]
     for i, corners in enumerate(cage.loops_complex):
         own = np.flatnonzero(panels.loop == i)
         start, end = panels.start[own], panels.end[own]
         is_corner = np.isin(start, corners)
         if not np.array_equal(start[is_corner], corners) or not is_corner[0]:
-            what = f"vertices of the {loop_name(i)} are no ends of panels, or not in order"
-            raise GeometryError(_not_tiled(what))
+            raise _not_tiled(
+                f"vertices of the {loop_name(i)} are no ends of panels, or not in order"
+            )
         edge = np.cumsum(is_corner) - 1
         origin, along = corners[edge], (np.roll(corners, -1) - corners)[edge]
         direction = along / np.abs(along)
@@ -110,11 +107,11 @@ def check_tiling(panels: Panels, cage: Cage) -> None:
         off = np.maximum(np.abs(first.imag), np.abs(last.imag)) > _OFF * largest
         wrong = off | (last.real - first.real <= -_OFF * largest) | ~joined[own]
         if wrong.any():
-            raise GeometryError(_not_tiled(f"they leave its edges near {place(start[wrong][0])}"))
+            raise _not_tiled(f"they leave its edges near {place(start[wrong][0])}")
 
 
-def _not_tiled(what: str) -> str:
-    return (
+def _not_tiled(what: str) -> GeometryError:
+    return GeometryError(
         f"the panels do not tile the boundary of this map's cage: {what}; make them of this cage, "
         "as graded_panels does, or leave them out"
     )

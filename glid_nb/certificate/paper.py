@@ -10,19 +10,16 @@ from __future__ import annotations
 import functools
 import math
 import operator
-from typing import TYPE_CHECKING, NamedTuple, Self
+from typing import Any as Array  # of NumPy or of JAX
+from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._jax import Bool, Complex, Float
 from glid_nb.certificate import rounding
 from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
 from glid_nb.harmonic.cauchy import Singularities, slope_jumps
-
-if TYPE_CHECKING:
-    from typing import Any as Array  # of NumPy or of JAX
-
-    from jaxtyping import Bool, Complex, Float
 
 
 def segment_bounds(
@@ -65,7 +62,6 @@ class Lipschitz(NamedTuple):
     def on(
         cls, start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
     ) -> Self:
-        """``L_j`` and ``L_j^h`` on the segments."""
         weights = derivative_bound_weights(start, end, singularities, 2) / 2
         return cls((weights + beside(start, end, singularities)).T)
 
@@ -77,7 +73,6 @@ class Lipschitz(NamedTuple):
 
     @staticmethod
     def bounds(fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]) -> PanelBounds:
-        """Bounds on each segment by (26) and (27)."""
         variations = [variation(fz, remainder[0]), variation(fzb_conj, remainder[1])]
         return segment_bounds(fz, fzb_conj, variations)
 

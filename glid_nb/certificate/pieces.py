@@ -1,13 +1,8 @@
-"""Proving linear pieces of motion at every instant.
+"""Proving linear pieces of motion at every instant; `docs/motion.md` has the lemmas.
 
-Let ``f_t = (1 - t) f_0 + t f_1``. On a panel and for a unit vector ``u`` the function
-``g(t) = Re(conj(u) f_z) - |f_zbar|`` is concave in ``t``: affine minus convex. So the lesser of its
-bounds at two times bounds it, and ``sigma_2 >= g``, at every time between them.
-``kappa Re(conj(u) f_z) - |f_zbar|`` is concave as well, which bounds k, and ``sigma_1`` is convex.
-Panels are halved as in the proof of one map; where no ``u`` serves both times, time is.
-
-``f_z`` then has no zero on the boundary at any time. Its winding numbers do not change, and where
-they add up to 0 at one time Theorem 4.2 holds at all times.
+On a panel and for a unit vector ``u`` the function ``Re(conj(u) f_z) - |f_zbar| <= sigma_2`` is
+concave in time. Panels are halved as in the proof of one map; where no ``u`` serves both times,
+time is.
 """
 
 from __future__ import annotations
@@ -118,7 +113,8 @@ def _prove(
         loose = along.sigma2_seen.min() < (1 - tightness) * sigma2
         loose |= along.k_seen.max() > (1 + tightness) * k + 1e-3
         if end - begin > (_SHORTEST if unproved.any() else _TIGHT) and (unproved.any() or loose):
-            middle = _between(a, b)
+            phi, psi = a.phi + (b.phi - a.phi) / 2, a.psi + (b.psi - a.psi) / 2
+            middle = HarmonicMap(a.domain, phi, psi)
             half = (begin + end) / 2
             intervals += [(half, end, middle, b, None), (begin, half, a, middle, None)]
             continue
@@ -130,10 +126,6 @@ def _prove(
         return PieceCertificate(False, -np.inf, np.inf, np.inf, begin, complex(place[-1]))
     worst = complex(place[int(np.argmin(sigma2))])
     return PieceCertificate(True, float(min(sigma2)), float(max(sigma1)), float(max(k)), 1.0, worst)
-
-
-def _between(a: HarmonicMap, b: HarmonicMap) -> HarmonicMap:
-    return HarmonicMap(a.domain, a.phi + (b.phi - a.phi) / 2, a.psi + (b.psi - a.psi) / 2)
 
 
 def _rows(maps: Sequence[HarmonicMap]) -> Any:
@@ -166,11 +158,7 @@ def _values(
 
 
 def _coefficient_rounding(start: Any, end: Any, size: Any, singularities: Singularities) -> Any:
-    """What rounding the coefficients of a map between others changes: (p,).
-
-    ``a + t (b - a)`` is off by less than 6 roundoffs of the largest, ``size``, and a middle of
-    middles by 2 more for each halving of time.
-    """
+    """What rounding the coefficients of a map between others changes, (p,), by its Lemma 4."""
     vertices, following, _, _ = singularities
     m = len(vertices)
     edges = (size[:m] + size[following]) / np.abs(vertices[following] - vertices)

@@ -5,8 +5,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -46,7 +47,8 @@ def proof_text(certificate: Certificate) -> str:
     values = {key: value for key, value in map_.to_dict().items() if key != "notes"}
     return json_text(
         {
-            **_hexadecimal(values),
+            # Every number as the hexadecimal text of its 64 bits.
+            **json.loads(json_text(values), parse_float=lambda text: float(text).hex()),
             "format": FORMAT,
             "version": FORMAT_VERSION,
             **{key: getattr(certificate, key).hex() for key in bounds},
@@ -86,14 +88,3 @@ def _bisected(middles: Array, k: int, d: int) -> list[list[int]]:
         *_bisected(middles[:left], 2 * k, d + 1),
         *_bisected(middles[left:], 2 * k + 1, d + 1),
     ]
-
-
-def _hexadecimal(value: Any) -> Any:
-    """The value with every number in it as the hexadecimal text of its 64 bits."""
-    if isinstance(value, float):
-        return value.hex()
-    if isinstance(value, list):
-        return [_hexadecimal(item) for item in value]
-    if isinstance(value, dict):
-        return {key: _hexadecimal(item) for key, item in value.items()}
-    return value

@@ -1,31 +1,19 @@
 """Bounds on the rounding errors of the certificate, and its bounds rounded for text.
 
 The certificate's inequalities are evaluated in double precision, of unit roundoff ``u``; what that
-may be off by is added to each panel's remainder. `docs/proof.md` derives every constant here.
-
-- Arithmetic and square roots are rounded correctly (IEEE 754, products may be fused with sums).
-- A complex sum of ``n`` products ``a_j b_j`` is ``2 n`` real products for each part, in any order:
-  it is off by ``sqrt(2) 2n u / (1 - 2n u) sum_j |a_j b_j|``.
-- The computed ``Log(B_{j+1} / B_j)`` is off by ``LOGARITHM u (1 + |Log|)``, if the real
-  logarithm and ``atan2`` are off by no more than `ELEMENTARY` roundoffs (tests compare with Arb).
-
-A solver carries values along, ``f_z + t df_z``, instead of computing them anew. Each step adds the
-error of a sum whose coefficients ``t dphi`` are up to twice the largest so far.
+may be off by is added to each panel's remainder. `docs/proof.md` derives every constant here
+(Lemmas 4 and 10 to 15).
 """
 
 from __future__ import annotations
 
 import math
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
-from typing import TYPE_CHECKING
+from typing import Any as Array  # of NumPy or of JAX
 
+from glid_nb._jax import Bool, Complex, Float
 from glid_nb.harmonic import cauchy
 from glid_nb.harmonic.cauchy import Singularities
-
-if TYPE_CHECKING:
-    from typing import Any as Array  # of NumPy or of JAX
-
-    from jaxtyping import Bool, Complex, Float
 
 UNIT_ROUNDOFF = 2.0**-53
 
@@ -44,30 +32,19 @@ UPWARD = 1 + 2.0**-30
 UNDERFLOW = 1e-140
 """Is added to all errors: where anything underflows, nothing of this size is proved."""
 BESIDE = 64 * UNIT_ROUNDOFF
-"""How far the end of a panel may lie beside its edge, relative to the largest coordinate.
-
-Each halving adds half an ulp to two thirds of what the ends were off by.
-"""
+"""How far the end of a panel may lie beside its edge, relative to the largest coordinate."""
 
 CARRIED_STEPS = 31
 """Most steps through which values are carried before they are computed anew."""
 
 
 def slack_factor(n_columns: int) -> float:
-    """Relative to the sum of the moduli of all terms: ``(2 sqrt(2) n + 128) u``, rounded up.
-
-    For sums of ``n_columns`` terms computed anew; the 128 are for computing the terms, control
-    points, means and products along the panel.
-    """
+    """For sums of ``n_columns`` terms, relative to the sum of the moduli of all (Lemma 12)."""
     return (3 * n_columns + 128) * UNIT_ROUNDOFF
 
 
 def carried_slack_factor(n_columns: int) -> float:
-    """The factor for carried values, relative to the largest coefficients so far.
-
-    One error for the first sum, two for each step, and four more, so that a proof from carried
-    values also succeeds with values computed anew, by edges, whose allowance is at most twice this.
-    """
+    """The factor for carried values, relative to the largest coefficients so far (Lemma 15)."""
     return (1 + 2 * CARRIED_STEPS + 4) * slack_factor(n_columns)
 
 

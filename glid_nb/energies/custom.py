@@ -5,13 +5,10 @@ from __future__ import annotations
 import weakref
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from glid_nb._jax import jax, jnp, once_loaded
-from glid_nb.energies.energy import Differentials, Energy, EnergyError
-
-if TYPE_CHECKING:
-    from glid_nb.energies.energy import Scalars
+from glid_nb.energies.energy import Differentials, Energy, EnergyError, Scalars
 
 # JAX rebuilds energies often; each function is checked once.
 _checked: weakref.WeakSet[Callable[..., Any]] = weakref.WeakSet()

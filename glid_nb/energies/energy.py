@@ -6,15 +6,12 @@ import math
 from abc import ABC, abstractmethod
 from dataclasses import fields
 from numbers import Real
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self, TypeVar
+from typing import Any, ClassVar, NamedTuple, Self, TypeVar
 
 from glid_nb._errors import InputError
-from glid_nb._jax import jax, once_loaded, settle
+from glid_nb._jax import Array, Float, jax, once_loaded, settle
 
-if TYPE_CHECKING:
-    from jaxtyping import Array, Float
-
-    Scalars = Float[Array, " *samples"]
+Scalars = Float[Array, " *samples"]
 
 
 class EnergyError(InputError):

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from glid_nb._jax import jnp
-from glid_nb.energies.energy import Differentials, Energy, register_energy
-
-if TYPE_CHECKING:
-    from glid_nb.energies.energy import Scalars
+from glid_nb.energies.energy import Differentials, Energy, Scalars, register_energy
 
 
 @register_energy

@@ -31,26 +31,14 @@ def cage_svg(
 ) -> str:
     """Draw the image of a map's cage: curves, as polylines within 0.002 world units of them.
 
-    Where the shape overlaps itself, what another part covers is dashed; a covered handle is a ring.
+    ``image_size`` (w, h) is that of the picture that the cage was traced from: the drawing's unit
+    is its pixel. With ``source`` the undeformed cage is drawn too, dashed; of a pose the targets as
+    disks and the images of the handles as dots, and its depths say which part is in front. Where
+    the shape overlaps itself, what another part covers is dashed; a covered handle is a ring.
 
-    Parameters
-    ----------
-    map : HarmonicMap
-        The map.
-    image_size : (w, h)
-        Pixels of the picture that the cage was traced from: the drawing's unit is its pixel.
-    source : bool
-        Draw the undeformed cage too, dashed.
-    pose : Pose, optional
-        Draw its targets as disks and the images of its handles as dots; its depths say which part
-        is in front.
-
-    Returns
-    -------
-    str
-        An SVG document with the paths ``cage`` and, if wanted, ``source-cage``, each with one
-        closed subpath per loop, the exterior first. Where the shape overlaps itself the path
-        ``in-sight`` lies over ``cage``, with an open subpath for every piece that is not covered.
+    The SVG document has the paths ``cage`` and, if wanted, ``source-cage``, each with one closed
+    subpath per loop, the exterior first. Where the shape overlaps itself the path ``in-sight`` lies
+    over ``cage``, with an open subpath for every piece that is not covered.
     """
     frame = PixelFrame(*image_size)
     loops = [frame.to_pixel(loop) for loop in deformed_loops(map)]

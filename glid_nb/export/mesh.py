@@ -24,23 +24,15 @@ _RELIEF = 0.02  # world units from the lowest to the highest sheet of an overlap
 
 @dataclass(frozen=True, eq=False)
 class TexturedMesh:
-    """A deformed shape, ready for a program that draws triangles.
-
-    Attributes
-    ----------
-    positions : (v, 3) array
-        World units, y up. z rises by 0.02 from the lowest sheet to the highest, so that viewers
-        with a depth buffer draw an overlapping shape in the right order.
-    texture_coordinates : (v, 2) array
-        (u, v) in the picture, (0, 0) at its bottom left corner.
-    triangles : (t, 3) int array
-        Counter-clockwise, the lower ones first.
-    texture : (h, w, 4) uint8 array
-    """
+    """A deformed shape, ready for a program that draws triangles."""
 
     positions: NDArray[np.float64]
+    """(v, 3) world units, y up. z rises by 0.02 from the lowest sheet to the highest, so that
+    viewers with a depth buffer draw an overlapping shape in the right order."""
     texture_coordinates: NDArray[np.float64]
+    """(v, 2) (u, v) in the picture, (0, 0) at its bottom left corner."""
     triangles: NDArray[np.int32]
+    """(t, 3) counter-clockwise, the lower ones first."""
     texture: NDArray[np.uint8]
 
 
@@ -53,22 +45,10 @@ def textured_mesh(
 ) -> TexturedMesh:
     """Triangulate a map's domain and give each vertex its image and its place in the picture.
 
-    Parameters
-    ----------
-    image : (h, w, 4), (h, w, 3) or (h, w) array
-        The picture that the map's cage was traced from.
-    map : HarmonicMap
-    n_vertices : int
-        About how many vertices to spread evenly, at least 3.
-    tolerance : float, optional
-        World units: edges that stray further than this from the map are split.
-    pose : Pose, optional
-        Whose depths say which part is in front where the shape overlaps itself.
-
-    Raises
-    ------
-    ValueError
-        When an argument is out of range; the message names it.
+    The image, (h, w), (h, w, 3) or (h, w, 4), is the one that the map's cage was traced from. There
+    are about ``n_vertices`` evenly spread vertices, at least 3; edges that stray further from the
+    map than a ``tolerance`` in world units are split. The depths of a pose say which part is in
+    front where the shape overlaps itself. Raises a ValueError that names an argument out of range.
     """
     texture = as_rgba8(image)
     height, width = texture.shape[:2]

@@ -42,21 +42,11 @@ def page_html(
 ) -> str:
     """A page that shows the warped picture, with zoom and pan.
 
-    It holds the triangulated shape and the picture; its security policy blocks the network.
-
-    Parameters
-    ----------
-    image : (h, w, 4), (h, w, 3) or (h, w) array
-        The picture that the map's cage was traced from.
-    map : HarmonicMap
-    certificate : Certificate, optional
-        The map's certificate, to state its bounds and whether the shape overlaps itself.
-    title : str
-        The page's title and heading.
-    tolerance : float
-        World units that the mesh's straight edges may stray from the map.
-    pose : Pose, optional
-        Whose depths say which part is in front where the shape overlaps itself.
+    It holds the triangulated shape and the picture; its security policy blocks the network. The
+    image, (h, w), (h, w, 3) or (h, w, 4), is the one that the map's cage was traced from. With its
+    certificate the page states the map's bounds and whether the shape overlaps itself. The mesh's
+    straight edges may stray from the map by the tolerance in world units. The depths of a pose say
+    which part is in front where the shape overlaps itself.
     """
     texture = as_rgba8(image)
     height, width = texture.shape[:2]

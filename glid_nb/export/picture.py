@@ -56,34 +56,19 @@ def animation_bytes(
 ) -> bytes:
     """Warp a picture through a sequence of maps, such as those of a drag.
 
-    All frames show the same part of the plane, which holds every one of the deformed shapes.
+    The image, (h, w), (h, w, 3) or (h, w, 4), is the one that the maps' cages were traced from.
+    There is one frame per map, at least one, whose longer side has ``size`` pixels, at least 16;
+    all of them show the same part of the plane, which holds every one of the deformed shapes. With
+    poses, one per map, their depths say what is in front, and with ``marks`` their targets are
+    drawn as disks, the images of their handles as dots; rings where another part of the shape
+    covers them.
 
-    Parameters
-    ----------
-    image : (h, w, 4), (h, w, 3) or (h, w) array
-        The picture that the maps' cages were traced from.
-    maps : sequence of HarmonicMap
-        One per frame, at least one.
-    poses : sequence of Pose, optional
-        One per map, whose depths say what is in front. Its targets are drawn as disks, the images
-        of its handles as dots; rings where another part of the shape covers them.
-    size : int
-        Pixels of the longer side, at least 16.
-    frames_per_second : float
-        At most 100. GIF rounds the duration of a frame to hundredths of a second.
-    background : (red, green, blue)
-        0 to 255 each.
-    there_and_back : bool
-        Append the frames in reverse order, so that the loop has no jump.
-    format : "gif" or "apng"
-        GIF is supported everywhere but has 256 colours only.
-    marks : bool
-        Whether targets and handles are drawn.
+    There are at most 100 frames per second; GIF rounds the duration of a frame to hundredths of a
+    second. The background's red, green and blue are 0 to 255. ``there_and_back`` appends the frames
+    in reverse order, so that the loop has no jump. The format is "gif", which is supported
+    everywhere but has 256 colours only, or "apng".
 
-    Raises
-    ------
-    ValueError
-        When an argument is out of range; the message names it.
+    Raises a ValueError that names an argument out of range.
     """
     maps = list(maps)
     if not maps:

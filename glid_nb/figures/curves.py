@@ -34,13 +34,9 @@ _SAMPLES = 8000  # of the boundary
 def energy_levels(*energies: Energy | str) -> NotebookFigure:
     """Level sets of energies' densities over (sigma_1, sigma_2), side by side.
 
-    The cross is the isometry (1, 1). On and below the line sigma_2 = 0 a map folds; above the
-    diagonal there is nothing, since sigma_2 <= sigma_1.
-
-    Parameters
-    ----------
-    energies : Energy or str
-        Such as `SymmetricDirichlet()` or "amips".
+    The energies are values or names, such as `SymmetricDirichlet()` or "amips". The cross is the
+    isometry (1, 1). On and below the line sigma_2 = 0 a map folds; above the diagonal there is
+    nothing, since sigma_2 <= sigma_1.
     """
     chosen = [as_energy(energy) for energy in energies]
     if not chosen:
@@ -109,15 +105,11 @@ def convergence(
     against: Literal["iterations", "seconds"] = "iterations",
     gap_to: float | None = None,
 ) -> NotebookFigure:
-    """Total energies of several results, on a logarithmic axis.
+    """Total energies of several named results, on a logarithmic axis.
 
-    Parameters
-    ----------
-    results : dict of name: Result
-    against : "iterations" or "seconds"
-        Seconds are those of `Iteration.time`: without compilation.
-    gap_to : float, optional
-        Draw (E - gap_to) / gap_to instead, such as to the lowest energy known.
+    They are drawn against "iterations" or "seconds", those of `Iteration.time`: without
+    compilation. With ``gap_to``, such as the lowest energy known, (E - gap_to) / gap_to is drawn
+    instead.
     """
     if against not in ("iterations", "seconds"):
         raise ValueError(f"against is {against!r}; choose 'iterations' or 'seconds'")
@@ -152,17 +144,10 @@ def function(
     vertical: Mapping[str, float] | None = None,
     horizontal: Mapping[str, float] | None = None,
 ) -> NotebookFigure:
-    """A labelled line plot of some functions.
+    """A labelled line plot of functions: for each name (n,) values at the (n,) places ``x``.
 
-    Parameters
-    ----------
-    x : (n,) array
-    curves : dict of name: (n,) array
-    x_name, y_name, title : str
-    log : axes that are logarithmic
-    dots : whether to mark the points themselves
-    vertical, horizontal : dict of name: value
-        Straight lines across the plot.
+    ``log`` names the axes that are logarithmic, ``dots`` marks the points themselves. Named
+    ``vertical`` and ``horizontal`` values become straight lines across the plot.
     """
     figure = NotebookFigure(_WIDTH * 0.75, 3.0)
     axes = figure.add_subplot()

@@ -5,39 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import shapely
 from matplotlib.axes import Axes
-from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.tri import Triangulation
 from numpy.typing import ArrayLike
 
-from glid_nb.figures.drawing import (
-    Floats,
-    NotebookFigure,
-    box_around,
-    color_bar,
-    draw_dots,
-    draw_loops,
-    draw_picture,
-    draw_targets,
-    enlarged,
-    log_ticks,
-)
+from glid_nb.figures import drawing
+from glid_nb.figures.drawing import Floats, NotebookFigure
 from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot
-from glid_nb.figures.style import (
-    BLUE,
-    FONT_SIZE,
-    GREY,
-    INK,
-    LEGEND,
-    distortion_colors,
-)
+from glid_nb.figures.shapes import Sheet, draw_deformed, draw_distortion
+from glid_nb.figures.style import BLUE, FONT_SIZE, GREY, INK, LEGEND
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
-from glid_nb.imaging.mesh import DeformedMesh, deformed_loops, deformed_mesh
-from glid_nb.imaging.render import draw_mesh
-from glid_nb.imaging.texture import Texture
 
 if TYPE_CHECKING:
     from glid_nb.solvers import Pose, Result
@@ -53,6 +31,7 @@ _NAMES = ("Source", "Deformation", "Distortion", "Energy", "Newton steps", "Cert
 
 _SHRINK = 1.7  # a common scale may make a picture smaller by this factor
 _DPI = 300
+_VERTICES = 12_000
 _OVERSAMPLING = 2  # of the deformed picture
 
 
@@ -67,29 +46,15 @@ def overview(
     the deformed shape. The lower row: the energies and the Newton steps per iteration, and along
     the boundary the certified lower bound on sigma_2 and the sampled sigma_2.
 
-    Parameters
-    ----------
-    image : (h, w, c) or (h, w) array
-        The picture that the cage was traced from.
-    result : Result
-        What :func:`glid_nb.solve` returned.
-    pose : Pose, optional
-        Handles and targets to show instead of the solve's.
-    width : float
-        Inches, at least 4.5; the text's size does not depend on it.
+    The image, (h, w) or (h, w, c), is the one that the cage was traced from; the result is what
+    :func:`glid_nb.solve` returned. A pose has handles and targets to show instead of the solve's.
+    The width is in inches, at least 4.5; the text's size does not depend on it.
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-        With its own Agg canvas and 300 dots per inch, unknown to pyplot. A notebook shows it,
-        ``figure.savefig(path)`` writes it to a file, `figure_png` to memory.
+    The figure has its own Agg canvas and 300 dots per inch, unknown to pyplot. A notebook shows it,
+    ``figure.savefig(path)`` writes it to a file, `figure_png` to memory.
 
-    Raises
-    ------
-    ValueError
-        The width is too small, or the image is not a picture.
-    TypeError
-        The result's map is a map of a mesh.
+    Raises a ValueError when the width is too small or the image is not a picture, a TypeError when
+    the result's map is a map of a mesh.
     """
     if not width >= _NARROWEST:
         raise ValueError(f"width is {width} inches; the text needs at least {_NARROWEST}")
@@ -98,9 +63,10 @@ def overview(
     if certificate is None or not isinstance(map, HarmonicMap):
         raise TypeError("the overview shows a certified map; the result's is one of a mesh")
     pose = result.pose if pose is None else pose
-    cage, outline = map.domain.cage, deformed_loops(map)
-    target = enlarged(box_around(np.concatenate(outline)), pose.targets)
-    views = _common_scale(box_around(map.domain.offset_cage.exterior), target)
+    cage, pixels = map.domain.cage, _OVERSAMPLING * _DPI * width / 3
+    sheet = Sheet.of(map, pose, _VERTICES, 0.5 * cage.longer_side / pixels)
+    target = drawing.enlarged(drawing.box_around(np.concatenate(sheet.outline)), pose.targets)
+    views = _common_scale(drawing.box_around(map.domain.offset_cage.exterior), target)
 
     across, up = np.ptp(views[0], axis=0)
     tall = min(width / 3 * up / across, _TALLEST)
@@ -108,22 +74,18 @@ def overview(
     figure.set_layout_engine("constrained", w_pad=0.08, h_pad=0.04)
     halves: Any = figure.subfigures(2, 1, height_ratios=[tall + _WRITTEN, _PLOTS])
     pictures, plots = (half.subplots(1, 3) for half in halves)
-    for axes in pictures:
+    for axes, view in zip(pictures, views[[0, 1, 1]], strict=True):
         axes.set_axis_off()
+        axes.set(xlim=view[:, 0], ylim=view[:, 1], aspect="equal", autoscale_on=False)
     for axes, letter, name in zip((*pictures, *plots), "abcdef", _NAMES, strict=True):
         _label(axes, letter, name, (0, 4) if axes in pictures else (-24, 26))
 
-    pixels = _OVERSAMPLING * _DPI * width / 3
-    frame = PixelFrame(round(pixels), round(pixels * up / across)).showing(views[1])
-    mesh = deformed_mesh(map, 4000, 0.25 * _OVERSAMPLING * frame.units_per_pixel, pose)
-    draw_picture(pictures[0], picture, PixelFrame(picture.shape[1], picture.shape[0]))
-    draw_picture(pictures[1], draw_mesh(Texture.from_image(picture), mesh, frame), frame)
-    _draw_distortion(pictures[2], map, mesh)
+    drawing.picture(pictures[0], picture, PixelFrame(picture.shape[1], picture.shape[0]))
     _mark_source(pictures[0], map, pose)
-    _mark_result(pictures[1], map, pose, outline)
-    draw_loops(pictures[2], outline, color=INK, linewidth=0.5)
-    for axes, view in zip(pictures, views[[0, 1, 1]], strict=True):
-        axes.set(xlim=view[:, 0], ylim=view[:, 1], aspect="equal")
+    draw_deformed(pictures[1], picture, sheet, pixels * max(1, up / across))
+    drawing.targets(pictures[1], map, pose)
+    _add_legend(pictures[1])
+    draw_distortion(pictures[2:], [sheet], "distortion", extendfrac=0.04)
     EnergyPlot(plots[0]).update(result.history, result.start_energy)
     StepPlot(plots[1]).update(result.history)
     CertificatePlot(plots[2], cage).update(certificate, map)
@@ -158,46 +120,11 @@ def _label(axes: Axes, letter: str, name: str, shift: tuple[float, float]) -> No
 
 def _mark_source(axes: Axes, map: HarmonicMap, pose: Pose) -> None:
     cage, outer = map.domain.cage.loops, map.domain.offset_cage.loops
-    draw_loops(axes, [*outer, *cage], color="white", linewidth=1.4, alpha=0.7)
-    draw_loops(axes, cage, color=BLUE, linewidth=0.6, label="cage")
-    draw_loops(axes, outer, color=GREY, linewidth=0.4, label="offset cage")
-    draw_dots(axes, pose.handles, INK, 3.4, edge=0.6, label="handles")
+    drawing.loops(axes, [*outer, *cage], color="white", linewidth=1.4, alpha=0.7)
+    drawing.loops(axes, cage, color=BLUE, linewidth=0.6, label="cage")
+    drawing.loops(axes, outer, color=GREY, linewidth=0.4, label="offset cage")
+    drawing.dots(axes, pose.handles, INK, 3.4, edge=0.6, label="handles")
     _add_legend(axes)
-
-
-def _mark_result(axes: Axes, map: HarmonicMap, pose: Pose, outline: list[Floats]) -> None:
-    draw_targets(axes, map, pose, float(np.ptp(np.concatenate(outline), axis=0).max()))
-    _add_legend(axes)
-
-
-def _draw_distortion(axes: Axes, map: HarmonicMap, mesh: DeformedMesh) -> None:
-    """The distortion on a logarithmic scale, and its colour bar below the axes."""
-    abs_fz, abs_fzb = (np.abs(v) for v in map.wirtinger(mesh.vertices))
-    with np.errstate(divide="ignore"):
-        distortion = np.maximum(abs_fz + abs_fzb, 1 / np.maximum(abs_fz - abs_fzb, 0))
-    # Peaks at the cage's corners must not dominate the scale.
-    values = distortion[mesh.triangles].mean(axis=1)
-    area = shapely.area(shapely.polygons(mesh.vertices[mesh.triangles]))
-    most = np.quantile(values, 0.995, weights=area, method="inverted_cdf")
-    highest = max(1.25, min(float(most), 1e4))
-    colors = axes.tripcolor(
-        Triangulation(*mesh.images.T, triangles=mesh.triangles),
-        np.clip(distortion, 1.0, highest),
-        shading="gouraud",
-        norm=LogNorm(1.0, highest),
-        cmap=distortion_colors(),
-        rasterized=True,
-        zorder=0,
-    )
-    color_bar(
-        axes,
-        colors,
-        "max(σ₁, 1/σ₂)",
-        extend="max" if float(distortion.max()) > 1.02 * highest else "neither",
-        extendfrac=0.04,
-        ticks=log_ticks(1.0, highest),
-        format="{x:g}",
-    )
 
 
 def _add_legend(axes: Axes) -> None:

@@ -15,20 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb._runtime import double_precision
 from glid_nb.certificate import Certificate
 from glid_nb.energies import Energy, SymmetricDirichlet
-from glid_nb.figures import style
-from glid_nb.figures.drawing import (
-    Floats,
-    NotebookFigure,
-    box_around,
-    color_bar,
-    draw_dots,
-    draw_loops,
-    draw_picture,
-    draw_targets,
-    enlarged,
-    label_levels,
-    log_ticks,
-)
+from glid_nb.figures import drawing, style
+from glid_nb.figures.drawing import Floats, NotebookFigure
 from glid_nb.figures.plots import CertificatePlot
 from glid_nb.figures.style import BLUE, GREEN, GREY, INK, VERMILION, distortion_colors
 from glid_nb.geometry import Domain, MeshMap, as_points, triangulate
@@ -40,10 +28,16 @@ from glid_nb.imaging.texture import Texture
 from glid_nb.methods.mesh.operators import MeshOperators
 from glid_nb.solvers import Pose
 
-Quantity = Literal["sigma1", "sigma2", "k", "energy"]
+Quantity = Literal["sigma1", "sigma2", "k", "energy", "distortion"]
 AnyMap = HarmonicMap | MeshMap
 
-_LABELS = {"sigma1": "σ₁", "sigma2": "σ₂", "k": "k = |f_z̄| / |f_z|", "energy": "energy density"}
+_LABELS = {
+    "sigma1": "σ₁",
+    "sigma2": "σ₂",
+    "k": "k = |f_z̄| / |f_z|",
+    "energy": "energy density",
+    "distortion": "max(σ₁, 1/σ₂)",
+}
 _VERTICES = 3000
 _PIXELS = 600  # of the longer side of one drawn picture
 _WIDTH, _WIDTH_OF_ONE, _TALLEST = 7.4, 4.6, 3.8  # inches
@@ -54,7 +48,7 @@ _FULL_MARGIN = 0.5  # from this certified sigma_2 on panels have one colour
 _MANY = 400  # panels, among which the dots at their ends would hide the colours
 
 
-class _Sheet(NamedTuple):
+class Sheet(NamedTuple):
     """A map as triangles: (v, 2) at rest and their images, (t,) |f_z| and |f_zbar| on each."""
 
     rest: Floats
@@ -67,9 +61,12 @@ class _Sheet(NamedTuple):
     counted: bool
 
     @classmethod
-    def of(cls, map: AnyMap, pose: Pose | None = None) -> _Sheet:
+    def of(
+        cls, map: AnyMap, pose: Pose | None = None, count: int = _VERTICES, tolerance: float = 0.03
+    ) -> Sheet:
+        """A map's; of a harmonic one with ``count`` vertices, more to stay in the tolerance."""
         if isinstance(map, HarmonicMap):
-            mesh = deformed_mesh(map, _VERTICES, 0.03, pose)
+            mesh = deformed_mesh(map, count, tolerance, pose)
             middles = map.wirtinger(mesh.vertices[mesh.triangles].mean(axis=1))
             corners = [w[mesh.triangles.T] for w in map.wirtinger(mesh.vertices)]
             # A fold begins on the boundary: there the corners see it before the middles do.
@@ -99,6 +96,9 @@ class _Sheet(NamedTuple):
             return self.abs_fz - self.abs_fzb
         if quantity == "k":
             return self.abs_fzb / np.maximum(self.abs_fz, 1e-300)
+        if quantity == "distortion":
+            least = np.maximum(self.abs_fz - self.abs_fzb, 1e-300)
+            return np.maximum(self.abs_fz + self.abs_fzb, 1 / least)
         energy = SymmetricDirichlet() if quantity == "energy" else quantity
         if not isinstance(energy, Energy):
             raise ValueError(f"unknown quantity {quantity!r}; choose one of {', '.join(_LABELS)}")
@@ -115,39 +115,40 @@ def distortion(
 ) -> NotebookFigure:
     """Fields of distortion on the deformed shapes, side by side, with one scale of colours.
 
-    Dark is distorted, vermilion is folded; under the title stands how many triangles a MeshMap
-    turns over.
+    ``maps`` is a HarmonicMap or MeshMap, or several, each with its title. Dark is distorted,
+    vermilion is folded; under the title stands how many triangles a MeshMap turns over. Of a pose
+    the targets (cyan) and the handles' images (black) are drawn.
 
-    Parameters
-    ----------
-    maps : HarmonicMap or MeshMap, or several
-    quantity : "sigma1", "sigma2", "k" or "energy", or an Energy
-        The singular values (Equation (2)), the little dilatation, the symmetric Dirichlet density,
-        or the density of this energy.
-    pose : Pose, optional
-        Targets (cyan) and the handles' images (black) to draw.
-    titles : one for each map
+    The quantity is "sigma1", "sigma2" (the singular values, Equation (2)), "k" (the little
+    dilatation), "distortion" (max(sigma_1, 1 / sigma_2)), "energy" (the symmetric Dirichlet
+    density), or an Energy, for its density.
     """
     maps, sheets = _listed(maps, pose)
+    figure, grid = _side_by_side(maps, sheets, pose, titles, 1.0)
+    draw_distortion(grid, sheets, quantity, shrink=0.5, aspect=36)
+    figure.draw_without_rendering()  # a second layout, at drawing, settles the titles
+    return figure
+
+
+def draw_distortion(
+    grid: Sequence[Axes], sheets: Sequence[Sheet], quantity: Quantity | Energy, **bar: Any
+) -> None:
+    """Fields of a quantity on sheets, each in its axes, with one scale and a colour bar below."""
     values = [sheet.values(quantity) for sheet in sheets]
     known = np.concatenate([v[~s.folded] for v, s in zip(values, sheets, strict=True)])
     known = known if len(known) else np.ones(1)  # a map that folds everywhere
     norm, colors = _scale(quantity, known)
-    figure, grid = _side_by_side(maps, sheets, pose, titles, 1.0)
     look: Any = {"norm": norm, "cmap": colors, "edgecolors": "face", "linewidth": 0.2}
     for axes, sheet, field in zip(grid, sheets, values, strict=True):
         shape = Drawn(*sheet.images.T, triangles=sheet.triangles)
         field = np.clip(field, norm.vmin, norm.vmax)
         drawn = axes.tripcolor(shape, facecolors=field, rasterized=True, zorder=0, **look)
-        draw_loops(axes, sheet.outline, color=INK, linewidth=0.4)
+        drawing.loops(axes, sheet.outline, color=INK, linewidth=0.4)
     below, above = known.min() < 0.98 * norm.vmin, known.max() > 1.02 * norm.vmax
     ends = ("both" if above else "min") if below else ("max" if above else "neither")
     label = _LABELS[quantity] if isinstance(quantity, str) else quantity.label
-    ticks = log_ticks(*drawn.get_clim()) if isinstance(norm, LogNorm) else None
-    look = {"extend": ends, "shrink": 0.5, "aspect": 36, "ticks": ticks}
-    color_bar(grid, drawn, label, format="{x:g}", **look)
-    figure.draw_without_rendering()  # a second layout, at drawing, settles the titles
-    return figure
+    ticks = drawing.log_ticks(*drawn.get_clim()) if isinstance(norm, LogNorm) else None
+    drawing.color_bar(grid, drawn, label, format="{x:g}", extend=ends, ticks=ticks, **bar)
 
 
 def picture(
@@ -159,42 +160,36 @@ def picture(
 ) -> NotebookFigure:
     """A picture under each map, side by side; turned-over triangles are vermilion.
 
-    Parameters
-    ----------
-    image : picture that the cage was traced from, or None for a chequered one
-    maps : HarmonicMap or MeshMap, or several
-    pose : Pose, optional
-        Targets (cyan) and the handles' images (black) to draw.
-    titles : one for each map
+    The image is the one that the cage was traced from, or None for a chequered one. Maps, pose and
+    titles are as in `distortion`.
     """
     maps, sheets = _listed(maps, pose)
     figure, grid = _side_by_side(maps, sheets, pose, titles, 0.4)
     for axes, sheet in zip(grid, sheets, strict=True):
-        view = np.transpose([axes.get_xlim(), axes.get_ylim()])
-        sides = np.ptp(view, axis=0)
-        width, height = (_PIXELS * sides / sides.max()).round().astype(int).clip(1).tolist()
-        frame = PixelFrame(width, height).showing(view)
-        texture, places = _texture(image, sheet.rest)
-        positions, size = frame.to_pixel(sheet.images), (width, height)
-        drawn = render_mesh(texture, places, positions, sheet.triangles, size, sheet.heights)
-        draw_picture(axes, drawn, frame)
-        axes.set(xlim=view[:, 0], ylim=view[:, 1])
+        draw_deformed(axes, image, sheet, _PIXELS)
     return figure
+
+
+def draw_deformed(axes: Axes, image: ArrayLike | None, sheet: Sheet, pixels: float) -> None:
+    """A deformed picture behind axes whose limits are set, of so many pixels along them."""
+    view = np.transpose([axes.get_xlim(), axes.get_ylim()])
+    sides = np.ptp(view, axis=0)
+    width, height = (pixels * sides / sides.max()).round().astype(int).clip(1).tolist()
+    frame = PixelFrame(width, height).showing(view)
+    texture, places = _texture(image, sheet.rest)
+    positions, size = frame.to_pixel(sheet.images), (width, height)
+    drawn = render_mesh(texture, places, positions, sheet.triangles, size, sheet.heights)
+    drawing.picture(axes, drawn, frame)
+    axes.set(xlim=view[:, 0], ylim=view[:, 1])
 
 
 def basis(domain: Domain, j: int, part: Literal["re", "im", "abs"] = "re") -> NotebookFigure:
     """One basis function inside the offset cage, and the cage on which maps are certified.
 
-    The offset cage's vertices, where the functions are singular, are dots, the hole points
-    crosses; the one of this function is green.
-
-    Parameters
-    ----------
-    j : int
-        Column of the basis: the Cauchy coordinate C_j (Equation (8)) of the offset cage's vertex
-        j, counted loop by loop from 0; after the last vertex, the logarithm ln|z - rho| of each
-        hole.
-    part : "re", "im" or "abs"
+    ``j`` is the column of the basis: the Cauchy coordinate C_j (Equation (8)) of the offset cage's
+    vertex j, counted loop by loop from 0; after the last vertex, the logarithm ln|z - rho| of each
+    hole. The part is "re", "im" or "abs". The offset cage's vertices, where the functions are
+    singular, are dots, the hole points crosses; the one of this function is green.
     """
     n, n_vertices = domain.n_coefficients, domain.n_coefficients - domain.n_holes
     if not 0 <= j < n:
@@ -210,7 +205,7 @@ def basis(domain: Domain, j: int, part: Literal["re", "im", "abs"] = "re") -> No
     values = {"re": re, "im": im, "abs": np.hypot(re, im)}[part]
     least, most, signed = values.min(), values.max(), values.min() < 0
     size = max(-least, most) or 1.0
-    figure, (axes,) = _shape_axes(1, box_around(domain.offset_cage.exterior, 0.04))
+    figure, (axes,) = _shape_axes(1, drawing.box_around(domain.offset_cage.exterior, 0.04))
     shape: Any = Drawn(*mesh.vertices.T, triangles=mesh.triangles)
     drawn = axes.tripcolor(
         shape,
@@ -222,17 +217,17 @@ def basis(domain: Domain, j: int, part: Literal["re", "im", "abs"] = "re") -> No
         zorder=0,
     )
     lines = axes.tricontour(shape, values, 14, colors=INK, linewidths=0.4)
-    label_levels(axes, lines, {level: f"{level:g}" for level in [*lines.levels][::2]})
-    draw_loops(axes, domain.offset_cage.loops, color=GREY, linewidth=0.7, label="offset cage")
-    draw_loops(axes, domain.cage.loops, color=BLUE, linewidth=1.0, label="cage")
+    drawing.label_levels(axes, lines, {level: f"{level:g}" for level in [*lines.levels][::2]})
+    drawing.loops(axes, domain.offset_cage.loops, color=GREY, linewidth=0.7, label="offset cage")
+    drawing.loops(axes, domain.cage.loops, color=BLUE, linewidth=1.0, label="cage")
     singular = np.concatenate([*domain.offset_cage.loops, domain.hole_points])
-    draw_dots(axes, singular[:n_vertices], GREY, 3.2, edge=0.4, label="singularities")
+    drawing.dots(axes, singular[:n_vertices], GREY, 3.2, edge=0.4, label="singularities")
     axes.plot(*singular[n_vertices:].T, "x", color=INK, markersize=4, zorder=4)
     axes.plot(*singular[j], "X" if is_log else "o", color=GREEN, markersize=7, zorder=5)
     figure.legend(loc="outside lower center", ncols=3, **style.LEGEND)
     name = "ln|z − ρ|" if is_log else f"C_{j}(z)"
     label = {"re": "Re ", "im": "Im ", "abs": "modulus of "}[part] + name
-    color_bar(axes, drawn, label).set_xlim(least, most)
+    drawing.color_bar(axes, drawn, label).set_xlim(least, most)
     return figure
 
 
@@ -248,7 +243,7 @@ def panels(certificate: Certificate) -> NotebookFigure:
     figure = NotebookFigure(_WIDTH, 3.4)
     axes, plot = figure.subplots(1, 2, width_ratios=[1, 1.15])
     figure.get_layout_engine().set(wspace=0.08)  # type: ignore[union-attr]
-    _hold(axes, box_around(cage.exterior, 0.04))
+    _hold(axes, drawing.box_around(cage.exterior, 0.04))
     start, end = as_points(proved.start), as_points(proved.end)
     segments = np.stack([start, end], axis=1)
     axes.add_collection(LineCollection(list(segments[bound <= 0]), colors=VERMILION, linewidths=4))
@@ -262,7 +257,7 @@ def panels(certificate: Certificate) -> NotebookFigure:
     axes.add_collection(lines)
     if len(bound) <= _MANY:
         axes.plot(*start.T, "o", color=INK, markersize=1.4, zorder=3)
-    color_bar(axes, lines, "certified lower bound of σ₂", extend="max", format="{x:g}")
+    drawing.color_bar(axes, lines, "certified lower bound of σ₂", extend="max", format="{x:g}")
     title = f"{len(bound)} panels, {int((bound <= 0).sum())} of them not proved"
     axes.set_title(title, fontsize=style.FONT_SIZE, color=INK)
     plot.set_title(" \n ", fontsize=style.FONT_SIZE)  # room for the legend
@@ -271,14 +266,14 @@ def panels(certificate: Certificate) -> NotebookFigure:
     return figure
 
 
-def _listed(maps: Any, pose: Pose | None) -> tuple[list[AnyMap], list[_Sheet]]:
+def _listed(maps: Any, pose: Pose | None) -> tuple[list[AnyMap], list[Sheet]]:
     found = [*maps] if isinstance(maps, Iterable) else [maps]
     for map in found:
         if not isinstance(map, HarmonicMap | MeshMap):
             raise TypeError(f"{type(map).__name__} is not a map; a result's map is result.map")
     if not found:
         raise ValueError("there is no map to draw")
-    return found, [_Sheet.of(map, pose) for map in found]
+    return found, [Sheet.of(map, pose) for map in found]
 
 
 def _scale(quantity: Quantity | Energy, known: Floats) -> tuple[Any, Any]:
@@ -288,13 +283,15 @@ def _scale(quantity: Quantity | Energy, known: Floats) -> tuple[Any, Any]:
         return Normalize(1.0, float(np.clip(high, 1.5, 6.0))), colors
     if quantity in ("sigma2", "k"):
         return Normalize(0.0, 1.0), colors.reversed() if quantity == "sigma2" else colors
+    if quantity == "distortion":
+        return LogNorm(1.0, float(np.clip(high, 1.25, 1e4))), colors
     low = max(least, 1e-3)
     return LogNorm(low, float(np.clip(high, 2 * low, 100 * low))), colors
 
 
 def _side_by_side(
     maps: Sequence[AnyMap],
-    sheets: Sequence[_Sheet],
+    sheets: Sequence[Sheet],
     pose: Pose | None,
     titles: Sequence[str],
     room: float,
@@ -302,8 +299,8 @@ def _side_by_side(
     """Axes with one scale, titles, folds and targets, one for each map; ``room`` is below them."""
     if len(titles) not in (0, len(maps)):
         raise ValueError(f"there are {len(titles)} titles for {len(maps)} maps")
-    box = box_around(np.concatenate([sheet.images for sheet in sheets]))
-    box = box if pose is None else enlarged(box, pose.targets)
+    box = drawing.box_around(np.concatenate([sheet.images for sheet in sheets]))
+    box = box if pose is None else drawing.enlarged(box, pose.targets)
     figure, grid = _shape_axes(len(maps), box, room)
     for i, (axes, map, sheet) in enumerate(zip(grid, maps, sheets, strict=True)):
         lines = [*titles[i : i + 1]]
@@ -317,7 +314,7 @@ def _side_by_side(
             PolyCollection(list(folded), facecolors=VERMILION, edgecolors="face", linewidths=0.6)
         )
         if pose is not None:
-            draw_targets(axes, map, pose, float(np.ptp(box, axis=0).max()))
+            drawing.targets(axes, map, pose)
     if pose is not None:
         marks = grid[0].get_legend_handles_labels()[0]
         figure.legend(handles=marks, loc="outside lower center", ncols=2, **style.LEGEND)

@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from glid_nb._arrays import Array
+from glid_nb._jax import Bool, Complex, Int
 from glid_nb.geometry._loops import next_index
 from glid_nb.harmonic.cauchy import Singularities
 
 if TYPE_CHECKING:
-    from jaxtyping import Bool, Complex, Int
-
     from glid_nb.geometry import Domain
 
 

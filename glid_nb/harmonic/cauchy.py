@@ -10,16 +10,12 @@ belongs to.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import Any as Array  # of NumPy or of JAX
+from typing import NamedTuple
 
 import numpy as np
 
-from glid_nb._jax import AnyArray
-
-if TYPE_CHECKING:
-    from typing import Any as Array  # of NumPy or of JAX
-
-    from jaxtyping import Complex, Int
+from glid_nb._jax import AnyArray, Complex, Int
 
 _TWO_PI_I = 2j * np.pi
 

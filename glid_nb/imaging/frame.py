@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from numbers import Integral
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import unmet
 from glid_nb.imaging.errors import TraceError
 
 LONGER_SIDE = 20.0
@@ -19,17 +19,12 @@ class PixelFrame:
     """The similarity transform between the pixels of a picture and world coordinates.
 
     Pixel coordinates are continuous, (x right, y down), with (0, 0) at the top left *corner* of the
-    picture: the pixel in row i and column j covers [j, j + 1] x [i, i + 1] and has its centre at
-    (j + 0.5, i + 0.5). World coordinates are (x right, y up). The world's origin is at the centre
-    of a picture that is traced, and its longer side is 20 units long.
+    picture: the pixel in row i and column j covers [j, j + 1] x [i, i + 1] and has its centre at (j
+    + 0.5, i + 0.5). World coordinates are (x right, y up). The world's origin is at the centre of a
+    picture that is traced, and its longer side is 20 units long. The longer side of a drawn picture
+    shows 20 / zoom units, and its middle the world point ``centre``.
 
-    Parameters
-    ----------
-    width, height
-        Size of the picture in pixels, at least 1.
-    zoom, centre
-        Of a drawn picture: its longer side shows 20 / zoom units, and its middle the world point
-        centre.
+    Raises a TraceError for a width or height that is no whole number of pixels, at least 1.
 
     Examples
     --------
@@ -46,11 +41,8 @@ class PixelFrame:
 
     def __post_init__(self) -> None:
         for name in ("width", "height"):
-            value = getattr(self, name)
-            if isinstance(value, bool) or not isinstance(value, Integral) or value < 1:
-                raise TraceError(
-                    f"{name} must be a whole number of pixels, at least 1, not {value!r}"
-                )
+            if expected := unmet(int, value := getattr(self, name), {"least": 1}):
+                raise TraceError(f"{name} must be {expected} pixels, not {value!r}")
             object.__setattr__(self, name, int(value))
 
     @property
@@ -90,10 +82,8 @@ class PixelFrame:
     def index_at(self, point: tuple[float, float], name: str = "point") -> tuple[int, int]:
         """(row, column) of the pixel at a point (x, y) in pixel coordinates.
 
-        Raises
-        ------
-        TraceError
-            The point, called `name` in the message, lies outside the picture.
+        Raises a TraceError when the point, called ``name`` in the message, lies outside the
+        picture.
         """
         x, y = point
         if not (0 <= x < self.width and 0 <= y < self.height):

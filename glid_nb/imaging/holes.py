@@ -28,30 +28,20 @@ _SHRUNK = 0.2  # a hole that would keep less than this share of its area gets a 
 
 @dataclass(frozen=True, eq=False)
 class Hole:
-    """A hole, kept or filled.
-
-    Attributes
-    ----------
-    loop
-        (k, 2) read-only vertices in pixel coordinates, before the offset.
-    area
-        In square pixels.
-    bounds
-        Bounding box (xmin, ymin, xmax, ymax) in pixel coordinates.
-    pixel
-        A point (x, y) in the hole, for `TraceOptions.keep_holes` and `drop_holes`.
-    kept
-        Whether the cage has it.
-    by_offset
-        Whether the offset made it, by closing a bay.
-    """
+    """A hole, kept or filled."""
 
     loop: NDArray[np.float64]
+    """(k, 2) read-only vertices in pixel coordinates, before the offset."""
     area: float
+    """In square pixels."""
     bounds: tuple[float, float, float, float]
+    """Bounding box (xmin, ymin, xmax, ymax) in pixel coordinates."""
     pixel: Point
+    """A point (x, y) in the hole, for `TraceOptions.keep_holes` and `drop_holes`."""
     kept: bool
+    """Whether the cage has it."""
     by_offset: bool = False
+    """Whether the offset made it, by closing a bay."""
 
     @property
     def place(self) -> str:

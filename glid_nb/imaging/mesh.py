@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb.geometry import triangulate
+from glid_nb.geometry import as_points, triangulate
+from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import order_of
 from glid_nb.solvers import Pose
@@ -40,26 +41,18 @@ Ints = NDArray[np.int32]
 
 @dataclass(frozen=True, eq=False)
 class DeformedMesh:
-    """A triangulated domain and its image.
-
-    Attributes
-    ----------
-    vertices, images : (v, 2) arrays
-        The vertices and where the map takes them, world coordinates.
-    triangles : (t, 3) int32 array
-        Counter-clockwise, the lower ones first.
-    heights : (v,) array
-        Where the image overlaps itself the higher part lies over the lower; see `order_of`.
-    error : float
-        Largest distance between the image of an edge's midpoint and the middle of the edge's end
-        points, world units: how far straight edges stray from the map.
-    """
+    """A triangulated domain and its image."""
 
     vertices: Floats
     images: Floats
+    """(v, 2) the vertices and where the map takes them, world coordinates."""
     triangles: Ints
+    """(t, 3) counter-clockwise, the lower ones first."""
     heights: Floats
+    """(v,) where the image overlaps itself the higher part lies over the lower; see `order_of`."""
     error: float
+    """Largest distance between the image of an edge's midpoint and the middle of the edge's end
+    points, world units: how far straight edges stray from the map."""
 
     def __post_init__(self) -> None:
         for array in (self.vertices, self.images, self.triangles, self.heights):
@@ -72,24 +65,12 @@ def deformed_mesh(
     tolerance: float | None = None,
     pose: Pose | None = None,
 ) -> DeformedMesh:
-    """Triangulate a map's domain and evaluate the map at the vertices.
+    """Triangulate a map's domain with about so many even vertices, and map them.
 
-    Parameters
-    ----------
-    map : HarmonicMap
-    n_vertices : int
-        About how many vertices to spread evenly, at least 3.
-    tolerance : float, optional
-        World units, positive. Edges are halved, and their triangles split, until the map takes no
-        midpoint of an edge further than this from the middle of the image edge, or there are a
-        million vertices.
-    pose : Pose, optional
-        Whose depths order the parts that overlap.
-
-    Raises
-    ------
-    ValueError
-        When ``tolerance`` is not positive or there are too few vertices.
+    With a ``tolerance``, world units, edges are halved, and their triangles split, until the map
+    takes no midpoint of an edge further than this from the middle of the image edge, or there are a
+    million vertices. The depths of a ``pose`` order the parts that overlap. ValueError when the
+    tolerance is not positive or there are fewer than 3 vertices.
     """
     if tolerance is not None and not tolerance > 0:
         raise ValueError(f"tolerance is {tolerance}; it must be positive")
@@ -127,10 +108,9 @@ def deformed_loops(map: HarmonicMap, tolerance: float = 0.002) -> list[Floats]:
     Or within 10^-6 of their size, where that is more.
     """
     loops = []
-    for loop in map.domain.cage.loops:
-        share = np.arange(_PER_EDGE)[:, None] / _PER_EDGE
-        edge = (np.roll(loop, -1, axis=0) - loop)[:, None]
-        points = np.concatenate([(loop[:, None] + share * edge).reshape(-1, 2), loop[:1]])
+    for loop in map.domain.cage.loops_complex:
+        points = as_points(subdivided(loop, np.full(len(loop), _PER_EDGE)))
+        points = np.concatenate([points, points[:1]])
         images = map(points)
         tolerance = max(tolerance, 1e-6 * float(np.ptp(images, axis=0).max()))
         for _ in range(_MOST_ROUNDS):
@@ -152,16 +132,11 @@ def _halved(
     """The middles of edges, their images, and how far these are from the image edges' middles."""
     middles = points[edges].mean(axis=1)
     middle_images = map(middles)
-    return (
-        middles,
-        middle_images,
-        np.linalg.norm(middle_images - images[edges].mean(axis=1), axis=1),
-    )
+    bend = np.linalg.norm(middle_images - images[edges].mean(axis=1), axis=1)
+    return middles, middle_images, bend
 
 
-def unique_edges(
-    triangles: NDArray[np.integer],
-) -> tuple[NDArray[np.integer], Ints]:
+def unique_edges(triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], Ints]:
     """Unique edges (e, 2), and the edge of each side of each triangle (t, 3).
 
     Side k lies opposite vertex k.

@@ -30,13 +30,8 @@ _PIXELS: Any = {"least": -math.inf, "form": "a list of pixels (x, y) of finite n
 class Scribbles:
     """Strokes that a user drew over the shape and over the background.
 
-    Parameters
-    ----------
-    foreground
-        Either polylines, a list of (k, 2) arrays of pixel coordinates (x, y), or a boolean mask of
-        the picture's shape (h, w).
-    background
-        Likewise. If empty, the picture's border is taken as background.
+    Either polylines, a list of (k, 2) arrays of pixel coordinates (x, y), or a boolean mask of the
+    picture's shape (h, w). If ``background`` is empty, the picture's border is taken for it.
     """
 
     foreground: tuple[NDArray[np.float64], ...] | NDArray[np.bool_]
@@ -56,13 +51,8 @@ class Scribbles:
 
         It holds an object with the keys ``foreground`` and, optionally, ``background``, each a list
         of strokes; a stroke is a list of pixels ``[x, y]`` from the picture's top left corner.
-
-        Raises
-        ------
-        InputFileError
-            The file holds something else; the message names the file and the field.
-        OSError
-            The file cannot be read.
+        Raises an InputFileError, which names the file and the field, for anything else, and an
+        OSError for a file that cannot be read.
         """
         with about(path):
             data = read_object(path)
@@ -75,10 +65,7 @@ class Scribbles:
 class TraceOptions:
     """How a cage is traced. None: the value is chosen to suit the picture.
 
-    Raises
-    ------
-    TraceError
-        A value outside its range; the message names it.
+    Raises a TraceError that names a value outside its range.
     """
 
     method: Method = option("auto", "How the foreground is found")

@@ -30,24 +30,16 @@ _LEAST_DIFFERENCE = 0.02  # between a pixel and the level, relative to the level
 
 @dataclass(frozen=True)
 class Component:
-    """A connected part of the foreground.
-
-    Attributes
-    ----------
-    rank
-        By area, from 0 for the largest.
-    area
-        Number of pixels.
-    bounds
-        Bounding box (xmin, ymin, xmax, ymax) in pixel coordinates.
-    pixel
-        Centre (x, y) of one of its pixels.
-    """
+    """A connected part of the foreground."""
 
     rank: int
+    """By area, from 0 for the largest."""
     area: int
+    """Number of pixels."""
     bounds: tuple[int, int, int, int]
+    """Bounding box (xmin, ymin, xmax, ymax) in pixel coordinates."""
     pixel: Point
+    """Centre (x, y) of one of its pixels."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,14 +92,11 @@ class Components:
 
 def find_components(mask: NDArray[np.bool_]) -> Components:
     """Label the components of an (h, w) mask that is not empty."""
-    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
-    box = slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
     found = np.zeros(mask.shape, dtype=np.int32)
-    count = label(mask[box], np.ones((3, 3)), output=found[box])
-    areas = np.bincount(found[box].ravel())[1:]
+    label(mask, np.ones((3, 3)), output=found)
+    areas = np.bincount(found.ravel())[1:]
     order = np.argsort(-areas, kind="stable")
-    boxes = [box] if count == 1 else find_objects(found)
-    return Components(found, order + 1, areas[order], boxes)
+    return Components(found, order + 1, areas[order], find_objects(found))
 
 
 @dataclass(frozen=True, eq=False)

@@ -33,31 +33,18 @@ def render_mesh(
     size: tuple[int, int],
     heights: Floats | None = None,
 ) -> NDArray[np.uint8]:
-    """Warp a picture with a triangle mesh.
+    """Warp a picture with a triangle mesh; (h, w, 4) RGBA with straight alpha.
 
-    Where triangles overlap, the higher one, or of equally high ones the later, is composed over the
-    other. Triangles that share an edge leave no seam and share no pixel. Outlines are anti-aliased
-    with 64 samples per pixel. The picture is filtered with premultiplied alpha: by cubic
-    interpolation where it is magnified, anisotropically on an image pyramid where it is minified.
+    The vertices lie at ``places`` (v, 2) in the picture and go to ``positions`` (v, 2) in the
+    output, which has the ``size`` (w, h): continuous pixels, x right, y down, (0, 0) the top left
+    corner. Parts of a triangle beyond the picture are transparent. Pass a :class:`Texture` to draw
+    one picture many times.
 
-    Parameters
-    ----------
-    texture : (h, w, c) or (h, w) array, or Texture
-        The picture. Pass a :class:`Texture` to draw one picture many times.
-    places, positions : (v, 2) arrays
-        The vertices in the picture and in the output, continuous pixels: x right, y down, (0, 0)
-        the top left corner. Parts of a triangle beyond the picture are transparent.
-    triangles : (t, 3) int array
-        Vertex indices, either orientation.
-    size : (w, h)
-        Size of the output, pixels.
-    heights : (v,) array, optional
-        Heights of the vertices; only their order matters. Intersecting sheets meet along a line.
-
-    Returns
-    -------
-    (h, w, 4) uint8 array
-        RGBA with straight alpha; fully transparent pixels are (0, 0, 0, 0).
+    Where triangles overlap, the higher one by the ``heights`` (v,) of the vertices, or of equally
+    high ones the later, is composed over the other; intersecting sheets meet along a line.
+    Triangles that share an edge leave no seam and share no pixel. Outlines are anti-aliased with 64
+    samples per pixel. The picture is filtered with premultiplied alpha: by cubic interpolation
+    where it is magnified, anisotropically on an image pyramid where it is minified.
     """
     width, height = size
     picture = np.zeros((height, width, 4), np.uint8)
@@ -162,9 +149,8 @@ class _Sheets(NamedTuple):
         """
         triangle, place, x, y = samples = self.scan.samples(top, chosen, n)
         colours = self.sampler(triangle, x, y) if n == 1 else self._shaded(samples, n)
-        height = self.level[triangle] + (self.slope[triangle] * np.stack([x, y], axis=1)).sum(
-            axis=1
-        )
+        rise_x, rise_y = self.slope[triangle].T
+        height = self.level[triangle] + rise_x * x + rise_y * y
         canvas = np.zeros((np.count_nonzero(chosen) * n**2, 4), np.float32)
         count = np.bincount(place, minlength=len(canvas))
         # Below the samples of rank k of a place there are k others.
@@ -182,12 +168,10 @@ class _Sheets(NamedTuple):
         It is made at their centroid: a look-up filters over a whole pixel, so one at each sample
         would blur the outline.
         """
-        fragments = np.stack([samples.place // n**2, samples.triangle])
+        pixel, n_triangles = samples.place // n**2, len(self.level)
+        keys = pixel * n_triangles + samples.triangle
         _, first, fragment, count = np.unique(
-            fragments[0] * (fragments[1].max(initial=0) + 1) + fragments[1],
-            return_index=True,
-            return_inverse=True,
-            return_counts=True,
+            keys, return_index=True, return_inverse=True, return_counts=True
         )
         x, y = (np.bincount(fragment, values) / count for values in (samples.x, samples.y))
         return self.sampler(samples.triangle[first], x, y)[fragment]

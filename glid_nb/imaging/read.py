@@ -37,28 +37,16 @@ _ROWS = 256  # per block where a whole picture in float would need gigabytes
 
 
 def read_image(source: ImageSource, name: str | None = None) -> RGBA:
-    """Read a picture.
+    """Read a picture as an (h, w, 4) array of red, green, blue and alpha, row 0 at the top.
 
-    Parameters
-    ----------
-    source
-        Path or bytes of a file (PNG, JPEG, TIFF, GIF, WebP, BMP, AVIF, JPEG 2000, Photoshop or
-        another format of pixels; its first frame), a PIL image, or an array as in `as_rgba`. EXIF
-        orientation is applied.
-    name
-        The picture's name in error messages; by default a file's path.
+    Alpha is not premultiplied. The source is the path or the bytes of a file (PNG, JPEG, TIFF, GIF,
+    WebP, BMP, AVIF, JPEG 2000, Photoshop or another format of pixels; its first frame), a PIL
+    image, or an array as in `as_rgba`. EXIF orientation is applied. The result is uint8, or uint16
+    where the source holds more than 8 bit and the reader keeps them (grey PNG, TIFF, arrays).
+    Messages call the picture ``name``, by default the file's path.
 
-    Returns
-    -------
-    (h, w, 4) array, red, green, blue and alpha (not premultiplied), row 0 at the top. uint8, or
-    uint16 where the source holds more than 8 bit and the reader keeps them (grey PNG, TIFF,
-    arrays).
-
-    Raises
-    ------
-    TraceError
-        The file is missing, damaged or not a picture, the path is a URL, or the picture is empty
-        or too large.
+    Raises a TraceError when the file is missing, damaged or not a picture, the path is a URL, or
+    the picture is empty or too large.
     """
     if isinstance(source, (str, os.PathLike)):
         name, source = name or str(Path(source)), _bytes_of(source)
@@ -80,20 +68,12 @@ def read_image(source: ImageSource, name: str | None = None) -> RGBA:
 def as_rgba(image: ArrayLike) -> RGBA:
     """Bring an array to (h, w, 4) RGBA.
 
-    Parameters
-    ----------
-    image
-        (h, w) or (h, w, 1) grey, (h, w, 2) grey and alpha, (h, w, 3) RGB or (h, w, 4) RGBA; bool,
-        uint8, uint16, or float in [0, 1].
+    The array is (h, w) or (h, w, 1) grey, (h, w, 2) grey and alpha, (h, w, 3) RGB or (h, w, 4)
+    RGBA; bool, uint8, uint16, or float in [0, 1]. The result is uint8 for bool and uint8 (the array
+    itself if it is RGBA already), uint16 for the other types.
 
-    Returns
-    -------
-    uint8 for bool and uint8 (the array itself if it is RGBA already), uint16 for the other types.
-
-    Raises
-    ------
-    TraceError
-        Empty, too large, of another shape or type, NaN, or float outside [0, 1].
+    Raises a TraceError for what is empty, too large, of another shape or type, NaN, or outside [0,
+    1].
     """
     try:
         array: NDArray[Any] = np.asarray(image)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from numbers import Integral
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import plain, unmet
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.errors import RenderError
 from glid_nb.imaging.frame import PixelFrame
@@ -19,6 +18,7 @@ from glid_nb.imaging.texture import Texture
 from glid_nb.solvers import Pose
 
 View = Literal["source", "fit"]
+_SIZE = {"least": -np.inf, "form": "(width, height) in whole pixels"}
 
 _TOLERANCE_PX = 0.25  # straight mesh edges may stray from the map by this many output pixels
 _PIXELS_PER_VERTEX = 500  # output pixels per vertex of the mesh before refinement
@@ -52,35 +52,21 @@ def render(
     view: View = "source",
     pose: Pose | None = None,
 ) -> NDArray[np.uint8]:
-    """Warp a picture through a map.
+    """Warp a picture through a map; (h, w, 4) uint8 RGBA with straight alpha.
 
-    Parameters
-    ----------
-    image : (h, w, 4), (h, w, 3) or (h, w) array, or Texture
-        The picture that the map's cage was traced from, or one of the same aspect ratio; its longer
-        side is 20 world units.
-    map : HarmonicMap
-    size : (w, h), optional
-        Pixels of the result; by default the image's own.
-    n_vertices : int, optional
-        About how many vertices the mesh gets, evenly spread. By default it is refined until its
-        straight edges stray from the map by less than 0.25 output pixels.
-    view : "source" or "fit"
-        Show the rectangle of the image, letter-boxed if ``size`` has another aspect ratio; or all
-        of the deformed shape, with a margin.
-    pose : Pose, optional
-        Whose depths say which part is in front where the shape overlaps itself.
+    The image, (h, w), (h, w, 3), (h, w, 4) or a Texture, is the one that the map's cage was traced
+    from, or one of the same aspect ratio; its longer side is 20 world units. The result has
+    ``size``, (w, h) pixels, by default the image's own, and is transparent where the deformed shape
+    is not.
 
-    Returns
-    -------
-    (h, w, 4) uint8 array
-        RGBA with straight alpha, transparent where the deformed shape is not.
+    The view is "source", the rectangle of the image, letter-boxed if ``size`` has another aspect
+    ratio; or "fit", all of the deformed shape, with a margin. The depths of a pose say which part
+    is in front where the shape overlaps itself. The mesh gets about ``n_vertices``, evenly spread;
+    by default it is refined until its straight edges stray from the map by less than 0.25 output
+    pixels.
 
-    Raises
-    ------
-    RenderError
-        An argument is out of range, the map's cage does not fit the picture, or the map collapses
-        the shape; the message says which.
+    Raises a RenderError that says which argument is out of range, or that the map's cage does not
+    fit the picture or the map collapses the shape.
     """
     return rendering(image, map, size, n_vertices, view, pose).picture
 
@@ -98,7 +84,10 @@ def rendering(
         raise RenderError(f"unknown view {view!r}; choose one of {', '.join(get_args(View))}")
     texture = Texture.from_image(image)
     source = PixelFrame(*texture.size)
-    width, height = texture.size if size is None else _sides(size)
+    sides = texture.size if size is None else plain(size)
+    if wanted := unmet(tuple[int, int], sides, _SIZE):
+        raise RenderError(f"size must be {wanted}, not {size!r:.60}")
+    width, height = sides
     if min(width, height) < 1:
         raise RenderError(f"size is {width} x {height} pixels; both sides must be at least 1")
     if width * height >= _MOST_PIXELS:
@@ -119,13 +108,6 @@ def rendering(
     else:
         mesh = deformed_mesh(map, n_vertices, pose=pose)
     return Rendering(draw_mesh(texture, mesh, frame), frame, mesh)
-
-
-def _sides(size: tuple[int, int]) -> tuple[int, int]:
-    sides = tuple(size) if isinstance(size, Iterable) else ()
-    if len(sides) != 2 or any(isinstance(n, bool) or not isinstance(n, Integral) for n in sides):
-        raise RenderError(f"size must be (width, height) in whole pixels, not {size!r:.60}")
-    return int(sides[0]), int(sides[1])
 
 
 def _check_fits(frame: PixelFrame, map: HarmonicMap) -> None:

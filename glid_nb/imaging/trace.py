@@ -17,13 +17,7 @@ from glid_nb.imaging.foreground import Foreground, find_foreground, scaled_pictu
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.holes import Dilation, Hole, choose_holes, dilate, filled_mask
 from glid_nb.imaging.options import TraceOptions
-from glid_nb.imaging.outline import (
-    Component,
-    Components,
-    Outline,
-    find_components,
-    find_outline,
-)
+from glid_nb.imaging.outline import Component, Components, Outline, find_components, find_outline
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.imaging.simplify import Simplified, simplify
 
@@ -39,72 +33,45 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, eq=False)
 class Tracing:
-    """A traced cage and how it was made.
-
-    Attributes
-    ----------
-    cage
-        The boundary P, in world coordinates.
-    mask
-        (h, w) read-only, the pixels of the shape; holes that were dropped are filled.
-    frame
-        Conversion between pixel and world coordinates.
-    notes
-        Sentences about what was chosen, filled, moved or repaired.
-    doubt
-        Why the foreground is no more than a guess; empty where it is clear or the options say how
-        to find it.
-    method
-        How the foreground was found, never ``"auto"``.
-    threshold, offset, simplify
-        The values used, given or automatic, in the terms of `TraceOptions`.
-    component
-        The component that was traced.
-    components
-        The largest components of the foreground, at most fifty.
-    n_components
-        Their number without that limit.
-    outline
-        (n, 2) read-only, the shape's exterior outline in pixel coordinates before the offset.
-    holes
-        The shape's holes, the largest first, then those that the offset made; kept or not.
-    n_filled
-        Number of holes that are filled, with the many small ones that `holes` leaves out.
-    """
+    """A traced cage and how it was made."""
 
     cage: Cage
+    """The boundary P, in world coordinates."""
     mask: NDArray[np.bool_]
+    """(h, w) read-only, the pixels of the shape; holes that were dropped are filled."""
     frame: PixelFrame
+    """Conversion between pixel and world coordinates."""
     notes: tuple[str, ...]
+    """Sentences about what was chosen, filled, moved or repaired."""
     doubt: str
+    """Why the foreground is no more than a guess; empty where it is clear or the options say how to
+    find it."""
     method: str
+    """How the foreground was found, never ``"auto"``."""
     threshold: float
     offset: float
     simplify: float
+    """The values used, given or automatic, in the terms of `TraceOptions`."""
     component: Component
+    """The component that was traced."""
     components: tuple[Component, ...]
+    """The largest components of the foreground, at most fifty."""
     n_components: int
+    """Their number without that limit."""
     outline: NDArray[np.float64]
+    """(n, 2) read-only, the shape's exterior outline in pixel coordinates before the offset."""
     holes: tuple[Hole, ...]
+    """The shape's holes, the largest first, then those that the offset made; kept or not."""
     n_filled: int
+    """Number of holes that are filled, with the many small ones that `holes` leaves out."""
 
 
 def trace(image: ImageSource, options: TraceOptions | None = None, **changes: Any) -> Tracing:
-    """Trace a cage around the shape in a picture.
+    """Trace a cage around the shape in a picture, which is given as to `read_image`.
 
-    Parameters
-    ----------
-    image
-        A picture, as in `read_image`.
-    options
-        How to trace; the default suits most drawings and many photographs.
-    changes
-        Fields of `TraceOptions` to set.
-
-    Raises
-    ------
-    TraceError
-        The picture cannot be read or shows no shape, or an option is out of range.
+    The default options suit most drawings and many photographs; ``changes`` are fields of
+    `TraceOptions` to set. Raises a TraceError when the picture cannot be read or shows no shape, or
+    an option is out of range.
 
     Examples
     --------
@@ -129,12 +96,8 @@ class Tracer:
     """Traces one picture repeatedly and reuses what changed options do not affect.
 
     The stages are foreground, components, outline, holes, dilation and simplification. A stage runs
-    again if one of its options, or a result that it depends on, has changed. Not thread-safe.
-
-    Parameters
-    ----------
-    image
-        A picture, as in `read_image`. An array is not copied and must not be changed afterwards.
+    again if one of its options, or a result that it depends on, has changed. Not thread-safe. The
+    picture is given as to `read_image`; an array is not copied and must not be changed afterwards.
     """
 
     def __init__(self, image: ImageSource) -> None:

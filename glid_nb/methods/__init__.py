@@ -11,7 +11,7 @@ from typing import Any
 
 from glid_nb._errors import did_you_mean
 from glid_nb.methods.bdhm.solve import BDHM
-from glid_nb.methods.linear.methods import (
+from glid_nb.methods.linear import (
     BoundedBiharmonicWeights,
     CauchyCoordinates,
     HarmonicWeights,

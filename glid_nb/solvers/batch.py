@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike
 
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
+from glid_nb._errors import about
 from glid_nb._jax import jax, jnp
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision, single_blas_thread
 from glid_nb.energies import Energy, as_energy
@@ -97,7 +98,7 @@ def solve_batch(
     given = [Inputs(domain=domain, pose=pose, energy=energy, options=options) for pose in poses]
     # A CPU gains nothing from lockstep, in which every pose takes every branch; and the thread pool
     # of XLA 0.10 was seen to lose tasks of such programs and to wait for them for ever.
-    each = _one_by_one if all(device.platform == "cpu" for device in devices) else _in_lockstep
+    each = _one_by_one if devices[0].platform == "cpu" else _in_lockstep
     return each(given, devices)
 
 
@@ -152,10 +153,8 @@ def _poses(handles: ArrayLike, targets: ArrayLike, depths: ArrayLike | None) -> 
         raise PoseError(f"targets have shape {rows.shape}; expected (poses, handles, 2)")
     poses = []
     for i, row in enumerate(rows):
-        try:
+        with about(f"pose {i}", PoseError):
             poses.append(Pose(handles, row, depths))
-        except PoseError as error:
-            raise PoseError(f"pose {i}: {error}") from error
     return poses
 
 

@@ -11,14 +11,10 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from glid_nb._jax import jax, jnp, lax
-
-if TYPE_CHECKING:
-    from jaxtyping import Array, Float
+from glid_nb._jax import Array, Float, jax, jnp, lax
 
 _FACTORISE, _SOLVE = "lapack_dpotrf_ffi", "lapack_dtrsm_ffi"
 # What JAX's own calls must look like for ours to be understood.

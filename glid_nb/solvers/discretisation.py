@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import functools
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from glid_nb._jax import jax
+from glid_nb._jax import Array, Bool, Float, Int, jax
 from glid_nb._runtime import double_precision, in_chunks, single_blas_thread, stage
 from glid_nb.certificate import PROOFS, CertificateKind, PanelProof, rounding
 from glid_nb.certificate.panels import split
@@ -22,9 +22,6 @@ from glid_nb.harmonic import basis_of, cauchy
 from glid_nb.harmonic.basis import Basis
 from glid_nb.harmonic.cauchy import Singularities
 from glid_nb.solvers.whitening import whitened, whitening
-
-if TYPE_CHECKING:
-    from jaxtyping import Array, Bool, Float, Int
 
 Sampling = Literal["graded", "uniform"]
 

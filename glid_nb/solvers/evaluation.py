@@ -5,20 +5,17 @@ All methods in the harmonic subspace evaluate maps by these functions.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from glid_nb._jax import jax, jnp, lax
-from glid_nb.certificate import EndValues, PanelBounds, fz_vanishes, rounding
+from glid_nb._jax import Array, Bool, Float, jax, jnp, lax
+from glid_nb.certificate import EndValues, PanelBounds, rounding
 from glid_nb.certificate.panels import modulus
 from glid_nb.certificate.paper import turning
 from glid_nb.energies import Differentials, Energy
 from glid_nb.solvers.discretisation import Matrices
 from glid_nb.solvers.problem import Problem
-
-if TYPE_CHECKING:
-    from jaxtyping import Array, Bool, Float
 
 
 class Samples(NamedTuple):
@@ -113,7 +110,8 @@ def energy_gradient(
 def bounds(problem: Problem, point: Point) -> PanelBounds:
     """The certificate's bounds on every panel."""
     matrices, samples = problem.matrices, point.samples
-    truncation = _truncation(problem, point.coefficients)
+    pair = jnp.stack(_complex_pair(point.coefficients))
+    truncation = matrices.proof.remainder(pair, problem.singularities)
     slack = rounding.allowance(matrices.rounding * point.largest, point.largest)
     remainder = truncation + matrices.proof.slack_share * slack
     chord = lax.complex(*matrices.chord)
@@ -124,11 +122,6 @@ def bounds(problem: Problem, point: Point) -> PanelBounds:
     fz = EndValues(f, f[after], df * chord, df[after] * chord)
     fzb_conj = EndValues(g, g[after], dg * chord, dg[after] * chord)
     return matrices.proof.bounds(fz, fzb_conj, remainder)
-
-
-def has_zeros(matrices: Matrices, panel: PanelBounds) -> Bool[Array, ""]:
-    """Whether ``f_z`` has zeros inside (30)."""
-    return fz_vanishes(jnp.where(matrices.real, panel.turning, 0))
 
 
 def tightened_by_splitting(problem: Problem, point: Point) -> Bool[np.ndarray, " p"]:
@@ -181,12 +174,6 @@ def directions(nodes: Float[Array, "4 s"]) -> tuple[tuple[Array, Array], tuple[A
         safe = jnp.where(vanishes, 1, modulus)
         pairs.append((jnp.where(vanishes, 1, nodes[k] / safe), nodes[k + 1] / safe))
     return pairs[0], pairs[1]
-
-
-def _truncation(problem: Problem, coefficients: Float[Array, " 4c"]) -> Float[Array, "2 p"]:
-    """How far the derivatives of ``phi`` and ``psi`` may be from what their ends say."""
-    pair = jnp.stack(_complex_pair(coefficients))
-    return problem.matrices.proof.remainder(pair, problem.singularities)
 
 
 def _complex_pair(y: Float[Array, " 4c"]) -> tuple[Array, Array]:

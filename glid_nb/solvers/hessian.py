@@ -11,15 +11,12 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from glid_nb._jax import jax, jnp, lax
+from glid_nb._jax import Array, Float, jax, jnp, lax
 from glid_nb.energies import Differentials
 
-if TYPE_CHECKING:
-    from jaxtyping import Array, Float
-
-    Samples = Float[Array, " h"]
+Samples = Float[Array, " h"]
 
 
 # Elements of a basis matrix that are assembled at once: with more, copies of the matrix would need

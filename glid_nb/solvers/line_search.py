@@ -6,24 +6,20 @@ direction cost no further product (G.11) and many candidate steps are tried at o
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from glid_nb._jax import AnyArray, jnp, lax
-from glid_nb.certificate import PanelBounds
+from glid_nb._jax import AnyArray, Array, Bool, Float, Int, jnp, lax
+from glid_nb.certificate import PanelBounds, fz_vanishes
 from glid_nb.solvers.evaluation import (
     Line,
     Point,
     bounds,
     fz_turning,
-    has_zeros,
     isometric_energy,
     moved,
 )
 from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.status import BLOCKED, NO_DECREASE, PENDING, REFUSED, RUNNING
-
-if TYPE_CHECKING:
-    from jaxtyping import Array, Bool, Float, Int
 
 CANDIDATES = 24
 RATIO = 0.8
@@ -40,10 +36,9 @@ LEAST_STEP = 1e-12
 
 
 class Search(NamedTuple):
-    """Candidate steps, longest first, and the total energy at each."""
+    """Candidate steps, longest first."""
 
     steps: Float[Array, " t"]
-    energies: Float[Array, " t"]
     acceptable: Bool[Array, " t"]
     """Where the energy decreases sufficiently (Algorithm 1, line 17)."""
     best: Int[Array, ""]
@@ -99,7 +94,7 @@ def search(problem: Problem, point: Point, line: Line) -> Search:
         (top / RATIO**CANDIDATES, jnp.full(CANDIDATES, jnp.inf)),
     )
     energies = jnp.where(jnp.isnan(energies), jnp.inf, energies)
-    return Search(steps, energies, acceptable(steps, energies), jnp.argmin(energies))
+    return Search(steps, acceptable(steps, energies), jnp.argmin(energies))
 
 
 class Backtracking(NamedTuple):
@@ -128,12 +123,12 @@ def backtrack(
 
     def refusing(panel: PanelBounds) -> Bool[Array, " p"]:
         refuses = real & ~panel.injective
-        zeros = has_zeros(problem.matrices, panel)
+        zeros = fz_vanishes(jnp.where(real, panel.turning, 0))
         turned = jnp.where(real, jnp.abs(panel.turning - before), 0)
         jumped = zeros & ~jnp.any(refuses) & (turned >= jnp.max(turned) / 2)
         return refuses | (jumped & real)
 
-    def attempt(carry: tuple[Array, Array, Point, PanelBounds, Array]) -> tuple:
+    def attempt(carry: tuple) -> tuple:
         _, index, _, _, refused = carry
         there = moved(problem, point, line, found.steps[index])
         panel = bounds(problem, there)

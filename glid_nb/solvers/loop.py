@@ -130,19 +130,20 @@ class Descent:
         """Add an iteration to the history."""
         self.history.append(replace(entry, iteration=len(self.history) + 1))
 
+    def _course(self, entry: Iteration) -> dict[str, Any]:
+        return {
+            "method": self.method,
+            "initial": self.initial,
+            "history": tuple(self.history),
+            "energy_iso": entry.energy_iso,
+            "energy_p2p": entry.energy_p2p,
+            "discretisation": self.discretisation,
+        }
+
     def progress(self) -> Progress:
         """What a callback sees."""
         now = self.reached()
-        return Progress(
-            method=self.method,
-            history=tuple(self.history),
-            initial=self.initial,
-            energy_iso=now.entry.energy_iso,
-            energy_p2p=now.entry.energy_p2p,
-            make=now.make,
-            sigma2_lower=now.sigma2_lower,
-            discretisation=self.discretisation,
-        )
+        return Progress(make=now.make, sigma2_lower=now.sigma2_lower, **self._course(now.entry))
 
     def result(self, ending: Ending, compile_time: float, solve_time: float) -> Result:
         """What a solve returns."""
@@ -155,19 +156,14 @@ class Descent:
             map=made.map if harmonic else made,
             status=ending.status,
             detail=ending.detail,
-            energy_iso=now.entry.energy_iso,
-            energy_p2p=now.entry.energy_p2p,
-            initial=self.initial,
-            history=tuple(self.history),
             pose=self.inputs.pose,
             options=self.inputs.options,
             energy_measure=self.inputs.energy,
-            method=self.method,
             compile_time=compile_time,
             solve_time=solve_time,
-            discretisation=self.discretisation,
             factor=self.factor if ending.status is Status.CONVERGED else None,
             proof=made if harmonic else None,
+            **self._course(now.entry),
         )
 
     def stagnation(self) -> Ending | None:
@@ -249,7 +245,6 @@ class GeneratedDescent(Descent):
         return replace(self._now.entry, time=seconds)
 
     def advance(self, may_refine: bool) -> Advance:  # noqa: ARG002
-        """One step, or the end."""
         if not self.left:
             return Advance()
         try:
@@ -260,10 +255,8 @@ class GeneratedDescent(Descent):
         return Advance(iterations=1)
 
     def reached(self) -> Reached:
-        """After the last step."""
         return self._now
 
     def adapt(self, done: Advance) -> Ending | None:
-        """The generator's end, or that of steps that gain nothing."""
         gains = self.method.window is not None and done.iterations
         return self.stagnation() if gains else self._ending

@@ -93,7 +93,6 @@ class NewtonDescent(SubspaceDescent):
         )
 
     def settings(self, may_refine: bool = True) -> step.Settings:
-        """Those of the next call."""
         options = self.inputs.options
         return step.Settings(
             tolerance=options.tolerance,
@@ -147,18 +146,20 @@ class NewtonDescent(SubspaceDescent):
             return Ending(Status.CONVERGED)
         if done.iterations:
             self._relax_ridge()
-            if self._has_coarse_hessian() and _is_slow(self.history):
+            # Other nodes make no fewer iterations with K+, which are slow anyway.
+            coarse = self.discretisation.can_refine and self.inputs.options.hessian != "projected"
+            if coarse and _is_slow(self.history):
                 self._take_full_hessian()
         if done.outcome == status.INDEFINITE:
             # Rounding or the nodes may have made it so.
             return None if self._take_full_hessian() else self._raise_ridge()
         stalled = done.iterations and _has_stalled(self.history[self.full_since or 0 :])
-        if done.outcome == status.NO_DECREASE or stalled:
-            return None if self._take_full_hessian() else self._without_decrease()
-        return None
+        if not (done.outcome == status.NO_DECREASE or stalled) or self._take_full_hessian():
+            return None
+        hidden = _ROUNDING * abs(float(self.point.energy))
+        return Ending(Status.STATIONARY if self.decrement**2 / 2 <= hidden else Status.BLOCKED)
 
     def split(self, refused: Array) -> int:
-        """Split the panels that refused a step, and keep the full Hessian."""
         count = super().split(refused)
         if count and self.full_since is not None:
             self.problem = self.problem._replace(matrices=self.discretisation.full_matrices)
@@ -171,10 +172,6 @@ class NewtonDescent(SubspaceDescent):
         self.full_since = len(self.history)
         self.problem = self.problem._replace(matrices=self.discretisation.full_matrices)
         return True
-
-    def _has_coarse_hessian(self) -> bool:
-        """Whether other nodes may make fewer iterations: not those of K+, which are slow anyway."""
-        return self.discretisation.can_refine and self.inputs.options.hessian != "projected"
 
     def _relax_ridge(self) -> None:
         """Lower an epsilon that one place needed: close to the minimum it would make steps short.
@@ -190,11 +187,6 @@ class NewtonDescent(SubspaceDescent):
             return Ending(Status.INDEFINITE)
         self.ridge = max(_RIDGE_FACTOR * self.ridge, _RIDGE)
         return Ending(Status.BLOCKED) if self.ridge > _LARGEST_RIDGE else None
-
-    def _without_decrease(self) -> Ending:
-        promised = self.decrement**2 / 2
-        small = promised <= _ROUNDING * abs(float(self.point.energy))
-        return Ending(Status.STATIONARY if small else Status.BLOCKED)
 
 
 def _p2p_hessian(problem: Problem) -> Array:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._jax import AnyArray, jnp
+from glid_nb._jax import AnyArray, Array, Float, jnp
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
@@ -17,9 +17,6 @@ from glid_nb.harmonic.cauchy import Singularities
 from glid_nb.solvers.discretisation import Matrices, basis_rows
 from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.unknowns import Unknowns
-
-if TYPE_CHECKING:
-    from jaxtyping import Array, Float
 
 _HANDLE_BUCKET = 8
 

@@ -12,7 +12,6 @@ its targets; it then starts at the symmetric Dirichlet minimum.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
@@ -21,15 +20,12 @@ from glid_nb._jax import jnp
 from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.solvers.method import Inputs
-from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.result import Attempt, Result
 from glid_nb.solvers.status import Status
-from glid_nb.solvers.turning import Turning, turning_of
+from glid_nb.solvers.turning import turning_of
 
 Descend = Callable[[Inputs], Result]
 """Follows one way down."""
-Way = Callable[[Result], Result]
-"""Follows another way, with the best result so far at hand."""
 
 # Energies above this multiple of an isometry's, if that is at least the last number, are worth all
 # other ways; those above the second are worth turning where joints may turn either way.
@@ -48,17 +44,13 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
 
     ``inputs`` are those of ``first``.
     """
-    if not (inputs.options.restarts and len(inputs.pose)):
+    if not (inputs.options.restarts and len(inputs.pose)) or not _is_poor(first, 1):
         return first
-    if not _is_poor(first, 1):
-        return first
-    turning = turning_of(inputs.pose, inputs.domain.cage)
-    ways = _ways(inputs, descend, turning)[: inputs.options.restarts]
     best, tried = first, [("direct", first)]
-    for name, way, joints in ways:
+    for name, stages, joints in _ways(inputs)[: inputs.options.restarts]:
         if not _is_poor(best, joints):
             continue
-        result = way(best)
+        result = _followed(stages, descend, best)
         tried.append((name, result))
         if result.status is Status.STOPPED:
             best = replace(min(best, result, key=lambda r: r.energy), status=Status.STOPPED)
@@ -76,20 +68,30 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
     )
 
 
-def _ways(inputs: Inputs, descend: Descend, turning: Turning) -> list[tuple[str, Way, int]]:
-    """All other ways by name, those first that help most, and the joints that they turn."""
-    ways: list[tuple[str, Way, int]] = []
+def _ways(inputs: Inputs) -> list[tuple[str, list[Inputs], int]]:
+    """All other ways by name, those first that help most, and the joints that they turn.
+
+    A way is a list of problems, each solved from the last one's map; ``inputs`` come last.
+    """
+    turning = turning_of(inputs.pose, inputs.domain.cage)
+    joints, ways = len(turning.joints), list[tuple[str, list[Inputs], int]]()
     if not inputs.energy.is_barrier:
-        barrier = functools.partial(_from_barrier, inputs, descend)
-        ways.append(("from the symmetric Dirichlet minimum", barrier, 0))
-    joints = len(turning.joints)
-    for name, stages in turning.ways.items():
-        ways.append((name, functools.partial(_turned, inputs, descend, stages), joints))
+        barrier = replace(inputs, energy=SymmetricDirichlet())
+        ways.append(("from the symmetric Dirichlet minimum", [barrier, inputs], 0))
+    loose = _loosened(inputs, TURNING_ITERATIONS, align=True)
+    for name, poses in turning.ways.items():
+        ways.append((name, [*(replace(loose, pose=pose) for pose in poses), inputs], joints))
     if inputs.options.align:
         still = _with(inputs, align=False)
-        ways.append(("staged weights from the identity", lambda _: _staged(still, descend), 0))
-        ways.append(("from the identity", lambda _: descend(still), 0))
-    return [*ways, ("staged weights", lambda _: _staged(inputs, descend), 0)]
+        ways.append(("staged weights from the identity", _raised(still), 0))
+        ways.append(("from the identity", [still], 0))
+    return [*ways, ("staged weights", _raised(inputs), 0)]
+
+
+def _raised(inputs: Inputs) -> list[Inputs]:
+    """The problem with a rising weight of the targets."""
+    weights = [inputs.options.p2p_weight * fraction for fraction in STAGES]
+    return [*(_loosened(inputs, STAGE_ITERATIONS, p2p_weight=w) for w in weights), inputs]
 
 
 def _is_poor(result: Result, joints: int) -> bool:
@@ -109,62 +111,38 @@ def isometry_energy(energy: Energy) -> float:
     return float(energy.density(jnp.ones(1), jnp.zeros(1))[0])
 
 
-def _staged(inputs: Inputs, descend: Descend) -> Result:
-    """Descend with a rising weight of the targets; the history holds all stages."""
-    options = inputs.options
-    most = STAGE_ITERATIONS if options.max_iterations is None else options.max_iterations
-    done: list[Result] = []
-    for fraction in STAGES:
-        stage = _with(
-            inputs,
-            p2p_weight=options.p2p_weight * fraction,
-            max_iterations=min(STAGE_ITERATIONS, most),
-            tolerance=STAGE_TOLERANCE,
-            align=options.align and not done,
-        )
-        done.append(descend(replace(stage, start=done[-1] if done else None)))
-        if done[-1].status is Status.STOPPED:
-            return _joined(done)
-    done.append(descend(replace(_with(inputs, align=False), start=done[-1])))
-    return _joined(done)
-
-
-def _turned(inputs: Inputs, descend: Descend, stages: Sequence[Pose], best: Result) -> Result:
-    """Descend along the stages of a way to turn; their own history is left out.
+def _followed(stages: Sequence[Inputs], descend: Descend, best: Result) -> Result:
+    """The result of a way; the history of its stages counts where they only differ by weight.
 
     A shape is distorted the more the further it turns, so a stage that distorts it more than the
     best result is the last.
     """
-    options, done = inputs.options, list[Result]()
-    most = TURNING_ITERATIONS if options.max_iterations is None else options.max_iterations
-    loose = _with(inputs, max_iterations=min(TURNING_ITERATIONS, most), tolerance=STAGE_TOLERANCE)
-    for pose in stages:
-        stage = _with(replace(loose, pose=pose), align=not done)
-        done.append(descend(replace(stage, start=done[-1] if done else None)))
-        if done[-1].status is Status.STOPPED:
-            return replace(best, status=Status.STOPPED)
-        if done[-1].energy_iso > best.energy:
-            return replace(done[-1], **_times(done))
-    done.append(descend(replace(_with(inputs, align=False), start=done[-1])))
+    final, done = stages[-1], list[Result]()
+    for stage in stages:
+        start = done[-1] if done else None
+        stage = _with(stage, align=stage.options.align and not done)
+        done.append(descend(replace(stage, start=start)))
+        turns_too_far = stage.pose is not final.pose and done[-1].energy_iso > best.energy
+        if done[-1].status is Status.STOPPED or turns_too_far:
+            break
+    if stages[0].options.p2p_weight != final.options.p2p_weight:
+        return _joined(done)
+    if done[-1].status is Status.STOPPED and len(done) < len(stages):
+        return replace(best, status=Status.STOPPED)
     return replace(done[-1], **_times(done))
 
 
-def _from_barrier(inputs: Inputs, descend: Descend, best: Result) -> Result:
-    """Descend from the symmetric Dirichlet minimum, whose own history is left out."""
-    barrier = descend(replace(inputs, energy=SymmetricDirichlet()))
-    if barrier.status is Status.STOPPED:
-        return replace(best, status=Status.STOPPED)
-    result = descend(replace(_with(inputs, align=False), start=barrier))
-    return replace(result, **_times([barrier, result]))
+def _loosened(inputs: Inputs, iterations: int, **changes: Any) -> Inputs:
+    most = inputs.options.max_iterations
+    few = iterations if most is None else min(iterations, most)
+    return _with(inputs, max_iterations=few, tolerance=STAGE_TOLERANCE, **changes)
 
 
 def _with(inputs: Inputs, **changes: Any) -> Inputs:
-    """The same with other options."""
     return replace(inputs, options=replace(inputs.options, **changes))
 
 
 def _times(results: list[Result]) -> dict[str, float]:
-    """The times of all together."""
     return {
         "compile_time": sum(result.compile_time for result in results),
         "solve_time": sum(result.solve_time for result in results),

@@ -67,28 +67,34 @@ class Iteration:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Progress:
-    """What a callback sees."""
+class Course:
+    """What a method has come to."""
 
     method: Method
-    history: tuple[Iteration, ...]
-    """All iterations so far. Empty at the start, and while panels are split before the first."""
     initial: Iteration
     """The start, as iteration 0."""
+    history: tuple[Iteration, ...]
+    """All iterations so far. Empty at the start, and while panels are split before the first."""
     energy_iso: float
-    """Isometric part of the energy of :attr:`map`."""
+    """Isometric part of :attr:`energy`."""
     energy_p2p: float
-    """Positional part."""
-    make: Make = field(repr=False)
-    sigma2_lower: Array | None = None
-    """(p,) certified bound per panel, once a step was taken."""
+    """Positional part of :attr:`energy`."""
     discretisation: Discretisation | None = field(default=None, repr=False)
-    """Panels and matrices of a method in the harmonic subspace."""
+    """Panels and matrices of a method in the harmonic subspace, to go on from."""
 
     @property
     def energy(self) -> float:
-        """Total energy of :attr:`map`."""
+        """Total energy of the map, (20)."""
         return self.energy_iso + self.energy_p2p
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Progress(Course):
+    """What a callback sees."""
+
+    make: Make = field(repr=False)
+    sigma2_lower: Array | None = None
+    """(p,) certified bound per panel, once a step was taken."""
 
     @functools.cached_property
     def _made(self) -> Certificate | MeshMap:
@@ -134,7 +140,7 @@ class Refinement:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Result:
+class Result(Course):
     """The best map that a solve found, and how it got there.
 
     A map of the harmonic subspace is certified; one of a mesh is not, and has no certificate.
@@ -143,26 +149,16 @@ class Result:
     map: DeformationMap
     """A HarmonicMap, or a MeshMap where the method works on a mesh."""
     status: Status
-    energy_iso: float
-    """Isometric part of :attr:`energy`."""
-    energy_p2p: float
-    """Positional part of :attr:`energy`."""
-    initial: Iteration
-    """The start, as iteration 0."""
-    history: tuple[Iteration, ...]
     pose: Pose
     options: Options
     energy_measure: Energy
     """The isometric energy that was minimised."""
-    method: Method
     compile_time: float
     """Seconds spent compiling during this solve."""
     solve_time: float
     """Seconds of the solve without compilation."""
     detail: str | None = None
     """The outcome as a full sentence, where that of the status does not say enough."""
-    discretisation: Discretisation | None = field(default=None, repr=False)
-    """Panels and matrices at the end, for a solve that goes on from here."""
     factor: Any = field(default=None, repr=False)
     """Cholesky factor of the last Hessian, for a solve that goes on from here."""
     attempts: tuple[Attempt, ...] = ()
@@ -171,11 +167,6 @@ class Result:
     """All bases by :func:`glid_nb.refine`, the first one's too; empty without it."""
     proof: Certificate | None = field(default=None, repr=False)
     """What the solver proved of a harmonic map; always certified."""
-
-    @property
-    def energy(self) -> float:
-        """Total energy of :attr:`map`, (20)."""
-        return self.energy_iso + self.energy_p2p
 
     @property
     def start_energy(self) -> float:

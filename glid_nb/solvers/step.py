@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from glid_nb._jax import AnyArray, jax, jnp, lax
+from glid_nb._jax import AnyArray, Array, Bool, Float, Int, jax, jnp, lax
 from glid_nb._programs import Program
 from glid_nb.energies import table1
 from glid_nb.solvers import cholesky, evaluation, line_search, whitening
@@ -21,9 +21,6 @@ from glid_nb.solvers.options import MOST_PER_CALL
 from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.status import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.unknowns import expand, restrict_gradient, restrict_hessian
-
-if TYPE_CHECKING:
-    from jaxtyping import Array, Bool, Float, Int
 
 # A correction that gains more than this share of what the step before it gained is slow: the
 # Hessian has changed, and a new one gains more for its cost.

@@ -90,7 +90,6 @@ class SubspaceDescent(Descent):
         self.just_split = 0
 
     def reached(self) -> Reached:
-        """After the last advance."""
         point, domain = self.point, self.inputs.domain
         iso, p2p = float(point.energy_iso), float(point.energy_p2p)
         entry = Iteration(iteration=0, energy_iso=iso, energy_p2p=p2p, time=0.0)
@@ -139,7 +138,6 @@ class SubspaceDescent(Descent):
         return super().result(ending, compile_time, solve_time)
 
     def split(self, refused: Array) -> int:
-        """Split the panels that refused a step; 0 when none can be."""
         wanted = self.discretisation.splittable(refused)
         count = int(wanted.sum())
         if count:

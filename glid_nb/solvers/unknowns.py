@@ -9,18 +9,14 @@ its gradient 0, which keeps shapes fixed. The hole coefficients obey ``psi_j = c
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import Any as Array  # of NumPy or of JAX
+from typing import NamedTuple
 
 import numpy as np
 
-from glid_nb._jax import AnyArray, jnp
+from glid_nb._jax import AnyArray, Float, jnp
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.basis import Basis
-
-if TYPE_CHECKING:
-    from typing import Any as Array  # of NumPy or of JAX
-
-    from jaxtyping import Float
 
 
 class Unknowns(NamedTuple):

@@ -23,18 +23,13 @@ could add to a map with slopes of about 1 is as small.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any as Array  # of NumPy or of JAX
 
 import numpy as np
 import scipy
 
-from glid_nb._jax import AnyArray, jnp
+from glid_nb._jax import AnyArray, Complex, Float, Int, jnp
 from glid_nb.harmonic.basis import Basis, column_bucket
-
-if TYPE_CHECKING:
-    from typing import Any as Array  # of NumPy or of JAX
-
-    from jaxtyping import Complex, Float, Int
 
 # Raises the Gram matrix's diagonal, relative to its mean, should columns be dependent.
 _RIDGE = 1e-13

@@ -21,6 +21,7 @@ from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import ImageSource, png, read_image
 from glid_nb.imaging.render import View
+from glid_nb.motion import Motion
 from glid_nb.session import Document, NamedPose
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
@@ -29,12 +30,13 @@ from glid_nb.session.status_line import StatusLine
 from glid_nb.solvers import Method, Pose
 from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
 from glid_nb.widgets.closing import ClosingWidget, close_on_rerun, close_with_parts
-from glid_nb.widgets.controls import REFUSED, PoseList, button, paragraph
+from glid_nb.widgets.controls import REFUSED, button, paragraph
 from glid_nb.widgets.exporting import export
 from glid_nb.widgets.file_panel import FilePanel, OpenPanel
 from glid_nb.widgets.monitor import SolverMonitor
 from glid_nb.widgets.pins import PinBar
 from glid_nb.widgets.solver_panel import SolverPanel
+from glid_nb.widgets.timeline import TimelinePanel
 from glid_nb.widgets.tracer import CageTracer
 
 _TRACE, _DEFORM = 0, 1
@@ -236,6 +238,15 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         return self.deformation.state.poses
 
     @property
+    def motion(self) -> Motion:
+        """The motion through all poses, as the timeline has it.
+
+        Raises MotionError where there is one pose only, or no motion joins two of them.
+        """
+        self.deformation  # noqa: B018 - EditError where there is no shape yet
+        return self.timeline.animation.motion
+
+    @property
     def status(self) -> StatusLine:
         """What is going on, in words."""
         return self.deformation.status
@@ -389,7 +400,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.canvas = DeformCanvas(image, model, *self._size, n_vertices=self._n_vertices)
         self.toolbar = Toolbar(self.canvas)
         self.monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
-        self.pose_list = PoseList(model)
+        self.timeline = TimelinePanel(self.canvas)
         # Boxes to be filled: if the children changed, the page would select another tab.
         self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}
         self._boxes["pins"] = ipywidgets.VBox(layout={"min_height": _PINS_HEIGHT})
@@ -403,11 +414,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         for name, value in _LINE.items():
             setattr(self.monitor.line.layout, name, value)
         fixed = {"flex": "0 0 auto", "overflow": "visible"}
-        side = ipywidgets.VBox(
-            [self._side, self.pose_list], layout={**fixed, "width": f"{_SIDE_WIDTH + 34}px"}
-        )
+        side = ipywidgets.VBox([self._side], layout={**fixed, "width": f"{_SIDE_WIDTH + 34}px"})
         left = ipywidgets.VBox(
-            [self.toolbar, self._boxes["pins"], self.canvas, self.monitor.line],
+            [self.toolbar, self._boxes["pins"], self.canvas, self.timeline, self.monitor.line],
             layout={**fixed, "margin": "0 14px 0 0"},
         )
         wrapped = {"align_items": "flex-start", "flex_flow": "row wrap", "overflow": "visible"}

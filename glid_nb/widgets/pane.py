@@ -53,6 +53,8 @@ class Stage(Pad):
     )
     """Targets and images of the handles, lists of [x, y], and indices of the selected and of the
     hidden ones."""
+    onion = traitlets.List([]).tag(sync=True)
+    """Outlines of other poses: a colour, and loops of [x, y], each."""
     cursor = traitlets.List(default_value=None, allow_none=True).tag(sync=True)
     """Where the keyboard's cursor is, [x, y]; None while it is not used."""
     legend = traitlets.Dict({}).tag(sync=True)

@@ -73,7 +73,7 @@ def test_index_at():
 
 @pytest.mark.parametrize("width", [0, -3, 2.5, True, "3", None])
 def test_a_wrong_width(width):
-    with pytest.raises(TraceError, match="width must be a whole number of pixels, at least 1"):
+    with pytest.raises(TraceError, match="width must be a whole number of at least 1 pixels, not"):
         PixelFrame(width, 10)
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from glid_nb.geometry import MeshMap, graded_panels, triangulate
 from glid_nb.harmonic import as_complex
 from glid_nb.methods import METHODS
-from glid_nb.methods.linear.coordinates import (
+from glid_nb.methods.linear import (
     cauchy_point_to_point,
     mean_value_coordinates,
     moving_least_squares,

@@ -11,7 +11,7 @@ import scipy.sparse.linalg
 from numpy.typing import NDArray
 
 from glid_nb.geometry import Triangulation, triangulate
-from glid_nb.methods.linear.coordinates import bounded_biharmonic_weights, harmonic_weights
+from glid_nb.methods.linear import bounded_biharmonic_weights, harmonic_weights
 
 from .problems import problem
 

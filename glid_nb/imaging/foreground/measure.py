@@ -43,11 +43,8 @@ def color_distance(image: RGBA, color: tuple[float, float, float]) -> Field:
     centre = np.array(color, dtype=np.float32) * np.float32(1 / np.sqrt(3))
     total = np.zeros(image.shape[:2], dtype=np.float32)
     for channel in range(3):
-        difference = image[..., channel] * scale
-        difference -= centre[channel]
-        difference *= difference
-        total += difference
-    return np.minimum(np.sqrt(total, out=total), 1, out=total)
+        total += (image[..., channel] * scale - centre[channel]) ** 2
+    return np.minimum(np.sqrt(total), 1)
 
 
 class BorderColor(NamedTuple):

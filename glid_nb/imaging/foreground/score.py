@@ -14,39 +14,12 @@ from glid_nb.imaging.errors import TraceError
 _SMOOTHING = 0.001  # of the longer side
 _LEAST_SMOOTHING = 0.5  # pixels; less is not worth the time
 
-# By method: its name in messages, in terms of options and as the editor's control, and what helps
-# against an empty and against a full foreground, in both terms.
-_OR = "or paint over the shape with Scribbles"
-_TRY_INVERT = "change the threshold, or set invert", f"change the Threshold, {_OR}"
-_WORDS = {
-    "alpha": (
-        ("alpha", "Alpha"),
-        ("lower the threshold, or use another method", f"lower the Threshold, {_OR}"),
-        (
-            "use method='color', 'threshold' or 'scribbles'",
-            f"choose Colour or Brightness, {_OR}",
-        ),
-    ),
-    "threshold": (("brightness", "Brightness"), _TRY_INVERT, _TRY_INVERT),
-    "color": (
-        ("colour distance", "Colour"),
-        (
-            "lower the threshold, or pick another background colour",
-            f"lower the Threshold, {_OR}",
-        ),
-        (
-            "raise the threshold, or pick another background colour",
-            f"raise the Threshold, {_OR}",
-        ),
-    ),
-    "scribbles": (
-        ("scribbles", "Scribbles"),
-        ("draw foreground strokes over more of the shape", "paint over more of the shape"),
-        (
-            "draw background strokes around the shape",
-            "paint over the background around the shape",
-        ),
-    ),
+# What a method measures, and the editor's control for it.
+_NAMES = {
+    "alpha": ("alpha", "Alpha"),
+    "threshold": ("brightness", "Brightness"),
+    "color": ("colour distance", "Colour"),
+    "scribbles": ("scribbles", "Scribbles"),
 }
 
 
@@ -75,20 +48,25 @@ class Foreground:
     def mask(self, threshold: float | None = None) -> NDArray[np.bool_]:
         """(h, w) mask of the foreground; a TraceError if it would be empty or full."""
         mask = self.score > self.level(threshold)
-        (measure, control), if_empty, if_full = _WORDS[self.method]
-        value = f"passes the threshold {self.threshold(threshold):.3g}"
-        if not mask.any():
-            raise TraceError(
-                f"the image has no foreground by {measure}: no pixel {value}; {if_empty[0]}",
-                f"{control} finds no shape in the picture; {if_empty[1]}",
-            )
-        if mask.all():
-            raise TraceError(
-                f"the foreground covers the whole image by {measure}: every pixel {value}; "
-                f"{if_full[0]}",
-                f"{control} takes the whole picture for the shape; {if_full[1]}",
-            )
-        return mask
+        if mask.any() and not mask.all():
+            return mask
+        empty, (measure, control) = not mask.any(), _NAMES[self.method]
+        if empty:
+            problem, seen = "the image has no foreground", "finds no shape in the picture"
+        else:
+            problem = "the foreground covers the whole image"
+            seen = "takes the whole picture for the shape"
+        change = "raise" if empty == self.inverted else "lower"
+        remedy = f"{change} the threshold, or use another method"
+        plain = f"{change} the Threshold, or paint over the shape with Scribbles"
+        if self.method == "scribbles":
+            remedy = "draw foreground strokes over more of the shape, background strokes around it"
+            plain = "paint over more of the shape, and over the background around it"
+        count, value = "no" if empty else "every", self.threshold(threshold)
+        raise TraceError(
+            f"{problem} by {measure}: {count} pixel passes the threshold {value:.3g}; {remedy}",
+            f"{control} {seen}; {plain}",
+        )
 
 
 def smoothed(foreground: Foreground, sigma: float | None) -> Foreground:

@@ -50,19 +50,11 @@ def simplify(
 ) -> Simplified:
     """Drop vertices without making a loop meet itself or another one.
 
-    Parameters
-    ----------
-    loops
-        The exterior, then the holes, (n, 2) each, in pixel coordinates; they must not meet.
-    tolerance
-        Largest distance in pixels that the outline may move; None: chosen for about 80 vertices.
-    offset
-        Pixels by which the loops were moved away from the shape. The automatic tolerance stays
-        below it if possible, so that the shape stays inside.
-    room
-        Pixels that the loops are about apart; they keep a part of it.
-    max_vertices, min_edge, max_edge
-        As in `TraceOptions`.
+    The ``loops``, the exterior, then the holes, are (n, 2) in pixel coordinates and must not meet.
+    The outline may move by the ``tolerance`` in pixels; None: chosen for about 80 vertices.
+    ``offset`` is by how many pixels the loops were moved away from the shape: the automatic
+    tolerance stays below it if possible, so that the shape stays inside. They are about ``room``
+    pixels apart, and keep a part of that. The rest is as in `TraceOptions`.
     """
     whole = Loops(np.concatenate(loops), np.repeat(np.arange(len(loops)), list(map(len, loops))))
     by_loop = [significance(loop) for loop in loops]

@@ -9,6 +9,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from glid_nb.geometry._loops import next_index
+
 Points = NDArray[np.float64]
 """(n, 2) in pixel coordinates."""
 
@@ -39,9 +41,7 @@ class Loops:
     @cached_property
     def after(self) -> NDArray[np.intp]:
         """(n,) index of the next vertex of the loop."""
-        after = np.arange(1, len(self.points) + 1)
-        after[self.ends - 1] = [0, *self.ends[:-1]]
-        return after
+        return next_index(self.number)
 
     @cached_property
     def before(self) -> NDArray[np.intp]:
@@ -66,14 +66,12 @@ class Loops:
 def passed_over(loops: Loops, kept: NDArray[np.bool_]) -> list[NDArray[np.intp]]:
     """For each edge of ``loops[kept]`` the vertices of ``loops`` that it skips, in order."""
     index = np.flatnonzero(kept)
-    following = index[loops[index].after]
-    ends = loops.ends[loops.number[index]]
-    starts = ends - np.bincount(loops.number)[loops.number[index]]
+    following, number = index[loops[index].after], loops.number[index]
+    sizes = np.bincount(loops.number)[number]
+    starts = loops.ends[number] - sizes
     return [
-        np.arange(low + 1, high)
-        if low < high
-        else np.concatenate([np.arange(low + 1, end), np.arange(start, high)])
-        for low, high, start, end in zip(index, following, starts, ends, strict=True)
+        start + (low + 1 - start + np.arange((high - low - 1) % size)) % size
+        for low, high, start, size in zip(index, following, starts, sizes, strict=True)
     ]
 
 
@@ -94,13 +92,12 @@ def repair(
         kept[back] = True
         place = loops.points[back[-1]]
     count = np.count_nonzero(kept) - before
-    if not count:
-        return []
-    return [
-        f"simplification would have made the cage meet itself; {count} "
-        f"{'vertex was' if count == 1 else 'vertices were'} kept, near ({place[0]:.0f}, "
-        f"{place[1]:.0f}) among others"
-    ]
+    vertices = "vertex was" if count == 1 else "vertices were"
+    note = (
+        f"simplification would have made the cage meet itself; {count} {vertices} kept, near "
+        f"({place[0]:.0f}, {place[1]:.0f}) among others"
+    )
+    return [note] if count else []
 
 
 def edges_in_conflict(loops: Loops, gap: float) -> NDArray[np.intp]:
@@ -128,14 +125,12 @@ def _jumped(simplified: Loops, over: list[NDArray[np.intp]]) -> list[int]:
     separate = simplified.split(simplified.points)
     starts = np.array([loop[0] for loop in separate])
     inside = np.array([shapely.contains_xy(shapely.Polygon(loop), *starts.T) for loop in separate])
-    expected = np.zeros_like(inside)
-    expected[0] = True
-    wrong = inside != expected
-    np.fill_diagonal(wrong, False)
+    inside[0] = ~inside[0]  # all others lie in the exterior
+    np.fill_diagonal(inside, False)
     segments = simplified.segments()
     mendable = np.array([len(vertices) > 0 for vertices in over])
     found = []
-    for pair in np.argwhere(wrong):
+    for pair in np.argwhere(inside):
         for number, other in (pair, pair[::-1]):
             # Take the nearest edge with vertices to put back.
             edges = np.flatnonzero(mendable & (simplified.number == number))

@@ -72,7 +72,6 @@ class BDHM(DistortionBounds, Method):
         Method.__post_init__(self)
 
     def run(self, inputs: Inputs) -> Result:
-        """Alternate between frames and cone programs until none lowers the energy."""
         return follow(lambda: GeneratedDescent(self, inputs, self._steps(_Descent(self, inputs))))
 
     def _steps(self, descent: _Descent) -> Steps:

@@ -61,7 +61,6 @@ class AQP(MeshMethod):
     )
 
     def steps(self, problem: MeshProblem) -> Steps:
-        """Extrapolated steps while they lower the energy."""
         # Hard constraints: a positional part that is 0 but for rounding would be noise times
         # lambda.
         problem = replace(problem, p2p_weight=1.0)
@@ -110,17 +109,15 @@ class _Proxy:
         fz, fzb = self.operators.wirtinger(w)
         return _State(w, fz, fzb, self.operators.energy(self.energy, fz, fzb))
 
-    def iterated(self, now: _State, before: _State, step: float) -> tuple[_State, float] | None:
-        """One accelerated step, or a plain one where that does not lower the energy."""
-        found = self._descended(self._extrapolated(now, before), step)
-        if found is None or found[0].energy >= now.energy:
-            found = self._descended(now, step)
-        return None if found is None or found[0].energy >= now.energy else found
-
     def path(self, now: _State) -> Iterator[tuple[_State, float]]:
         """The states from one on and the steps to them, while steps lower the energy."""
         before, step = now, 1.0
-        while (found := self.iterated(now, before, step)) is not None:
+        while True:
+            found = self._descended(self._extrapolated(now, before), step)
+            if found is None or found[0].energy >= now.energy:
+                found = self._descended(now, step)  # without acceleration
+            if found is None or found[0].energy >= now.energy:
+                return
             before, (now, step) = now, found
             yield found
 

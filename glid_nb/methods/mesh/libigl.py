@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from glid_nb.energies import AMIPS, ARAP, Energy, ExponentialSymmetricDirichlet
+from glid_nb.energies import Energy
 from glid_nb.geometry import as_points
 from glid_nb.harmonic import as_complex
 from glid_nb.methods.mesh.operators import flips
@@ -14,42 +14,24 @@ from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
 from glid_nb.solvers import MethodError
 from glid_nb.solvers.loop import Steps
 
-
-def slim_energy(energy: Energy) -> tuple[str, float]:
-    """libigl's name of an energy, and libigl's energy in ours.
-
-    Raises
-    ------
-    MethodError
-        For AMIPS, ARAP, and the exponential energy with another parameter than libigl's.
-    """
-    refused = None
-    if isinstance(energy, AMIPS):
-        # On triangles libigl weights EXP_CONFORMAL by the symmetric Dirichlet energy's gradient, so
-        # it does not end at a minimum of that either, and it is not offered under another name.
-        refused = (
-            "has no AMIPS: the closest of its energies, EXP_CONFORMAL, is "
-            "exp((sigma_1/sigma_2 + sigma_2/sigma_1)/2), without AMIPS' terms of area and with no "
-            "s; use MIPS(), or AMIPS with the method aqp"
-        )
-    elif isinstance(energy, ARAP):
-        refused = (
-            "has ARAP, but that is no barrier: maps creep up to the first flat triangle, stay "
-            "there and at last turn it over; use the method arap-mesh, or SymmetricDirichlet()"
-        )
-    elif isinstance(energy, ExponentialSymmetricDirichlet) and energy.s != 2:
-        refused = (
-            "minimises exp(sigma_1^2 + sigma_1^-2 + sigma_2^2 + sigma_2^-2), which is exp(s E_iso) "
-            f"with s = 2, and its Python bindings cannot set the factor; got s = {energy.s}; use "
-            "ExponentialSymmetricDirichlet(2), or the method aqp"
-        )
-    if refused:
-        raise MethodError(f"libigl's SLIM {refused}")
-    return {
-        "iso": ("SYMMETRIC_DIRICHLET", 2.0),
-        "exp": ("EXP_SYMMETRIC_DIRICHLET", 1.0),
-        "mips": ("CONFORMAL", 1.0),
-    }[energy.name]
+# libigl's names of energies, and libigl's energies in ours.
+_ENERGIES = {
+    "iso": ("SYMMETRIC_DIRICHLET", 2.0),
+    "exp": ("EXP_SYMMETRIC_DIRICHLET", 1.0),
+    "mips": ("CONFORMAL", 1.0),
+}
+# On triangles libigl weights EXP_CONFORMAL by the symmetric Dirichlet energy's gradient, so it does
+# not end at a minimum of that either, and it is not offered under another name.
+_REFUSED = {
+    "amips": "has no AMIPS: the closest of its energies, EXP_CONFORMAL, is "
+    "exp((sigma_1/sigma_2 + sigma_2/sigma_1)/2), without AMIPS' terms of area and with no s; use "
+    "MIPS(), or AMIPS with the method aqp",
+    "arap": "has ARAP, but that is no barrier: maps creep up to the first flat triangle, stay "
+    "there and at last turn it over; use the method arap-mesh, or SymmetricDirichlet()",
+    "exp": "minimises exp(sigma_1^2 + sigma_1^-2 + sigma_2^2 + sigma_2^-2), which is exp(s E_iso) "
+    "with s = 2, and its Python bindings cannot set the factor; got s = {s}; use "
+    "ExponentialSymmetricDirichlet(2), or the method aqp",
+}
 
 
 @dataclass(frozen=True)
@@ -72,15 +54,15 @@ class SLIM(MeshMethod):
 
     def check_energy(self, energy: Energy) -> None:
         """Where libigl has something close, say what."""
-        if energy.name in ("amips", "arap", "exp"):
-            slim_energy(energy)
+        s = getattr(energy, "s", None)
+        if energy.name in _REFUSED and (energy.name, s) != ("exp", 2):
+            raise MethodError(f"libigl's SLIM {_REFUSED[energy.name].format(s=s)}")
         super().check_energy(energy)
 
     def steps(self, problem: MeshProblem) -> Steps:
-        """libigl's iterations."""
         import igl  # noqa: PLC0415
 
-        name, factor = slim_energy(problem.inputs.energy)
+        name, factor = _ENERGIES[problem.inputs.energy.name]
         mesh, w = problem.operators.mesh, problem.start
         flat = np.column_stack([mesh.vertices, np.zeros(len(mesh.vertices))])
         if flips(*problem.operators.wirtinger(w)):
@@ -117,7 +99,6 @@ class ARAPLocalGlobal(MeshMethod):
     tolerance: float = 1e-9
 
     def steps(self, problem: MeshProblem) -> Steps:
-        """libigl's iterations."""
         import igl  # noqa: PLC0415
 
         mesh = problem.operators.mesh

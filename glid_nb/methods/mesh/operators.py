@@ -62,8 +62,10 @@ class MeshOperators:
         """The area mean of the density; infinite where a triangle is turned over."""
         x, y = np.abs(fz) ** 2, np.abs(fzb) ** 2
         if not (x > y).all():
+            if energy.name != "arap":
+                return np.inf
             # ARAP alone is finite there: (sigma_1 - 1)^2 + (sigma_2 - 1)^2, signed sigma_2.
-            return float(self.weights @ arap_density(x, y)) if energy.name == "arap" else np.inf
+            return float(self.weights @ (2 * (x + y) - 4 * np.sqrt(x) + 2))
         return float(self.weights @ np.asarray(_density(energy, x, y)))
 
     @double_precision
@@ -102,11 +104,6 @@ class Pinned:
         columns = self._factor.solve(np.column_stack([np.real(b), np.imag(b)]))
         w[self.free] = columns[:, 0] + 1j * columns[:, 1]
         return w
-
-
-def arap_density(x: Array, y: Array) -> Array:
-    """ARAP for maps that may fold, with ``x = |f_z|^2`` and ``y = |f_zbar|^2``."""
-    return 2 * (x + y) - 4 * np.sqrt(x) + 2
 
 
 def flips(fz: Array, fzb: Array) -> int:

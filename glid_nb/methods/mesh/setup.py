@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from glid_nb._arrays import Array
-from glid_nb.geometry import MeshMap, Triangulation, as_points, triangulate
+from glid_nb.geometry import MeshMap, Triangulation, as_points, place, triangulate
 from glid_nb.harmonic import as_complex
 from glid_nb.methods.mesh.operators import MeshOperators, flips
-from glid_nb.solvers import DeformationMap, Iteration, Method, MethodError, Result
+from glid_nb.solvers import Iteration, Method, MethodError, Result
 from glid_nb.solvers.loop import GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.pose import rigid_motion
@@ -50,16 +50,15 @@ class MeshProblem:
         handles = _vertices_at(mesh, pose.handles, _AT_VERTEX * inputs.domain.cage.longer_side)
         operators = MeshOperators(mesh)
         targets = pose.targets @ np.array([1, 1j])
-        images = _images(start, operators)
+        if isinstance(start, MeshMap):
+            images = as_complex(start.images)
+        else:
+            images = operators.rest if start is None else as_complex(start(mesh.vertices))
         if inputs.options.align and len(handles):
             turn, middle, aim = rigid_motion(images[handles], targets)
             images = aim + turn * (images - middle)
         weight = inputs.options.p2p_weight
         return cls(inputs, operators, handles, targets, weight, images)
-
-    def map_of(self, w: Array) -> MeshMap:
-        """The map with these images."""
-        return MeshMap(self.operators.mesh, as_points(w))
 
     def at(self, w: Array, step: float | None = None) -> Callable[[], Reached]:
         """What tells where a method is that has come to the images ``w``."""
@@ -75,7 +74,7 @@ class MeshProblem:
                 step=step,
                 flips=flips(fz, fzb),
             )
-            return Reached(entry, lambda: self.map_of(w))
+            return Reached(entry, lambda: MeshMap(self.operators.mesh, as_points(w)))
 
         return reached
 
@@ -89,21 +88,11 @@ def _vertices_at(mesh: Triangulation, points: Array, tolerance: float) -> Array:
     missing = np.flatnonzero(gap.min(axis=0) > tolerance)
     if missing.size:
         i = int(missing[0])
-        x, y = points[i]
         raise MethodError(
-            f"handle {i} at ({x:.6g}, {y:.6g}) is no vertex of the triangulation of the map to "
+            f"handle {i} at {place(points[i])} is no vertex of the triangulation of the map to "
             "start from; make it with triangulate(cage, points=handles), or give no start"
         )
     return index.astype(np.int32)
-
-
-def _images(map: DeformationMap | None, operators: MeshOperators) -> Array:
-    """The images of the vertices, (v,) complex; by default they stay where they are."""
-    if map is None:
-        return operators.rest
-    if isinstance(map, MeshMap):
-        return as_complex(map.images)
-    return as_complex(map(operators.mesh.vertices))
 
 
 @dataclass(frozen=True)
@@ -125,11 +114,10 @@ class MeshMethod(Method):
             raise MethodError(f"the method {self.name!r} needs at least one handle")
 
     def steps(self, problem: MeshProblem) -> Steps:
-        """The method itself."""
+        """The method itself, as the start and each step."""
         raise NotImplementedError
 
     def run(self, inputs: Inputs) -> Result:
-        """Its steps, recorded."""
         self.check_handles(inputs)
         problem = MeshProblem.of(inputs, self.n_vertices)
         return follow(lambda: GeneratedDescent(self, inputs, self.steps(problem)))

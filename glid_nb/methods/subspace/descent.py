@@ -4,21 +4,27 @@ from __future__ import annotations
 
 import functools
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 
 from glid_nb._arrays import Array
-from glid_nb._jax import jnp
-from glid_nb._runtime import double_precision
-from glid_nb.methods.subspace import programs
-from glid_nb.solvers import Method, Result, Status
+from glid_nb._jax import AnyArray, Bool, Float, Int, jit, jnp
+from glid_nb._jax import Array as DeviceArray
+from glid_nb._runtime import COMPILER_OPTIONS, double_precision
+from glid_nb.certificate import PanelBounds
+from glid_nb.solvers import Method, Result, Status, evaluation, line_search
+from glid_nb.solvers.evaluation import Point
+from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
 from glid_nb.solvers.loop import Advance, Ending, Reached, Stopwatch, follow
 from glid_nb.solvers.method import Inputs
+from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.status import NO_DECREASE, RUNNING
 from glid_nb.solvers.step import LEAST_ENERGY
 from glid_nb.solvers.subspace import SubspaceDescent
-from glid_nb.solvers.unknowns import restrict_hessian
+from glid_nb.solvers.unknowns import expand, restrict_gradient, restrict_hessian
+
+Curvature = Literal["exact", "projected", "gauss-newton", "dirichlet"]
 
 # A decrease promised by the direction that rounding of the energy can hide.
 _ROUNDING = 1e-8
@@ -119,21 +125,20 @@ class DirectedDescent(SubspaceDescent):
         # The identity on what is fixed is already in the isometric Hessian.
         return np.asarray(h) - np.diag(1 - self.free)
 
-    def hessian(self, curvature: programs.Curvature) -> Array:
+    def hessian(self, curvature: Curvature) -> Array:
         """(4c, 4c) Hessian of the isometric energy; the identity on what is fixed or tied."""
-        return np.asarray(programs.hessian(self.problem, self.point, curvature=curvature))
+        return np.asarray(_hessian(self.problem, self.point, curvature=curvature))
 
     def advance(self, may_refine: bool) -> Advance:
         """The next certified step, or why there is none."""
         if not self.left:
             return Advance()
         watch = Stopwatch()
-        if self._chosen is None:
-            self._choose()
-        if self._chosen is None or self._is_minimal():
+        self._ending = self._choose() if self._chosen is None else None
+        if self._ending is not None:
             return Advance()
         refining = may_refine and self.discretisation.can_refine
-        move = programs.advance(self.problem, self.point, self.gradient, self._chosen, refining)
+        move = _advance(self.problem, self.point, self.gradient, self._chosen, refining)
         end = int(move.outcome)
         self._seconds += watch.seconds
         if end != RUNNING:
@@ -146,7 +151,6 @@ class DirectedDescent(SubspaceDescent):
         return Advance(iterations=1)
 
     def reached(self) -> Reached:
-        """After the last step."""
         now = super().reached()
         entry = replace(
             now.entry,
@@ -174,7 +178,7 @@ class DirectedDescent(SubspaceDescent):
         return self._crept() if self.method.window is None else self.stagnation()
 
     def split(self, refused: Array) -> int:
-        """Split panels; the direction stays, the values are computed anew."""
+        # The direction stays, the values are computed anew.
         watch = Stopwatch()
         count = super().split(refused)
         self._seconds += watch.seconds
@@ -183,26 +187,21 @@ class DirectedDescent(SubspaceDescent):
         return count
 
     def _evaluate(self) -> None:
-        """The values at the coefficients."""
         watch = Stopwatch()
-        self.point, gradient = programs.evaluate(self.problem, self.coefficients)
+        self.point, gradient = _evaluate(self.problem, self.coefficients)
         self.gradient = np.asarray(gradient)
         self._seconds += watch.seconds
 
-    def _choose(self) -> None:
+    def _choose(self) -> Ending | None:
+        """Take the next direction, or end."""
         chosen = self.method.direction(self)
         if isinstance(chosen, Ending):
-            self._ending = chosen
-            return
+            return chosen
         length = np.linalg.norm(chosen) / max(np.linalg.norm(self.point.coefficients), 1e-300)
         self._chosen = chosen if length <= _LONGEST else chosen * (_LONGEST / length)
-
-    def _is_minimal(self) -> bool:
-        second_order = self.method.window is None
-        if not second_order or self._promised() / 2 > self.method.tolerance * self._scale():
-            return False
-        self._ending = Ending(Status.CONVERGED)
-        return True
+        second_order, least = self.method.window is None, self.method.tolerance * self._scale()
+        minimal = second_order and self._promised() / 2 <= least
+        return Ending(Status.CONVERGED) if minimal else None
 
     def _crept(self) -> Ending | None:
         """The end, where the last step gains next to nothing."""
@@ -217,3 +216,75 @@ class DirectedDescent(SubspaceDescent):
 
     def _scale(self) -> float:
         return max(abs(float(self.point.energy)), LEAST_ENERGY)
+
+
+class Move(NamedTuple):
+    """The outcome of one step."""
+
+    outcome: Int[AnyArray, ""]
+    point: Point
+    gradient: Float[DeviceArray, " 4c"]
+    step: Float[AnyArray, ""]
+    bounds: PanelBounds
+    """The certificate there."""
+    refused: Bool[AnyArray, " p"]
+
+
+@functools.partial(jit, compiler_options=COMPILER_OPTIONS)
+def _evaluate(
+    problem: Problem, coefficients: Float[DeviceArray, " 4c"]
+) -> tuple[Point, Float[DeviceArray, " 4c"]]:
+    """A map's energies, and their gradient with respect to the unknowns, 0 elsewhere."""
+    point = evaluation.evaluated(problem, coefficients)
+    return point, restrict_gradient(evaluation.gradient(problem, point), problem.unknowns)
+
+
+@functools.partial(jit, static_argnames="curvature", compiler_options=COMPILER_OPTIONS)
+def _hessian(
+    problem: Problem, point: Point, *, curvature: Curvature
+) -> Float[DeviceArray, "4c 4c"]:
+    """Hessian of the isometric energy alone with respect to the unknowns (33).
+
+    ``gauss-newton`` is for ARAP, whose density is ``2 (|f_z| - 1)^2 + 2 |f_zbar|^2``, a sum of
+    squares: second derivatives of the residuals are left out. ``dirichlet`` is the Hessian of the
+    Dirichlet energy ``|f_z|^2 + |f_zbar|^2``.
+    """
+    matrices = problem.matrices
+    nodes = point.samples.nodes[:, matrices.hessian_index]
+    x, y = evaluation.squares(nodes)
+    if curvature == "gauss-newton":
+        zero, four = jnp.zeros_like(x), jnp.full_like(x, 4.0)
+        local = LocalHessian(zero, four, four, four, zero)
+    elif curvature == "dirichlet":
+        two, zero = jnp.full_like(x, 2.0), jnp.zeros_like(x)
+        local = LocalHessian(two, two, two, two, zero)
+    else:
+        local = local_hessian(problem.energy.differentials(x, y), x, y)
+        if curvature == "projected":
+            local = positive_part(local)
+    f, g = evaluation.directions(nodes)
+    basis = matrices.nodes[:, matrices.hessian_index]
+    h = assemble(basis, matrices.hessian_weights, f, g, local)
+    upper = jnp.triu(restrict_hessian(h, problem.unknowns))
+    return upper + jnp.triu(upper, 1).T
+
+
+@functools.partial(jit, compiler_options=COMPILER_OPTIONS)
+def _advance(
+    problem: Problem,
+    point: Point,
+    gradient: Float[DeviceArray, " 4c"],
+    direction: Float[DeviceArray, " 4c"],
+    may_refine: Bool[AnyArray, ""] | bool,
+) -> Move:
+    """The best certified step along ``direction``, a change of the unknowns."""
+    slope = jnp.dot(gradient, direction)
+    line = evaluation.line_along(problem, expand(direction, problem.unknowns), slope)
+    found = line_search.search(problem, point, line)
+    end = line_search.backtrack(problem, point, line, found, may_refine)
+    # Values anew from the coefficients: their rounding errors must not add up over thousands of
+    # iterations, for which the certificate makes no allowance.
+    y = point.coefficients + end.step * line.direction
+    after = evaluation.evaluated(problem, y)
+    gradient = restrict_gradient(evaluation.gradient(problem, after), problem.unknowns)
+    return Move(end.outcome, after, gradient, end.step, end.panel, end.refused)

@@ -37,13 +37,9 @@ class LBFGS(SubspaceMethod):
     isometric energy, a multiple of the identity, as in the published code, or the Hessian of the
     Dirichlet energy, which the published code has as an alternative. It is factored once.
 
-    How far it gets is a matter of ``lambda``. The published code puts its weight of 1e5 on energies
-    summed over 10^4 samples and leaves out the half, so it is ``lambda = 20`` of (20). With that
-    weight and the Dirichlet Hessian it reaches Newton's minimum from the identity in 98 to 1,423
-    iterations on seven of the published shapes (the paper reports 1,612 and 1,818). With 1e5 the
-    targets outweigh the distortion so much that directions lead straight to them, through a fold:
-    most steps end at 0.7 of the way to the first inverted sample, after which ``sigma_2`` is about
-    1e-4, and thousands of iterations change little. The certificate has no part in that.
+    How far it gets is a matter of ``lambda``: the published code's is 20 of (20), with which it
+    reaches Newton's minimum. With 1e5 the targets outweigh the distortion so much that directions
+    lead straight to them, through a fold, and thousands of iterations change little.
     """
 
     name = "lbfgs"

@@ -28,6 +28,24 @@ function ring(pen, place) {
   pen.setLineDash([]);
 }
 
+// Outlines of other poses: colour, and loops of points.
+export function drawOnion(pen, view, outlines) {
+  for (const [color, loops] of outlines) {
+    pen.beginPath();
+    for (const loop of loops) {
+      loop.forEach((p, i) => (i ? pen.lineTo : pen.moveTo).apply(pen, view.toScreen(p)));
+      pen.closePath();
+    }
+    pen.globalAlpha = 0.13;
+    pen.fillStyle = pen.strokeStyle = color;
+    pen.fill("evenodd");
+    pen.globalAlpha = 0.8;
+    pen.lineWidth = 1.4;
+    pen.stroke();
+  }
+  pen.globalAlpha = 1;
+}
+
 // held: where the pointer holds targets, by index.
 export function drawMarks(pen, view, marks, { hovered, held, cursor }) {
   const targets = marks.targets.map((p, i) => view.toScreen(held.get(i) || p));

@@ -4,7 +4,7 @@ import { make } from "../pad/dom.js";
 import { help } from "../pad/help.js";
 import { Link } from "../pad/link.js";
 import { isUndo, undoAround, undoOrRedo } from "../pad/pad.js";
-import { iconButton } from "./icons.js";
+import { iconButton } from "../pad/icons.js";
 import { Panel } from "./panel.js";
 import { Stage } from "./stage.js";
 
@@ -33,7 +33,7 @@ const PART = 1 << 20; // bytes of a file per message
 
 function render({ model, el }) {
   let refusal = null, busy = false;
-  const root = make("div", { className: "glid-tracer" });
+  const root = make("div", { className: "glid-skin glid-tracer" });
   const link = new Link(model, el, (report) => {
     busy = report.busy;
     if (report.refusal || !busy) refusal = report.refusal;

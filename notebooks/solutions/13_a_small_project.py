@@ -1,4 +1,4 @@
-# Answers to the exercises of 12_a_small_project.ipynb, run by tests/notebooks.
+# Answers to the exercises of 13_a_small_project.ipynb, run by tests/notebooks.
 import glid_nb as glid
 import numpy as np
 
