@@ -99,10 +99,7 @@ class Certificate:
         return int((self.panels.depth > 0).sum())
 
     def save(self, path: str | Path) -> None:
-        """Write the proof file that ``glid-check map.json proof.json`` reads, atomically.
-
-        Raises InputError if the map is not certified.
-        """
+        """Write the proof file that ``glid-check`` reads; InputError if nothing is certified."""
         write_text_atomically(Path(path), proof_text(self))
 
 
@@ -225,13 +222,9 @@ def certificate_of(map: HarmonicMap) -> Certificate:
 def proved_by(
     map: HarmonicMap, panels: Panels, sigma2_lower: Array, turning: Array, kind: CertificateKind
 ) -> Certificate:
-    """The certificate of a map by what a solver has proved, rounding included, on its panels.
-
-    A solver bounds neither sigma_1 nor k, of which only ``k < 1`` follows.
-    """
-    known = np.ones(len(panels), dtype=bool)
-    unbounded = np.full(len(panels), np.inf)
-    own: Any = (sigma2_lower, unbounded, np.ones(len(panels)), known, turning)
+    """The certificate by what a solver has proved, neither of sigma_1 nor of k but ``k < 1``."""
+    every = np.ones(len(panels))
+    own: Any = (sigma2_lower, every * np.inf, every, every > 0, turning)
     bounds = PanelBounds(*own)
     turns = windings(turning, panels.loop, 1 + map.domain.n_holes)
     certified = bool((sigma2_lower > 0).all()) and sum(turns) == 0

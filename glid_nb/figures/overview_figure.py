@@ -106,16 +106,8 @@ def _common_scale(*boxes: Floats) -> Floats:
 def _label(axes: Axes, letter: str, name: str, shift: tuple[float, float]) -> None:
     """Write letter and name, shifted by points from the axes' upper left corner."""
     for text, indent, weight in ((letter, 0, "bold"), (name, 10, "normal")):
-        axes.annotate(
-            text,
-            (0, 1),
-            xycoords="axes fraction",
-            xytext=(shift[0] + indent, shift[1]),
-            textcoords="offset points",
-            fontsize=FONT_SIZE,
-            fontweight=weight,
-            color=INK,
-        )
+        place = (0, 1), (shift[0] + indent, shift[1]), "axes fraction", "offset points"
+        axes.annotate(text, *place, fontsize=FONT_SIZE, fontweight=weight, color=INK)
 
 
 def _mark_source(axes: Axes, map: HarmonicMap, pose: Pose) -> None:
@@ -130,10 +122,5 @@ def _mark_source(axes: Axes, map: HarmonicMap, pose: Pose) -> None:
 def _add_legend(axes: Axes) -> None:
     handles, _ = axes.get_legend_handles_labels()
     fits = axes.figure.bbox.width / 3 > _LEGEND_ROW * axes.figure.dpi
-    axes.legend(
-        loc="upper center",
-        bbox_to_anchor=(0.5, 0.0),
-        ncols=len(handles) if fits else 1,
-        columnspacing=1.0,
-        **LEGEND,
-    )
+    look: Any = {"bbox_to_anchor": (0.5, 0.0), "columnspacing": 1.0, **LEGEND}
+    axes.legend(loc="upper center", ncols=len(handles) if fits else 1, **look)

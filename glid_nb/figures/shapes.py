@@ -207,15 +207,9 @@ def basis(domain: Domain, j: int, part: Literal["re", "im", "abs"] = "re") -> No
     size = max(-least, most) or 1.0
     figure, (axes,) = _shape_axes(1, drawing.box_around(domain.offset_cage.exterior, 0.04))
     shape: Any = Drawn(*mesh.vertices.T, triangles=mesh.triangles)
-    drawn = axes.tripcolor(
-        shape,
-        values,
-        shading="gouraud",
-        cmap="PuOr_r" if signed else distortion_colors(),
-        norm=Normalize(-size, size) if signed else Normalize(least, most),
-        rasterized=True,
-        zorder=0,
-    )
+    norm = Normalize(-size, size) if signed else Normalize(least, most)
+    look: Any = {"cmap": "PuOr_r" if signed else distortion_colors(), "norm": norm, "zorder": 0}
+    drawn = axes.tripcolor(shape, values, shading="gouraud", rasterized=True, **look)
     lines = axes.tricontour(shape, values, 14, colors=INK, linewidths=0.4)
     drawing.label_levels(axes, lines, {level: f"{level:g}" for level in [*lines.levels][::2]})
     drawing.loops(axes, domain.offset_cage.loops, color=GREY, linewidth=0.7, label="offset cage")
@@ -246,14 +240,9 @@ def panels(certificate: Certificate) -> NotebookFigure:
     _hold(axes, drawing.box_around(cage.exterior, 0.04))
     start, end = as_points(proved.start), as_points(proved.end)
     segments = np.stack([start, end], axis=1)
-    axes.add_collection(LineCollection(list(segments[bound <= 0]), colors=VERMILION, linewidths=4))
-    lines = LineCollection(
-        list(segments[bound > 0]),
-        array=bound[bound > 0],
-        cmap=distortion_colors().reversed(),
-        norm=Normalize(0.0, _FULL_MARGIN),
-        linewidths=3,
-    )
+    colors = distortion_colors().reversed().with_extremes(under=VERMILION)
+    look: Any = {"cmap": colors, "norm": Normalize(1e-300, _FULL_MARGIN), "linewidths": 3}
+    lines = LineCollection(list(segments), array=bound, **look)
     axes.add_collection(lines)
     if len(bound) <= _MANY:
         axes.plot(*start.T, "o", color=INK, markersize=1.4, zorder=3)

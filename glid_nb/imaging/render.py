@@ -92,7 +92,7 @@ def rendering(
         raise RenderError(f"size is {width} x {height} pixels; both sides must be at least 1")
     if width * height >= _MOST_PIXELS:
         raise RenderError(f"size is {width} x {height} pixels; at most 2^30 pixels can be drawn")
-    _check_fits(source, map)
+    check_fits(source, map)
     shown, margin = np.reshape(source.bounds, (2, 2)), 0.0
     if view == "fit":
         exterior = deformed_loops(map)[0]
@@ -110,7 +110,7 @@ def rendering(
     return Rendering(draw_mesh(texture, mesh, frame), frame, mesh)
 
 
-def _check_fits(frame: PixelFrame, map: HarmonicMap) -> None:
+def check_fits(frame: PixelFrame, map: HarmonicMap) -> None:
     """Raise a RenderError if the cage was traced from a picture of another aspect ratio."""
     xmin, ymin, xmax, ymax = frame.bounds
     low, high = map.domain.cage.exterior.min(axis=0), map.domain.cage.exterior.max(axis=0)

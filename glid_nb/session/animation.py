@@ -216,9 +216,7 @@ def _motion(task: _Task, first: int = 0, last: int | None = None) -> Motion:
     """The motion through the poses from the first to the last, or through all and back."""
     timeline, maps = task.timeline, [pose.map for pose in task.poses]
     if last is None:
-        times = timeline.closed_times
-        easing = timeline.easing[: len(times) - 1]
-        return Motion(maps, times, easing=easing, repeat=timeline.repeat)
+        return timeline.motion(maps)
     times = timeline.closed_times[first : last + 1]
     chosen = (maps + maps[:1])[first : last + 1]
     return Motion(chosen, times, easing=timeline.easing[first:last])

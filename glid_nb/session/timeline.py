@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 
 from glid_nb._arrays import Array
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.motion import Motion
 from glid_nb.motion.settings import (
     Easing,
     MotionError,
@@ -83,6 +85,17 @@ class Timeline:
     def end(self) -> float:
         """When the last keyframe, or the first one again, is reached."""
         return self.times[-1] + (self.back if self.repeat == "loop" else 0.0)
+
+    def motion(self, maps: Sequence[HarmonicMap]) -> Motion:
+        """The motion through as many maps."""
+        times = self.closed_times
+        return Motion(maps, times, easing=self.easing[: len(times) - 1], repeat=self.repeat)
+
+    def lasting(self, seconds: float) -> Timeline:
+        """From 0 to an end after so many seconds; a ping-pong's way back is as long."""
+        share = seconds / (self.end - self.times[0])
+        times = tuple(share * (time - self.times[0]) for time in self.times)
+        return replace(self, times=times, back=share * self.back)
 
     def inserted(self, index: int, time: float | None = None) -> Timeline:
         """With a keyframe more at an index, not the first; by default midway to the next one."""

@@ -40,6 +40,7 @@ from glid_nb.widgets.timeline import TimelinePanel
 from glid_nb.widgets.tracer import CageTracer
 
 _TRACE, _DEFORM = 0, 1
+_FILES = 2  # of the tabs beside the canvas
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
 _PINS_HEIGHT = "36px"  # kept free until the pins' numbers are made
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
@@ -384,7 +385,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             "tracer": lambda: CageTracer(model=self.model.tracing, height=self._size[1]),
             "pins": lambda: PinBar(self.deformation),
             "solver": lambda: SolverPanel(self.deformation),
-            "files": lambda: FilePanel(self.model),
+            "files": lambda: FilePanel(self.model, self.timeline.animation),
         }
         with self.model.locked():
             if name not in self._parts:
@@ -400,7 +401,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.canvas = DeformCanvas(image, model, *self._size, n_vertices=self._n_vertices)
         self.toolbar = Toolbar(self.canvas)
         self.monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
-        self.timeline = TimelinePanel(self.canvas)
+        self.timeline = TimelinePanel(self.canvas, self._open_files)
         # Boxes to be filled: if the children changed, the page would select another tab.
         self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}
         self._boxes["pins"] = ipywidgets.VBox(layout={"min_height": _PINS_HEIGHT})
@@ -421,6 +422,10 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         )
         wrapped = {"align_items": "flex-start", "flex_flow": "row wrap", "overflow": "visible"}
         return ipywidgets.HBox([left, side], layout=wrapped)
+
+    def _open_files(self) -> None:
+        """Show where the motion is exported."""
+        self._side.selected_index = _FILES
 
     def _take_down(self) -> None:
         with self.model.locked():

@@ -119,9 +119,21 @@ def download(
     """What `export` writes for this name as one file: its name and content, a zip of several."""
     contents = _contents(model, path, size, view)
     files = dict(zip((file.name for file in files_of(path)), contents, strict=True))
+    return as_one(files, path.name[: -len(_suffix(path))])
+
+
+def as_one(files: Mapping[str, bytes], stem: str) -> tuple[str, bytes]:
+    """The name and content of a file, or a zip of several."""
     if len(files) == 1:
-        return files.popitem()
-    return f"{path.name[: -len(_suffix(path))]}.zip", archive_bytes(files)
+        return next(iter(files.items()))
+    return f"{stem}.zip", archive_bytes(files)
+
+
+def write_beside(model: EditorModel, path: Path, files: Mapping[str, bytes]) -> list[Path]:
+    """Write files that belong to a path into its folder; those that are there are replaced."""
+    contents = {path.parent / name: data for name, data in files.items()}
+    _write(model, path, contents, replace=True)
+    return list(contents)
 
 
 def export_source(model: EditorModel, script: Path, *, replace: bool = False) -> None:

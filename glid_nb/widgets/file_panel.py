@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,7 @@ import ipywidgets
 from glid_nb._errors import InputError
 from glid_nb._scripts import bundle
 from glid_nb.imaging.read import MAX_SIDE
+from glid_nb.session.animation import Animation
 from glid_nb.session.document import DocumentError
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
@@ -20,12 +21,14 @@ from glid_nb.widgets.controls import REFUSED, button, paragraph
 from glid_nb.widgets.exporting import (
     FORMATS,
     OccupiedError,
+    as_one,
     check_free,
     download,
     export,
     export_source,
     files_of,
     names_of,
+    write_beside,
 )
 
 _SUFFIX = ".glid"
@@ -45,8 +48,6 @@ _UNSAVED = (
 
 class _UnsavedError(InputError):
     """Opening a session would discard what is in no file."""
-
-    plain = _UNSAVED
 
 
 def session_path(text: str) -> Path:
@@ -135,8 +136,12 @@ class FilePanel(ipywidgets.VBox):
     and waits for a second click.
     """
 
-    def __init__(self, model: EditorModel) -> None:
+    def __init__(self, model: EditorModel, animation: Animation | None = None) -> None:
+        from glid_nb.widgets.motion_export import MotionExport  # noqa: PLC0415 - as in exporting
+
         self.model = model
+        self.motion = None if animation is None else MotionExport(model, animation, self._say)
+        """Exports of the motion; None without one."""
         session = model.own_files.session or Path(f"{model.name}{_SUFFIX}")
         self.path = ipywidgets.Text(str(session), placeholder="Name.glid", layout=_WIDE)
         """Where to save, and what to open; relative to the notebook."""
@@ -179,12 +184,24 @@ class FilePanel(ipywidgets.VBox):
         self.code_button = self._button(
             "Copy as Python", "code", "Copy the lines that make this map", self._copy
         )
+        moving = []
+        if self.motion is not None:
+            buttons = (
+                self._button(
+                    "Export", "film", "Write it beside the session file", self._export_motion
+                ),
+                self._button(
+                    "Download", "download", "Save it through the browser", self._download_motion
+                ),
+            )
+            moving = [_row("Motion", self.motion.format, *buttons), _row("", self.motion)]
         super().__init__(
             [
                 _row("Session", self.path, self.save_button, self.open_button),
                 _row("", self.autosave),
                 _row("Export", self.format, self.export_button, self.download_button),
                 self._picture,
+                *moving,
                 _row("", self.code_button, self.clipboard),
                 self.message,
                 self.code,
@@ -248,7 +265,7 @@ class FilePanel(ipywidgets.VBox):
     def _open(self, sure: bool) -> str:
         path = existing_path(self.path.value)
         if self.model.unsaved and not sure:
-            raise _UnsavedError
+            raise _UnsavedError(_UNSAVED)
         self.model.load(path)
         return f"Opened {path.absolute()}"
 
@@ -266,6 +283,31 @@ class FilePanel(ipywidgets.VBox):
         name, data = download(self.model, path, self.size, view)
         self.clipboard.download(name, data)
         return f"Sent {name} to the browser's downloads"
+
+    def _export_motion(self, sure: bool) -> str:
+        assert self.motion is not None
+        path, *others = self.motion.files_of(session_path(self.path.value))
+        if not sure:
+            check_free(self.model, [path, *others], path)
+
+        def deliver(files: Mapping[str, bytes]) -> str:
+            written = write_beside(self.model, path, files)
+            return f"Wrote {names_of(written)} to {path.absolute().parent}"
+
+        self.motion.start(path.name, deliver)
+        return f"Drawing {path.name}…"
+
+    def _download_motion(self, _: bool) -> str:
+        assert self.motion is not None
+        path = self.motion.files_of(session_path(self.path.value))[0]
+
+        def deliver(files: Mapping[str, bytes]) -> str:
+            name, data = as_one(files, path.stem)
+            self.clipboard.download(name, data)
+            return f"Sent {name} to the browser's downloads"
+
+        self.motion.start(path.name, deliver)
+        return f"Drawing {path.name}…"
 
     def _copy(self, sure: bool) -> str:
         script = session_path(self.path.value).with_suffix(".py")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import io
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, ClassVar
 
 import numpy as np
@@ -30,7 +30,7 @@ _COLORS, _VERTICES = 64, 300
 class _Actions(Gestures):
     """What the timeline's buttons and keys do."""
 
-    takes = frozenset({"keep", "record", "onion", "frame", "export"})
+    takes = frozenset({"keep", "record", "onion", "frame"})
     asks: ClassVar = {
         **dict.fromkeys(("duplicate_pose", "delete_pose", "go_to_pose"), ("index",)),
         "rename_pose": ("index", "name"),
@@ -44,7 +44,6 @@ class _Actions(Gestures):
     def __init__(self, panel: TimelinePanel) -> None:
         super().__init__(panel.canvas.deformation)
         self._canvas, self._animation = panel.canvas, panel.animation
-        self._panel = weakref.proxy(panel)
 
     def _keep(self, event: Event) -> None:
         self._animation.keep(event["time"])
@@ -59,10 +58,6 @@ class _Actions(Gestures):
         time = event["time"]
         self._canvas.show_between(None if time is None else self._animation.at(time))
 
-    def _export(self, _: Event) -> None:
-        if self._panel.on_export is not None:
-            self._panel.on_export()
-
 
 class TimelinePanel(Pad):
     """The poses of a canvas as keyframes in time, and the motion between them.
@@ -75,6 +70,8 @@ class TimelinePanel(Pad):
     ----------
     canvas : DeformCanvas
         Where the motion is shown; its model has the poses.
+    on_export : callable, optional
+        What the export button does; there is none without it.
     """
 
     _esm = bundle("timeline/main.js")
@@ -91,10 +88,10 @@ class TimelinePanel(Pad):
     thumbnails = traitlets.Dict({}).tag(sync=True)
     """Pictures as data URIs, by their keys."""
 
-    def __init__(self, canvas: DeformCanvas, **kwargs: Any) -> None:
-        self.canvas = canvas
-        self.on_export: Callable[[], None] | None = None
-        """What the export button does; hidden without it."""
+    def __init__(
+        self, canvas: DeformCanvas, on_export: Callable[[], None] | None = None, **kwargs: Any
+    ) -> None:
+        self.canvas, self.on_export = canvas, on_export
         self.animation = Animation(canvas.deformation)
         """What is proved between the poses."""
         self._pictures = weakref.WeakKeyDictionary[HarmonicMap, tuple[str, str]]()
@@ -105,9 +102,11 @@ class TimelinePanel(Pad):
         super().__init__(stage=canvas.pane.stage.model_id, **kwargs)
         self.layout.width, self.layout.min_width = "0", "100%"  # as wide as the canvas
         model = canvas.deformation
-        self.serve(model, _Actions(self).handle)
+        self._actions = _Actions(self)
+        self.serve(model, self._on_events)
         canvas.observe(lambda _: self._show("state"), ["show_onion"])
         canvas.pane.stage.observe(lambda _: self._show("motion"), ["materials"])
+        canvas.pane.stage.observe(lambda _: self._show("state"), ["drawn"])
         self._endings = (
             model.observe(self._show),
             self.animation.observe(self._show),
@@ -116,6 +115,13 @@ class TimelinePanel(Pad):
         )
         for what in ("state", "motion"):
             self._show(what)
+
+    def _on_events(self, events: Sequence[Event]) -> str | None:
+        rest = [event for event in events if event["type"] != "export"]
+        refusal = self._actions.handle(rest)
+        if self.on_export is not None and len(rest) < len(events):
+            self.on_export()  # without the model's lock
+        return refusal
 
     def _show(self, what: str) -> None:
         with self.canvas.deformation.locked():

@@ -166,7 +166,7 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
 
     # A recorded drag becomes keyframes, in one step for undo.
     timeline.settle()
-    page.locator(".glid-track").focus()
+    page.locator(".glid-ruler").focus()
     page.keyboard.press("End")
     book.wait_for("model.state.active == 4")
     timeline.button("Record")

@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from glid_nb.geometry._loops import as_points, signed_area
+from glid_nb.geometry._loops import signed_area
 from glid_nb.imaging.simplify.loops import Loops, Points, edges_in_conflict, passed_over
 
 _MIN_EDGE = 0.2  # of the mean edge
@@ -134,19 +134,26 @@ def _shifts(
     """(k, 2) shifts of the kept vertices after which no edge cuts off more than `margin`."""
     corners = loops[kept]
     outwards = np.where((areas > 0) == (np.arange(len(areas)) == 0), 1.0, -1.0)[corners.number]
-    edges = corners.edges @ [1, 1j]
-    normal = -1j * outwards * edges / np.abs(edges)
+    x, y = corners.edges.T
+    normal = outwards[:, np.newaxis] * np.stack([y, -x], axis=1)
+    normal /= np.hypot(x, y)[:, np.newaxis]
     cut = np.zeros(len(normal))
     for k, over in enumerate(passed_over(loops, kept)):
         if len(over):
-            beyond = (loops.points[over] - corners.points[k]) @ as_points(normal[k])
+            beyond = (loops.points[over] - corners.points[k]) @ normal[k]
             cut[k] = max(0.0, float(beyond.max()) - margin)
     before, cut_before = normal[corners.before], cut[corners.before]
     # A vertex moves to the intersection of its moved edges, but not farther than twice their moves.
-    middle, most = before + normal, np.maximum(cut, cut_before)
-    straight = middle * (2 * most / np.maximum(np.real(middle * middle.conj()), 1e-12))
-    sine = np.imag(before.conj() * normal)
+    middle = before + normal
+    square = np.maximum(np.sum(middle**2, axis=1), 1e-12)
+    (ax, ay), (bx, by) = before.T, normal.T
+    sine = ax * by - ay * bx
     flat = np.abs(sine) < 0.2
-    meet = -1j * (cut_before * normal - cut * before) / np.where(flat, 1.0, sine)
-    shift = np.where(flat, straight, meet)
-    return as_points(shift * np.minimum(1.0, 2 * most / np.maximum(np.abs(shift), 1e-12)))
+    sine[flat] = 1.0
+    meet = np.stack([cut_before * by - cut * ay, cut * ax - cut_before * bx], axis=1)
+    meet /= sine[:, np.newaxis]
+    most = np.maximum(cut, cut_before)
+    straight = middle * (2 * most / square)[:, np.newaxis]
+    shift = np.where(flat[:, np.newaxis], straight, meet)
+    length = np.hypot(*shift.T)
+    return shift * np.minimum(1.0, 2 * most / np.maximum(length, 1e-12))[:, np.newaxis]

@@ -1,7 +1,7 @@
 // The timeline below the canvas: keyframes with thumbnails, what is proved between them, a playhead.
 
 import { follow, make } from "../pad/dom.js";
-import { iconButton } from "../pad/icons.js";
+import { icon, iconButton } from "../pad/icons.js";
 import { Link } from "../pad/link.js";
 import { isUndo, undoOrRedo } from "../pad/pad.js";
 import { Player } from "./player.js";
@@ -11,7 +11,7 @@ const REPEATS = [["once", "Once"], ["loop", "Loop"], ["ping-pong", "Ping-pong"]]
 const STEP = 1 / 30, NUDGE = 0.1; // seconds of the arrow keys, alone and with Alt
 const SNAP = 6, STILL = 4; // CSS pixels
 const LATER = 1.15; // room behind the last keyframe, to drag it there
-const KERNEL = "Played by the kernel: this shape is too large for the page's shaders. ";
+const KERNEL = "Played by the kernel (too large for shaders). ";
 
 const seconds = (time) => `${time.toFixed(2)} s`;
 
@@ -35,7 +35,7 @@ function render({ model, el }) {
   const player = new Player((floats, time) => {
     const shows = time === undefined ? null : floats ?? true;
     stage?.trigger("glid:motion", shows, release);
-    if (floats === null && stage) return act("frame", { time: time ?? null, replaces: "frame" });
+    if (shown().kernel && stage) return act("frame", { time: time ?? null, replaces: "frame" });
   }, () => showHead());
   const active = () => shown().keyframes[shown().active];
   const release = () => player.release(active().time);
@@ -48,7 +48,6 @@ function render({ model, el }) {
   const stop = (e) => e.stopPropagation();
 
   const play = iconButton("play", "Play, pause (Space)", () => player.play());
-  const pause = iconButton("pause", "Play, pause (Space)", () => player.play());
   const repeat = menu("Play once, in a loop, or there and back", REPEATS, (value) => act("set_repeat", { repeat: value }));
   const clock = make("span", { className: "glid-time", role: "timer" });
   const record = iconButton("record", "Record: keep the next drag as keyframes", () => act("record", { on: !shown().recording }));
@@ -61,35 +60,35 @@ function render({ model, el }) {
   const save = iconButton("export", "Export the motion", () => act("export"));
   const gap = () => make("span", { className: "glid-gap" });
   const bar = make("div", { className: "glid-bar", role: "toolbar", "aria-label": "Motion" },
-    play, pause, repeat, clock, gap(), record, onion, gap(), keep, copy, remove, name, easing, save);
-  const ruler = make("div", { className: "glid-ruler" });
+    play, repeat, clock, gap(), record, onion, gap(), keep, copy, remove, name, easing, save);
+  const ruler = make("div", { className: "glid-ruler", tabIndex: 0, role: "slider", "aria-label": "Time", "aria-valuemin": 0 });
   const keys = make("div", { className: "glid-keys" });
   const strip = make("div", { className: "glid-strip", role: "img", onpointerleave: () => hover("") });
   const head = make("div", { className: "glid-playhead" });
-  const slider = make("div", { className: "glid-track", tabIndex: 0, role: "slider", "aria-label": "Time", "aria-valuemin": 0 }, ruler, keys, strip, head);
+  const track = make("div", { className: "glid-track" }, ruler, keys, strip, head);
   const note = make("div", { className: "glid-timeline-note", role: "status", "aria-live": "polite" });
-  const root = make("div", { className: "glid-skin glid-timeline", role: "group", "aria-label": "Timeline" }, bar, slider, note);
+  const root = make("div", { className: "glid-skin glid-timeline", role: "group", "aria-label": "Timeline" }, bar, track, note);
   root.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
   el.classList.add("glid-host");
   el.append(root);
 
   const at = (time) => `calc(var(--glid-inset) + ${time / span} * (100% - 2 * var(--glid-inset)))`;
   const inside = () => {
-    const { left, width } = slider.getBoundingClientRect();
+    const { left, width } = track.getBoundingClientRect();
     const inset = parseFloat(getComputedStyle(root).getPropertyValue("--glid-inset"));
     return { left: left + inset, width: width - 2 * inset };
   };
   const timeAt = (x) => ((x - inside().left) / inside().width) * span;
 
   function tell() {
-    const { repeat: repeats, keyframes, recording, kernel } = shown();
+    const { keyframes, recording, kernel } = shown();
     const { spans } = model.get("motion"), bad = spans.find(({ reason }) => reason);
     const least = Math.min(...spans.flatMap(({ sigma2 }) => sigma2));
     let text = keyframes.length < 2 ? "Keep a second pose to see what lies between." : "";
     if (recording) text = "Recording: drag a pin; what it does becomes keyframes.";
     else if (bad) text = bad.reason;
     else if (spans.some(({ status }) => status === "computing")) text = "Proving what lies between…";
-    else if (spans.length) text = `Proved at every instant: σ₂ ≥ ${least.toFixed(3)} ${repeats === "once" ? "" : "on all of the way "}for ${seconds(spans.at(-1).end - spans[0].start)}.`;
+    else if (spans.length) text = `Proved at every instant of ${seconds(spans.at(-1).end - spans[0].start)}: σ₂ ≥ ${least.toFixed(3)}.`;
     note.textContent = refusal || hovered || (kernel && spans.length && !bad ? KERNEL : "") + text;
     note.dataset.tone = refusal || (bad && !hovered) ? "bad" : "";
   }
@@ -105,19 +104,21 @@ function render({ model, el }) {
     const end = model.get("motion").spans.at(-1)?.end ?? keyframes.at(-1).time;
     head.style.left = at(place);
     head.classList.toggle("glid-seen", seen);
-    [play.hidden, pause.hidden] = [playing, !playing];
+    if (play.dataset.shows !== String(playing)) play.replaceChildren(icon(playing ? "pause" : "play"));
+    play.dataset.shows = playing;
     clock.textContent = `${place.toFixed(2)} / ${seconds(end)}`;
-    Object.assign(slider.dataset, { time: place, span });
-    slider.setAttribute("aria-valuenow", place.toFixed(2));
-    slider.setAttribute("aria-valuetext", seconds(place));
+    Object.assign(track.dataset, { time: place, span });
+    ruler.setAttribute("aria-valuenow", place.toFixed(2));
+    ruler.setAttribute("aria-valuetext", seconds(place));
     keep.textContent = seen && atKey(place) < 0 ? "Keep it" : "Keep";
   }
 
   function showKeys() {
+    if (drag) return; // what the pointer holds must stay in the page
     const { keyframes, active: index, repeat: repeats, back } = shown(), thumbnails = model.get("thumbnails");
     const ends = repeats === "loop" && keyframes.length > 1 ? [{ ...keyframes[0], time: keyframes.at(-1).time + back, name: `Back to ${keyframes[0].name}` }] : [];
-    if (!drag) span = Math.max(1, (ends[0] ?? keyframes.at(-1)).time) * LATER;
-    slider.setAttribute("aria-valuemax", span.toFixed(2));
+    span = Math.max(1, (ends[0] ?? keyframes.at(-1)).time) * LATER;
+    ruler.setAttribute("aria-valuemax", span.toFixed(2));
     const focused = [...keys.children].indexOf(keys.getRootNode().activeElement);
     keys.replaceChildren(...[...keyframes, ...ends].map((key, i) => {
       const picture = thumbnails[key.thumbnail];
@@ -157,7 +158,7 @@ function render({ model, el }) {
     easing.value = active().easing;
     if (document.activeElement !== name || moved) name.value = active().name;
     remove.disabled = keyframes.length === 1;
-    play.disabled = pause.disabled = save.disabled = repeat.disabled = easing.disabled = keyframes.length < 2;
+    play.disabled = save.disabled = repeat.disabled = easing.disabled = keyframes.length < 2;
     save.hidden = !exported;
     for (const [button, pressed] of [[record, recording], [onion, on]]) {
       button.classList.toggle("glid-on", pressed);
@@ -196,7 +197,8 @@ function render({ model, el }) {
       const { moved, time } = drag;
       drag = null;
       hover("");
-      if (moved) act("move_pose", { index, time }).then(showKeys);
+      showKeys();
+      if (moved) act("move_pose", { index, time });
       else if (index < count) select(index);
     };
   }
@@ -209,16 +211,17 @@ function render({ model, el }) {
     player.pause();
     player.seek(Math.min(Math.max(key?.time ?? time, player.clock.start), player.clock.times[1]));
   }
-  slider.addEventListener("pointerdown", (e) => {
+  track.addEventListener("pointerdown", (e) => {
     if (e.button !== 0 || !player.clock) return;
     drag = { scrubs: e.pointerId };
-    slider.setPointerCapture(e.pointerId);
+    track.setPointerCapture(e.pointerId);
     scrub(e);
   });
-  slider.addEventListener("pointermove", scrub);
-  slider.addEventListener("lostpointercapture", (e) => {
+  track.addEventListener("pointermove", scrub);
+  track.addEventListener("lostpointercapture", (e) => {
     if (drag?.scrubs !== e.pointerId) return;
     drag = null;
+    showKeys();
     if (atKey(player.place) >= 0) select(atKey(player.place));
   });
 
@@ -238,11 +241,14 @@ function render({ model, el }) {
     const typing = bar.contains(e.target);
     if (isUndo(e) && e.target !== name) act(undoOrRedo(e));
     else if (e.ctrlKey || e.metaKey) return;
-    else if (!typing && KEYS[e.key]) KEYS[e.key](e);
+    else if (!typing && KEYS[e.key]) e.repeat && e.key === " " || KEYS[e.key](e);
     else return stop(e);
     e.preventDefault();
     stop(e);
   });
+  root.addEventListener("keyup", (e) => e.key === " " && !bar.contains(e.target) && e.preventDefault());
+  // After a click on a button the keys are the timeline's again.
+  bar.addEventListener("click", (e) => e.detail && e.target.closest("button") && ruler.focus({ preventScroll: true }));
   // A tap on the space bar over the canvas of the same editor plays too.
   const tapped = (e) => {
     if (e.target.closest(".glid-editor") === el.closest(".glid-editor")) player.play();

@@ -43,7 +43,7 @@ export class Player {
   play() {
     if (this.playing || !this.clock) return this.pause();
     const { start, end, repeat } = this.clock;
-    if (!this.seen || (repeat === "once" && this.time >= end)) this.time = start;
+    if (repeat === "once" && this.time >= end) this.time = start;
     let last = null;
     const step = async (now) => {
       const time = this.time + (last === null ? 0 : (now - last) / 1000);
