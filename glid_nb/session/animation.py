@@ -42,13 +42,6 @@ class Span(NamedTuple):
     """The certified bound on each piece."""
 
 
-class Sample(NamedTuple):
-    """A frame of a drag that is recorded."""
-
-    time: float
-    pose: NamedPose
-
-
 class _Task(NamedTuple):
     timeline: Timeline
     poses: tuple[NamedPose, ...]
@@ -89,7 +82,7 @@ class Animation(Observed):
         self._task = _Task(Timeline(), ())
         self._asked = False
         self._began: tuple[float, EditState] | None = None
-        self._samples: list[Sample] = []
+        self._samples: list[tuple[float, NamedPose]] = []  # of the drag that is recorded
         self._worker: LatestWins[_Task] = LatestWins(weakly(self._prove), self, "motion")
         self._stop = deformation.observe(weakly(self._on_model))
         self._on_model("state")
@@ -113,13 +106,12 @@ class Animation(Observed):
         """Keep the map at a time as a pose; between poses, where that is proved."""
         state = self.deformation.state
         if time in state.timeline.times or not self.spans:
-            self.deformation.save_pose()
-            return
-        span = next((s for s in self.spans if s.start < time < s.end), None)
-        map = self.at(time)
-        if span is None or map is None or not span.pieces or time > span.pieces[-1].end:
+            return self.deformation.save_pose()
+        pieces = (piece for span in self.spans for piece in span.pieces)
+        piece = next((p for p in pieces if p.start <= time <= p.end), None)
+        if piece is None:
             raise EditError(f"nothing is proved at {time:.2f} s, so there is no shape to keep")
-        self.deformation.keep_between(time, map)
+        return self.deformation.keep_between(time, piece.at(time))
 
     def record(self, on: bool) -> None:
         """Keep the next drag as keyframes, or do not."""
@@ -177,7 +169,7 @@ class Animation(Observed):
                 self._began = now, past[-1]
             if moved and (frame := moment.frame) is not None:
                 posed = state.current.changed(pose=frame.task.pose.pose, map=frame.map)
-                self._samples.append(Sample(now, posed))
+                self._samples.append((now, posed))
             return None
         if self._began is None:
             return None
@@ -186,8 +178,8 @@ class Animation(Observed):
         self._tell("recording")
         if not past or past[-1] is not before:
             return None  # the drag was cancelled
-        times = np.array([began, *(s.time for s in samples), now])
-        places = [before.current, *(s.pose for s in samples), state.current]
+        samples = [(began, before.current), *samples, (now, state.current)]
+        times, places = np.array([t for t, _ in samples]), [pose for _, pose in samples]
         points = np.stack([pose.pose.targets for pose in places])
         kept = thinned(times, points, _THINNED * state.domain.cage.longer_side)[1:]
         offsets = np.maximum.accumulate(times[kept] - times[0] + 0.01 * np.arange(1, len(kept) + 1))

@@ -68,7 +68,7 @@ def document_bytes(document: Document) -> bytes:
 
     A DocumentError if a map is not certified, or an energy is a Python function.
     """
-    timeline = {} if document.timeline is None else {"timeline": document.timeline.to_dict()}
+    timeline = {} if document.timeline is None else {"timeline": vars(document.timeline)}
     scribbles, masks = _scribbles_to_members(document.scribbles)
     height, width = document.image.shape[:2]
     data = {
@@ -113,8 +113,9 @@ def load_document(path: str | Path) -> Document:
             _pose_from_dict(f"poses[{i}]", pose, domain, {**_POSE_KEYS, **since_2}, since_3)
             for i, pose in enumerate(data["poses"])
         )
-        with about("timeline"):
-            timeline = Timeline.from_dict(data["timeline"]) if "timeline" in data else None
+        timeline = None
+        if "timeline" in data:
+            timeline = _from_fields(Timeline, data["timeline"], "timeline")
         active = data["active"]
         return Document(image, domain.cage, domain, options, scribbles, poses, active, timeline)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
 
 import ipywidgets
 
@@ -18,13 +17,8 @@ from glid_nb.widgets.controls import REFUSED, button
 _SHEET = ".sheet.png"  # comes with its JSON
 _NUMBER = {"width": "70px", "flex": "0 0 auto"}
 
-Files = dict[str, bytes]
-
-
-class _Task(NamedTuple):
-    name: str
-    deliver: Callable[[Files], str]
-    """Takes the files and says where they are."""
+# A name, and what takes the files and says where they are.
+_Task = tuple[str, Callable[[dict[str, bytes]], str]]
 
 
 class MotionExport(ipywidgets.HBox):
@@ -63,14 +57,14 @@ class MotionExport(ipywidgets.HBox):
 
     def files_of(self, session: Path) -> tuple[Path, ...]:
         """What is written beside a session: the file of the format, and what comes with it."""
-        path = session.with_suffix(self.format.value)
+        path = session.with_suffix(str(self.format.value))
         sheet = path.name.endswith(_SHEET)
         return (path, path.with_suffix(".json")) if sheet else (path,)
 
-    def start(self, name: str, deliver: Callable[[Files], str]) -> None:
+    def start(self, name: str, deliver: Callable[[dict[str, bytes]], str]) -> None:
         """Draw a file of this name, then deliver what was made; returns at once."""
         self._show(True)
-        self._worker.submit(_Task(name, deliver))
+        self._worker.submit((name, deliver))
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until nothing is drawn; whether that is within ``timeout`` seconds."""
@@ -90,8 +84,9 @@ class MotionExport(ipywidgets.HBox):
             motion, document = self._animation.motion, self._model.document
             if not motion.certificate.certified:
                 raise InputError(f"{motion.certificate.reason} Nothing uncertified is exported.")
+            name, deliver = task
             files = motion_files(
-                task.name,
+                name,
                 document.image,
                 motion,
                 [pose.pose for pose in document.poses],
@@ -101,7 +96,7 @@ class MotionExport(ipywidgets.HBox):
                 progress=report,
             )
             stopped = worker.cancelled or not files
-            self._say("Stopped; nothing was written." if stopped else task.deliver(files), "")
+            self._say("Stopped; nothing was written." if stopped else deliver(files), "")
         except (OSError, ValueError) as error:  # refusals for the user; others are bugs
             self._say(str(error), REFUSED)
         finally:
