@@ -16,14 +16,14 @@ SAMPLE, SECONDS, SIZE, FPS = "gecko", 1.2, 400, 20
 # Which pins swing, by how much to the side and along, and in which part of the step.
 _SWING = {
     0: ((-0.6, 0.1), 0.0),  # head
-    1: ((0.4, 1.1), 0.0),  # right hand
+    1: ((0.1, 1.0), 0.0),  # right hand
     2: ((-0.4, 1.3), 0.5),  # left hand
     3: ((0.3, 1.4), 0.5),  # right foot
-    4: ((-0.3, 1.4), 0.0),  # left foot
+    4: ((-0.3, 1.1), 0.0),  # left foot
     5: ((0.35, 0.0), 0.5),  # chest
     6: ((0.45, 0.0), 0.0),  # hip
     7: ((1.1, 0.1), 0.5),  # tail
-    8: ((1.3, 0.7), 0.5),
+    8: ((1.3, 0.4), 0.5),
 }
 
 
