@@ -16,8 +16,8 @@ from glid_nb.export.encode import Color
 from glid_nb.export.mesh import motion_glb
 from glid_nb.export.moving import Progress, Stopped, frames
 from glid_nb.export.page import page_html
-from glid_nb.export.picture import png
 from glid_nb.imaging import PixelFrame
+from glid_nb.imaging.read import png
 from glid_nb.imaging.render import check_fits
 from glid_nb.motion import Motion
 from glid_nb.solvers import Pose

@@ -18,11 +18,11 @@ from glid_nb._scripts import bundle, glsl
 from glid_nb.certificate import Certificate, global_injectivity
 from glid_nb.certificate.rounding import rounded_down, rounded_up
 from glid_nb.export.moving import MovingMesh
-from glid_nb.export.picture import png
 from glid_nb.figures.style import COLORS, rgb
 from glid_nb.harmonic import FixedPoints, HarmonicMap
 from glid_nb.harmonic.shader_map import ShaderMap
 from glid_nb.imaging import PixelFrame, as_rgba8
+from glid_nb.imaging.read import png
 from glid_nb.motion import Motion, MotionCertificate
 from glid_nb.motion.playing import playing
 from glid_nb.solvers import Pose

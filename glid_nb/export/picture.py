@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 from collections.abc import Sequence
 from typing import Literal, get_args
@@ -17,6 +16,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.mesh import deformed_loops, deformed_mesh
 from glid_nb.imaging.order import Sheets, order_of
+from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View, draw_mesh, render
 from glid_nb.imaging.texture import Texture
 from glid_nb.solvers import Pose
@@ -39,13 +39,6 @@ def picture_png(
 ) -> bytes:
     """Warp a picture through a map, as `glid_nb.render` does; a PNG file with an alpha channel."""
     return png(render(image, map, size, view=view, pose=pose))
-
-
-def png(pixels: NDArray[np.uint8], compress_level: int = 6) -> bytes:
-    """A PNG file of (h, w), (h, w, 3) or (h, w, 4) pixels."""
-    buffer = io.BytesIO()
-    Image.fromarray(pixels).save(buffer, format="PNG", compress_level=compress_level)
-    return buffer.getvalue()
 
 
 def animation_bytes(

@@ -20,8 +20,8 @@ from glid_nb.geometry import Domain, as_points
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.map import complex_from_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
-from glid_nb.imaging.read import MAX_SIDE
-from glid_nb.session.archive import archive_bytes, image_png, light_png, read_archive, read_png
+from glid_nb.imaging.read import MAX_SIDE, png
+from glid_nb.session.archive import archive_bytes, image_png, read_archive, read_png
 from glid_nb.session.document import Document, DocumentError, NamedPose, check_count
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Newton, Options, Pose
@@ -232,7 +232,7 @@ def _scribbles_to_members(
     values = {key: getattr(scribbles, key) for key in _MASKS}
     masks = {key: value for key, value in values.items() if isinstance(value, np.ndarray)}
     strokes = {k: [s.tolist() for s in v] for k, v in values.items() if k not in masks}
-    members = {_MASKS[key]: light_png(mask) for key, mask in masks.items()}
+    members = {_MASKS[key]: png(mask, compress_level=1) for key, mask in masks.items()}
     return {**strokes, **dict.fromkeys(masks, _MASK)}, members
 
 

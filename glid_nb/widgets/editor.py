@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import html
-import io
 from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
@@ -20,15 +19,14 @@ from glid_nb._runtime import enable_compilation_cache
 from glid_nb.certificate import Certificate
 from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.read import ImageSource, read_image
+from glid_nb.imaging.read import ImageSource, png, read_image
 from glid_nb.imaging.render import View
 from glid_nb.motion import Motion
 from glid_nb.session import Document, NamedPose
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
-from glid_nb.session.editor_model import Application, EditorModel, find_document
+from glid_nb.session.editor_model import EditorModel, find_document
 from glid_nb.session.status_line import StatusLine
-from glid_nb.session.tracing import TracingProblem
 from glid_nb.solvers import Method, Pose
 from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
 from glid_nb.widgets.closing import ClosingWidget, close_on_rerun, close_with_parts
@@ -50,12 +48,6 @@ _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced
 
 _LINE = {"width": "0", "min_width": "100%", "height": "44px", "overflow": "hidden auto"}
 
-_LOST = "{} outside the new outline and removed with the old one; Undo brings everything back."
-_REPLACED = (
-    "Another picture starts another session. The one before{place} comes back with {step} in the "
-    "Trace tab."
-)
-_NOT_VALID = "The outline in the Trace tab is not valid yet: this is the last one that was."
 _LEFT = (
     "{left} was changed by another editor or program and stays as it is; this session is saved to "
     "{path} from now on."
@@ -193,10 +185,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
             frame = {"size": max(self._size), "format": "apng"}
             return animation_bytes(self.document.image, [self.map], [self.pose], **frame)
-        picture, buffer = Image.fromarray(image), io.BytesIO()
+        picture = Image.fromarray(image)
         picture.thumbnail(self._size)
-        picture.save(buffer, "PNG")
-        return buffer.getvalue()
+        return png(np.asarray(picture))
 
     # These parts are made once the canvas is drawn, or when asked for.
 
@@ -471,20 +462,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         """Deform what was traced when the Deform tab is opened."""
         self._fill()
         if change["new"] == _DEFORM:
-            notice = _applied_in_words(self.model.apply_tracing(), self.model.tracing.problems)
+            notice = self.model.apply_tracing()
             if notice and self.canvas is not None:
                 self.canvas.pane.stage.notice = notice
-
-
-def _applied_in_words(done: Application, problems: tuple[TracingProblem, ...]) -> str:
-    """The notice when the Deform tab is opened; empty if nothing unexpected happened."""
-    if problems:
-        return _NOT_VALID
-    if done.replaced:
-        place = "" if done.replaced_path is None else f" (in {done.replaced_path.name})"
-        step = "Redo" if done.back_by_redo else "Undo"
-        return _REPLACED.format(place=place, step=step)
-    if done.lost_handles:
-        many = done.lost_handles > 1
-        return _LOST.format(f"{done.lost_handles} handles were" if many else "A handle was")
-    return ""

@@ -9,6 +9,7 @@ from glid_nb._errors import InputError
 from glid_nb._files import write_bytes_atomically
 from glid_nb._json import json_text
 from glid_nb.certificate.proof import proof_text
+from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View
 from glid_nb.session.archive import archive_bytes
 from glid_nb.session.document_file import document_bytes
@@ -140,11 +141,7 @@ def export_source(model: EditorModel, script: Path, *, replace: bool = False) ->
 
     Raises as `export` when another file is there.
     """
-    from glid_nb.export.picture import png  # noqa: PLC0415 - the first canvas does not need it
-
-    picture, path = png(model.document.image), files_of(script)[1]
-    if not _holds(path, picture):
-        _write(model, script, {path: picture}, replace)
+    _write(model, script, {files_of(script)[1]: png(model.document.image)}, replace)
 
 
 def _contents(
@@ -152,7 +149,6 @@ def _contents(
 ) -> list[bytes]:
     """The contents of `files_of` the path, in that order."""
     from glid_nb import export as to  # noqa: PLC0415 - the first canvas does not need it
-    from glid_nb.export.picture import png  # noqa: PLC0415
 
     document, state = model.document, model.deformation.state
     image, map_, pose = document.image, state.map, state.pose
@@ -184,10 +180,10 @@ def _contents(
 
 def _write(model: EditorModel, owner: Path, contents: Mapping[Path, bytes], replace: bool) -> None:
     """Write files that belong to ``owner``."""
+    new = {path: data for path, data in contents.items() if not _holds(path, data)}
     if not replace:
-        new = [path for path, data in contents.items() if not _holds(path, data)]
         check_free(model, new, owner)
-    for path, data in contents.items():
+    for path, data in new.items():
         write_bytes_atomically(path, data)
     model.own_files.note(contents, owner)
 

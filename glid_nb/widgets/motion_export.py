@@ -104,5 +104,5 @@ class MotionExport(ipywidgets.HBox):
 
     def _show(self, running: bool) -> None:
         for part in self._running:
-            part.layout.display = "flex" if running else "none"
+            part.layout.display = None if running else "none"
         self.progress.value = 0

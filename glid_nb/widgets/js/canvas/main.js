@@ -1,6 +1,6 @@
 // The pad over the renderer: sends pointers and keys, draws handles, colour bars and notices.
 
-import { make } from "../pad/dom.js";
+import { follow, make } from "../pad/dom.js";
 import { help } from "../pad/help.js";
 import { Link } from "../pad/link.js";
 import { Pad, undoAround } from "../pad/pad.js";
@@ -179,7 +179,7 @@ function render({ model, el }) {
     bars.hidden = !shown.length;
     bars.dataset.corner = model.get("legend_corner");
   };
-  const listeners = {
+  const unfollow = follow(model, {
     "change:width change:height change:view": fit,
     "change:coefficients": () => shapes.refresh(),
     "change:marks change:cursor change:onion": soon,
@@ -187,12 +187,7 @@ function render({ model, el }) {
     "change:legend change:panel_legend change:legend_corner": showLegend,
     "change:notice change:marks": tell,
     "change:prepared": prepare,
-  };
-  for (const [names, listener] of Object.entries(listeners)) model.on(names, listener);
-  fit();
-  showLegend();
-  tell();
-  prepare();
+  });
   let gone = false;
   shapes.load().then(() => drawingTime(box, shapes)).then((time) => {
     if (!gone) save(model, { drawn: true, drawing_time: time });
@@ -203,7 +198,7 @@ function render({ model, el }) {
     gone = true;
     cancelAnimationFrame(due);
     clearTimeout(saving);
-    for (const [names, listener] of Object.entries(listeners)) model.off(names, listener);
+    unfollow();
     forget?.();
     pad?.close();
     link.close();

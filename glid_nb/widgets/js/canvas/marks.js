@@ -1,23 +1,15 @@
 // Handles and targets, drawn over the shape: cyan disks where handles should go, black dots where
 // they are, and a line between the two. Those that another part of the shape covers are faint rings.
 
-import { disk } from "../pad/pen.js";
+import { disk, strokePath, tracePath } from "../pad/pen.js";
 
 const TARGET = 7.5, IMAGE = 3.5, RING = 12; // radii, CSS pixels
 
 // Lines between pairs of points, with a border.
 function lines(pen, pairs, styles) {
   pen.lineCap = "round";
-  for (const [width, color] of styles) {
-    pen.lineWidth = width;
-    pen.strokeStyle = color;
-    pen.beginPath();
-    for (const [from, to] of pairs) {
-      pen.moveTo(...from);
-      pen.lineTo(...to);
-    }
-    pen.stroke();
-  }
+  tracePath(pen, pairs, false);
+  strokePath(pen, styles);
 }
 
 // A dashed ring with a border.
@@ -31,17 +23,12 @@ function ring(pen, place) {
 // Outlines of other poses: colour, and loops of points.
 export function drawOnion(pen, view, outlines) {
   for (const [color, loops] of outlines) {
-    pen.beginPath();
-    for (const loop of loops) {
-      loop.forEach((p, i) => (i ? pen.lineTo : pen.moveTo).apply(pen, view.toScreen(p)));
-      pen.closePath();
-    }
+    tracePath(pen, loops.map((loop) => loop.map((p) => view.toScreen(p))));
     pen.globalAlpha = 0.13;
-    pen.fillStyle = pen.strokeStyle = color;
+    pen.fillStyle = color;
     pen.fill("evenodd");
     pen.globalAlpha = 0.8;
-    pen.lineWidth = 1.4;
-    pen.stroke();
+    strokePath(pen, [[1.4, color]]);
   }
   pen.globalAlpha = 1;
 }

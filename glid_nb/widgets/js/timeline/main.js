@@ -1,6 +1,6 @@
 // The timeline below the canvas: keyframes with thumbnails, what is proved between them, a playhead.
 
-import { make } from "../pad/dom.js";
+import { follow, make } from "../pad/dom.js";
 import { icon, iconButton } from "../pad/icons.js";
 import { Link } from "../pad/link.js";
 import { isUndo, undoOrRedo } from "../pad/pad.js";
@@ -89,7 +89,7 @@ function render({ model, el }) {
     else if (bad) text = bad.reason;
     else if (spans.some(({ status }) => status === "computing")) text = "Proving what lies between…";
     else if (spans.length) text = `Proved at every instant of ${seconds(spans.at(-1).end - spans[0].start)}: σ₂ ≥ ${least.toFixed(3)}.`;
-    note.textContent = refusal || hovered || (kernel && spans.length && !bad ? KERNEL : "") + text;
+    note.title = note.textContent = refusal || hovered || (kernel && spans.length && !bad ? KERNEL : "") + text;
     note.dataset.tone = refusal || (bad && !hovered) ? "bad" : "";
   }
 
@@ -256,20 +256,18 @@ function render({ model, el }) {
   window.addEventListener("glid:play", tapped);
 
   const edited = () => player.seen && release();
-  const listeners = { "change:shown": showState, "change:motion": showMotion, "change:thumbnails": showKeys };
-  for (const [event, listener] of Object.entries(listeners)) model.on(event, listener);
+  const unfollow = follow(model, { "change:shown": showState, "change:motion": showMotion, "change:thumbnails": showKeys });
   model.widget_manager.get_model(model.get("stage")).then((found) => {
     if (gone) return;
     stage = found;
     stage.on("change:coefficients", edited);
   });
-  showState();
 
   return () => {
     gone = true;
     player.pause();
     window.removeEventListener("glid:play", tapped);
-    for (const [event, listener] of Object.entries(listeners)) model.off(event, listener);
+    unfollow();
     stage?.off("change:coefficients", edited);
     link.close();
   };
