@@ -42,6 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(chosen: argparse.Namespace) -> None:
     out: Path = chosen.out
+    glid_nb.export.suffix_of(out.name)
     if not out.suffix:
         check_folder(out)
     else:

@@ -85,7 +85,7 @@ def motion_files(
 
     Raises an InputError for another suffix, a setting that is out of range, or a missing package.
     """
-    suffix = _suffix(name)
+    suffix = suffix_of(name)
     encode.check_settings(size, frames_per_second, background)
     check_fits(PixelFrame(*np.shape(image)[1::-1]), motion.keyframes[0])
     if background is None and suffix in (".gif", ".mp4"):
@@ -119,7 +119,7 @@ def motion_files(
     return {f"{name}/{frame}": data for frame, data in files.items()}
 
 
-def _suffix(name: str) -> str:
+def suffix_of(name: str) -> str:
     """The one of `MOTION_FORMATS` that a name ends in, "" for a folder."""
     found = next((suffix for suffix in MOTION_FORMATS if name.lower().endswith(suffix)), "")
     if len(name) == len(found) or (not found and Path(name).suffix):

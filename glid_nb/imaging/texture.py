@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb._jax import jax, jit, jnp, lax
 from glid_nb.imaging.read import as_rgba
 
-_CHUNK = 1 << 15  # points per call of the compiled program; this bounds the memory
+_CHUNK = 1 << 12  # points per call of the compiled program: little padding, little memory
 _MOST_PROBES = 16  # look-ups along an axis of a pixel's footprint
 _MOST_BLUR = 1.5  # by which nearly all of a minified picture may lose resolution
 # Smaller pictures and meshes are padded, so that they share one compiled program.

@@ -95,6 +95,9 @@ def test_a_saved_motion_moves_its_picture(run: Any, tmp_path: Path) -> None:
     with Image.open(tmp_path / "a.apng") as read:
         assert read.n_frames == 3
         assert np.asarray(read.convert("RGBA"))[0, 0, 3] == 0
+    own = tmp_path / "a.apng"
+    outcome = run("animate", tmp_path / "motion.json", "--picture", own, "--out", own)
+    assert (outcome.code, "it is read too" in outcome.err) == (1, True)
     assert run(*words, "--out", tmp_path / "b.gif", "--seconds", 2).code == 0
     assert opened(tmp_path / "b.gif")[0] == 5
 
@@ -106,7 +109,7 @@ def test_a_saved_motion_moves_its_picture(run: Any, tmp_path: Path) -> None:
         (("--out", "walk.gif", "--seconds", "-1"), "--seconds is -1"),
         (("--out", "walk.gif", "--fps", "0"), "above 0"),
         (("--out", "walk.gif", "--picture", "a.png"), "a session holds its picture"),
-        (("--out", "walk.glid"), "it is read too"),
+        (("--out", "walk.glid"), "must end in .gif"),
     ],
 )
 def test_what_does_not_fit_is_refused(

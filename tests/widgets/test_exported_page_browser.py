@@ -21,6 +21,7 @@ from glid_nb.imaging import PixelFrame, trace
 from glid_nb.imaging.mesh import deformed_mesh
 from glid_nb.imaging.render import draw_mesh, render
 from glid_nb.imaging.texture import Texture
+from glid_nb.solvers import Pose
 
 from ..browser import ARTEFACTS, watched_page
 from ..export import shapes
@@ -52,7 +53,9 @@ def test_a_page_plays_scrubs_and_leads_to_poses(
     if not in_shader:
         monkeypatch.setattr("glid_nb.export.page._LONGEST_CHAIN", 10)
     motion = Motion([HarmonicMap.identity(shapes.domain()), shapes.bent()], repeat=repeat)
-    (path,) = animate(tmp_path / "walk.html", shapes.picture(), motion)
+    front = Pose(shapes.pose().handles, shapes.pose().targets, [1.0, -1.0])
+    poses = [shapes.pose(), front]  # nothing overlaps, so their depths change no pixel
+    (path,) = animate(tmp_path / "walk.html", shapes.picture(), motion, poses)
     page.emulate_media(reduced_motion="reduce", color_scheme="light")
     page.context.set_offline(True)
     page.goto(path.as_uri())
