@@ -45,7 +45,8 @@ def run(chosen: argparse.Namespace) -> None:
     if not out.suffix:
         check_folder(out)
     else:
-        check_files([out], [chosen.source, chosen.picture])
+        sheet = [out.with_suffix(".json")] if out.name.lower().endswith(".sheet.png") else []
+        check_files([out, *sheet], [chosen.source, chosen.picture])
     glid_nb.enable_compilation_cache()
     image, motion, poses = _read(chosen)
     with step("proving the motion"):

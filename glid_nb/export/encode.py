@@ -36,14 +36,15 @@ class Drawn(NamedTuple):
 
 
 _LARGEST_SHEET = 16384  # pixels of a side
-# ffmpeg's settings: close to lossless for drawings, colours as browsers expect them.
+# ffmpeg's settings: close to lossless for drawings. Browsers guess what colours are not named.
 _CODECS = {
     "mp4": ("-c:v", "libx264", "-crf", "16", "-preset", "slow", "-movflags", "+faststart"),
     "webm": ("-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-auto-alt-ref", "0"),
 }
 _COLORS = (
-    *("-vf", "scale=out_color_matrix=bt709:out_range=tv", "-color_range", "tv"),
-    *("-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"),
+    "-vf",
+    "scale=out_color_matrix=bt709:out_range=tv,"
+    "setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709:range=tv",
 )
 
 
@@ -59,11 +60,11 @@ def check_settings(size: int, fps: float, background: Sequence[int] | None) -> N
         raise InputError(f"background is {background}; it must be three numbers from 0 to 255")
 
 
-def gif(
-    frames: Frames, fps: float, background: Color = (255, 255, 255), loop: bool = True
-) -> bytes:
+def gif(frames: Frames, fps: float, background: Color, loop: bool = True) -> bytes:
     """An animated GIF of 256 colours; it counts in hundredths of a second, on average exactly."""
-    pictures = _with_palette([Image.fromarray(frame[..., :3]) for frame in frames], background)
+    pictures = _with_palette(
+        [Image.fromarray(frame[..., :3]) for frame in frames], background or (255, 255, 255)
+    )
     ends = np.round(np.arange(len(pictures) + 1) * 100 / fps)
     return _saved(pictures, "GIF", (10 * np.diff(ends)).astype(int).tolist(), loop)
 

@@ -34,7 +34,7 @@ MOTION_FORMATS = {
 }
 """What each suffix of a moving picture stands for. A name without one is a folder of frames."""
 
-_SOLID = (".gif", ".mp4")
+_VIDEO = (".mp4", ".webm")
 
 
 def animate(
@@ -47,8 +47,7 @@ def animate(
     """Write a motion as the path's suffix says; the settings are those of `motion_files`.
 
     Returns the written files, none where ``progress`` stopped it. A path without a suffix is a
-    folder, which is made. Raises what `motion_files` does, and an OSError where a file cannot be
-    written.
+    folder, which is made. An OSError where a file cannot be written.
     """
     path = Path(path)
     files = motion_files(path.name, image, motion, poses, **settings)
@@ -73,70 +72,51 @@ def motion_files(
 ) -> dict[str, bytes]:
     """A motion as files, by name: that of the given name, and what comes with it.
 
-    Parameters
-    ----------
-    name : str
-        Its suffix says the format: .gif, .apng, .mp4 and .webm (which need ``glid-nb[video]``),
-        .html for a page, .glb for a mesh with morph targets, .sheet.png for a sprite sheet with
-        .sheet.json beside it, .zip for frames as PNG; without a suffix those are in a folder.
-    image : (h, w, 4), (h, w, 3) or (h, w) array
-        The picture that the cage was traced from.
-    motion : Motion
-    poses : sequence of Pose, optional
-        One per keyframe, whose depths say which part is in front where the shape overlaps itself.
-    size : int
-        Pixels of the longer side, at least 16; sides are even.
-    frames_per_second : float
-        At most 100. It and ``size`` do not concern pages and meshes, which show any time.
-    background : (red, green, blue), optional
-        0 to 255 each; None is transparent, which GIF and MP4 cannot be.
-    loop : bool
-        Whether GIF, APNG and page begin again at the end. Videos do as their player likes.
-    progress : callable, optional
-        Called with the numbers of finished and of all frames; when it returns True the export
-        stops, and there are no files.
+    The suffix says the format: one of `MOTION_FORMATS`, of which .mp4 and .webm need
+    ``glid-nb[video]``; .sheet.png comes with .sheet.json; without a suffix frames are in a folder.
+    The image, (h, w), (h, w, 3) or (h, w, 4), is the one that the cage was traced from. The depths
+    of poses, one per keyframe, say which part is in front where the shape overlaps itself.
 
-    Raises
-    ------
-    InputError
-        For another suffix, a setting that is out of range, or a missing package; the message says
-        what to do.
+    Frames have a longer side of ``size`` pixels, at least 16, and even sides; there are at most
+    100 per second. The background's red, green and blue are 0 to 255; None is transparent, which
+    GIF and MP4 cannot be. With ``loop`` GIF, APNG and page begin again at the end. ``progress`` is
+    called with the numbers of finished and of all frames; when it returns True the export stops,
+    and there are no files.
+
+    Raises an InputError for another suffix, a setting that is out of range, or a missing package.
     """
     suffix = _suffix(name)
     encode.check_settings(size, frames_per_second, background)
     check_fits(PixelFrame(*np.shape(image)[1::-1]), motion.keyframes[0])
-    if background is None and suffix in _SOLID:
+    if background is None and suffix in (".gif", ".mp4"):
         raise InputError(
             f"{name}: {suffix[1:].upper()} has no transparency; choose a background, or .apng or "
             ".webm"
         )
-    if suffix in (".mp4", ".webm"):
+    if suffix in _VIDEO:
         encode.check_video()
     if suffix == ".html":
         return {name: page_html(image, motion, title=name[:-5], pose=poses, loop=loop).encode()}
     if suffix == ".glb":
         return {name: motion_glb(image, motion, poses)}
-    drawn = frames(image, motion, poses, size, frames_per_second, background, progress)
+    fps = frames_per_second
+    drawn = frames(image, motion, poses, size, fps, background, progress)
     try:
-        match suffix:
-            case ".gif":
-                assert background is not None
-                return {name: encode.gif(drawn.pictures, frames_per_second, background, loop)}
-            case ".apng":
-                return {name: encode.apng(drawn.pictures, frames_per_second, loop)}
-            case ".mp4" | ".webm":
-                kind, clear = suffix[1:], background is None
-                return {name: encode.video(drawn, frames_per_second, kind, clear)}
-            case ".sheet.png":
-                both = encode.sprite_sheet(drawn, frames_per_second, name, png)
-                return dict(zip((name, f"{name[:-4]}.json"), both, strict=True))
-        files = [png(frame) for frame in drawn.pictures]
+        if suffix == ".gif" and background is not None:
+            return {name: encode.gif(drawn.pictures, fps, background, loop)}
+        if suffix == ".apng":
+            return {name: encode.apng(drawn.pictures, fps, loop)}
+        if suffix in _VIDEO:
+            return {name: encode.video(drawn, fps, suffix[1:], background is None)}
+        if suffix == ".sheet.png":
+            sheet, told = encode.sprite_sheet(drawn, fps, name, png)
+            return {name: sheet, f"{name[:-4]}.json": told}
+        files = dict(zip(encode.names(drawn.count), map(png, drawn.pictures), strict=True))
     except Stopped:
         return {}
-    named = dict(zip(encode.names(len(files)), files, strict=True))
     if suffix == ".zip":
-        return {name: encode.zipped(named)}
-    return {f"{name}/{frame}": data for frame, data in named.items()}
+        return {name: encode.zipped(files)}
+    return {f"{name}/{frame}": data for frame, data in files.items()}
 
 
 def _suffix(name: str) -> str:

@@ -38,20 +38,13 @@ class MovingMesh:
     All of it moves on straight lines in between, as the motion does. A ping-pong's way there only.
     """
 
-    vertices: Array
-    """(v, 2), world coordinates."""
-    triangles: NDArray[np.int32]
-    """(t, 3), counter-clockwise, those that are low at first before the higher ones."""
-    times: Array
-    """(n,) of the knots, seconds."""
-    images: Array
-    """(n, v, 2)."""
-    height_times: Array
-    """(m,) of the keyframes, and a loop's return."""
-    heights: Array
-    """(m, v) then, or one row for all; see `order_of`."""
-    error: float
-    """As in `DeformedMesh`, for every map of the motion: it is convex in time."""
+    vertices: Array  # (v, 2), world coordinates
+    triangles: NDArray[np.int32]  # (t, 3), counter-clockwise, those that are low at first before
+    times: Array  # (n,) of the knots, seconds
+    images: Array  # (n, v, 2)
+    height_times: Array  # (m,) of the keyframes, and a loop's return
+    heights: Array  # (m, v) then, or one row for all; see `order_of`
+    error: float  # as in `DeformedMesh`, for every map of the motion: it is convex in time
 
     @classmethod
     def of(

@@ -107,6 +107,11 @@ def test_ffmpeg_reads_videos(kind: str, drawn: list[np.ndarray], tmp_path: Path)
     (path,) = animate(tmp_path / f"walk.{kind}", picture(), motion(), **SMALL)
     count, seconds = imageio_ffmpeg.count_frames_and_secs(str(path))
     assert (count, seconds) == (4, pytest.approx(4 / 3, abs=0.02))
+    # Browsers guess colours that a video does not name.
+    probe = [imageio_ffmpeg.get_ffmpeg_exe(), "-hide_banner", "-i", str(path)]
+    told = subprocess.run(probe, capture_output=True, text=True, check=False).stderr
+    assert "yuv420p(tv, bt709, progressive), 64x" in told
+    assert " 3 fps" in told
     shape = (*drawn[0].shape[:2], 3)
     seen = np.frombuffer(decoded(path, "rgb24"), np.uint8).reshape(4, *shape).astype(int)
     for frame, expected in zip(seen, drawn, strict=True):
