@@ -87,8 +87,11 @@ def deform_tab_dark(browser: Browser, server: JupyterServer) -> bytes:
             moved = f"pose.handles + {share} * (pose.targets - pose.handles)"
             book.value("None", f"model.set_pose(pose.with_targets({moved}))\nmodel.solve()")
             book.value("None", "model.save_pose()")
-        book.wait_for("editor.timeline.animation.wait(0.1)", 60)
         dragged(hand, 1.0)
+        book.page.mouse.up()
+        proved = "all(s.status == 'proved' for s in editor.timeline.animation.spans)"
+        book.wait_for(f"not model.dragged and editor.timeline.animation.wait(0.1) and {proved}", 60)
+        book.page.locator(".glid-computing").wait_for(state="detached")
 
     return pictured(browser, server, "gecko", use)
 

@@ -13,7 +13,7 @@ from glid_nb.certificate import certificate_of
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion import Motion
 from glid_nb.motion.curve import Piece
-from glid_nb.motion.settings import unlike_turns
+from glid_nb.motion.settings import MotionError, unlike_turns
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import NamedPose
 from glid_nb.session.edit_state import EditError, EditState, Moment
@@ -231,7 +231,11 @@ def _proved(task: _Task, worker: LatestWins[_Task]) -> Iterator[tuple[int, Span]
         ends = [-1, *refused, len(spans)]
         runs = [(b, range(a + 1, b)) for a, b in itertools.pairwise(ends) if b - a > 1]
     for last, run in runs:
-        motion = _motion(task, run.start, last)
+        try:
+            motion = _motion(task, run.start, last)
+        except MotionError as error:
+            yield from ((i, spans[i]._replace(status="refused", reason=str(error))) for i in run)
+            continue
         for i in run:
             if worker.overtaken:
                 return

@@ -95,6 +95,7 @@ class TimelinePanel(Pad):
         self.animation = Animation(canvas.deformation)
         """What is proved between the poses."""
         self._pictures = weakref.WeakKeyDictionary[HarmonicMap, tuple[str, str]]()
+        self._latest: dict[str, tuple[str, str]] = {}  # by the poses' names
         self._texture: Texture | None = None
         self._worker: LatestWins[tuple[NamedPose, ...]] = LatestWins(
             weakly(self._draw_thumbnails), self, "thumbnails"
@@ -136,14 +137,18 @@ class TimelinePanel(Pad):
                 self._worker.submit(moment.state.poses)
 
     def _show_state(self) -> None:
-        state, pictures = self.canvas.deformation.state, self._pictures
+        state = self.canvas.deformation.state
         timeline = state.timeline
+        # Until a pose that moves has come to rest its last thumbnail stays.
+        latest = {p.name: self._pictures.get(p.map, self._latest.get(p.name)) for p in state.poses}
+        self._latest = {name: picture for name, picture in latest.items() if picture}
+        self.thumbnails = dict(self._latest.values())
         keyframes = [
             {
                 "name": pose.name,
                 "time": time,
                 "easing": easing,
-                "thumbnail": pictures[pose.map][0] if pose.map in pictures else "",
+                "thumbnail": self._latest.get(pose.name, ("", ""))[0],
             }
             for pose, time, easing in zip(state.poses, timeline.times, timeline.easing, strict=True)
         ]
@@ -193,6 +198,4 @@ class TimelinePanel(Pad):
         if done:
             with self.canvas.deformation.locked():
                 if self.comm is not None:
-                    known = (pictures.get(p.map) for p in self.canvas.deformation.state.poses)
-                    self.thumbnails = dict(filter(None, known))
                     self._show_state()

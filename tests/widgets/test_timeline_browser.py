@@ -20,6 +20,19 @@ editor = glid.Editor(glid.samples.image("gingerbread"), n_vertices=1500)
 canvas, model = editor.canvas, editor.deformation
 editor
 """
+# Filled at the end by a canvas whose maps the kernel evaluates.
+BOX = """
+import ipywidgets
+box = ipywidgets.VBox(layout={"width": "420px"})
+box
+"""
+OTHER = """
+from glid_nb.widgets import TimelinePanel
+given = {"width": 400, "height": 300, "n_vertices": 400, "evaluated_in": "kernel"}
+other = glid.DeformCanvas(canvas.image, model, **given)
+panel = TimelinePanel(other)
+box.children = [other, panel]
+"""
 PINS = ([0.0, 5.0], [-5.5, 2.0], [5.5, 2.0], [-2.4, -6.5], [2.4, -6.5])
 # Of the hands and the feet, at each of the five poses.
 STEPS = (
@@ -43,9 +56,9 @@ COUNT_DRAWINGS = """() => {
 class Timeline:
     """What a hand does on the timeline."""
 
-    def __init__(self, hand: Hand) -> None:
+    def __init__(self, hand: Hand, number: int = 0) -> None:
         self.hand, self.book, self.page = hand, hand.book, hand.page
-        self.root = self.page.locator(".glid-timeline")
+        self.root = self.page.locator(".glid-timeline").nth(number)
         self.track = self.root.locator(".glid-track")
         self.keys = self.root.locator(".glid-key:not(.glid-return)")
 
@@ -94,7 +107,7 @@ class Timeline:
 
 
 def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
-    book = open_notebook([EDITOR])
+    book = open_notebook([EDITOR, BOX])
     hand = Hand(book)
     timeline, page = Timeline(hand), book.page
     for i, pin in enumerate(PINS):
@@ -166,7 +179,7 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
 
     # A recorded drag becomes keyframes, in one step for undo.
     timeline.settle()
-    page.locator(".glid-ruler").focus()
+    timeline.root.locator(".glid-ruler").focus()
     page.keyboard.press("End")
     book.wait_for("model.state.active == 4")
     timeline.button("Record")
@@ -192,3 +205,23 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     book.wait_for("len(editor.poses) == 5")
     timeline.settle()
     assert book.value("editor.motion.certificate.certified")
+
+    # Where the kernel evaluates, it draws the frames, and the timeline says so.
+    book.value("None", setup=OTHER)
+    second = Timeline(hand, 1)
+    note = second.root.locator(".glid-timeline-note", has_text="Played by the kernel")
+    note.wait_for()
+    book.wait_for("panel.animation.wait(0.1)", 60)
+    page.wait_for_function("() => document.querySelectorAll('.glid-computing').length === 0")
+    second.root.scroll_into_view_if_needed()
+    second.scrub([0.4, 1.1])
+    near = "abs(other.pane.scene.map.phi - panel.animation.at(t).phi).max() < 1e-12"
+    assert second.time == pytest.approx(1.1, abs=0.02)
+    book.wait_for(near.replace("(t)", f"({second.time!r})"))
+    page.keyboard.press("Space")
+    page.wait_for_timeout(600)
+    page.keyboard.press("Space")
+    assert second.time > 1.2
+    book.wait_for(near.replace("(t)", f"({second.time!r})"))
+    page.keyboard.press("Escape")
+    book.wait_for("other.pane.scene.map is model.map")

@@ -124,7 +124,7 @@ function render({ model, el }) {
     actions: { "?": keys.toggle },
     removesByLongPress: true,
     tapped: () => box.dispatchEvent(new CustomEvent("glid:play", { bubbles: true })),
-    find: (point, reach) => markAt(marks(), point, reach),
+    find: (point, reach) => shapes.motion ? null : markAt(marks(), point, reach),
     held: ({ mark }) => {
       const { selected, targets } = marks();
       return new Map((selected.includes(mark) ? selected : [mark]).map((i) => [i, targets[i]]));
@@ -148,7 +148,7 @@ function render({ model, el }) {
   };
   for (const name of ["pointerdown", "keydown"]) {
     box.addEventListener(name, (e) => {
-      if (!shapes.motion || e.button > 0 || e.ctrlKey || e.metaKey || [" ", "?"].includes(e.key)) return;
+      if (!shapes.motion || e.button === 1 || (e.key && (e.ctrlKey || e.metaKey || !KEYS.has(e.key)))) return;
       e.stopImmediatePropagation();
       e.preventDefault();
       back();

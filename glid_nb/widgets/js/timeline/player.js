@@ -32,7 +32,7 @@ export class Player {
 
   seek(time) {
     if (!this.clock) return this.release(0);
-    this.time = this.clock.within(time);
+    this.time = time === this.clock.end ? time : this.clock.within(time);
     this.seen = true;
     const { place } = this, span = this.spans.find(({ end }) => place <= end) ?? this.spans.at(-1);
     const shown = this.show(span.motion?.at(place) ?? null, place);
