@@ -53,10 +53,6 @@ def run(chosen: argparse.Namespace) -> None:
     with step("proving the motion"):
         proof = motion.certificate
     with step("drawing (Ctrl-C stops, and nothing is written)") as detail:
-
-        def show(done: int, total: int) -> None:
-            detail(f"frame {done} of {total}")
-
         files = glid_nb.export.animate(
             out,
             image,
@@ -66,7 +62,7 @@ def run(chosen: argparse.Namespace) -> None:
             frames_per_second=chosen.fps,
             background=chosen.background,
             loop=motion.repeat != "once",
-            progress=show,
+            progress=lambda done, total: detail(f"frame {done} of {total}"),
         )
     written = ", ".join(map(str, files)) if out.suffix else f"{out}: {len(files)} files"
     print(f"{written}; {motion.duration:g} s. {proof.reason}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -101,9 +102,20 @@ def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
     return {f"{name}.obj": text.encode("utf-8"), **files}
 
 
-def mesh_glb(mesh: TexturedMesh) -> bytes:
-    """A mesh as binary glTF 2.0 (.glb), with its texture."""
-    return _glb(mesh)
+def mesh_glb(mesh: TexturedMesh, edit: Callable[..., None] | None = None) -> bytes:
+    """A mesh as binary glTF 2.0 (.glb), with its texture; ``edit(buffers, tree)`` adds to it."""
+    from trimesh.visual.material import PBRMaterial  # noqa: PLC0415
+
+    material = PBRMaterial(
+        baseColorTexture=Image.fromarray(mesh.texture),
+        metallicFactor=0.0,
+        roughnessFactor=1.0,
+        alphaMode="BLEND",
+        doubleSided=True,
+    )
+    data = _trimesh(mesh, material).export(file_type="glb", buffer_postprocessor=edit)
+    assert isinstance(data, bytes)
+    return data
 
 
 def motion_glb(
@@ -116,17 +128,9 @@ def motion_glb(
     """A motion as binary glTF 2.0: a mesh with morph targets and an animation of their weights.
 
     A target for every map at which the motion bends, a key at its time, and straight lines between,
-    which are exact: every vertex moves as in the motion. Programs must take that many targets.
-
-    Parameters
-    ----------
-    image, n_vertices
-        As in `textured_mesh`.
-    motion : Motion
-    poses : sequence of Pose, optional
-        One per keyframe, whose depths say which part is in front.
-    tolerance : float, optional
-        World units that edges may stray from the map at any time; those that do are split.
+    which are exact: every vertex moves as in the motion. Programs must take that many targets. The
+    arguments are those of `textured_mesh`, with one pose per keyframe; the tolerance holds at any
+    time.
     """
     mesh = MovingMesh.of(motion, poses, n_vertices, tolerance)
     relief = np.array([_relief(row) for row in mesh.heights])
@@ -141,25 +145,22 @@ def motion_glb(
         weights = np.concatenate([weights, weights[-2::-1]])
     made = _textured(image, positions[0], mesh.vertices, mesh.triangles)
     moved = positions[1:n] - positions[0]
-    return _glb(made, lambda buffers, tree: _animate(buffers, tree, moved, times, weights[:, 1:]))
+    return mesh_glb(made, functools.partial(_animate, moved, times, weights[:, 1:]))
 
 
 def _animate(
-    buffers: Any, tree: dict[str, Any], moved: Array, times: Array, weights: Array
+    moved: Array, times: Array, weights: Array, buffers: Any, tree: dict[str, Any]
 ) -> None:
     """Add morph targets (m, v, 3) to glTF's only mesh, and their weights (k, m) at (k,) times."""
 
     def accessor(values: Array, kind: str) -> int:
-        data, rows = values.astype("<f4"), values.reshape(-1, 3 if kind == "VEC3" else 1)
-        number = len(tree["accessors"])
-        ends = {"min": rows.astype("<f4").min(axis=0).tolist()}
-        ends["max"] = rows.astype("<f4").max(axis=0).tolist()
-        tree["accessors"][f"motion {number}"] = {
-            **{"bufferView": len(buffers), "componentType": 5126, "type": kind},
-            **{"count": len(rows), **ends},
+        rows = values.astype("<f4").reshape(-1, 3 if kind == "VEC3" else 1)
+        tree["accessors"][name := f"motion {len(buffers)}"] = {
+            **{"bufferView": len(buffers), "componentType": 5126, "count": len(rows)},
+            **{"type": kind, "min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()},
         }
-        buffers[f"motion {number}"] = data.tobytes()
-        return number
+        buffers[name] = rows.tobytes()
+        return len(tree["accessors"]) - 1
 
     mesh = tree["meshes"][0]
     mesh["primitives"][0]["targets"] = [{"POSITION": accessor(m, "VEC3")} for m in moved]
@@ -169,21 +170,6 @@ def _animate(
     channel = {"sampler": 0, "target": {"node": node, "path": "weights"}}
     linear = [{**sampler, "interpolation": "LINEAR"}]
     tree["animations"] = [{"name": "motion", "samplers": linear, "channels": [channel]}]
-
-
-def _glb(mesh: TexturedMesh, also: Callable[..., None] | None = None) -> bytes:
-    from trimesh.visual.material import PBRMaterial  # noqa: PLC0415
-
-    material = PBRMaterial(
-        baseColorTexture=Image.fromarray(mesh.texture),
-        metallicFactor=0.0,
-        roughnessFactor=1.0,
-        alphaMode="BLEND",
-        doubleSided=True,
-    )
-    data = _trimesh(mesh, material).export(file_type="glb", buffer_postprocessor=also)
-    assert isinstance(data, bytes)
-    return data
 
 
 def _trimesh(mesh: TexturedMesh, material: Material) -> Trimesh:
