@@ -188,7 +188,7 @@ def _write(model: EditorModel, owner: Path, contents: Mapping[Path, bytes], repl
     """Write files that belong to ``owner``."""
     new = {path: data for path, data in contents.items() if not _holds(path, data)}
     if not replace:
-        check_free(model, new, owner)
+        check_free(model, list(new), owner)
     for path, data in new.items():
         write_bytes_atomically(path, data)
     model.own_files.note(contents, owner)

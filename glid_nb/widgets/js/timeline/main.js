@@ -45,7 +45,6 @@ function render({ model, el }) {
     else act("go_to_pose", { index });
   };
   const edit = (type, content = {}) => act(type, { index: shown().active, ...content });
-  const stop = (e) => e.stopPropagation();
 
   const play = iconButton("play", "Play, pause (Space)", () => player.play());
   const repeat = menu("Play once, in a loop, or there and back", REPEATS, (value) => act("set_repeat", { repeat: value }));
@@ -78,7 +77,6 @@ function render({ model, el }) {
     const inset = parseFloat(getComputedStyle(root).getPropertyValue("--glid-inset"));
     return { left: left + inset, width: width - 2 * inset };
   };
-  const timeAt = (x) => ((x - inside().left) / inside().width) * span;
 
   function tell() {
     const { keyframes, recording, kernel } = shown();
@@ -206,10 +204,9 @@ function render({ model, el }) {
   // Elsewhere a pointer scrubs; it snaps to keyframes.
   function scrub(e) {
     if (drag?.scrubs !== e.pointerId) return;
-    const time = timeAt(e.clientX), near = (SNAP / inside().width) * span;
+    const { left, width } = inside(), time = ((e.clientX - left) / width) * span, near = (SNAP / width) * span;
     const key = shown().keyframes.find((one) => Math.abs(one.time - time) < near);
-    player.pause();
-    player.seek(Math.min(Math.max(key?.time ?? time, player.clock.start), player.clock.times[1]));
+    player.scrub(key?.time ?? time);
   }
   track.addEventListener("pointerdown", (e) => {
     if (e.button !== 0 || !player.clock) return;
@@ -228,8 +225,7 @@ function render({ model, el }) {
   function step(e) {
     const sign = e.key === "ArrowLeft" ? -1 : 1, { keyframes, active: index } = shown();
     if (e.altKey) return edit("move_pose", { time: Math.max(0, active().time + sign * NUDGE) });
-    player.pause();
-    if (!e.shiftKey) return player.clock && player.seek(Math.min(Math.max(player.place + sign * STEP, player.clock.start), player.clock.times[1]));
+    if (!e.shiftKey) return player.scrub(player.place + sign * STEP);
     const time = player.place, order = keyframes.map((key, i) => [key.time, i]).filter(([t]) => sign * (t - time) > 1e-9);
     select((sign > 0 ? order[0] : order.at(-1))?.[1] ?? index);
   }
@@ -242,9 +238,9 @@ function render({ model, el }) {
     if (isUndo(e) && e.target !== name) act(undoOrRedo(e));
     else if (e.ctrlKey || e.metaKey) return;
     else if (!typing && KEYS[e.key]) e.repeat && e.key === " " || KEYS[e.key](e);
-    else return stop(e);
+    else return e.stopPropagation();
     e.preventDefault();
-    stop(e);
+    e.stopPropagation();
   });
   root.addEventListener("keyup", (e) => e.key === " " && !bar.contains(e.target) && e.preventDefault());
   // After a click on a button the keys are the timeline's again.

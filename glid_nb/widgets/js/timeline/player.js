@@ -40,6 +40,12 @@ export class Player {
     return shown;
   }
 
+  // Goes to a time from the first keyframe to the last, and stays there.
+  scrub(time) {
+    this.pause();
+    if (this.clock) this.seek(Math.min(Math.max(time, this.clock.start), this.clock.times[1]));
+  }
+
   play() {
     if (this.playing || !this.clock) return this.pause();
     const { start, end, repeat } = this.clock;
