@@ -133,7 +133,9 @@ class TimelinePanel(Pad):
             if what in ("state", "recording", "motion"):
                 self._show_state()
             moment = self.canvas.deformation.moment
-            if what in ("state", "frame") and not moment.dragged and self.canvas.drawn:
+            # Drawing needs JAX and the processor, which the first solve has first.
+            at_rest = moment.solved and not moment.dragged and self.canvas.drawn
+            if what in ("state", "frame") and at_rest:
                 self._worker.submit(moment.state.poses)
 
     def _show_state(self) -> None:
