@@ -426,6 +426,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _open_files(self) -> None:
         """Show where the motion is exported."""
         self._side.selected_index = _FILES
+        self.files.show_motion()
 
     def _take_down(self) -> None:
         with self.model.locked():

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
 import ipywidgets
 
 from glid_nb._errors import InputError
-from glid_nb.export.motion import MOTION_FORMATS, motion_files
+from glid_nb.export.motion import motion_files
 from glid_nb.session.animation import Animation
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.controls import REFUSED, button
 
-_SHEET = ".sheet.png"  # comes with its JSON
 _NUMBER = {"width": "70px", "flex": "0 0 auto"}
 
 # A name, and what takes the files and says where they are.
@@ -31,13 +29,6 @@ class MotionExport(ipywidgets.HBox):
         self, model: EditorModel, animation: Animation, say: Callable[[str, str], None]
     ) -> None:
         self._model, self._animation, self._say = model, animation, say
-        formats = [(label, suffix) for suffix, label in MOTION_FORMATS.items()]
-        self.format = ipywidgets.Dropdown(
-            options=formats,
-            tooltip="What to make of the motion",
-            layout={"width": "auto", "min_width": "0", "flex": "1 1 auto"},
-        )
-        """The suffix, shown elsewhere."""
         self.size = ipywidgets.BoundedIntText(
             480, min=16, max=4096, tooltip="Pixels of the longer side", layout=_NUMBER
         )
@@ -55,16 +46,11 @@ class MotionExport(ipywidgets.HBox):
         layout = {"flex": "1 1 auto", "min_width": "0"}
         super().__init__([self.size, px, self.rate, fps, *self._running], layout=layout)
 
-    def files_of(self, session: Path) -> tuple[Path, ...]:
-        """What is written beside a session: the file of the format, and what comes with it."""
-        path = session.with_suffix(str(self.format.value))
-        sheet = path.name.endswith(_SHEET)
-        return (path, path.with_suffix(".json")) if sheet else (path,)
-
-    def start(self, name: str, deliver: Callable[[dict[str, bytes]], str]) -> None:
-        """Draw a file of this name, then deliver what was made; returns at once."""
+    def start(self, name: str, deliver: Callable[[dict[str, bytes]], str]) -> str:
+        """Draw a file of this name, then deliver what was made; says at once what is done."""
         self._show(True)
         self._worker.submit((name, deliver))
+        return f"Drawing {name}…"
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until nothing is drawn; whether that is within ``timeout`` seconds."""

@@ -316,15 +316,9 @@ def test_the_motion_is_exported_in_the_background(model: EditorModel, tmp_path: 
     panel = FilePanel(model, animation)
     motion = panel.motion
     assert motion is not None
-    shown = {
-        part.description: part
-        for row in panel.children
-        if isinstance(row, ipywidgets.HBox) and motion.format in row.children
-        for part in row.children
-        if isinstance(part, ipywidgets.Button)
-    }
+    panel.show_motion()
     motion.size.value, motion.rate.value = 64, 4
-    shown["Export"].click()
+    panel.export_button.click()
     assert motion.wait(60)
     assert "at least 2 keyframes" in panel.message.value
     deformation.add_handle((-6, 0))
@@ -332,20 +326,20 @@ def test_the_motion_is_exported_in_the_background(model: EditorModel, tmp_path: 
     deformation.save_pose()
     deformation.drag(moved, (5.5, 2))
     assert animation.wait(60)
-    shown["Export"].click()
+    panel.export_button.click()
     assert motion.wait(60)
     assert "Wrote" in panel.message.value
     with Image.open(next(tmp_path.glob("*.gif"))) as picture:
         assert (picture.n_frames, max(picture.size)) == (5, 64)  # type: ignore[attr-defined]
     assert motion.progress.layout.display == "none"
-    motion.format.value = ".sheet.png"
-    shown["Export"].click()
+    panel.format.value = "motion.sheet.png"
+    panel.export_button.click()
     assert motion.wait(60)
     assert len(list(tmp_path.glob("*.sheet.*"))) == 2
     # Stopped, it writes nothing.
-    motion.format.value, motion.rate.value = ".zip", 100
+    panel.format.value, motion.rate.value = "motion.zip", 100
     motion.progress.observe(lambda _: motion.cancel.click(), ["value"])
-    shown["Export"].click()
+    panel.export_button.click()
     assert motion.wait(60)
     assert "Stopped" in panel.message.value
     assert not list(tmp_path.glob("*.zip"))
