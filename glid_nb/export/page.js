@@ -154,7 +154,7 @@ import { Motion } from "../widgets/js/motion/motion.js";
   get("fit").addEventListener("click", fit);
   straight.addEventListener("change", fit);
 
-  // Colours for the distortion, from an isometry's value to the certified bound.
+  // Colours for the distortion, from an isometry's value to the certified bound, or a tenth off.
   const LABELS = { sigma1: [2, "Stretch σ₁"], sigma2: [3, "Stretch σ₂"], k: [4, "Dilatation k"] };
   const css = (i) => `rgb(${data.colors.slice(3 * i, 3 * i + 3).map((c) => Math.round(255 * c))})`;
   const stops = data.colors.length / 3;
@@ -180,10 +180,11 @@ import { Motion } from "../widgets/js/motion/motion.js";
   function seek(t) {
     time = motion.within(t);
     slider.value = time;
-    get("clock").textContent = `${(time - motion.start).toFixed(2)} / ${span.toFixed(2)} s`;
+    get("clock").textContent = `${time.toFixed(2)} / ${motion.end.toFixed(2)} s`;
     const { piece } = motion.place(time);
     const [low, high, k] = [motion.sigma2[piece], motion.sigma1[piece], motion.k[piece]];
-    get("here").textContent = low === null ? "Now: not proved" : `Now: σ₂ ≥ ${down(low)}, σ₁ ≤ ${up(high)}, k ≤ ${up(k)}`;
+    const bare = time < motion.until ? "proved not to fold" : "not proved";
+    get("here").textContent = `Now: ${low === null ? bare : `σ₂ ≥ ${down(low)}, σ₁ ≤ ${up(high)}, k ≤ ${up(k)}`}`;
     thumbs.forEach((thumb, i) => thumb.setAttribute("aria-current", Math.abs(motion.keyframes[i] - time) < 1e-3));
     draw();
   }
@@ -228,7 +229,7 @@ import { Motion } from "../widgets/js/motion/motion.js";
     Object.assign(slider, { min: motion.start, max: motion.end });
     motion.keyframes.forEach((t, i) => {
       const thumb = document.createElement("button"), small = document.createElement("canvas");
-      thumb.title = `Pose ${i + 1}, at ${(t - motion.start).toFixed(2)} s`;
+      thumb.title = `Pose ${i + 1}, at ${t.toFixed(2)} s`;
       thumb.setAttribute("aria-label", thumb.title);
       thumb.addEventListener("click", () => glideTo(t));
       time = t;
@@ -238,11 +239,9 @@ import { Motion } from "../widgets/js/motion/motion.js";
       thumbs.push(thumb);
     });
     get("poses").append(...thumbs);
-    const worst = Math.min(0.999, ...motion.sigma2);
     const colors = Array.from({ length: 100 }, (_, i) => {
-      const sigma2 = motion.sigma2[motion.place(motion.start + ((i + 0.5) / 100) * span).piece];
-      const share = Math.min(Math.max((1 - sigma2) / (1 - worst), 0), 1);
-      return `${sigma2 === null ? "#d55e00" : css(Math.round(share * (stops - 1)))} ${i}% ${i + 1}%`;
+      const t = motion.start + ((i + 0.5) / 100) * span, sigma2 = motion.sigma2[motion.place(t).piece] ?? 0;
+      return `${t < motion.until ? css(Math.round((1 - Math.min(sigma2, 1)) * (stops - 1))) : "#7f7f7f"} ${i}% ${i + 1}%`;
     });
     get("strip").style.background = `linear-gradient(to right, ${colors})`;
     play.addEventListener("click", () => run(!running));

@@ -144,13 +144,13 @@ def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion) -> dict[str, Any]:
 
 
 def _ranges(proof: Certificate | MotionCertificate | None) -> dict[str, list[float]]:
-    """The ends of the colour map for each distortion: of an isometry, and the certified bound."""
+    """The colour map's ends for each distortion: an isometry, and the bound, or a tenth off."""
     if proof is None or not proof.certified:
         return {}
     ends = {
-        "sigma1": [1, max(proof.sigma1_upper, 1.001)],
-        "sigma2": [1, min(proof.sigma2_lower, 0.999)],
-        "k": [0, max(proof.k_upper, 0.001)],
+        "sigma1": [1, max(proof.sigma1_upper, 1.1)],
+        "sigma2": [1, min(proof.sigma2_lower, 0.9)],
+        "k": [0, max(proof.k_upper, 0.1)],
     }
     return {name: range_ for name, range_ in ends.items() if np.isfinite(range_[1])}
 
