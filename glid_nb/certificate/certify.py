@@ -254,7 +254,8 @@ def _conclude(map: HarmonicMap, panels: Panels, known: Known, kind: CertificateK
     elif not known.angle_error < 1:
         reason = "Undecided: f_z is too small beside rounding errors to count its turns."
     elif sum(turns) != 0:
-        reason = f"The map is not locally injective: f_z has {sum(turns)} zeros in the domain."
+        zeros = "1 zero" if sum(turns) == 1 else f"{sum(turns)} zeros"
+        reason = f"The map is not locally injective: f_z has {zeros} in the domain."
     else:
         certified, reason = True, f"Proved locally injective on {len(panels)} panels."
     return _assembled(map, panels, bounds, kind, turns, certified, reason)

@@ -83,7 +83,7 @@ def nearest_edge(loops: Loops, point: ArrayLike) -> tuple[int, int, Loop]:
     p = shapely.Point(checked_point(point))
     places = [(i, j) for i, loop in enumerate(loops) for j in range(len(loop))]
     ends = [np.stack([loop, np.roll(loop, -1, axis=0)], axis=1) for loop in loops]
-    edges = shapely.linestrings(np.concatenate(ends))
+    edges = np.asarray(shapely.linestrings(np.concatenate(ends)))
     nearest = int(np.argmin(shapely.distance(edges, p)))
     way = shapely.shortest_line(edges[nearest], p)
     return *places[nearest], shapely.get_coordinates(way)[0]
