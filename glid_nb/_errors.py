@@ -12,8 +12,13 @@ from pathlib import Path
 class InputError(ValueError):
     """Bad input; the message says what is wrong, where, and what to do.
 
-    The package refuses input with subclasses of this only. A plain ValueError is a bug.
+    The package refuses input with subclasses of this only. A plain ValueError is a bug. ``plain``
+    is the message for users of the editor: it names controls rather than options.
     """
+
+    def __init__(self, message: str, plain: str | None = None) -> None:
+        super().__init__(message)
+        self.plain = message if plain is None else plain
 
 
 class InputFileError(InputError):

@@ -66,7 +66,9 @@ else:
 
         def __getattr__(self, name: str) -> Any:
             if self._module is None:
-                self._module = importlib.import_module(self._name)
+                with _lock:  # threads that import parts of JAX at once find them half made
+                    importlib.import_module("jax")
+                    self._module = importlib.import_module(self._name)
             settle()
             return getattr(self._module, name)
 

@@ -76,13 +76,22 @@ def deform_tab(browser: Browser, server: JupyterServer) -> bytes:
 
 
 def deform_tab_dark(browser: Browser, server: JupyterServer) -> bytes:
-    """A gecko with its source beside it, in the dark theme."""
+    """A gecko with its source beside it and poses on the timeline, in the dark theme."""
 
     def use(book: LabNotebook) -> None:
         book.theme("JupyterLab Dark")
         book.value("None", "canvas.overlay, canvas.show_source = 'mesh', True")
         book.page.locator(".glid-pad").nth(1).wait_for()
-        dragged(posed(book, "gecko", pad=1), 1.0)
+        hand = posed(book, "gecko", pad=1)
+        for share in (0.0, 0.6):
+            moved = f"pose.handles + {share} * (pose.targets - pose.handles)"
+            book.value("None", f"model.set_pose(pose.with_targets({moved}))\nmodel.solve()")
+            book.value("None", "model.save_pose()")
+        dragged(hand, 1.0)
+        book.page.mouse.up()
+        proved = "all(s.status == 'proved' for s in editor.timeline.animation.spans)"
+        book.wait_for(f"not model.dragged and editor.timeline.animation.wait(0.1) and {proved}", 60)
+        book.page.locator(".glid-computing").wait_for(state="detached")
 
     return pictured(browser, server, "gecko", use)
 

@@ -37,11 +37,10 @@ class Jets(NamedTuple):
     third: Array
 
     def at(self, index: Any) -> Jets:
-        """The jets of the panels that ``index`` selects."""
         return Jets(*(values[index] for values in self))
 
     def first(self, direction: Array) -> Array:
-        """Derivative along unit vectors, as a complex number."""
+        """Derivative along unit vectors."""
         return self.fz * direction + np.conj(self.fzb_conj * direction)
 
     def second(self, direction: Array) -> Array:
@@ -89,7 +88,6 @@ class Arcs(NamedTuple):
         )
 
     def at(self, index: Any) -> Arcs:
-        """The arcs that ``index`` selects."""
         return Arcs(*(values[index] for values in self))
 
     @property

@@ -17,7 +17,7 @@ import numpy as np
 
 from glid_nb._jax import Complex, Float, Int
 from glid_nb.certificate import rounding
-from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
+from glid_nb.certificate.panels import Ends, EndValues, PanelBounds, PerPanel, Rows, modulus
 from glid_nb.certificate.paper import beside_by, clearance, segment_bounds
 from glid_nb.harmonic.cauchy import Singularities
 
@@ -25,7 +25,7 @@ from glid_nb.harmonic.cauchy import Singularities
 class BDHM(NamedTuple):
     """The proof by these constants, for ``n = m + N`` vertices and holes."""
 
-    length: Float[Array, " p"]
+    length: PerPanel
     """``l``, and what ends beside their edge add."""
     weights: Float[Array, "n p"]
     """``L_j``."""
@@ -37,9 +37,7 @@ class BDHM(NamedTuple):
     slack_share = 2
 
     @classmethod
-    def on(
-        cls, start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
-    ) -> Self:
+    def on(cls, start: Ends, end: Ends, singularities: Singularities) -> Self:
         vertices, following, preceding, _ = map(np.asarray, singularities)
         m = len(vertices)
         d, _ = clearance(start, end, singularities)
@@ -61,15 +59,13 @@ class BDHM(NamedTuple):
         length = rounding.UPWARD * (modulus(end - start) + 4 * beside_by(singularities))
         return cls(length, weights.T, first.T, second.T)
 
-    def constants(
-        self, coefficients: Complex[Array, "k n"], singularities: Singularities
-    ) -> Float[Array, "k p"]:
+    def constants(self, coefficients: Rows, singularities: Singularities) -> Float[Array, "k p"]:
         """Lipschitz constants on each segment, one row per row of coefficients."""
         z, m = singularities.vertices, self.first.shape[0]
         first, second, weights = self.first.T, self.second.T, self.weights.T
         z1, z2 = z[first], z[second]
 
-        def one(row: Complex[Array, " n"]) -> Float[Array, " p"]:
+        def one(row: Complex[Array, " n"]) -> PerPanel:
             phi = row[:m]
             phi1 = phi[first]
             slope = (phi[second] - phi1) / (z2 - z1)
@@ -78,9 +74,7 @@ class BDHM(NamedTuple):
 
         return coefficients.__array_namespace__().stack([one(row) for row in coefficients])
 
-    def remainder(
-        self, coefficients: Complex[Array, "k n"], singularities: Singularities
-    ) -> Float[Array, "k p"]:
+    def remainder(self, coefficients: Rows, singularities: Singularities) -> Float[Array, "k p"]:
         return self.length * self.constants(coefficients, singularities)
 
     @staticmethod

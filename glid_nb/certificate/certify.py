@@ -99,10 +99,7 @@ class Certificate:
         return int((self.panels.depth > 0).sum())
 
     def save(self, path: str | Path) -> None:
-        """Write the proof file that ``glid-check map.json proof.json`` reads, atomically.
-
-        Raises InputError if the map is not certified.
-        """
+        """Write the proof file that ``glid-check`` reads; InputError if nothing is certified."""
         write_text_atomically(Path(path), proof_text(self))
 
 
@@ -225,13 +222,9 @@ def certificate_of(map: HarmonicMap) -> Certificate:
 def proved_by(
     map: HarmonicMap, panels: Panels, sigma2_lower: Array, turning: Array, kind: CertificateKind
 ) -> Certificate:
-    """The certificate of a map by what a solver has proved, rounding included, on its panels.
-
-    A solver bounds neither sigma_1 nor k, of which only ``k < 1`` follows.
-    """
-    known = np.ones(len(panels), dtype=bool)
-    unbounded = np.full(len(panels), np.inf)
-    own: Any = (sigma2_lower, unbounded, np.ones(len(panels)), known, turning)
+    """The certificate by what a solver has proved, neither of sigma_1 nor of k but ``k < 1``."""
+    every = np.ones(len(panels))
+    own: Any = (sigma2_lower, every * np.inf, every, every > 0, turning)
     bounds = PanelBounds(*own)
     turns = windings(turning, panels.loop, 1 + map.domain.n_holes)
     certified = bool((sigma2_lower > 0).all()) and sum(turns) == 0
@@ -261,7 +254,8 @@ def _conclude(map: HarmonicMap, panels: Panels, known: Known, kind: CertificateK
     elif not known.angle_error < 1:
         reason = "Undecided: f_z is too small beside rounding errors to count its turns."
     elif sum(turns) != 0:
-        reason = f"The map is not locally injective: f_z has {sum(turns)} zeros in the domain."
+        zeros = "1 zero" if sum(turns) == 1 else f"{sum(turns)} zeros"
+        reason = f"The map is not locally injective: f_z has {zeros} in the domain."
     else:
         certified, reason = True, f"Proved locally injective on {len(panels)} panels."
     return _assembled(map, panels, bounds, kind, turns, certified, reason)

@@ -13,15 +13,15 @@ import functools
 from typing import Any as Array  # of NumPy or of JAX
 from typing import NamedTuple, Self
 
-from glid_nb._jax import Complex, Float
+from glid_nb._jax import Float
 from glid_nb.certificate import rounding
-from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
+from glid_nb.certificate.panels import Ends, EndValues, PanelBounds, PerPanel, Rows, modulus
 from glid_nb.certificate.paper import beside, derivative_bound_weights, jumps, turning
 from glid_nb.harmonic.cauchy import Singularities
 
 # A cubic by its four Bezier control points, a real sextic by its seven Bernstein coefficients.
-Cubic = list[Complex[Array, " p"]] | list[Float[Array, " p"]]
-Sextic = list[Float[Array, " p"]]
+Cubic = list[Ends] | list[PerPanel]
+Sextic = list[PerPanel]
 
 
 class Hermite(NamedTuple):
@@ -34,15 +34,11 @@ class Hermite(NamedTuple):
     slack_share = 1
 
     @classmethod
-    def on(
-        cls, start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
-    ) -> Self:
+    def on(cls, start: Ends, end: Ends, singularities: Singularities) -> Self:
         weights = derivative_bound_weights(start, end, singularities, 4) / 384
         return cls((weights + beside(start, end, singularities)).T)
 
-    def remainder(
-        self, coefficients: Complex[Array, "k n"], singularities: Singularities
-    ) -> Float[Array, "k p"]:
+    def remainder(self, coefficients: Rows, singularities: Singularities) -> Float[Array, "k p"]:
         return jumps(coefficients, singularities) @ self.weights
 
     @staticmethod
@@ -50,7 +46,7 @@ class Hermite(NamedTuple):
         fz: EndValues,
         fzb_conj: EndValues,
         remainder: Float[Array, "2 p"],
-        direction: Complex[Array, " p"] | None = None,
+        direction: Ends | None = None,
     ) -> PanelBounds:
         """Bounds on each whole panel.
 
@@ -87,9 +83,7 @@ class Hermite(NamedTuple):
         )
 
 
-def _piece_bounds(
-    p: Cubic, q: Cubic, e_f: Float[Array, " p"], e_g: Float[Array, " p"]
-) -> tuple[Array, Array, Array]:
+def _piece_bounds(p: Cubic, q: Cubic, e_f: PerPanel, e_g: PerPanel) -> tuple[Array, Array, Array]:
     """Lower bound on sigma_2, upper bounds on sigma_1 and k, where ``p`` and ``q`` interpolate."""
     xp = e_f.__array_namespace__()
     p_most = _greatest([modulus(point) for point in p])
@@ -139,7 +133,7 @@ def _halves(cubic: Cubic) -> tuple[Cubic, Cubic]:
 def _squared_modulus(cubic: Cubic) -> Sextic:
     """Bernstein coefficients of ``|cubic|^2``."""
 
-    def dot(i: int, j: int) -> Float[Array, " p"]:
+    def dot(i: int, j: int) -> PerPanel:
         a, b = cubic[i], cubic[j]
         return a.real * b.real + a.imag * b.imag
 

@@ -15,6 +15,10 @@ from glid_nb.geometry import Cage, GeometryError, Panels, loop_name, place
 from glid_nb.geometry._loops import next_index
 from glid_nb.harmonic.cauchy import Singularities
 
+Ends = Complex[Array, " p"]
+PerPanel = Float[Array, " p"]
+Rows = Complex[Array, "k n"]
+
 
 class EndValues(NamedTuple):
     """A holomorphic function, ``f_z`` or ``conj(f_zbar)``, at the two ends of each panel.
@@ -22,21 +26,21 @@ class EndValues(NamedTuple):
     Slopes are derivatives along the panel: the complex derivative times ``end - start``.
     """
 
-    start: Complex[Array, " p"]
-    end: Complex[Array, " p"]
-    slope_start: Complex[Array, " p"]
-    slope_end: Complex[Array, " p"]
+    start: Ends
+    end: Ends
+    slope_start: Ends
+    slope_end: Ends
 
 
 class PanelBounds(NamedTuple):
     """Bounds proved on the whole closed panel."""
 
-    sigma2_lower: Float[Array, " p"]
-    sigma1_upper: Float[Array, " p"]
-    k_upper: Float[Array, " p"]
+    sigma2_lower: PerPanel
+    sigma1_upper: PerPanel
+    k_upper: PerPanel
     turning_known: Bool[Array, " p"]
     """Whether the change of ``arg f_z`` along the panel is proved to be ``turning`` (29)."""
-    turning: Float[Array, " p"]
+    turning: PerPanel
     """Principal ``Arg`` of ``f_z(end) / f_z(start)``."""
 
     @property
@@ -56,15 +60,11 @@ class PanelProof(Protocol):
     """How many times the error of the end values enters the remainder."""
 
     @classmethod
-    def on(
-        cls, start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
-    ) -> Self:
+    def on(cls, start: Ends, end: Ends, singularities: Singularities) -> Self:
         """The proof's constants on the panels from ``start`` to ``end``."""
         ...
 
-    def remainder(
-        self, coefficients: Complex[Array, "k n"], singularities: Singularities
-    ) -> Float[Array, "k p"]:
+    def remainder(self, coefficients: Rows, singularities: Singularities) -> Float[Array, "k p"]:
         """Bounds how far ``sum_j D_j coefficients_j`` departs from its estimate by the end values.
 
         The caller of :meth:`bounds` adds an allowance for rounding.

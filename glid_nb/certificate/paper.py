@@ -16,9 +16,9 @@ from typing import NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._jax import Bool, Complex, Float
+from glid_nb._jax import Bool, Float
 from glid_nb.certificate import rounding
-from glid_nb.certificate.panels import EndValues, PanelBounds, modulus
+from glid_nb.certificate.panels import Ends, EndValues, PanelBounds, PerPanel, Rows, modulus
 from glid_nb.harmonic.cauchy import Singularities, slope_jumps
 
 
@@ -59,15 +59,11 @@ class Lipschitz(NamedTuple):
     """Half of the remainder is subtracted from each mean."""
 
     @classmethod
-    def on(
-        cls, start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
-    ) -> Self:
+    def on(cls, start: Ends, end: Ends, singularities: Singularities) -> Self:
         weights = derivative_bound_weights(start, end, singularities, 2) / 2
         return cls((weights + beside(start, end, singularities)).T)
 
-    def remainder(
-        self, coefficients: Complex[Array, "k n"], singularities: Singularities
-    ) -> Float[Array, "k p"]:
+    def remainder(self, coefficients: Rows, singularities: Singularities) -> Float[Array, "k p"]:
         """``l^2/2 (sum_j L_j |s_j - s_{j+1}| + sum_j L_j^h |phi_j|)``, a part of ``L_fz l``."""
         return jumps(coefficients, singularities) @ self.weights
 
@@ -77,7 +73,7 @@ class Lipschitz(NamedTuple):
         return segment_bounds(fz, fzb_conj, variations)
 
 
-def variation(f: EndValues, remainder: Float[Array, " p"]) -> Float[Array, " p"]:
+def variation(f: EndValues, remainder: PerPanel) -> PerPanel:
     """``L l``, with the paper's Lipschitz constant of ``f_z`` or ``f_zbar`` on each segment.
 
     ``L_fz = (|f_z'(v_i)| + |f_z'(v_{i+1})|) / 2
@@ -87,14 +83,14 @@ def variation(f: EndValues, remainder: Float[Array, " p"]) -> Float[Array, " p"]
     return (modulus(f.slope_start) + modulus(f.slope_end)) / 2 + remainder
 
 
-def jumps(coefficients: Complex[Array, "k n"], singularities: Singularities) -> Float[Array, "k n"]:
+def jumps(coefficients: Rows, singularities: Singularities) -> Float[Array, "k n"]:
     """``|s_j - s_{j+1}|``, and ``|phi_j|`` for the holes."""
     return modulus(slope_jumps(coefficients, singularities))
 
 
 def derivative_bound_weights(
-    start: Complex[Array, " p"],
-    end: Complex[Array, " p"],
+    start: Ends,
+    end: Ends,
     singularities: Singularities,
     order: int,
 ) -> Float[Array, "p n"]:
@@ -111,9 +107,7 @@ def derivative_bound_weights(
     return xp.concat([vertices, math.factorial(order) * power[:, m:] / d[:, m:]], axis=1)
 
 
-def beside(
-    start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
-) -> Float[Array, "p n"]:
+def beside(start: Ends, end: Ends, singularities: Singularities) -> Float[Array, "p n"]:
     """Weights ``w``: where ends lie beside their edge, ``w @ jumps`` bounds what that changes.
 
     An end that is ``delta`` off changes the value there by ``delta |f_z'|`` and the slope along the
@@ -126,7 +120,7 @@ def beside(
 
 
 def clearance(
-    start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
+    start: Ends, end: Ends, singularities: Singularities
 ) -> tuple[Float[Array, "p n"], Float[Array, "p n"]]:
     """Lower bounds on :func:`distances` around each segment, and ``l / d``; 0 and inf where none.
 
@@ -146,9 +140,7 @@ def beside_by(singularities: Singularities) -> Float[Array, ""]:
     return rounding.BESIDE * xp.max(xp.where(exterior, modulus(vertices), 0))
 
 
-def distances(
-    start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
-) -> Float[Array, "p n"]:
+def distances(start: Ends, end: Ends, singularities: Singularities) -> Float[Array, "p n"]:
     """``d(z_j)`` and ``d(rho_k)``: the distance of each segment to each singularity."""
     xp = start.__array_namespace__()
     points = xp.concat([singularities.vertices, singularities.hole_points])
@@ -159,7 +151,7 @@ def distances(
     return modulus(relative - xp.clip(position, 0, 1) * along)
 
 
-def turning(fz_start: Complex[Array, " p"], fz_end: Complex[Array, " p"]) -> Float[Array, " p"]:
+def turning(fz_start: Ends, fz_end: Ends) -> PerPanel:
     """``Arg(f_z(v_{i+1}) / f_z(v_i))``, the change of ``arg f_z`` along each segment (29).
 
     Theorem 8.1 proves this if ``|f_z(v_i)| + |f_z(v_{i+1})| > L_fz l`` (28).
@@ -174,7 +166,7 @@ def windings(turning: NDArray[np.float64], loop: NDArray[np.intp], n_loops: int)
     return tuple(int(w) for w in np.round(np.nan_to_num(turns)))
 
 
-def fz_vanishes(turning: Float[Array, " p"]) -> Bool[Array, ""]:
+def fz_vanishes(turning: PerPanel) -> Bool[Array, ""]:
     """Whether ``f_z`` has zeros in the domain: the sum (30) of all turnings is not 0.
 
     Corollary 8.2; up to rounding the sum is a multiple of ``2 pi`` if all turnings are known.

@@ -58,7 +58,6 @@ class _Values(NamedTuple):
     """(p, k, 2, 2): their remainders, and bounds on the errors at the ends."""
 
     def pair(self, first: int) -> _Values:
-        """The same of two consecutive maps."""
         return _Values(*(values[:, first : first + 2] for values in self))
 
     @property

@@ -29,13 +29,7 @@ _ROUNDING = 0.1
 
 
 def proof_text(certificate: Certificate) -> str:
-    """The proof file of a certificate, as text.
-
-    Raises
-    ------
-    InputError
-        If the certificate does not prove its map locally injective: then nothing is claimed.
-    """
+    """The proof file of a certificate, as text; InputError for one that proves nothing."""
     if not certificate.certified:
         raise InputError(f"there is no proof to write: {certificate.reason}")
     map_, bounds = certificate.map, ("sigma2_lower", "sigma1_upper", "k_upper")

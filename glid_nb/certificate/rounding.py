@@ -13,7 +13,7 @@ from typing import Any as Array  # of NumPy or of JAX
 
 from glid_nb._jax import Bool, Complex, Float
 from glid_nb.harmonic import cauchy
-from glid_nb.harmonic.cauchy import Singularities
+from glid_nb.harmonic.cauchy import Points, Singularities
 
 UNIT_ROUNDOFF = 2.0**-53
 
@@ -49,7 +49,7 @@ def carried_slack_factor(n_columns: int) -> float:
 
 
 def allowance(slack: Float[Array, "*k p"], probe: Float[Array, ""]) -> Float[Array, "*k p"]:
-    """Errors with that of underflow; infinite, so that nothing is proved, under fast math.
+    """Errors with that of underflow; infinite under fast math (Lemmas 13 and 14).
 
     ``probe`` is any positive number that the compiler does not know.
     """
@@ -66,7 +66,7 @@ def _is_exact(a: Float[Array, ""]) -> Bool[Array, ""]:
 
 
 def derivatives(
-    z: Complex[Array, " k"], edges: Complex[Array, "2 n"], singularities: Singularities
+    z: Points, edges: Complex[Array, "2 n"], singularities: Singularities
 ) -> tuple[Complex[Array, "2 k"], Complex[Array, "2 k"], Float[Array, "2 k"], Float[Array, "2 k"]]:
     """``f_z`` and ``conj(f_zbar)``, their derivatives, and bounds on the errors of both.
 
@@ -90,8 +90,7 @@ def panel_scale(
 ) -> Float[Array, " p"]:
     """Per panel, the larger scale of the terms of ``f_z`` and ``l f_z'`` at its two ends.
 
-    :func:`slack_factor` times this and the largest coefficient bounds the error of
-    ``sum_j D_j phi_j`` and ``l sum_j D'_j phi_j`` together.
+    :func:`slack_factor` times this and the largest coefficient bounds the error of both together.
     """
     xp = start.__array_namespace__()
     length = xp.abs(end - start)
@@ -100,7 +99,7 @@ def panel_scale(
 
 
 def term_scale(
-    z: Complex[Array, " k"], singularities: Singularities
+    z: Points, singularities: Singularities
 ) -> tuple[Float[Array, " k"], Float[Array, " k"]]:
     """Sums of the moduli of all terms of ``D(z)``, with the logarithms' errors, and of ``D'(z)``.
 

@@ -121,7 +121,7 @@ def _deformed(
 ) -> tuple[bytes, bool]:
     """The deformed picture as PNG, and whether it was zoomed out to show all of it."""
     # Slow to import, and --help does not need them.
-    from glid_nb.export.picture import png  # noqa: PLC0415
+    from glid_nb.imaging.read import png  # noqa: PLC0415
     from glid_nb.imaging.render import rendering  # noqa: PLC0415
 
     in_place = rendering(image, harmonic_map, pose=pose)

@@ -22,16 +22,10 @@ _BUNDLED = Path("notebooks") / "02_editor.ipynb"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "folder",
-        nargs="?",
-        type=Path,
-        default=Path(),
-        metavar="FOLDER",
-        help="where to work; made if it is missing (default: here)",
-    )
-    parser.add_argument("--print", action="store_true", help="only print what would be run")
-    parser.add_argument("jupyter", nargs="*", metavar="ARGUMENT", help="for JupyterLab, after --")
+    add, folder = parser.add_argument, "where to work; made if it is missing (default: here)"
+    add("folder", nargs="?", type=Path, default=Path(), metavar="FOLDER", help=folder)
+    add("--print", action="store_true", help="only print what would be run")
+    add("jupyter", nargs="*", metavar="ARGUMENT", help="for JupyterLab, after --")
 
 
 def run(chosen: argparse.Namespace) -> None:

@@ -9,9 +9,9 @@ from typing import NoReturn
 
 import glid_nb
 from glid_nb._errors import InputError
-from glid_nb.cli import demo, lab, render, samples, solve, trace
+from glid_nb.cli import animate, demo, lab, render, samples, solve, trace
 
-COMMANDS = (demo, trace, solve, render, samples, lab)
+COMMANDS = (demo, trace, solve, render, animate, samples, lab)
 
 BAD_INPUT = (OSError, InputError)
 """Errors told in one line. Any other, a plain ValueError too, is a bug and keeps its traceback."""

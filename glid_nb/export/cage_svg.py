@@ -14,8 +14,7 @@ from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.mesh import deformed_loops
-from glid_nb.imaging.order import order_of
-from glid_nb.imaging.sheets import Sheets
+from glid_nb.imaging.order import Sheets, order_of
 from glid_nb.solvers import Pose
 
 _MARGIN = 0.02  # around everything, as a share of the longer side

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
+from glid_nb._arrays import Array
+from glid_nb.export.moving import MovingMesh
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.mesh import deformed_mesh
+from glid_nb.motion import Motion
 from glid_nb.solvers import Pose
 
 # trimesh takes a second to import, so only the functions that need it do.
@@ -50,14 +55,24 @@ def textured_mesh(
     map than a ``tolerance`` in world units are split. The depths of a pose say which part is in
     front where the shape overlaps itself. Raises a ValueError that names an argument out of range.
     """
+    mesh = deformed_mesh(map, n_vertices, tolerance, pose)
+    positions = np.column_stack([mesh.images, _relief(mesh.heights)])
+    return _textured(image, positions, mesh.vertices, mesh.triangles)
+
+
+def _relief(heights: Array) -> Array:
+    """z of vertices, by their order: depths leave little room between the other parts' heights."""
+    rank = np.unique(heights, return_inverse=True)[1]
+    return _RELIEF * rank / max(rank.max(), 1)
+
+
+def _textured(
+    image: ArrayLike, positions: Array, vertices: Array, triangles: NDArray[np.int32]
+) -> TexturedMesh:
     texture = as_rgba8(image)
     height, width = texture.shape[:2]
-    mesh = deformed_mesh(map, n_vertices, tolerance, pose)
-    u, v = (PixelFrame(width, height).to_pixel(mesh.vertices) / [width, height]).T
-    # Their order, not the heights themselves: depths leave little room between the other parts.
-    z = np.unique(mesh.heights, return_inverse=True)[1]
-    positions = np.column_stack([mesh.images, _RELIEF * z / max(z.max(), 1)])
-    return TexturedMesh(positions, np.column_stack([u, 1 - v]), mesh.triangles, texture)
+    u, v = (PixelFrame(width, height).to_pixel(vertices) / [width, height]).T
+    return TexturedMesh(positions, np.column_stack([u, 1 - v]), triangles, texture)
 
 
 def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
@@ -87,8 +102,8 @@ def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
     return {f"{name}.obj": text.encode("utf-8"), **files}
 
 
-def mesh_glb(mesh: TexturedMesh) -> bytes:
-    """A mesh as binary glTF 2.0 (.glb), with its texture."""
+def mesh_glb(mesh: TexturedMesh, edit: Callable[..., None] | None = None) -> bytes:
+    """A mesh as binary glTF 2.0 (.glb), with its texture; ``edit(buffers, tree)`` adds to it."""
     from trimesh.visual.material import PBRMaterial  # noqa: PLC0415
 
     material = PBRMaterial(
@@ -98,9 +113,63 @@ def mesh_glb(mesh: TexturedMesh) -> bytes:
         alphaMode="BLEND",
         doubleSided=True,
     )
-    data = _trimesh(mesh, material).export(file_type="glb")
+    data = _trimesh(mesh, material).export(file_type="glb", buffer_postprocessor=edit)
     assert isinstance(data, bytes)
     return data
+
+
+def motion_glb(
+    image: ArrayLike,
+    motion: Motion,
+    poses: Sequence[Pose] | None = None,
+    n_vertices: int = 3000,
+    tolerance: float | None = 0.02,
+) -> bytes:
+    """A motion as binary glTF 2.0: a mesh with morph targets and an animation of their weights.
+
+    A target for every map at which the motion bends, a key at its time, and straight lines between,
+    which are exact: every vertex moves as in the motion. Programs must take that many targets. The
+    arguments are those of `textured_mesh`, with one pose per keyframe; the tolerance holds at any
+    time.
+    """
+    mesh = MovingMesh.of(motion, poses, n_vertices, tolerance)
+    relief = np.array([_relief(row) for row in mesh.heights])
+    z = [mesh.heights_at(time, relief) for time in mesh.times]
+    positions = np.concatenate([mesh.images, np.array(z)[:, :, None]], axis=2)
+    # A loop ends with the map that it began with.
+    n = len(positions) - (motion.repeat == "loop")
+    weights = np.eye(n)[np.arange(len(positions)) % n]
+    times = mesh.times - mesh.times[0]
+    if motion.repeat == "ping-pong":
+        times = np.concatenate([times, 2 * times[-1] - times[-2::-1]])
+        weights = np.concatenate([weights, weights[-2::-1]])
+    made = _textured(image, positions[0], mesh.vertices, mesh.triangles)
+    moved = positions[1:n] - positions[0]
+    return mesh_glb(made, functools.partial(_animate, moved, times, weights[:, 1:]))
+
+
+def _animate(
+    moved: Array, times: Array, weights: Array, buffers: Any, tree: dict[str, Any]
+) -> None:
+    """Add morph targets (m, v, 3) to glTF's only mesh, and their weights (k, m) at (k,) times."""
+
+    def accessor(values: Array, kind: str) -> int:
+        rows = values.astype("<f4").reshape(-1, 3 if kind == "VEC3" else 1)
+        tree["accessors"][name := f"motion {len(buffers)}"] = {
+            **{"bufferView": len(buffers), "componentType": 5126, "count": len(rows)},
+            **{"type": kind, "min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()},
+        }
+        buffers[name] = rows.tobytes()
+        return len(tree["accessors"]) - 1
+
+    mesh = tree["meshes"][0]
+    mesh["primitives"][0]["targets"] = [{"POSITION": accessor(m, "VEC3")} for m in moved]
+    mesh["weights"] = [0.0] * len(moved)
+    sampler = {"input": accessor(times, "SCALAR"), "output": accessor(weights, "SCALAR")}
+    node = next(i for i, node in enumerate(tree["nodes"]) if "mesh" in node)
+    channel = {"sampler": 0, "target": {"node": node, "path": "weights"}}
+    linear = [{**sampler, "interpolation": "LINEAR"}]
+    tree["animations"] = [{"name": "motion", "samplers": linear, "channels": [channel]}]
 
 
 def _trimesh(mesh: TexturedMesh, material: Material) -> Trimesh:

@@ -1,109 +1,118 @@
-// Shows a textured mesh, deformed or not, from the data in the page.
-"use strict";
+// Shows a picture under a map, or plays its motion, from the data in the page.
+
+import { Motion } from "../widgets/js/motion/motion.js";
+
 (() => {
+  "use strict";
   const data = JSON.parse(document.getElementById("data").textContent);
+  const get = (id) => document.getElementById(id);
   const canvas = document.querySelector("canvas");
-  const fail = (message) => {
-    const problem = document.getElementById("problem");
-    problem.textContent = message;
-    problem.hidden = false;
-  };
+  const fail = (message) => Object.assign(get("problem"), { textContent: message, hidden: false });
   const gl = canvas.getContext("webgl2", { antialias: true, premultipliedAlpha: true, preserveDrawingBuffer: true });
   if (!gl) return fail("This page needs WebGL 2, which this browser does not offer.");
 
   const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
   const floats = (text) => new Float32Array(bytes(text));
-  const triangles = new Uint32Array(bytes(data.triangles));
+  const source = floats(data.source), count = source.length / 2, wide = count > 65535;
+  const triangles = new (wide ? Uint32Array : Uint16Array)(bytes(data.triangles));
+  const motion = new Motion(data.motion, floats(data.coefficients));
+  const undeformed = floats(data.undeformed), cage = floats(data.cage);
+  const layers = new Motion({ times: data.height_times.length ? data.height_times : [0], repeat: motion.repeat }, floats(data.heights));
+  const position = new Float32Array(3 * count);
+  for (let i = 0; i < count; i++) position.set([source[2 * i], source[2 * i + 1], layers.floats[i]], 3 * i);
 
-  const compile = (kind, text) => {
-    const shader = gl.createShader(kind);
-    gl.shaderSource(shader, `#version 300 es\n${text}`);
-    gl.compileShader(shader);
-    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
-    return shader;
-  };
   const program = gl.createProgram();
-  gl.attachShader(program, compile(gl.VERTEX_SHADER, `
-    in vec2 position; in vec2 place; in float height; out vec2 uv; uniform vec2 scale; uniform vec2 shift;
-    void main() { uv = place; gl_Position = vec4(position * scale + shift, -height, 1.0); }`));
-  gl.attachShader(program, compile(gl.FRAGMENT_SHADER, `
-    precision highp float; in vec2 uv; out vec4 color; uniform sampler2D picture; uniform vec4 line;
-    void main() {
-      color = line.a > 0.0 ? vec4(line.rgb * line.a, line.a) : texture(picture, uv);
-      if (color.a < 0.004) discard; // it must not hide what is behind
-    }`));
-  gl.bindAttribLocation(program, 0, "position");
-  gl.bindAttribLocation(program, 1, "place");
-  gl.bindAttribLocation(program, 2, "height");
+  for (const [kind, text] of [[gl.VERTEX_SHADER, data.vertex], [gl.FRAGMENT_SHADER, data.fragment]]) {
+    const shader = gl.createShader(kind);
+    gl.shaderSource(shader, text);
+    gl.compileShader(shader);
+    gl.attachShader(program, shader);
+    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) return fail(gl.getShaderInfoLog(shader));
+  }
   gl.linkProgram(program);
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) return fail(gl.getProgramInfoLog(program));
   gl.useProgram(program);
   const uniform = (name) => gl.getUniformLocation(program, name);
 
   const buffer = (target, values) => {
     const made = gl.createBuffer();
     gl.bindBuffer(target, made);
-    gl.bufferData(target, values, gl.STATIC_DRAW);
+    if (values) gl.bufferData(target, values, gl.STATIC_DRAW);
     return made;
   };
-  const deformed = buffer(gl.ARRAY_BUFFER, floats(data.deformed));
-  const source = buffer(gl.ARRAY_BUFFER, floats(data.source));
-  buffer(gl.ARRAY_BUFFER, floats(data.texture));
-  gl.enableVertexAttribArray(1);
-  gl.vertexAttribPointer(1, 2, gl.FLOAT, false, 0, 0);
-  buffer(gl.ARRAY_BUFFER, floats(data.heights));
-  gl.enableVertexAttribArray(2);
-  gl.vertexAttribPointer(2, 1, gl.FLOAT, false, 0, 0);
-  gl.enableVertexAttribArray(0);
-  const faces = buffer(gl.ELEMENT_ARRAY_BUFFER, triangles);
-  const lines = edgesOf(triangles);
-  const edges = buffer(gl.ELEMENT_ARRAY_BUFFER, lines);
+  const attribute = (name, size, stride, offset) => {
+    const place = gl.getAttribLocation(program, name);
+    gl.enableVertexAttribArray(place);
+    gl.vertexAttribPointer(place, size, gl.FLOAT, false, stride, offset);
+  };
+  const put = (target, made, values) => {
+    gl.bindBuffer(target, made);
+    gl.bufferData(target, values, gl.DYNAMIC_DRAW);
+  };
+  const points = buffer(gl.ARRAY_BUFFER, position);
+  attribute("position", 3, 0, 0);
+  buffer(gl.ELEMENT_ARRAY_BUFFER, triangles);
+  let move; // shows the map that an array stands for
+  if (cage.length) {
+    const blocks = ["cage", "coefficients", "holes"].map((name, i) => {
+      gl.uniformBlockBinding(program, gl.getUniformBlockIndex(program, `${name}_block`), i);
+      const made = buffer(gl.UNIFORM_BUFFER, i ? null : cage);
+      gl.bindBufferBase(gl.UNIFORM_BUFFER, i, made);
+      return made;
+    });
+    move = (mixed) => {
+      put(gl.UNIFORM_BUFFER, blocks[1], mixed.subarray(0, cage.length));
+      put(gl.UNIFORM_BUFFER, blocks[2], mixed.subarray(cage.length));
+    };
+  } else { // too large for a shader: images and derivatives of the vertices
+    const images = buffer(gl.ARRAY_BUFFER, undeformed);
+    attribute("image", 2, 24, 0);
+    attribute("derivatives", 4, 24, 8);
+    move = (mixed) => put(gl.ARRAY_BUFFER, images, mixed);
+  }
+  gl.uniform4f(uniform("frame"), data.frame[0], data.frame[1], data.frame[2] - data.frame[0], data.frame[3] - data.frame[1]);
+  gl.uniform3fv(uniform("colors"), data.colors);
+  gl.uniform1f(uniform("grid_spacing"), data.grid);
+  gl.enable(gl.DEPTH_TEST);
   gl.depthFunc(gl.LEQUAL);
   gl.enable(gl.BLEND);
   gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
 
-  function edgesOf(t) {
-    const found = new Map();
-    for (let i = 0; i < t.length; i += 3) {
-      for (const [a, b] of [[t[i], t[i + 1]], [t[i + 1], t[i + 2]], [t[i + 2], t[i]]]) {
-        found.set(Math.min(a, b) * 2 ** 32 + Math.max(a, b), [a, b]);
-      }
-    }
-    return new Uint32Array([...found.values()].flat());
-  }
-
   const view = { scale: 1, x: 0, y: 0 }; // CSS pixels per world unit; the world's point in the middle
-  const boxes = { mesh: document.getElementById("mesh"), source: document.getElementById("source") };
+  const overlay = get("overlay"), straight = get("source"), slider = get("time");
+  let time = motion.start;
 
   function fit() {
-    const [xmin, ymin, xmax, ymax] = boxes.source.checked ? data.source_bounds : data.bounds;
-    view.x = (xmin + xmax) / 2;
-    view.y = (ymin + ymax) / 2;
-    const { clientWidth: w, clientHeight: h } = canvas;
-    view.scale = (1 - 2 * data.margin) * Math.min(w / (xmax - xmin), h / (ymax - ymin));
+    Object.assign(view, fitted(canvas.clientWidth, canvas.clientHeight));
     draw();
   }
 
-  function draw() {
-    const { clientWidth: w, clientHeight: h } = canvas;
+  function fitted(w, h) {
+    const [xmin, ymin, xmax, ymax] = straight.checked ? data.source_bounds : data.bounds;
+    const scale = (1 - 2 * data.margin) * Math.min(w / (xmax - xmin), h / (ymax - ymin));
+    return { scale, x: (xmin + xmax) / 2, y: (ymin + ymax) / 2 };
+  }
+
+  const draw = () => paint(canvas.clientWidth, canvas.clientHeight, view);
+
+  function paint(w, h, { scale, x, y }) {
     const ratio = window.devicePixelRatio || 1;
-    canvas.width = Math.round(w * ratio);
-    canvas.height = Math.round(h * ratio);
-    gl.viewport(0, 0, canvas.width, canvas.height);
+    const [width, height] = [Math.round(w * ratio), Math.round(h * ratio)];
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    gl.viewport(0, 0, width, height);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    gl.enable(gl.DEPTH_TEST);
-    const [sx, sy] = [(2 * view.scale) / w, (2 * view.scale) / h];
-    gl.uniform2f(uniform("scale"), sx, sy);
-    gl.uniform2f(uniform("shift"), -view.x * sx, -view.y * sy);
-    gl.bindBuffer(gl.ARRAY_BUFFER, boxes.source.checked ? source : deformed);
-    gl.vertexAttribPointer(0, 2, gl.FLOAT, false, 0, 0);
-    gl.uniform4f(uniform("line"), 0, 0, 0, 0);
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, faces);
-    gl.drawElements(gl.TRIANGLES, triangles.length, gl.UNSIGNED_INT, 0); // the lower ones first
-    if (!boxes.mesh.checked) return;
-    gl.disable(gl.DEPTH_TEST);
-    gl.uniform4f(uniform("line"), 0, 0.45, 0.7, 0.45);
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, edges);
-    gl.drawElements(gl.LINES, lines.length, gl.UNSIGNED_INT, 0);
+    const [sx, sy] = [(2 * scale) / w, (2 * scale) / h];
+    gl.uniformMatrix4fv(uniform("projectionMatrix"), false, [sx, 0, 0, 0, 0, sy, 0, 0, 0, 0, -1, 0, -x * sx, -y * sy, 0, 1]);
+    gl.uniform1f(uniform("pixel"), 1 / (scale * ratio));
+    const name = overlay.selectedOptions[0].dataset.name;
+    gl.uniform1f(uniform("overlay"), overlay.value);
+    gl.uniform2fv(uniform("color_range"), data.ranges[name] ?? [0, 1]);
+    if (layers.times.length > 1) {
+      layers.at(time).forEach((height, i) => { position[3 * i + 2] = height; });
+      put(gl.ARRAY_BUFFER, points, position);
+    }
+    move(straight.checked ? undeformed : motion.at(time));
+    gl.drawElements(gl.TRIANGLES, triangles.length, wide ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT, 0);
   }
 
   function zoom(factor, clientX, clientY) {
@@ -142,9 +151,118 @@
     e.preventDefault();
     zoom(Math.exp(-e.deltaY * 0.0015), e.clientX, e.clientY);
   }, { passive: false });
-  document.getElementById("fit").addEventListener("click", fit);
-  boxes.mesh.addEventListener("change", draw);
-  boxes.source.addEventListener("change", fit);
+  get("fit").addEventListener("click", fit);
+  straight.addEventListener("change", fit);
+
+  // Colours for the distortion, from an isometry's value to the certified bound, or a tenth off.
+  const LABELS = { sigma1: [2, "Stretch σ₁"], sigma2: [3, "Stretch σ₂"], k: [4, "Dilatation k"] };
+  const css = (i) => `rgb(${data.colors.slice(3 * i, 3 * i + 3).map((c) => Math.round(255 * c))})`;
+  const stops = data.colors.length / 3;
+  document.documentElement.style.setProperty("--colors", Array.from({ length: stops }, (_, i) => css(i)).join());
+  for (const name of Object.keys(data.ranges)) {
+    const [value, text] = LABELS[name];
+    overlay.append(new Option(text, value));
+    overlay.lastChild.dataset.name = name;
+  }
+  const down = (x) => (Math.floor(1000 * x) / 1000).toFixed(3), up = (x) => (Math.ceil(1000 * x) / 1000).toFixed(3);
+  overlay.addEventListener("change", () => {
+    const { name } = overlay.selectedOptions[0].dataset, range = data.ranges[name], legend = get("legend");
+    legend.hidden = !range;
+    if (range) legend.replaceChildren(`${LABELS[name][1]} ${range[0]}`, document.createElement("i"), name === "sigma2" ? down(range[1]) : up(range[1]));
+    draw();
+  });
+
+  // What moves: the time runs by itself, or glides to a pose, or follows the slider.
+  const STEP = 1 / 25, GLIDE = 600; // s, ms
+  const span = motion.end - motion.start, play = get("play"), thumbs = [];
+  let running = false, glide = null, last = 0, due = 0;
+
+  function seek(t) {
+    time = motion.within(t);
+    slider.value = time;
+    get("clock").textContent = `${time.toFixed(2)} / ${motion.end.toFixed(2)} s`;
+    const { piece } = motion.place(time);
+    const [low, high, k] = [motion.sigma2[piece], motion.sigma1[piece], motion.k[piece]];
+    const bare = time < motion.until ? "proved not to fold" : "not proved";
+    get("here").textContent = `Now: ${low === null ? bare : `σ₂ ≥ ${down(low)}, σ₁ ≤ ${up(high)}, k ≤ ${up(k)}`}`;
+    thumbs.forEach((thumb, i) => thumb.setAttribute("aria-current", Math.abs(motion.keyframes[i] - time) < 1e-3));
+    draw();
+  }
+
+  function run(on) {
+    running = on;
+    play.textContent = on ? "❚❚" : "▶";
+    play.setAttribute("aria-label", on ? "Pause" : "Play");
+    if (on) glide = null;
+    if (on && !data.loop && time >= motion.end) seek(motion.start);
+    last = performance.now();
+    if (on || glide) due = due || requestAnimationFrame(tick);
+  }
+
+  function tick(now) {
+    due = 0;
+    const passed = Math.max(now - last, 0) / 1000;
+    last = now;
+    if (glide) {
+      const s = Math.min((now - glide.begin) / GLIDE, 1), eased = s * s * (3 - 2 * s);
+      seek(s < 1 ? glide.from + eased * (glide.to - glide.from) : glide.to);
+      if (s === 1) glide = null;
+    } else if (running) {
+      const ended = !data.loop && time + passed >= motion.end;
+      seek(ended ? motion.end : motion.start + ((time + passed - motion.start) % span));
+      if (ended) run(false);
+    }
+    if (running || glide) due = due || requestAnimationFrame(tick);
+  }
+
+  // Along the motion, so that everything on the way is proved; a loop goes the shorter way round.
+  function glideTo(to) {
+    const away = motion.repeat === "loop" ? [0, span, -span] : [0];
+    if (motion.repeat === "ping-pong" && time > motion.times.at(-1)) time = 2 * motion.times.at(-1) - time;
+    const nearest = away.map((shift) => to + shift).sort((a, b) => Math.abs(a - time) - Math.abs(b - time))[0];
+    glide = { from: time, to: nearest, begin: performance.now() };
+    run(false);
+  }
+
+  function prepare() {
+    document.querySelector("section").hidden = false;
+    Object.assign(slider, { min: motion.start, max: motion.end });
+    motion.keyframes.forEach((t, i) => {
+      const thumb = document.createElement("button"), small = document.createElement("canvas");
+      thumb.title = `Pose ${i + 1}, at ${t.toFixed(2)} s`;
+      thumb.setAttribute("aria-label", thumb.title);
+      thumb.addEventListener("click", () => glideTo(t));
+      time = t;
+      paint(56, 56, fitted(56, 56));
+      Object.assign(small, { width: canvas.width, height: canvas.height }).getContext("2d").drawImage(canvas, 0, 0);
+      thumb.append(small);
+      thumbs.push(thumb);
+    });
+    get("poses").append(...thumbs);
+    const colors = Array.from({ length: 100 }, (_, i) => {
+      const t = motion.start + ((i + 0.5) / 100) * span, sigma2 = motion.sigma2[motion.place(t).piece] ?? 0;
+      return `${t < motion.until ? css(Math.round((1 - Math.min(sigma2, 1)) * (stops - 1))) : "#7f7f7f"} ${i}% ${i + 1}%`;
+    });
+    get("strip").style.background = `linear-gradient(to right, ${colors})`;
+    play.addEventListener("click", () => run(!running));
+    slider.addEventListener("input", () => {
+      glide = null;
+      run(false);
+      seek(Number(slider.value));
+    });
+    document.addEventListener("keydown", (e) => {
+      const control = /BUTTON|SELECT/.test(e.target.tagName) || e.target.type === "checkbox";
+      const step = { ArrowLeft: -STEP, ArrowRight: STEP }[e.key] * (e.shiftKey ? 5 : 1);
+      const to = { Home: motion.start, End: motion.end }[e.key] ?? time + step;
+      if (e.ctrlKey || e.metaKey || e.altKey || e.target.tagName === "SELECT" || (e.key === " " ? control : isNaN(to))) return;
+      e.preventDefault();
+      glide = null;
+      run(e.key === " " && !running);
+      if (e.key !== " ") seek(Math.min(Math.max(to, motion.start), motion.end));
+    });
+    seek(motion.start);
+    run(data.loop && !matchMedia("(prefers-reduced-motion: reduce)").matches);
+  }
 
   const picture = new Image();
   picture.onerror = () => fail("The picture in this page is damaged.");
@@ -153,12 +271,14 @@
     if (Math.max(picture.width, picture.height) > most) return fail(`This device shows pictures of at most ${most} pixels.`);
     gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
     gl.pixelStorei(gl.UNPACK_PREMULTIPLY_ALPHA_WEBGL, true);
+    gl.pixelStorei(gl.UNPACK_FLIP_Y_WEBGL, true);
     gl.pixelStorei(gl.UNPACK_COLORSPACE_CONVERSION_WEBGL, gl.NONE);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, picture);
     gl.generateMipmap(gl.TEXTURE_2D);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+    if (motion.keyframes.length) prepare();
     new ResizeObserver(fit).observe(canvas);
     fit();
     document.documentElement.dataset.ready = "true";

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import io
 import math
 from collections.abc import Sequence
-from typing import Any, Literal, get_args
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image, ImageDraw
 
+from glid_nb.export.encode import Color, apng, check_settings, gif
 from glid_nb.figures.style import CYAN, INK
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.mesh import deformed_loops, deformed_mesh
-from glid_nb.imaging.order import order_of
+from glid_nb.imaging.order import Sheets, order_of
+from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View, draw_mesh, render
-from glid_nb.imaging.sheets import Sheets
 from glid_nb.imaging.texture import Texture
 from glid_nb.solvers import Pose
 
@@ -41,13 +41,6 @@ def picture_png(
     return png(render(image, map, size, view=view, pose=pose))
 
 
-def png(pixels: NDArray[np.uint8], compress_level: int = 6) -> bytes:
-    """A PNG file of (h, w), (h, w, 3) or (h, w, 4) pixels."""
-    buffer = io.BytesIO()
-    Image.fromarray(pixels).save(buffer, format="PNG", compress_level=compress_level)
-    return buffer.getvalue()
-
-
 def animation_bytes(
     image: ArrayLike,
     maps: Sequence[HarmonicMap],
@@ -55,7 +48,7 @@ def animation_bytes(
     *,
     size: int = 480,
     frames_per_second: float = 20.0,
-    background: tuple[int, int, int] = (255, 255, 255),
+    background: Color = (255, 255, 255),
     there_and_back: bool = False,
     format: Format = "gif",
     marks: bool = True,
@@ -69,10 +62,9 @@ def animation_bytes(
     drawn as disks, the images of their handles as dots; rings where another part of the shape
     covers them.
 
-    There are at most 100 frames per second; GIF rounds the duration of a frame to hundredths of a
-    second. The background's red, green and blue are 0 to 255. ``there_and_back`` appends the frames
-    in reverse order, so that the loop has no jump. The format is "gif", which is supported
-    everywhere but has 256 colours only, or "apng".
+    There are at most 100 frames per second. The background's red, green and blue are 0 to 255.
+    ``there_and_back`` appends the frames in reverse order, so that the loop has no jump. The format
+    is "gif", which is supported everywhere but has 256 colours only, or "apng".
 
     Raises a ValueError that names an argument out of range.
     """
@@ -81,43 +73,40 @@ def animation_bytes(
         raise ValueError("maps is empty; an animation needs at least one map")
     if poses is not None and len(poses) != len(maps):
         raise ValueError(f"there are {len(maps)} maps but {len(poses)} poses; give one per map")
-    if size < 16:
-        raise ValueError(f"size is {size}; it must be at least 16 pixels")
-    if not (math.isfinite(frames_per_second) and 0 < frames_per_second <= 100):
-        raise ValueError(f"frames_per_second is {frames_per_second}; it must be above 0, up to 100")
-    if len(background) != 3 or not all(0 <= channel <= 255 for channel in background):
-        raise ValueError(f"background is {background}; it must be three numbers from 0 to 255")
+    check_settings(size, frames_per_second, background)
     if format not in get_args(Format):
         raise ValueError(f"unknown format {format!r}; choose one of {', '.join(get_args(Format))}")
-    pixels, frame = as_rgba8(image), _common_frame(maps, size)
-    texture = Texture.from_image(pixels)
-    pictures = []
+    # The boundaries suffice to find what holds all the deformed shapes.
+    points = np.concatenate([deformed_loops(map)[0] for map in maps])
+    pixels, frame = as_rgba8(image), frame_around(points, size)
+    texture, frames = Texture.from_image(pixels), []
     for i, map in enumerate(maps):
         pose = None if poses is None else poses[i]
         mesh = deformed_mesh(map, _VERTICES, _TOLERANCE_PX * frame.units_per_pixel, pose)
-        picture = Image.new("RGBA", (frame.width, frame.height), (*background, 255))
-        picture.alpha_composite(Image.fromarray(draw_mesh(texture, mesh, frame)))
+        picture = on_background(draw_mesh(texture, mesh, frame), background)
         if pose is not None and marks:
             hidden = Sheets(map, order_of(map.domain.cage, pose), pixels).hidden(pose.handles)
             picture.alpha_composite(_marks(pose, map, frame, hidden))
-        pictures.append(picture.convert("RGB"))
+        frames.append(np.asarray(picture))
     if there_and_back:
-        pictures += pictures[-2:0:-1]
-    duration = 1000.0 / frames_per_second
+        frames += frames[-2:0:-1]
     if format == "gif":
-        pictures, duration = _with_palette(pictures, background), 10 * max(1, round(duration / 10))
-    kind: Any = {"format": "GIF" if format == "gif" else "PNG", "save_all": True, "optimize": False}
-    buffer = io.BytesIO()
-    pictures[0].save(buffer, append_images=pictures[1:], duration=duration, loop=0, **kind)
-    return buffer.getvalue()
+        return gif(frames, frames_per_second, background)
+    return apng([np.ascontiguousarray(frame[..., :3]) for frame in frames], frames_per_second)
 
 
-def _common_frame(maps: list[HarmonicMap], size: int) -> PixelFrame:
-    """A frame that holds all the deformed shapes; their boundaries suffice to find it."""
-    points = np.concatenate([deformed_loops(map)[0] for map in maps])
+def frame_around(points: NDArray[np.float64], size: int) -> PixelFrame:
+    """A frame with a longer side of ``size`` that holds (k, 2) points; its sides are even."""
     extent = np.ptp(points, axis=0)
-    width, height = (max(1, math.ceil(side)) for side in size * (extent / extent.max()))
+    width, height = (2 * max(1, math.ceil(side / 2)) for side in size * (extent / extent.max()))
     return PixelFrame(width, height).showing([points.min(axis=0), points.max(axis=0)], _MARGIN)
+
+
+def on_background(pixels: NDArray[np.uint8], background: Color) -> Image.Image:
+    """RGBA pixels on a colour."""
+    picture = Image.new("RGBA", pixels.shape[1::-1], (*background, 255))
+    picture.alpha_composite(Image.fromarray(pixels))
+    return picture
 
 
 def _marks(
@@ -136,26 +125,3 @@ def _marks(
     for point in targets[hidden].tolist():
         draw.circle(point, _TARGET * unit, outline=CYAN, width=2 * _SMOOTH)
     return layer.resize((frame.width, frame.height), Image.Resampling.LANCZOS)
-
-
-def _with_palette(
-    pictures: list[Image.Image], background: tuple[int, int, int]
-) -> list[Image.Image]:
-    """The pictures with one palette, made from at most eight of them.
-
-    Flat areas would flicker if each had its own. The exact background comes first; an averaged one
-    would show a dither pattern.
-    """
-    chosen = pictures[:: math.ceil(len(pictures) / 8)]
-    montage = Image.fromarray(np.concatenate([np.asarray(picture) for picture in chosen]))
-    colors = [*background, *(montage.quantize(255).getpalette() or [])]
-    palette = Image.new("P", (1, 1))
-    palette.putpalette(colors)
-    result = []
-    for picture in pictures:
-        indices = np.array(picture.quantize(palette=palette))
-        # Pillow looks up colours in bins of four levels, so it may miss the background.
-        indices[(np.asarray(picture) == background).all(axis=2)] = 0
-        result.append(Image.fromarray(indices))
-        result[-1].putpalette(colors)
-    return result

@@ -21,7 +21,7 @@ from glid_nb.figures.style import CYAN, HAIRLINE, INK, NAMED, SMALL
 from glid_nb.imaging import PixelFrame
 from glid_nb.solvers import Pose
 
-_MISS = 0.004  # handles farther from their target, relative to the shape's size, get a line
+_MISS = 0.004  # of the axes' size: handles farther from their target get a line
 _SHOWN_DPI = 150.0  # in a notebook, at
 _CSS_DPI = 108.0  # this many of the page's pixels per inch
 _ROUND, _COARSE = (1, 1.1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 7), (1, 2, 5)  # ticks of a decade
@@ -91,42 +91,40 @@ def enlarged(box: Floats, points: Floats) -> Floats:
     return np.stack([corners.min(axis=0), corners.max(axis=0)])
 
 
-def draw_picture(axes: Axes, picture: NDArray[np.uint8], frame: PixelFrame) -> None:
+def picture(axes: Axes, pixels: NDArray[np.uint8], frame: PixelFrame) -> None:
     """Put an RGBA picture behind everything else, on white."""
-    white = Image.new("RGBA", picture.shape[1::-1], "white")
-    white.alpha_composite(Image.fromarray(picture))
+    white = Image.new("RGBA", pixels.shape[1::-1], "white")
+    white.alpha_composite(Image.fromarray(pixels))
     xmin, ymin, xmax, ymax = frame.bounds
     axes.imshow(white, extent=(xmin, xmax, ymin, ymax), zorder=0)
 
 
-def draw_loops(axes: Axes, loops: Iterable[Floats], label: str = "", **style: Any) -> None:
+def loops(axes: Axes, closed: Iterable[Floats], label: str = "", **style: Any) -> None:
     """Closed lines with one entry in the legend."""
-    for loop in loops:
+    for loop in closed:
         points = np.concatenate([loop, loop[:1]]).T
         axes.plot(*points, solid_joinstyle="round", zorder=2, label=label, **style)
         label = ""
 
 
-def draw_dots(axes: Axes, points: Floats, color: str, size: float, edge: float, label: str) -> None:
+def dots(axes: Axes, points: Floats, color: str, size: float, edge: float, label: str) -> None:
     """Round dots with one entry in the legend; those in cyan have a dark edge."""
     line = "white" if color != CYAN else INK
     style: dict[str, Any] = {"markersize": size, "markeredgewidth": edge, "markeredgecolor": line}
     axes.plot(*points.T, "o", color=color, zorder=4, label=label, **style)
 
 
-def draw_targets(axes: Axes, map: Any, pose: Pose, size: float) -> None:
-    """Targets, the handles' images, and lines between those farther apart than they seem.
-
-    ``size`` is that of the shape, world units.
-    """
+def targets(axes: Axes, map: Any, pose: Pose) -> None:
+    """Targets, the handles' images, and lines between those that are seen to be apart."""
+    size = max(np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim()))
     images = map(pose.handles) if len(pose) else pose.handles
     apart = np.linalg.norm(images - pose.targets, axis=1) > _MISS * size
     segments = np.stack([images[apart], pose.targets[apart]], axis=1)
     lines = LineCollection(list(segments), colors=INK, linewidths=0.9, zorder=3)
     lines.set_path_effects(_ON_WHITE)
     axes.add_collection(lines, autolim=False)
-    draw_dots(axes, pose.targets, CYAN, 5.0, edge=0.6, label="targets")
-    draw_dots(axes, images, "black", 2.2, edge=0.0, label="handles' images")
+    dots(axes, pose.targets, CYAN, 5.0, edge=0.6, label="targets")
+    dots(axes, images, "black", 2.2, edge=0.0, label="handles' images")
 
 
 def label_levels(axes: Axes, lines: Any, labels: dict[float, str]) -> None:

@@ -9,16 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from glid_nb.figures.drawing import (
-    Floats,
-    NotebookFigure,
-    box_around,
-    draw_dots,
-    draw_loops,
-    draw_picture,
-    draw_targets,
-    enlarged,
-)
+from glid_nb.figures import drawing
+from glid_nb.figures.drawing import Floats, NotebookFigure
 from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot
 from glid_nb.figures.shapes import Sheet, draw_deformed, draw_distortion
 from glid_nb.figures.style import BLUE, FONT_SIZE, GREY, INK, LEGEND
@@ -73,8 +65,8 @@ def overview(
     pose = result.pose if pose is None else pose
     cage, pixels = map.domain.cage, _OVERSAMPLING * _DPI * width / 3
     sheet = Sheet.of(map, pose, _VERTICES, 0.5 * cage.longer_side / pixels)
-    target = enlarged(box_around(np.concatenate(sheet.outline)), pose.targets)
-    views = _common_scale(box_around(map.domain.offset_cage.exterior), target)
+    target = drawing.enlarged(drawing.box_around(np.concatenate(sheet.outline)), pose.targets)
+    views = _common_scale(drawing.box_around(map.domain.offset_cage.exterior), target)
 
     across, up = np.ptp(views[0], axis=0)
     tall = min(width / 3 * up / across, _TALLEST)
@@ -88,10 +80,10 @@ def overview(
     for axes, letter, name in zip((*pictures, *plots), "abcdef", _NAMES, strict=True):
         _label(axes, letter, name, (0, 4) if axes in pictures else (-24, 26))
 
-    draw_picture(pictures[0], picture, PixelFrame(picture.shape[1], picture.shape[0]))
+    drawing.picture(pictures[0], picture, PixelFrame(picture.shape[1], picture.shape[0]))
     _mark_source(pictures[0], map, pose)
     draw_deformed(pictures[1], picture, sheet, pixels * max(1, up / across))
-    draw_targets(pictures[1], map, pose, float(np.ptp(np.concatenate(sheet.outline), axis=0).max()))
+    drawing.targets(pictures[1], map, pose)
     _add_legend(pictures[1])
     draw_distortion(pictures[2:], [sheet], "distortion", extendfrac=0.04)
     EnergyPlot(plots[0]).update(result.history, result.start_energy)
@@ -114,34 +106,21 @@ def _common_scale(*boxes: Floats) -> Floats:
 def _label(axes: Axes, letter: str, name: str, shift: tuple[float, float]) -> None:
     """Write letter and name, shifted by points from the axes' upper left corner."""
     for text, indent, weight in ((letter, 0, "bold"), (name, 10, "normal")):
-        axes.annotate(
-            text,
-            (0, 1),
-            xycoords="axes fraction",
-            xytext=(shift[0] + indent, shift[1]),
-            textcoords="offset points",
-            fontsize=FONT_SIZE,
-            fontweight=weight,
-            color=INK,
-        )
+        place = (0, 1), (shift[0] + indent, shift[1]), "axes fraction", "offset points"
+        axes.annotate(text, *place, fontsize=FONT_SIZE, fontweight=weight, color=INK)
 
 
 def _mark_source(axes: Axes, map: HarmonicMap, pose: Pose) -> None:
     cage, outer = map.domain.cage.loops, map.domain.offset_cage.loops
-    draw_loops(axes, [*outer, *cage], color="white", linewidth=1.4, alpha=0.7)
-    draw_loops(axes, cage, color=BLUE, linewidth=0.6, label="cage")
-    draw_loops(axes, outer, color=GREY, linewidth=0.4, label="offset cage")
-    draw_dots(axes, pose.handles, INK, 3.4, edge=0.6, label="handles")
+    drawing.loops(axes, [*outer, *cage], color="white", linewidth=1.4, alpha=0.7)
+    drawing.loops(axes, cage, color=BLUE, linewidth=0.6, label="cage")
+    drawing.loops(axes, outer, color=GREY, linewidth=0.4, label="offset cage")
+    drawing.dots(axes, pose.handles, INK, 3.4, edge=0.6, label="handles")
     _add_legend(axes)
 
 
 def _add_legend(axes: Axes) -> None:
     handles, _ = axes.get_legend_handles_labels()
     fits = axes.figure.bbox.width / 3 > _LEGEND_ROW * axes.figure.dpi
-    axes.legend(
-        loc="upper center",
-        bbox_to_anchor=(0.5, 0.0),
-        ncols=len(handles) if fits else 1,
-        columnspacing=1.0,
-        **LEGEND,
-    )
+    look: Any = {"bbox_to_anchor": (0.5, 0.0), "columnspacing": 1.0, **LEGEND}
+    axes.legend(loc="upper center", ncols=len(handles) if fits else 1, **look)

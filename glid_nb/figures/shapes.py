@@ -15,20 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb._runtime import double_precision
 from glid_nb.certificate import Certificate
 from glid_nb.energies import Energy, SymmetricDirichlet
-from glid_nb.figures import style
-from glid_nb.figures.drawing import (
-    Floats,
-    NotebookFigure,
-    box_around,
-    color_bar,
-    draw_dots,
-    draw_loops,
-    draw_picture,
-    draw_targets,
-    enlarged,
-    label_levels,
-    log_ticks,
-)
+from glid_nb.figures import drawing, style
+from glid_nb.figures.drawing import Floats, NotebookFigure
 from glid_nb.figures.plots import CertificatePlot
 from glid_nb.figures.style import BLUE, GREEN, GREY, INK, VERMILION, distortion_colors
 from glid_nb.geometry import Domain, MeshMap, as_points, triangulate
@@ -155,12 +143,12 @@ def draw_distortion(
         shape = Drawn(*sheet.images.T, triangles=sheet.triangles)
         field = np.clip(field, norm.vmin, norm.vmax)
         drawn = axes.tripcolor(shape, facecolors=field, rasterized=True, zorder=0, **look)
-        draw_loops(axes, sheet.outline, color=INK, linewidth=0.4)
+        drawing.loops(axes, sheet.outline, color=INK, linewidth=0.4)
     below, above = known.min() < 0.98 * norm.vmin, known.max() > 1.02 * norm.vmax
     ends = ("both" if above else "min") if below else ("max" if above else "neither")
     label = _LABELS[quantity] if isinstance(quantity, str) else quantity.label
-    ticks = log_ticks(*drawn.get_clim()) if isinstance(norm, LogNorm) else None
-    color_bar(grid, drawn, label, format="{x:g}", extend=ends, ticks=ticks, **bar)
+    ticks = drawing.log_ticks(*drawn.get_clim()) if isinstance(norm, LogNorm) else None
+    drawing.color_bar(grid, drawn, label, format="{x:g}", extend=ends, ticks=ticks, **bar)
 
 
 def picture(
@@ -191,7 +179,7 @@ def draw_deformed(axes: Axes, image: ArrayLike | None, sheet: Sheet, pixels: flo
     texture, places = _texture(image, sheet.rest)
     positions, size = frame.to_pixel(sheet.images), (width, height)
     drawn = render_mesh(texture, places, positions, sheet.triangles, size, sheet.heights)
-    draw_picture(axes, drawn, frame)
+    drawing.picture(axes, drawn, frame)
     axes.set(xlim=view[:, 0], ylim=view[:, 1])
 
 
@@ -217,29 +205,23 @@ def basis(domain: Domain, j: int, part: Literal["re", "im", "abs"] = "re") -> No
     values = {"re": re, "im": im, "abs": np.hypot(re, im)}[part]
     least, most, signed = values.min(), values.max(), values.min() < 0
     size = max(-least, most) or 1.0
-    figure, (axes,) = _shape_axes(1, box_around(domain.offset_cage.exterior, 0.04))
+    figure, (axes,) = _shape_axes(1, drawing.box_around(domain.offset_cage.exterior, 0.04))
     shape: Any = Drawn(*mesh.vertices.T, triangles=mesh.triangles)
-    drawn = axes.tripcolor(
-        shape,
-        values,
-        shading="gouraud",
-        cmap="PuOr_r" if signed else distortion_colors(),
-        norm=Normalize(-size, size) if signed else Normalize(least, most),
-        rasterized=True,
-        zorder=0,
-    )
+    norm = Normalize(-size, size) if signed else Normalize(least, most)
+    look: Any = {"cmap": "PuOr_r" if signed else distortion_colors(), "norm": norm, "zorder": 0}
+    drawn = axes.tripcolor(shape, values, shading="gouraud", rasterized=True, **look)
     lines = axes.tricontour(shape, values, 14, colors=INK, linewidths=0.4)
-    label_levels(axes, lines, {level: f"{level:g}" for level in [*lines.levels][::2]})
-    draw_loops(axes, domain.offset_cage.loops, color=GREY, linewidth=0.7, label="offset cage")
-    draw_loops(axes, domain.cage.loops, color=BLUE, linewidth=1.0, label="cage")
+    drawing.label_levels(axes, lines, {level: f"{level:g}" for level in [*lines.levels][::2]})
+    drawing.loops(axes, domain.offset_cage.loops, color=GREY, linewidth=0.7, label="offset cage")
+    drawing.loops(axes, domain.cage.loops, color=BLUE, linewidth=1.0, label="cage")
     singular = np.concatenate([*domain.offset_cage.loops, domain.hole_points])
-    draw_dots(axes, singular[:n_vertices], GREY, 3.2, edge=0.4, label="singularities")
+    drawing.dots(axes, singular[:n_vertices], GREY, 3.2, edge=0.4, label="singularities")
     axes.plot(*singular[n_vertices:].T, "x", color=INK, markersize=4, zorder=4)
     axes.plot(*singular[j], "X" if is_log else "o", color=GREEN, markersize=7, zorder=5)
     figure.legend(loc="outside lower center", ncols=3, **style.LEGEND)
     name = "ln|z − ρ|" if is_log else f"C_{j}(z)"
     label = {"re": "Re ", "im": "Im ", "abs": "modulus of "}[part] + name
-    color_bar(axes, drawn, label).set_xlim(least, most)
+    drawing.color_bar(axes, drawn, label).set_xlim(least, most)
     return figure
 
 
@@ -255,21 +237,16 @@ def panels(certificate: Certificate) -> NotebookFigure:
     figure = NotebookFigure(_WIDTH, 3.4)
     axes, plot = figure.subplots(1, 2, width_ratios=[1, 1.15])
     figure.get_layout_engine().set(wspace=0.08)  # type: ignore[union-attr]
-    _hold(axes, box_around(cage.exterior, 0.04))
+    _hold(axes, drawing.box_around(cage.exterior, 0.04))
     start, end = as_points(proved.start), as_points(proved.end)
     segments = np.stack([start, end], axis=1)
-    axes.add_collection(LineCollection(list(segments[bound <= 0]), colors=VERMILION, linewidths=4))
-    lines = LineCollection(
-        list(segments[bound > 0]),
-        array=bound[bound > 0],
-        cmap=distortion_colors().reversed(),
-        norm=Normalize(0.0, _FULL_MARGIN),
-        linewidths=3,
-    )
+    colors = distortion_colors().reversed().with_extremes(under=VERMILION)
+    look: Any = {"cmap": colors, "norm": Normalize(1e-300, _FULL_MARGIN), "linewidths": 3}
+    lines = LineCollection(list(segments), array=bound, **look)
     axes.add_collection(lines)
     if len(bound) <= _MANY:
         axes.plot(*start.T, "o", color=INK, markersize=1.4, zorder=3)
-    color_bar(axes, lines, "certified lower bound of σ₂", extend="max", format="{x:g}")
+    drawing.color_bar(axes, lines, "certified lower bound of σ₂", extend="max", format="{x:g}")
     title = f"{len(bound)} panels, {int((bound <= 0).sum())} of them not proved"
     axes.set_title(title, fontsize=style.FONT_SIZE, color=INK)
     plot.set_title(" \n ", fontsize=style.FONT_SIZE)  # room for the legend
@@ -311,8 +288,8 @@ def _side_by_side(
     """Axes with one scale, titles, folds and targets, one for each map; ``room`` is below them."""
     if len(titles) not in (0, len(maps)):
         raise ValueError(f"there are {len(titles)} titles for {len(maps)} maps")
-    box = box_around(np.concatenate([sheet.images for sheet in sheets]))
-    box = box if pose is None else enlarged(box, pose.targets)
+    box = drawing.box_around(np.concatenate([sheet.images for sheet in sheets]))
+    box = box if pose is None else drawing.enlarged(box, pose.targets)
     figure, grid = _shape_axes(len(maps), box, room)
     for i, (axes, map, sheet) in enumerate(zip(grid, maps, sheets, strict=True)):
         lines = [*titles[i : i + 1]]
@@ -326,7 +303,7 @@ def _side_by_side(
             PolyCollection(list(folded), facecolors=VERMILION, edgecolors="face", linewidths=0.6)
         )
         if pose is not None:
-            draw_targets(axes, map, pose, float(np.ptp(box, axis=0).max()))
+            drawing.targets(axes, map, pose)
     if pose is not None:
         marks = grid[0].get_legend_handles_labels()[0]
         figure.legend(handles=marks, loc="outside lower center", ncols=2, **style.LEGEND)

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 import shapely
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from glid_nb._arrays import number_pairs
+from glid_nb._arrays import Array, number_pairs
 from glid_nb.geometry._loops import GeometryError, loop_name, place, plain_name, segments
 
 # Parts of the boundary closer than this share of the cage's size count as touching: a few thousand
@@ -21,7 +21,7 @@ RESOLUTION = 1e-12
 _EDGES = 64
 
 
-def checked_vertices(vertices: ArrayLike, name: str) -> NDArray[np.float64]:
+def checked_vertices(vertices: ArrayLike, name: str) -> Array:
     """A float64 copy of (n, 2) finite vertices, n >= 3."""
     wanted = f"{name}: vertices must"
     loop = number_pairs(
@@ -43,7 +43,7 @@ def checked_vertices(vertices: ArrayLike, name: str) -> NDArray[np.float64]:
     return loop
 
 
-def check_loops(loops: list[NDArray[np.float64]]) -> None:
+def check_loops(loops: list[Array]) -> None:
     """Raise unless the loops, the exterior first, bound a domain."""
     corners = np.concatenate(loops)
     resolution = RESOLUTION * float(max(np.ptp(corners, axis=0).max(), np.abs(corners).max()))
@@ -55,7 +55,7 @@ def check_loops(loops: list[NDArray[np.float64]]) -> None:
     _check_nesting(loops)
 
 
-def _check_distinct(loop: NDArray[np.float64], number: int, resolution: float) -> None:
+def _check_distinct(loop: Array, number: int, resolution: float) -> None:
     name, plain = loop_name(number), plain_name(number)
     # Two of the copies are enough; thousands in one place would make millions of pairs.
     first = np.unique(loop, axis=0, return_index=True)[1]
@@ -79,7 +79,7 @@ def _check_distinct(loop: NDArray[np.float64], number: int, resolution: float) -
     raise _refusal(problem, f"{name}: vertices {i} and {j} coincide at {place(loop[i])}", loop[i])
 
 
-def _check_not_flat(loop: NDArray[np.float64], number: int, resolution: float) -> None:
+def _check_not_flat(loop: Array, number: int, resolution: float) -> None:
     arms = loop - loop[0]
     far = int(np.argmax(np.hypot(*arms.T)))
     axis = arms[far] / np.hypot(*arms[far])
@@ -93,7 +93,7 @@ def _check_not_flat(loop: NDArray[np.float64], number: int, resolution: float) -
         )
 
 
-def _check_fold_back(loop: NDArray[np.float64], number: int, resolution: float) -> None:
+def _check_fold_back(loop: Array, number: int, resolution: float) -> None:
     before, after = np.roll(segments(loop), 1), segments(loop)
     corner_before, corner_after = np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0)
     gap = np.minimum(
@@ -111,7 +111,7 @@ def _check_fold_back(loop: NDArray[np.float64], number: int, resolution: float) 
         )
 
 
-def _check_crossings(loops: list[NDArray[np.float64]], resolution: float) -> None:
+def _check_crossings(loops: list[Array], resolution: float) -> None:
     """Raise for the first pair of edges that cross, or else touch other than as neighbours."""
     edges = np.concatenate([segments(loop) for loop in loops])
     sizes = np.array([len(loop) for loop in loops])
@@ -157,7 +157,7 @@ def _check_crossings(loops: list[NDArray[np.float64]], resolution: float) -> Non
     raise _refusal(plain, f"{what} {verb} at {place(point)}", point)
 
 
-def _check_nesting(loops: list[NDArray[np.float64]]) -> None:
+def _check_nesting(loops: list[Array]) -> None:
     # The loops are known not to meet, so one vertex of each decides for the whole loop.
     starts: Any = shapely.points(np.array([loop[0] for loop in loops]))
     regions = [shapely.Polygon(loop) for loop in loops]

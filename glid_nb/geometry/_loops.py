@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arrays import Array
 from glid_nb._errors import InputError
 
 
@@ -22,8 +23,7 @@ class GeometryError(InputError):
     def __init__(
         self, message: str, point: ArrayLike | None = None, plain: str | None = None
     ) -> None:
-        super().__init__(message)
-        self.plain = message if plain is None else plain
+        super().__init__(message, plain)
         self.point = None if point is None else tuple(map(float, np.asarray(point)))
 
 
@@ -57,18 +57,18 @@ def as_points(z: ArrayLike) -> NDArray[np.float64]:
     return np.ascontiguousarray(z, dtype=np.complex128).view(np.float64).reshape(*np.shape(z), 2)
 
 
-def signed_area(loop: NDArray[np.float64]) -> float:
+def signed_area(loop: Array) -> float:
     """Signed area of an (n, 2) loop, positive if counter-clockwise."""
     x, y = (loop - loop[0]).T  # keeps the digits of a loop far from the origin
     return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
 
 
-def edge_lengths(loop: NDArray[np.float64]) -> NDArray[np.float64]:
+def edge_lengths(loop: Array) -> Array:
     """(n,) lengths of the edges of an (n, 2) loop; edge i leads from vertex i to vertex i + 1."""
     return np.hypot(*(np.roll(loop, -1, axis=0) - loop).T)
 
 
-def subdivided(loop: NDArray[np.complex128], counts: NDArray[np.integer]) -> NDArray[np.complex128]:
+def subdivided(loop: Array, counts: Array) -> Array:
     """Cut edge i of a complex loop into `counts[i]` equal parts; the parts' start points."""
     edge = np.repeat(np.arange(len(loop)), counts)
     first = np.cumsum(counts) - counts
@@ -77,7 +77,7 @@ def subdivided(loop: NDArray[np.complex128], counts: NDArray[np.integer]) -> NDA
     return start + (end - start) * share
 
 
-def next_index(loop: NDArray[np.intp]) -> NDArray[np.intp]:
+def next_index(loop: Array) -> Array:
     """Index of the next element, cyclic within each run of equal ``loop`` numbers."""
     following = np.arange(1, len(loop) + 1)
     first = np.flatnonzero(np.diff(loop, prepend=-1))
@@ -85,7 +85,7 @@ def next_index(loop: NDArray[np.intp]) -> NDArray[np.intp]:
     return following
 
 
-def segments(loop: NDArray[np.float64]) -> NDArray[np.object_]:
+def segments(loop: Array) -> Array:
     """(n,) shapely line strings, the edges of an (n, 2) loop."""
     ends = np.stack([loop, np.roll(loop, -1, axis=0)], axis=1)
     return np.asarray(shapely.linestrings(ends), dtype=object)

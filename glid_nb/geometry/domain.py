@@ -11,16 +11,22 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arrays import number_pairs, read_only
+from glid_nb._arrays import Array, number_pairs, read_only
 from glid_nb._errors import about
 from glid_nb.geometry._loops import GeometryError, loop_list, loop_name, place
 from glid_nb.geometry.cage import Cage
-from glid_nb.geometry.division import divided
 from glid_nb.geometry.offset import Offset, offset_cage
 from glid_nb.geometry.offset import hole_points as choose_hole_points
 
 # The paper's reference cages use 0.1 where the longer image side is 20 units.
 _DEFAULT_OFFSET = 0.005
+# Edges are divided that are longer than so many widths, and than this share of the cage's longer
+# side or than so many times the greatest width. Traced cages follow their limbs with shorter ones.
+_LONG, _LONG_SHARE, _VERY_LONG = 3.0, 0.3, 10.0
+# The pieces' length in widths, and their least length as a share of the cage's longer side.
+_PIECE, _LEAST_PIECE = 0.5, 0.02
+# At so many points of an edge the width is taken.
+_SAMPLES = 32
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -75,7 +81,7 @@ class Domain:
         long against the shape's width, the offset cage has more vertices than the cage.
         """
         result = _offset_of(cage, offset)
-        return cls(cage, divided(result.cage, cage), notes=result.notes)
+        return cls(cage, _divided(result.cage, cage), notes=result.notes)
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Domain:
@@ -98,7 +104,7 @@ class Domain:
                 "'offset_holes' is given without 'offset_cage'; give both or neither"
             )
         result = _offset_of(cage, data.get("offset"))
-        return cls(cage, divided(result.cage, cage), points, notes + result.notes)
+        return cls(cage, _divided(result.cage, cage), points, notes + result.notes)
 
     def to_dict(self) -> dict[str, Any]:
         """Nested lists under the keys that `from_dict` reads, ready for JSON."""
@@ -195,3 +201,47 @@ def _checked_hole_points(points: ArrayLike, offset_cage: Cage) -> NDArray[np.flo
                 f"hole {i}; move it there, or leave hole_points out to have them chosen"
             )
     return read_only(checked)
+
+
+def _divided(offset_cage: Cage, cage: Cage) -> Cage:
+    """The offset cage, which has a vertex for each of the cage, with more on the long edges.
+
+    Along an edge a map's boundary values are linear. Where a shape is much longer than wide between
+    two vertices, as a bar of four is, that is too stiff to bend.
+    """
+    least = _LEAST_PIECE * cage.longer_side
+    start, end = (
+        np.concatenate([np.roll(loop, shift) for loop in cage.loops_complex]) for shift in (0, -1)
+    )
+    length = np.abs(end - start)
+    shares = [np.zeros(1)] * len(start)
+    for i in np.flatnonzero(length > 2 * least):
+        widths = _widths(start[i], end[i], start, end)
+        long = length[i] > max(_LONG * np.median(widths), _LONG_SHARE * cage.longer_side)
+        if not (long or length[i] > _VERY_LONG * widths.max()):
+            continue
+        wanted = np.cumsum(1 / np.maximum(_PIECE * widths, least)) * length[i] / _SAMPLES
+        pieces = np.arange(np.ceil(wanted[-1])) * (wanted[-1] / np.ceil(wanted[-1]))
+        shares[i] = np.interp(pieces, [0, *wanted], np.arange(_SAMPLES + 1) / _SAMPLES)
+    if all(len(share) == 1 for share in shares):
+        return offset_cage
+    loops, first = [], 0
+    for loop in offset_cage.loops:
+        along = np.roll(loop, -1, axis=0) - loop
+        own = shares[first : first + len(loop)]
+        pieces = zip(loop, along, own, strict=True)
+        loops.append(np.concatenate([a + share[:, None] * b for a, b, share in pieces]))
+        first += len(loop)
+    return Cage(loops[0], loops[1:])
+
+
+def _widths(a: complex, b: complex, start: Array, end: Array) -> Array:
+    """(k,) distances from points of the edge ``a b`` straight across the domain to an edge."""
+    inward = 1j * (b - a) / abs(b - a)
+    points = a + (b - a) * (np.arange(_SAMPLES)[:, None] + 0.5) / _SAMPLES
+    # In the frame in which the edge lies on the real axis and the domain above it.
+    p, q = ((z - points) / inward * 1j for z in (start, end))
+    rise = np.where(p.real == q.real, 1, q.real - p.real)
+    height = p.imag - p.real * (q.imag - p.imag) / rise
+    meets = (p.real * q.real <= 0) & (p.real != q.real) & (height > 1e-9 * abs(b - a))
+    return np.where(meets, height, np.inf).min(axis=1)

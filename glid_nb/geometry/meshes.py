@@ -181,9 +181,7 @@ def triangulate(
     return Triangulation(vertices, _constrained_delaunay(vertices, loops), len(boundary))
 
 
-def _with_points(
-    loop: NDArray[np.complex128], points: NDArray[np.float64], tolerance: float
-) -> NDArray[np.complex128]:
+def _with_points(loop: Array, points: Array, tolerance: float) -> Array:
     """The loop with the points that lie on it inserted in order."""
     z, places = points @ np.array([1, 1j]), np.asarray(shapely.points(points))
     ring = shapely.LinearRing(as_points(loop))
@@ -195,7 +193,7 @@ def _with_points(
     return np.concatenate([loop, z[on]], dtype=np.complex128)[order]
 
 
-def _parts(lengths: NDArray[np.float64], spacing: float) -> NDArray[np.int64]:
+def _parts(lengths: Array, spacing: float) -> Array:
     return np.maximum(np.rint(lengths / spacing), 1).astype(np.int64)
 
 
@@ -235,7 +233,7 @@ def _lattice(cage: Cage, spacing: float) -> Array:
 
 def _constrained_delaunay(
     vertices: NDArray[np.float64], loops: list[NDArray[np.complex128]]
-) -> NDArray[np.int32]:
+) -> Array:
     """Triangles of the region bounded by the loops, whose points are the first vertices."""
     following = next_index(np.repeat(np.arange(len(loops)), [len(loop) for loop in loops]))
     # Any: numpy's stubs call an array a buffer from Python 3.12 on only.

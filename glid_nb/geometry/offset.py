@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from glid_nb._arrays import read_only
+from glid_nb._arrays import Array, read_only
 from glid_nb.geometry._loops import (
     GeometryError,
     edge_lengths,
@@ -164,14 +164,13 @@ class _Corners:
         self.gain_start = -np.sum(self.step * after, axis=1)
         self.gain_end = np.sum(self.step[self.next] * after, axis=1)
 
-    def moved(self, local: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(n, 2) offset vertices at the distances `local` (n,)."""
+    def moved(self, local: Array) -> Array:
         return self.points + local[:, None] * self.step
 
-    def split(self, values: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+    def split(self, values: Array) -> list[Array]:
         return [part.copy() for part in np.split(values, self.starts[1:-1])]
 
-    def passage_limits(self, min_ratio: float) -> NDArray[np.float64]:
+    def passage_limits(self, min_ratio: float) -> Array:
         """(n,) greatest distances where a vertex faces an edge of its loop across the outside.
 
         Only pairs whose way along the loop is at least `min_ratio` times their gap count.
@@ -202,7 +201,7 @@ class _Corners:
         np.minimum.at(limits, self.next[e], room / np.maximum(t, 1e-9))
         return limits
 
-    def smoothed(self, local: NDArray[np.float64]) -> NDArray[np.float64]:
+    def smoothed(self, local: Array) -> Array:
         """The largest distances up to `local` whose change per arc length is at most the slope."""
         result = local.copy()
         for a, b in zip(self.starts[:-1], self.starts[1:], strict=True):
@@ -216,7 +215,7 @@ class _Corners:
             result[a:b] = np.where(smooth < local[a:b] * (1 - 1e-9), smooth, local[a:b])
         return result
 
-    def shrunk(self, local: NDArray[np.float64]) -> tuple[NDArray[np.float64], bool]:
+    def shrunk(self, local: Array) -> tuple[Array, bool]:
         """Distances shrunk where the offset does not fit, and whether it fits then."""
         limits = None
         for _ in range(_LOCAL_ROUNDS):
@@ -231,7 +230,7 @@ class _Corners:
             local = self.smoothed(local * factors)
         return local, False
 
-    def _edge_factors(self, local: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _edge_factors(self, local: Array) -> Array:
         """(n,) factors that lengthen offset edges which are too short or reversed."""
         gain = local * self.gain_start + local[self.next] * self.gain_end
         loss = (1.0 - _KEPT_LENGTH) * self.length
@@ -244,7 +243,7 @@ class _Corners:
         np.minimum.at(factors, self.next[edge[end]], factor[end])
         return factors
 
-    def _meeting_factors(self, local: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _meeting_factors(self, local: Array) -> Array:
         """(n,) factors for offset edges too close to the cage or to each other."""
         factors = np.ones(len(local))
         moved = self.moved(local)
@@ -267,9 +266,7 @@ class _Corners:
         self._shrink_ends(factors, edges, e[close], edges[f[close]])
         return factors
 
-    def _way_round(
-        self, length: NDArray[np.float64], e: NDArray[np.intp], f: NDArray[np.intp]
-    ) -> NDArray[np.float64]:
+    def _way_round(self, length: Array, e: Array, f: Array) -> Array:
         """Length of the offset loop between the edges e and f, on the shorter side."""
         position = np.concatenate([[0.0], np.cumsum(length)])
         total = position[self.starts[1:]] - position[self.starts[:-1]]
@@ -277,20 +274,14 @@ class _Corners:
         inner = position[last] - position[first + 1]
         return np.minimum(inner, total[self.loop[e]] - inner - length[first] - length[last])
 
-    def _shrink_ends(
-        self,
-        factors: NDArray[np.float64],
-        edges: NDArray[np.object_],
-        e: NDArray[np.intp],
-        others: NDArray[np.object_],
-    ) -> None:
+    def _shrink_ends(self, factors: Array, edges: Array, e: Array, others: Array) -> None:
         """Lower the factors at the ends of the edges `e`, more at the end nearer to `others`."""
         meeting = shapely.get_point(shapely.shortest_line(edges[e], others), 0)
         t = shapely.line_locate_point(edges[e], meeting, normalized=True)
         np.minimum.at(factors, e, np.where(t < 0.75, _SHRINK, 0.9))
         np.minimum.at(factors, self.next[e], np.where(t > 0.25, _SHRINK, 0.9))
 
-    def _encloses(self, local: NDArray[np.float64]) -> bool:
+    def _encloses(self, local: Array) -> bool:
         """Whether the offset loops, known not to meet the cage, lie outside the domain."""
         pairs = zip(self.split(self.points), self.split(self.moved(local)), strict=True)
         around = [(b, a) if i == 0 else (a, b) for i, (a, b) in enumerate(pairs)]
@@ -299,7 +290,7 @@ class _Corners:
         )
 
 
-def _notes(corners: _Corners, local: NDArray[np.float64], distance: float) -> tuple[str, ...]:
+def _notes(corners: _Corners, local: Array, distance: float) -> tuple[str, ...]:
     """A sentence per loop on which the distance was reduced by over a tenth."""
     notes: list[str] = []
     for loop, distances in enumerate(corners.split(local)):

@@ -31,21 +31,18 @@ def column_bucket(count: int) -> int:
 class Basis(NamedTuple):
     """Columns of the harmonic subspace on a domain (paper Section 5).
 
-    ``singularities`` holds the offset cage's vertices, then padding vertices on a far circle,
-    and the hole points, then padding points outside that circle. The coefficients of padding
-    columns are always zero, so they change no map; domains with the same number of padded columns
-    run the same compiled program.
-
-    ``columns`` maps the domain's own ``n = m + N`` coefficients to padded columns. ``phi_free``
-    and ``psi_free`` tell which padded columns are unknowns. The first two of each hole loop are
-    fixed to zero (Section 5), as is the first ``psi`` of the exterior loop; the hole columns of
-    ``psi`` follow from ``phi_j = conj(psi_j)``.
+    The coefficients of padding columns are always zero, so they change no map; domains with the
+    same number of padded columns run the same compiled program.
     """
 
     singularities: Singularities
+    """The offset cage's vertices, then padding on a far circle; hole points, then padding."""
     columns: Int[Array, " n"]
+    """The padded columns of the domain's own ``n = m + N`` coefficients."""
     phi_free: Bool[Array, " c"]
+    """Which columns are unknowns: not the first two of each hole loop, nor padding."""
     psi_free: Bool[Array, " c"]
+    """The same, without the exterior's first and the logarithms, ``psi_j = conj(phi_j)``."""
 
     @property
     def n_columns(self) -> int:

@@ -17,6 +17,10 @@ import numpy as np
 
 from glid_nb._jax import AnyArray, Complex, Int
 
+Points = Complex[Array, " k"]
+Matrix = Complex[Array, "k n"]
+Rows = Complex[Array, "... n"]
+
 _TWO_PI_I = 2j * np.pi
 
 
@@ -29,9 +33,7 @@ class Singularities(NamedTuple):
     hole_points: Complex[AnyArray, " N"]
 
 
-def cauchy_coordinates(
-    z: Complex[Array, " k"], singularities: Singularities
-) -> Complex[Array, "k n"]:
+def cauchy_coordinates(z: Points, singularities: Singularities) -> Matrix:
     """``C_j(z)`` of Equation (8): (D.1) for vertices and ``ln|z - rho|`` for holes."""
     xp = z.__array_namespace__()
     vertices, following, preceding, rho = singularities
@@ -42,9 +44,7 @@ def cauchy_coordinates(
     return xp.concat([c, logarithms.astype(c.dtype)], axis=1)
 
 
-def first_derivatives(
-    z: Complex[Array, " k"], singularities: Singularities
-) -> Complex[Array, "k n"]:
+def first_derivatives(z: Points, singularities: Singularities) -> Matrix:
     """``D_j(z)`` of Equation (9): (D.2) for vertices and ``1 / (z - rho)`` for holes."""
     vertices, _, preceding, rho = singularities
     log_over_a = log_over_edge(vertices - z[:, None], singularities)
@@ -52,9 +52,7 @@ def first_derivatives(
     return z.__array_namespace__().concat([d, 1 / (z[:, None] - rho)], axis=1)
 
 
-def second_derivatives(
-    z: Complex[Array, " k"], singularities: Singularities
-) -> Complex[Array, "k n"]:
+def second_derivatives(z: Points, singularities: Singularities) -> Matrix:
     """``D'_j(z)``: (D.3) for vertices and ``-1 / (z - rho)^2`` for holes."""
     vertices, following, preceding, rho = singularities
     b = vertices - z[:, None]
@@ -63,7 +61,7 @@ def second_derivatives(
     return z.__array_namespace__().concat([d, -1 / (z[:, None] - rho) ** 2], axis=1)
 
 
-def first_by_edges(z: Complex[Array, " k"], singularities: Singularities) -> Complex[Array, "k n"]:
+def first_by_edges(z: Points, singularities: Singularities) -> Matrix:
     """The matrix ``L(z)`` with ``f_z = L @ edge_coefficients``; (D.2) summed by edges.
 
     ``Log(B_{j+1} / B_j) / (2 pi i)`` for the edge from vertex ``j``, ``1 / (z - rho)`` for holes.
@@ -74,7 +72,7 @@ def first_by_edges(z: Complex[Array, " k"], singularities: Singularities) -> Com
     return z.__array_namespace__().concat([logarithms / _TWO_PI_I, rest], axis=1)
 
 
-def second_by_edges(z: Complex[Array, " k"], singularities: Singularities) -> Complex[Array, "k n"]:
+def second_by_edges(z: Points, singularities: Singularities) -> Matrix:
     """The derivative of :func:`first_by_edges`: ``A_{j+1} / (2 pi i B_j B_{j+1})`` for edges."""
     vertices, following, _, rho = singularities
     b = vertices - z[:, None]
@@ -82,9 +80,7 @@ def second_by_edges(z: Complex[Array, " k"], singularities: Singularities) -> Co
     return z.__array_namespace__().concat([edges, -1 / (z[:, None] - rho) ** 2], axis=1)
 
 
-def edge_coefficients(
-    coefficients: Complex[Array, "... n"], singularities: Singularities
-) -> Complex[Array, "... n"]:
+def edge_coefficients(coefficients: Rows, singularities: Singularities) -> Rows:
     """The slope along the edge from each vertex, and the coefficient itself for the holes."""
     m, xp = singularities.vertices.shape[0], coefficients.__array_namespace__()
     slopes = edge_slopes(coefficients[..., :m], singularities)
@@ -99,9 +95,7 @@ def edge_slopes(
     return (coefficients - coefficients[..., preceding]) / (vertices - vertices[preceding])
 
 
-def slope_jumps(
-    coefficients: Complex[Array, "... n"], singularities: Singularities
-) -> Complex[Array, "... n"]:
+def slope_jumps(coefficients: Rows, singularities: Singularities) -> Rows:
     """``s_j - s_{j+1}`` for the vertices and the coefficient itself for the holes.
 
     All derivatives of ``f_z`` are sums over these (Appendix H, whose first sum has the wrong sign):
@@ -114,11 +108,11 @@ def slope_jumps(
 
 
 def higher_derivative(
-    z: Complex[Array, " k"],
+    z: Points,
     coefficients: Complex[Array, " n"],
     singularities: Singularities,
     order: int,
-) -> Complex[Array, " k"]:
+) -> Points:
     """The ``order``-th derivative (``order >= 1``) of ``sum_j D_j(z) coefficients_j``.
 
     Differentiating the expression for ``f_z'`` in Appendix H ``order - 1`` times:

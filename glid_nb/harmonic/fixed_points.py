@@ -22,9 +22,9 @@ _MOST_KEPT = 1 << 26  # numbers, of 8 bytes each
 class FixedPoints:
     """Images and derivatives of fixed points under many maps.
 
-    Most of an evaluation's time goes into a logarithm for each point and edge of the offset cage,
-    which does not depend on the map. The logarithms are computed once and kept in single precision,
-    up to half a gigabyte. Summed over the edges e of the offset cage, (D.1) reads
+    The logarithms, which take most of the time and do not depend on the map, are computed once and
+    kept in single precision, up to half a gigabyte. Summed over the edges of the offset cage, (D.1)
+    reads
 
         F  = 1/(2 pi i) sum_e (phi_e + (z - z_e) s_e) L_e
         F' = 1/(2 pi i) sum_e s_e L_e

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -198,6 +198,21 @@ def run_on(map: HarmonicMap, program: Callable[..., R], *points: Array) -> R:
     basis = basis_of(map.domain)
     coefficients = np.stack([basis.pad(map.phi), basis.pad(map.psi)])
     return in_chunks(program, basis.n_columns, points, coefficients, basis.singularities)
+
+
+def images_under(maps: Sequence[HarmonicMap], points: ArrayLike) -> Array:
+    """(k, 2 m) images x, y of (k, 2) points under m maps of one domain.
+
+    The basis, which takes most of the time, is evaluated once.
+    """
+    basis = basis_of(maps[0].domain)
+    columns = np.stack([basis.pad(c) for map in maps for c in (map.phi, map.psi)], axis=1)
+
+    def values(z: Any, columns: Any, singularities: Singularities) -> Array:
+        parts = cauchy.cauchy_coordinates(z, singularities) @ columns
+        return np.ascontiguousarray(parts[:, ::2] + np.conj(parts[:, 1::2])).view(float)
+
+    return in_chunks(values, basis.n_columns, [as_complex(points)], columns, basis.singularities)
 
 
 def as_complex(points: ArrayLike) -> Array:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb.geometry import as_points, triangulate
+from glid_nb.geometry import Cage, as_points, triangulate
 from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import order_of
@@ -37,6 +38,7 @@ _PIECES = np.array(
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
+Evaluation = Callable[[Floats], Floats]
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,11 +74,25 @@ def deformed_mesh(
     million vertices. The depths of a ``pose`` order the parts that overlap. ValueError when the
     tolerance is not positive or there are fewer than 3 vertices.
     """
+    vertices, images, triangles, error = fine_mesh(map.domain.cage, map, n_vertices, tolerance)
+    heights = order_of(map.domain.cage, pose)(vertices)
+    triangles = triangles[np.argsort(heights[triangles].mean(axis=1), kind="stable")]
+    return DeformedMesh(vertices, images, triangles, heights, error)
+
+
+def fine_mesh(
+    cage: Cage, image: Evaluation, n_vertices: int, tolerance: float | None = None
+) -> tuple[Floats, Floats, Ints, float]:
+    """Vertices (v, 2), their images (v, 2 m), triangles and the error as in `DeformedMesh`.
+
+    ``image`` takes (k, 2) points to (k, 2 m): their images under m maps. The mesh is as fine as
+    the one that bends most needs it.
+    """
     if tolerance is not None and not tolerance > 0:
         raise ValueError(f"tolerance is {tolerance}; it must be positive")
-    start = triangulate(map.domain.cage, n_vertices)
+    start = triangulate(cage, n_vertices)
     vertices, triangles = start.vertices, start.triangles
-    images = map(vertices)
+    images = image(vertices)
     # Below this share of its size rounding bends an edge too.
     least = 1e-9 * float(np.ptp(images, axis=0).max())
     tolerance = np.inf if tolerance is None else max(tolerance, least)
@@ -85,7 +101,7 @@ def deformed_mesh(
         edges, edge_of = unique_edges(triangles)
         # All others were straight enough in an earlier round.
         fresh = np.flatnonzero(edges.max(axis=1) >= first)
-        middles, middle_images, bend = _halved(map, vertices, images, edges[fresh])
+        middles, middle_images, bend = _halved(image, vertices, images, edges[fresh])
         bent = bend > tolerance
         if not bent.any() or len(vertices) + bent.sum() > _MOST_VERTICES:
             break
@@ -97,9 +113,7 @@ def deformed_mesh(
         images = np.concatenate([images, middle_images[bent]])
         triangles = _split(triangles, new_vertex[edge_of])
     error = max(error, float(bend.max(initial=0.0)))
-    heights = order_of(map.domain.cage, pose)(vertices)
-    triangles = triangles[np.argsort(heights[triangles].mean(axis=1), kind="stable")]
-    return DeformedMesh(vertices, images, triangles, heights, error)
+    return vertices, images, triangles, error
 
 
 def deformed_loops(map: HarmonicMap, tolerance: float = 0.002) -> list[Floats]:
@@ -127,13 +141,13 @@ def deformed_loops(map: HarmonicMap, tolerance: float = 0.002) -> list[Floats]:
 
 
 def _halved(
-    map: HarmonicMap, points: Floats, images: Floats, edges: NDArray[np.integer]
+    image: Evaluation, points: Floats, images: Floats, edges: NDArray[np.integer]
 ) -> tuple[Floats, Floats, Floats]:
     """The middles of edges, their images, and how far these are from the image edges' middles."""
     middles = points[edges].mean(axis=1)
-    middle_images = map(middles)
-    bend = np.linalg.norm(middle_images - images[edges].mean(axis=1), axis=1)
-    return middles, middle_images, bend
+    middle_images = image(middles)
+    away = middle_images - images[edges].mean(axis=1)
+    return middles, middle_images, np.hypot(away[:, ::2], away[:, 1::2]).max(axis=1)
 
 
 def unique_edges(triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], Ints]:

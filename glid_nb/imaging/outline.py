@@ -92,11 +92,14 @@ class Components:
 
 def find_components(mask: NDArray[np.bool_]) -> Components:
     """Label the components of an (h, w) mask that is not empty."""
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    box = slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
     found = np.zeros(mask.shape, dtype=np.int32)
-    label(mask, np.ones((3, 3)), output=found)
-    areas = np.bincount(found.ravel())[1:]
+    count = label(mask[box], np.ones((3, 3)), output=found[box])
+    areas = np.bincount(found[box].ravel())[1:]
     order = np.argsort(-areas, kind="stable")
-    return Components(found, order + 1, areas[order], find_objects(found))
+    boxes = [box] if count == 1 else find_objects(found)
+    return Components(found, order + 1, areas[order], boxes)
 
 
 @dataclass(frozen=True, eq=False)

@@ -109,6 +109,13 @@ def as_rgba(image: ArrayLike) -> RGBA:
     return rgba
 
 
+def png(pixels: NDArray[np.uint8], compress_level: int = 6) -> bytes:
+    """A PNG file of (h, w), (h, w, 3) or (h, w, 4) pixels."""
+    buffer = io.BytesIO()
+    Image.fromarray(pixels).save(buffer, format="PNG", compress_level=compress_level)
+    return buffer.getvalue()
+
+
 def as_rgba8(image: ArrayLike) -> NDArray[np.uint8]:
     """`as_rgba`, rounded to 8 bit."""
     rgba = as_rgba(image)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from numbers import Integral
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import plain, unmet
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.errors import RenderError
 from glid_nb.imaging.frame import PixelFrame
@@ -19,6 +18,7 @@ from glid_nb.imaging.texture import Texture
 from glid_nb.solvers import Pose
 
 View = Literal["source", "fit"]
+_SIZE = {"least": -np.inf, "form": "(width, height) in whole pixels"}
 
 _TOLERANCE_PX = 0.25  # straight mesh edges may stray from the map by this many output pixels
 _PIXELS_PER_VERTEX = 500  # output pixels per vertex of the mesh before refinement
@@ -84,12 +84,15 @@ def rendering(
         raise RenderError(f"unknown view {view!r}; choose one of {', '.join(get_args(View))}")
     texture = Texture.from_image(image)
     source = PixelFrame(*texture.size)
-    width, height = texture.size if size is None else _sides(size)
+    sides = texture.size if size is None else plain(size)
+    if wanted := unmet(tuple[int, int], sides, _SIZE):
+        raise RenderError(f"size must be {wanted}, not {size!r:.60}")
+    width, height = sides
     if min(width, height) < 1:
         raise RenderError(f"size is {width} x {height} pixels; both sides must be at least 1")
     if width * height >= _MOST_PIXELS:
         raise RenderError(f"size is {width} x {height} pixels; at most 2^30 pixels can be drawn")
-    _check_fits(source, map)
+    check_fits(source, map)
     shown, margin = np.reshape(source.bounds, (2, 2)), 0.0
     if view == "fit":
         exterior = deformed_loops(map)[0]
@@ -107,14 +110,7 @@ def rendering(
     return Rendering(draw_mesh(texture, mesh, frame), frame, mesh)
 
 
-def _sides(size: tuple[int, int]) -> tuple[int, int]:
-    sides = tuple(size) if isinstance(size, Iterable) else ()
-    if len(sides) != 2 or any(isinstance(n, bool) or not isinstance(n, Integral) for n in sides):
-        raise RenderError(f"size must be (width, height) in whole pixels, not {size!r:.60}")
-    return int(sides[0]), int(sides[1])
-
-
-def _check_fits(frame: PixelFrame, map: HarmonicMap) -> None:
+def check_fits(frame: PixelFrame, map: HarmonicMap) -> None:
     """Raise a RenderError if the cage was traced from a picture of another aspect ratio."""
     xmin, ymin, xmax, ymax = frame.bounds
     low, high = map.domain.cage.exterior.min(axis=0), map.domain.cage.exterior.max(axis=0)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb._jax import jax, jit, jnp, lax
 from glid_nb.imaging.read import as_rgba
 
-_CHUNK = 1 << 15  # points per call of the compiled program; this bounds the memory
+_CHUNK = 1 << 12  # points per call of the compiled program: little padding, little memory
 _MOST_PROBES = 16  # look-ups along an axis of a pixel's footprint
 _MOST_BLUR = 1.5  # by which nearly all of a minified picture may lose resolution
 # Smaller pictures and meshes are padded, so that they share one compiled program.
@@ -29,6 +29,7 @@ class Texture:
     """
 
     pixels: NDArray[np.uint16] = field(repr=False)
+    _reduced: dict[int, NDArray[np.uint16]] = field(default_factory=dict, repr=False)
 
     @classmethod
     def from_image(cls, image: ArrayLike | Texture) -> Texture:
@@ -51,12 +52,14 @@ class Texture:
 
     def reduced(self, n: int) -> NDArray[np.uint16]:
         """Averages over blocks of n x n pixels; the last row and column are repeated."""
-        if n == 1:
-            return self.pixels
+        if n == 1 or n in self._reduced:
+            return self._reduced.get(n, self.pixels)
         rest = ((0, -self.size[1] % n), (0, -self.size[0] % n), (0, 0))
         pixels = np.pad(self.pixels, rest, mode="edge")
         blocks = pixels.reshape(pixels.shape[0] // n, n, -1, n, 4)
-        return np.rint(blocks.mean(axis=(1, 3), dtype=np.float32)).astype(np.uint16)
+        means = np.rint(blocks.mean(axis=(1, 3), dtype=np.float32))
+        self._reduced[n] = means.astype(np.uint16)  # of an animation, wanted for every frame
+        return self._reduced[n]
 
 
 def _bucket(n: int, least: int) -> int:

@@ -17,13 +17,7 @@ from glid_nb.imaging.foreground import Foreground, find_foreground, scaled_pictu
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.holes import Dilation, Hole, choose_holes, dilate, filled_mask
 from glid_nb.imaging.options import TraceOptions
-from glid_nb.imaging.outline import (
-    Component,
-    Components,
-    Outline,
-    find_components,
-    find_outline,
-)
+from glid_nb.imaging.outline import Component, Components, Outline, find_components, find_outline
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.imaging.simplify import Simplified, simplify
 

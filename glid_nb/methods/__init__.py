@@ -33,33 +33,29 @@ from glid_nb.methods.subspace.methods import (
 )
 from glid_nb.solvers import Method, MethodError, Newton
 
-__all__ = [
-    "Newton",
-    "NewtonPaper",
-    "NewtonStaged",
-    "NewtonUnmodified",
-    "NewtonEigen",
-    "NewtonShift",
-    "GaussNewton",
-    "LevenbergMarquardt",
-    "LBFGS",
-    "GradientDescent",
-    "BDHM",
-    "SLIM",
-    "AQP",
-    "ARAPLocalGlobal",
-    "MovingLeastSquares",
-    "BoundedBiharmonicWeights",
-    "HarmonicWeights",
-    "MeanValueCoordinates",
-    "CauchyCoordinates",
-    "METHODS",
-    "available",
-    "by_name",
-]
-
 METHODS: Mapping[str, type[Method]] = {
-    method.name: method for method in (globals()[name] for name in __all__[:-3])
+    method.name: method
+    for method in (
+        Newton,
+        NewtonPaper,
+        NewtonStaged,
+        NewtonUnmodified,
+        NewtonEigen,
+        NewtonShift,
+        GaussNewton,
+        LevenbergMarquardt,
+        LBFGS,
+        GradientDescent,
+        BDHM,
+        SLIM,
+        AQP,
+        ARAPLocalGlobal,
+        MovingLeastSquares,
+        BoundedBiharmonicWeights,
+        HarmonicWeights,
+        MeanValueCoordinates,
+        CauchyCoordinates,
+    )
 }
 """All methods by name, in the order in which a list of them should show them."""
 

@@ -13,8 +13,7 @@ from glid_nb._arrays import Array
 from glid_nb._runtime import double_precision
 from glid_nb.geometry import Domain, Triangulation, graded_panels, signed_area
 from glid_nb.harmonic import HarmonicMap, as_complex, basis_of, cauchy
-from glid_nb.methods.mesh.operators import flips
-from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
+from glid_nb.methods.mesh.operators import MeshMethod, MeshProblem, flips
 from glid_nb.solvers import MethodError, Pose, Status
 from glid_nb.solvers.discretisation import complex_basis
 from glid_nb.solvers.loop import Ending, Steps
@@ -162,10 +161,9 @@ def _around(handles: Array) -> Array:
 def moving_least_squares(
     z: Array, handles: Array, targets: Array, kind: Kind = "rigid", alpha: float = 1.0
 ) -> Array:
-    """Images of complex points ``z`` (k,) (Schaefer, McPhail & Warren 2006).
+    """(k,) images: the motion that fits the handles best with the weights ``|p_i - z|^(-2 alpha)``.
 
-    At each point the rigid motion or similarity that fits the handles best, with the weights
-    ``|p_i - z|^(-2 alpha)``. Handles go to their targets exactly.
+    Handles go to their targets exactly.
     """
     if not len(handles):
         return z.copy()
@@ -183,10 +181,7 @@ def moving_least_squares(
 
 
 def mean_value_coordinates(z: Array, polygon: Array) -> Array:
-    """(k, n) coordinates of complex points, anywhere, with respect to a simple polygon (n,).
-
-    Floater 2003; Hormann & Floater 2006.
-    """
+    """(k, n) coordinates with respect to a simple polygon (Hormann & Floater 2006)."""
     s = polygon - z[:, None]
     after = np.roll(s, -1, axis=1)
     r = np.abs(s)
@@ -209,10 +204,7 @@ def mean_value_coordinates(z: Array, polygon: Array) -> Array:
 
 @double_precision
 def cauchy_point_to_point(domain: Domain, pose: Pose, p2p_weight: float) -> HarmonicMap:
-    """The holomorphic map of least ``|f'' |^2`` along the boundary with soft targets.
-
-    Linear: one solve, ``psi = 0`` and no logarithms. Nothing keeps ``f'`` from vanishing.
-    """
+    """The map with ``psi = 0`` and no logarithms, of least ``|f''|^2`` along the boundary."""
     basis = basis_of(domain)
     panels = graded_panels(domain)
     columns = np.flatnonzero(basis.phi_free)[: int(basis.phi_free.sum()) - domain.n_holes]
@@ -260,6 +252,5 @@ def harmonic_weights(mesh: Triangulation, handles: bytes, power: int = 2) -> Arr
 
 
 def _flat(mesh: Triangulation) -> tuple[Array, Array]:
-    """Vertices in space, and triangles, as libigl wants them."""
     vertices = np.column_stack([mesh.vertices, np.zeros(len(mesh.vertices))])
     return np.ascontiguousarray(vertices), np.ascontiguousarray(mesh.triangles, dtype=np.int64)

@@ -66,13 +66,12 @@ def load(path: str | Path, cls: type[Motion]) -> Motion:
         times, knots = _knots(data)
         closed = data["repeat"] == "loop"
         wanted = data["times"]
-        if any(t not in times for t in wanted) or [times[0], times[-1]] != [
-            *wanted[:1],
-            *wanted[-1:],
-        ]:
+        ends = [times[0], times[-1]] == [*wanted[:1], *wanted[-1:]]
+        if not ends or any(time not in times for time in wanted):
             raise MotionError('"times" must be times of knots, the first and the last included')
         at = [knots[times.index(t)] for t in wanted]
-        if closed and not _same(at[0], at[-1]):
+        ends = zip((at[0].phi, at[0].psi), (at[-1].phi, at[-1].psi), strict=True)
+        if closed and not all(np.array_equal(*pair) for pair in ends):
             raise MotionError("the last knot of the loop is not its first keyframe")
         settings = {key: data[key] for key in (*_SETTINGS[1:], "handles") if key in data}
         motion = cls(at[: len(at) - closed], wanted, **settings)
@@ -103,7 +102,3 @@ def _knots(data: dict[str, Any]) -> tuple[list[float], list[HarmonicMap]]:
         if not before < after:
             raise MotionError(f"knots[{i + 1}] is not later than knots[{i}]")
     return times, found
-
-
-def _same(a: HarmonicMap, b: HarmonicMap) -> bool:
-    return np.array_equal(a.phi, b.phi) and np.array_equal(a.psi, b.psi)

@@ -57,42 +57,30 @@ class MotionCertificate:
 class Motion:
     """What lies between certified maps of one domain, proved at every instant.
 
-    Parameters
-    ----------
-    keyframes : sequence of HarmonicMap, Result or Certificate
-        At least two poses; every one is certified, and ``f_z`` turns alike in all of them.
-    times : sequence of float, optional
-        Seconds, strictly increasing; by default 0, 1, 2 and so on. A loop may have one time more:
-        when it is back at its first keyframe; otherwise that takes as long as a mean interval.
-    easing : str or sequence of str
-        "linear", "in", "out" or "in-out", for all intervals or for each.
-    repeat : "once", "loop" or "ping-pong"
-        "loop" goes back to the first keyframe after the last, "ping-pong" runs back the same way.
-    between : "bounded", "solved" or "linear"
-        Bounded distortion interpolation; the same through maps solved on the way, with handles that
-        move on rigid paths; or coefficients blended as they are.
-    tolerance : float
-        How far an image may be off the smooth motion, relative to the cage's longer side.
-    turns : int or sequence of int
-        Whole turns that each interval adds to the short way round, counter-clockwise.
-    handles : (h, 2) array_like, optional
-        Points of the domain that move on rigid paths for "solved"; by default even points.
-
-    Raises
-    ------
-    MotionError
-        Where a keyframe is not certified or does not fit the others, or a setting is not valid.
+    The keyframes are at least two poses: a HarmonicMap, Result or Certificate each. Every one is
+    certified, and ``f_z`` turns alike in all of them. Raises a MotionError where a keyframe is not
+    certified or does not fit the others, or a setting is not valid.
     """
 
     keyframes: tuple[HarmonicMap, ...] = field(repr=False)
     times: tuple[float, ...]
-    """Of the keyframes, and of a loop's return."""
+    """Seconds, strictly increasing; by default 0, 1, 2 and so on. A loop may have one time more:
+    when it is back at its first keyframe; otherwise that takes as long as a mean interval."""
     easing: tuple[Easing, ...]
+    """One of "linear", "in", "out" or "in-out", for all intervals or for each."""
     repeat: Repeat
+    """Either "once"; "loop", back to the first keyframe after the last; "ping-pong", back the same
+    way."""
     between: Between
+    """Either "bounded", bounded distortion interpolation; "solved", the same through maps solved on
+    the way, with handles that move on rigid paths; or "linear", coefficients blended as they
+    are."""
     tolerance: float
+    """How far an image may be off the smooth motion, relative to the cage's longer side."""
     turns: tuple[int, ...]
+    """Whole turns that each interval adds to the short way round, counter-clockwise."""
     handles: Array | None = field(repr=False)
+    """(h, 2) points of the domain that move on rigid paths for "solved"; by default even points."""
 
     def __init__(
         self,

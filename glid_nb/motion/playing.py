@@ -28,7 +28,7 @@ def playing(
     ``repeat``, ``easing``
         As in the motion.
     ``sigma2``, ``sigma1``, ``k``
-        Certified bounds on each piece between two knots.
+        Certified bounds on each piece between two knots; None where it is not proved.
     ``certified``, ``until``
         Whether all is proved, and the time before which it is.
     """
@@ -41,9 +41,9 @@ def playing(
         "keyframes": list(motion.times[: len(motion.keyframes)]),
         "repeat": motion.repeat,
         "easing": list(motion.easing),
-        "sigma2": [proof.sigma2_lower for proof in proofs],
-        "sigma1": [proof.sigma1_upper for proof in proofs],
-        "k": [proof.k_upper for proof in proofs],
+        "sigma2": [proof.sigma2_lower if proof.certified else None for proof in proofs],
+        "sigma1": [proof.sigma1_upper if proof.certified else None for proof in proofs],
+        "k": [proof.k_upper if proof.certified else None for proof in proofs],
         "certified": certificate.certified,
         "until": certificate.until,
     }

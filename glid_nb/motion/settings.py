@@ -10,7 +10,7 @@ import numpy as np
 
 from glid_nb._arguments import unmet
 from glid_nb._errors import InputError
-from glid_nb.certificate import certificate_of
+from glid_nb.certificate import Certificate, certificate_of
 from glid_nb.geometry import loop_name
 from glid_nb.harmonic import HarmonicMap
 
@@ -73,16 +73,23 @@ def checked_keyframes(keyframes: Any) -> tuple[HarmonicMap, ...]:
                 )
             map = HarmonicMap(domain, map.phi, map.psi)
         maps.append(map)
-        turns = [certificate_of(maps[0]).windings, proof.windings]
-        if turns[0] != turns[1]:
-            loop = max(j for j, (a, b) in enumerate(zip(*turns, strict=True)) if a != b)
-            raise MotionError(
-                f"keyframes 0 and {i} cannot be joined without folding: along the "
-                f"{loop_name(loop)} f_z turns {turns[0][loop]} times in one and {turns[1][loop]} "
-                "times in the other, which no motion of locally injective maps can change, not "
-                "even a solved one; choose poses that turn alike around the holes"
-            )
+        if reason := unlike_turns(certificate_of(maps[0]), proof):
+            raise MotionError(f"keyframes 0 and {i} {reason}")
     return tuple(maps)
+
+
+def unlike_turns(first: Certificate, last: Certificate) -> str:
+    """Why no motion joins two maps; empty where their ``f_z`` turn alike along every loop."""
+    turns = list(zip(first.windings, last.windings, strict=True))
+    loop = max((j for j, (a, b) in enumerate(turns) if a != b), default=None)
+    if loop is None:
+        return ""
+    return (
+        f"cannot be joined without folding: along the {loop_name(loop)} f_z turns "
+        f"{turns[loop][0]} times in one and {turns[loop][1]} times in the other, which no motion "
+        "of locally injective maps can change, not even a solved one; choose poses that turn "
+        "alike around the holes"
+    )
 
 
 def checked_times(times: Any, count: int, closed: bool) -> tuple[float, ...]:

@@ -1,16 +1,5 @@
 """Pictures drawn for this project, with two poses each.
 
-===============  =====  ====================================================
-name             holes  shows
-===============  =====  ====================================================
-``gecko``        0      limbs and a tail that curls
-``teapot``       1      a spout that beckons, a handle to squeeze
-``frog``         2      arms akimbo
-``monstera``     8      a leaf full of holes that bends as one
-``gingerbread``  0      checks that show the distortion on a figure
-``bar``          0      checks and circles on the plainest shape
-===============  =====  ====================================================
-
 The pictures are RGBA with a transparent background. In a checkout
 ``python -m studies.samples.draw`` draws them again. For a name or kind that does not exist every
 function raises SampleError, which lists those that do.
@@ -38,7 +27,7 @@ class SampleError(InputError):
 
 
 def names() -> tuple[str, ...]:
-    """Names of the samples, in the table's order."""
+    """Names of the samples, the plainest shape last."""
     return _NAMES
 
 

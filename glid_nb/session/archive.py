@@ -8,7 +8,6 @@ import zipfile
 import zlib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +15,7 @@ from PIL import Image
 
 from glid_nb._errors import InputFileError
 from glid_nb._files import in_words
-from glid_nb.imaging.read import picture_format
+from glid_nb.imaging.read import picture_format, png
 
 # The PNG of the picture encoded last: an editor saves the same one again and again.
 _last: tuple[weakref.ref[NDArray[np.uint8]], bytes] | None = None
@@ -96,15 +95,8 @@ def image_png(image: NDArray[np.uint8]) -> bytes:
     """A read-only (h, w, 4) uint8 picture as PNG, pixel for pixel, hidden colours included."""
     global _last
     if _last is None or _last[0]() is not image:
-        _last = weakref.ref(image), light_png(image)
+        _last = weakref.ref(image), png(image, compress_level=1)
     return _last[1]
-
-
-def light_png(pixels: NDArray[Any]) -> bytes:
-    """Pixels as lightly compressed PNG: 4 megapixels take a tenth of a second."""
-    buffer = io.BytesIO()
-    Image.fromarray(pixels).save(buffer, format="PNG", compress_level=1)
-    return buffer.getvalue()
 
 
 def read_png(

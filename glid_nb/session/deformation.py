@@ -17,7 +17,7 @@ from glid_nb.certificate import Certificate, certificate_of
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.sheets import Sheets
+from glid_nb.imaging.order import Sheets
 from glid_nb.session import actions
 from glid_nb.session.document import NamedPose
 from glid_nb.session.edit_state import EditError, EditState, Frame, Moment, Task

@@ -20,8 +20,8 @@ from glid_nb.geometry import Domain, as_points
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.map import complex_from_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
-from glid_nb.imaging.read import MAX_SIDE
-from glid_nb.session.archive import archive_bytes, image_png, light_png, read_archive, read_png
+from glid_nb.imaging.read import MAX_SIDE, png
+from glid_nb.session.archive import archive_bytes, image_png, read_archive, read_png
 from glid_nb.session.document import Document, DocumentError, NamedPose, check_count
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Newton, Options, Pose
@@ -68,7 +68,7 @@ def document_bytes(document: Document) -> bytes:
 
     A DocumentError if a map is not certified, or an energy is a Python function.
     """
-    timeline = {} if document.timeline is None else {"timeline": document.timeline.to_dict()}
+    timeline = {} if document.timeline is None else {"timeline": vars(document.timeline)}
     scribbles, masks = _scribbles_to_members(document.scribbles)
     height, width = document.image.shape[:2]
     data = {
@@ -113,8 +113,9 @@ def load_document(path: str | Path) -> Document:
             _pose_from_dict(f"poses[{i}]", pose, domain, {**_POSE_KEYS, **since_2}, since_3)
             for i, pose in enumerate(data["poses"])
         )
-        with about("timeline"):
-            timeline = Timeline.from_dict(data["timeline"]) if "timeline" in data else None
+        timeline = None
+        if "timeline" in data:
+            timeline = _from_fields(Timeline, data["timeline"], "timeline")
         active = data["active"]
         return Document(image, domain.cage, domain, options, scribbles, poses, active, timeline)
 
@@ -231,7 +232,7 @@ def _scribbles_to_members(
     values = {key: getattr(scribbles, key) for key in _MASKS}
     masks = {key: value for key, value in values.items() if isinstance(value, np.ndarray)}
     strokes = {k: [s.tolist() for s in v] for k, v in values.items() if k not in masks}
-    members = {_MASKS[key]: light_png(mask) for key, mask in masks.items()}
+    members = {_MASKS[key]: png(mask, compress_level=1) for key, mask in masks.items()}
     return {**strokes, **dict.fromkeys(masks, _MASK)}, members
 
 

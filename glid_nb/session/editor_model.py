@@ -32,6 +32,13 @@ from glid_nb.session.tracing import TracingModel, TracingState
 
 Array = NDArray[np.uint8]
 
+_LOST = "{} outside the new outline and removed with the old one; Undo brings everything back."
+_REPLACED = (
+    "Another picture starts another session. The one before{place} comes back with {step} in the "
+    "Trace tab."
+)
+_NOT_VALID = "The outline in the Trace tab is not valid yet: this is the last one that was."
+
 
 @dataclass(frozen=True, eq=False)
 class _Session:
@@ -48,20 +55,6 @@ class _Session:
         """The picture."""
         assert self.tracing.image is not None
         return self.tracing.image
-
-
-@dataclass(frozen=True)
-class Application:
-    """What `EditorModel.apply_tracing` has done to the poses."""
-
-    lost_handles: int = 0
-    """Handles, of all poses, outside the new outline; undo brings them back."""
-    replaced: bool = False
-    """Whether another picture's session replaced this one, which returns with its picture."""
-    replaced_path: Path | None = None
-    """The file of the replaced session."""
-    back_by_redo: bool = False
-    """Whether redo of the tracing, rather than undo, brings the replaced session back."""
 
 
 def open_document(path: str | Path) -> Document:
@@ -183,26 +176,30 @@ class EditorModel(Observed):
         """What files are named after: the picture's file, or "session" where there is none."""
         return (self._session and self._session.tracing.name) or "session"
 
-    def apply_tracing(self) -> Application:
+    def apply_tracing(self) -> str:
         """Deform what is traced now: a step for undo, or another session for another picture.
 
         A new session is saved to a new file beside that of the session before. A picture that the
-        tracing's undo or redo brings back returns with its poses and its file.
+        tracing's undo or redo brings back returns with its poses and its file. Returns what the
+        user may not expect of this, in words; empty where there is nothing.
         """
         with self.locked():
-            domain, session = self.tracing.domain, self._session
+            domain, session, words = self.tracing.domain, self._session, ""
             if domain is None or (session is not None and session.domain is domain):
-                return Application()
-            if session is not None and session.image is self.tracing.image:
+                pass
+            elif session is None:
+                self._change_picture(domain)
+            elif session.image is self.tracing.image:
                 self._session = self._session_of(session.deformation)
-                return Application(_apply(session.deformation, domain))
-            done = Application()
-            if session is not None:
+                words = _apply(session.deformation, domain)
+            else:
                 self._shelf.append(replace(session, path=self.autosave_path))
-                by_redo = any(state.image is session.image for state in self.tracing.history.future)
-                done = Application(0, True, self.autosave_path, by_redo)
-            self._change_picture(domain)
-            return done
+                place = "" if self.autosave_path is None else f" (in {self.autosave_path.name})"
+                future = self.tracing.history.future
+                step = "Redo" if any(one.image is session.image for one in future) else "Undo"
+                words = _REPLACED.format(place=place, step=step)
+                self._change_picture(domain)
+            return _NOT_VALID if self.tracing.problems else words
 
     @property
     def document(self) -> Document:
@@ -387,11 +384,13 @@ class EditorModel(Observed):
         self._announce("saved")  # not by _tell: a thread that waits for the save may hold the lock
 
 
-def _apply(deformation: Deformation, domain: Domain) -> int:
-    """Deform another outline of the same picture; how many handles that loses."""
+def _apply(deformation: Deformation, domain: Domain) -> str:
+    """Deform another outline of the same picture; says what handles that loses."""
     before = sum(len(pose.pose) for pose in deformation.state.poses)
     deformation.set_domain(domain)
-    return max(before - sum(len(pose.pose) for pose in deformation.state.poses), 0)
+    lost = before - sum(len(pose.pose) for pose in deformation.state.poses)
+    many = f"{lost} handles were" if lost > 1 else "A handle was"
+    return _LOST.format(many) if lost > 0 else ""
 
 
 def _work_of(state: EditState) -> tuple[Any, ...]:

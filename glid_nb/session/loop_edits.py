@@ -80,18 +80,13 @@ def drawn(points: ArrayLike, size: tuple[int, int]) -> Loop:
 
 def nearest_edge(loops: Loops, point: ArrayLike) -> tuple[int, int, Loop]:
     """The edge (loop, index) nearest to a point, and its nearest point to that."""
-    p = checked_point(point)
-    best = (np.inf, 0, 0, p)
-    for i, loop in enumerate(loops):
-        along = np.roll(loop, -1, axis=0) - loop
-        square = np.maximum((along**2).sum(axis=1), np.finfo(float).tiny)
-        t = np.clip(((p - loop) * along).sum(axis=1) / square, 0, 1)
-        foot = loop + t[:, None] * along
-        distance = np.hypot(*(foot - p).T)
-        j = int(np.argmin(distance))
-        if distance[j] < best[0]:
-            best = (float(distance[j]), i, j, foot[j])
-    return best[1:]
+    p = shapely.Point(checked_point(point))
+    places = [(i, j) for i, loop in enumerate(loops) for j in range(len(loop))]
+    ends = [np.stack([loop, np.roll(loop, -1, axis=0)], axis=1) for loop in loops]
+    edges = np.asarray(shapely.linestrings(np.concatenate(ends)))
+    nearest = int(np.argmin(shapely.distance(edges, p)))
+    way = shapely.shortest_line(edges[nearest], p)
+    return *places[nearest], shapely.get_coordinates(way)[0]
 
 
 def around(loops: Loops, point: ArrayLike) -> int | None:

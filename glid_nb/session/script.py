@@ -9,9 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from glid_nb.certificate import certificate_of
 from glid_nb.energies import CustomEnergy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.imaging import TraceError, trace
+from glid_nb.motion.settings import unlike_turns
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.solvers import Newton
 
@@ -19,10 +21,11 @@ from glid_nb.solvers import Newton
 def python_code(document: Document, picture: str = "picture.png", *, exact: bool = False) -> str:
     """Python code that makes the map of the document's active pose, as ``map``.
 
-    Of several poses it makes all maps, as the list ``maps``. If a pose's method works on a mesh,
-    its map is a :class:`~glid_nb.MeshMap`, although the document holds a harmonic map. The cage is
-    traced from the picture if the document's options give it; a cage that was edited by hand, or
-    came from scribbles, is written out.
+    Of several poses it makes all maps, as the list ``maps``, and the ``motion`` of the document's
+    timeline through them. If a pose's method works on a mesh, its map is a
+    :class:`~glid_nb.MeshMap`, although the document holds a harmonic map. The cage is traced from
+    the picture if the document's options give it; a cage that was edited by hand, or came from
+    scribbles, is written out.
 
     Parameters
     ----------
@@ -52,6 +55,7 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
         shown = document.poses[document.active]
         lines += ["", f"map = maps[{document.active}]"]
         lines += _pose_lines(shown) if shown.pose.depths.any() else []
+        lines += _motion_lines(document)
     return "\n".join(lines) + "\n"
 
 
@@ -65,6 +69,19 @@ def _map_lines(pose: NamedPose, exact: bool) -> list[str]:
         phi, psi = pose.map.phi.tolist(), pose.map.psi.tolist()
         return [*posed, f"map = glid.HarmonicMap(domain, {phi}, {psi})"]
     return [*posed, *_solve_lines(pose)]
+
+
+def _motion_lines(document: Document) -> list[str]:
+    """The motion through all maps, where the document has one that can be made."""
+    timeline, poses = document.timeline, document.poses
+    if timeline is None or not all(pose.method.certified for pose in poses):
+        return []
+    first, *others = (certificate_of(pose.map) for pose in poses)
+    if any(unlike_turns(first, other) for other in others):
+        return []
+    times = list(timeline.closed_times)
+    easing = list(timeline.easing[: len(times) - 1])
+    return [f"motion = glid.Motion(maps, {times}, easing={easing}, repeat={timeline.repeat!r})"]
 
 
 def _pose_lines(pose: NamedPose) -> list[str]:

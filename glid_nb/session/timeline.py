@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from glid_nb._arrays import Array
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.motion import Motion
 from glid_nb.motion.settings import (
     Easing,
     MotionError,
@@ -43,8 +44,8 @@ class Timeline:
     """Seconds that a loop takes from the last keyframe to the first."""
 
     def __post_init__(self) -> None:
-        if not self.times:
-            raise MotionError("times is empty; a timeline has at least one keyframe")
+        if not self.times or not isinstance(self.times, list | tuple):
+            raise MotionError("times must be a list of at least one number")
         times = checked_times(self.times, len(self.times), False)
         checked("the first of times", float, times[0], most=1e9)
         easing = checked_each("easing", Easing, self.easing, len(times))
@@ -56,20 +57,6 @@ class Timeline:
     def even(cls, count: int) -> Timeline:
         """Keyframes a second apart."""
         return cls(tuple(_USUAL * i for i in range(count)), ("linear",) * count)
-
-    @classmethod
-    def from_dict(cls, data: Any) -> Timeline:
-        """The timeline that `to_dict` wrote; MotionError says what is wrong with other data."""
-        keys = set(cls.__dataclass_fields__)
-        if not isinstance(data, dict) or set(data) != keys:
-            raise MotionError(f"it must be an object with the keys {', '.join(sorted(keys))}")
-        if not isinstance(data["times"], list | tuple):
-            raise MotionError("times must be a list of numbers")
-        return cls(**data)
-
-    def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
-        return asdict(self)
 
     def __len__(self) -> int:
         return len(self.times)
@@ -83,6 +70,17 @@ class Timeline:
     def end(self) -> float:
         """When the last keyframe, or the first one again, is reached."""
         return self.times[-1] + (self.back if self.repeat == "loop" else 0.0)
+
+    def motion(self, maps: Sequence[HarmonicMap]) -> Motion:
+        """The motion through as many maps."""
+        times = self.closed_times
+        return Motion(maps, times, easing=self.easing[: len(times) - 1], repeat=self.repeat)
+
+    def lasting(self, seconds: float) -> Timeline:
+        """From 0 to an end after so many seconds; a ping-pong's way back is as long."""
+        share = seconds / (self.end - self.times[0])
+        times = tuple(share * (time - self.times[0]) for time in self.times)
+        return replace(self, times=times, back=share * self.back)
 
     def inserted(self, index: int, time: float | None = None) -> Timeline:
         """With a keyframe more at an index, not the first; by default midway to the next one."""
@@ -99,15 +97,11 @@ class Timeline:
 
     def recorded(self, index: int, offsets: Sequence[float]) -> Timeline:
         """With keyframes after one, so many seconds later each; those behind move by the last."""
-        first = self.times[index]
-        new = (first + offset for offset in offsets)
-        later = (time + offsets[-1] for time in self.times[index + 1 :])
-        easing = ("linear",) * len(offsets)
-        return replace(
-            self,
-            times=(*self.times[: index + 1], *new, *later),
-            easing=(*self.easing[:index], *easing, *self.easing[index:]),
-        )
+        times = (*self.times[: index + 1], *(t + offsets[-1] for t in self.times[index + 1 :]))
+        new = replace(self.eased(index, "linear"), times=times)
+        for i, offset in enumerate(offsets, index + 1):
+            new = new.inserted(i, self.times[index] + offset)
+        return new.eased(index + len(offsets), self.easing[index])
 
     def without(self, index: int) -> Timeline:
         """With a keyframe less."""
@@ -119,17 +113,14 @@ class Timeline:
 
         The index behind the last is a loop's return to the first keyframe.
         """
-        time = round(checked("time", float, time, least=-LATEST, most=2 * LATEST) / _GRID) * _GRID
+        time = checked("time", float, time, least=-LATEST, most=2 * LATEST)
         if index == len(self):
-            back = max(time - self.times[-1], _GRID)
-            return replace(self, back=round(back, 6)), list(range(len(self)))
-        others = self.without(index).times if len(self) > 1 else ()
-        time = round(min(max(time, 0.0), LATEST), 6)
-        steps = (sign * n * _GRID for n in itertools.count() for sign in (1, -1))
-        free = (round(time + step, 6) for step in steps)
-        time = next(
-            t for t in free if t >= 0 and all(abs(t - other) >= _GRID / 2 for other in others)
-        )
+            back = round(max(time - self.times[-1], _GRID), 2)
+            return replace(self, back=back), list(range(len(self)))
+        others = {round(t / _GRID) for i, t in enumerate(self.times) if i != index}
+        wanted = round(min(max(time, 0.0), LATEST) / _GRID)
+        near = (wanted + sign * step for step in itertools.count() for sign in (1, -1))
+        time = round(next(t for t in near if t >= 0 and t not in others) * _GRID, 6)
         times = [*self.times[:index], time, *self.times[index + 1 :]]
         order = sorted(range(len(self)), key=times.__getitem__)
         moved = replace(

@@ -1,10 +1,8 @@
 """Many poses of one shape at once, spread over all local devices.
 
-CPUs take one pose after the other. Elsewhere the poses are split over the devices and run through
-:func:`glid_nb.solvers.step.iterations` vectorised, in lockstep. After every call those that have
-ended leave the batch, and those that need the host, because a panel must be split for one, are set
-aside, so that no device works at a pose longer than that takes; they are finished one by one. The
-caller gets all results together, with the last.
+CPUs take one pose after the other. Elsewhere the poses are split over the devices and run
+vectorised, in lockstep. After every call those that have ended leave the batch, and those that need
+the host, because a panel must be split for one, are set aside and finished one by one.
 """
 
 from __future__ import annotations
@@ -168,7 +166,6 @@ class _Pose(NewtonDescent):
 
     @property
     def goes_on(self) -> bool:
-        """Whether the batch runs it further."""
         running = self.done is None or self.done.outcome == RUNNING
         return running and self.left > 0 and len(self.history) < SLOW_ITERATIONS
 

@@ -31,26 +31,26 @@ def factorise(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
 
     The last entry of its diagonal is NaN where the matrix is not positive definite.
     """
-    return _by_platform(_lapack_factor, _portable_factor, h)
+
+    def portable(h: Array) -> Array:
+        return lax.linalg.cholesky(h.T, symmetrize_input=False)
+
+    return _by_platform(_lapack_factor, portable, h)
 
 
 def solve(factor: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
     """``H^-1 b`` by the factor of ``H``."""
-    return _by_platform(_lapack_solve, _portable_solve, factor, b)
+
+    def portable(factor: Array, b: Array) -> Array:
+        return jax.scipy.linalg.cho_solve((factor, True), b)
+
+    return _by_platform(_lapack_solve, portable, factor, b)
 
 
 def _by_platform(lapack: Callable, portable: Callable, *arguments: Array) -> Array:
     if not understood():
         return portable(*arguments)
     return lax.platform_dependent(*arguments, cpu=lapack, default=portable)
-
-
-def _portable_factor(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
-    return lax.linalg.cholesky(h.T, symmetrize_input=False)
-
-
-def _portable_solve(factor: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
-    return jax.scipy.linalg.cho_solve((factor, True), b)
 
 
 def _lapack_factor(h: Float[Array, "n n"]) -> Float[Array, "n n"]:

@@ -97,7 +97,6 @@ class Discretisation:
 
     @property
     def basis(self) -> Basis:
-        """The domain's."""
         return basis_of(self.domain)
 
     @property
@@ -147,15 +146,18 @@ class Discretisation:
 
     def _rows(self) -> _Rows:
         """The rows that the matrices of a graded sampling were made of."""
-        matrices, count = self.matrices, len(self.panels)
-        nodes = np.asarray(matrices.nodes)
-        p = nodes.shape[1] // 2
+        m, p, count = self.matrices, len(self.matrices.real), len(self.panels)
+
+        def complex_rows(matrix: Any, first: int = 0) -> np.ndarray:
+            re, minus_im = np.split(np.asarray(matrix)[:, first : first + count], 2)
+            return (re - 1j * minus_im).T
+
         return _Rows(
-            nodes[:, :count].T,
-            np.asarray(matrices.slopes)[:, :count].T,
-            nodes[:, p : p + count].T,
-            jax.tree.map(lambda a: np.asarray(a)[..., :count].T, matrices.proof),
-            np.asarray(matrices.rounding)[:count],
+            complex_rows(m.nodes),
+            complex_rows(m.slopes),
+            complex_rows(m.nodes, p),
+            jax.tree.map(lambda a: np.asarray(a)[..., :count].T, m.proof),
+            np.asarray(m.rounding)[:count],
         )
 
 
@@ -186,14 +188,19 @@ def _evaluated(
     graded: bool = True,
 ) -> _Rows:
     """The rows of some panels; the uniform sampling has no midpoints."""
-    ends = basis_rows(cauchy.first_derivatives, start, basis)
-    middle = (start + end) / 2
-    return _Rows(
-        ends,
-        basis_rows(cauchy.second_derivatives, start, basis),
-        basis_rows(cauchy.first_derivatives, middle, basis) if graded else ends[:0],
-        *_proof_rows(start, end, basis, certificate),
-    )
+
+    def rows(start: Any, end: Any, singularities: Singularities) -> _Rows:
+        middle = (start + end) / 2 if graded else start[:0]
+        scale = rounding.panel_scale(start, end, singularities)
+        return _Rows(
+            cauchy.first_derivatives(start, singularities),
+            cauchy.second_derivatives(start, singularities),
+            cauchy.first_derivatives(middle, singularities),
+            jax.tree.map(np.transpose, PROOFS[certificate].on(start, end, singularities)),
+            rounding.carried_slack_factor(basis.n_columns) * scale,
+        )
+
+    return in_chunks(rows, basis.n_columns, (start, end), basis.singularities)
 
 
 def _assembled(
@@ -224,23 +231,23 @@ def _assembled(
     if t is None:
         stage("whitening")
         basis = basis_of(domain)
-        (anchor,) = basis_rows(cauchy.cauchy_coordinates, panels.start[:1], basis)
+        (anchor,) = complex_basis(cauchy.cauchy_coordinates, panels.start[:1], basis)
         t = whitening(*along, anchor, basis)
     if sampling == "graded":
         index, share = _hessian_nodes(panels, domain, length, weights, np.asarray(t))
         h = padding(len(index))
     else:
         h = -(-len(index) // 16) * 16
-    index, chord = padded(index, h), panels.end - panels.start
+    index, chord, nodes = padded(index, h), panels.end - panels.start, _real_columns(nodes)
     on_host = {
-        "nodes": _transposed(nodes),
-        "slopes": _transposed(padded(rows.slopes, p)),
+        "nodes": nodes,
+        "slopes": _real_columns(padded(rows.slopes, p)),
         "hessian_index": index,
-        "whitened": whitened(_transposed(nodes), index, t, np.float32),
+        "whitened": whitened(nodes, index, t, np.float32),
         "whitening": t,
         "weights": weights,
         "hessian_weights": padded(share, h, 0.0),
-        "proof": jax.tree.map(lambda part: _transposed(padded(part, p)), rows.proof),
+        "proof": jax.tree.map(lambda part: np.ascontiguousarray(padded(part, p).T), rows.proof),
         "rounding": padded(rows.rounding, p),
         "chord": np.stack([padded(np.real(chord), p), padded(np.imag(chord), p)]),
         "next": padded(panels.next, p),
@@ -277,8 +284,8 @@ def _hessian_nodes(
     return every, weights[every]
 
 
-def _transposed(rows: np.ndarray) -> np.ndarray:
-    return np.ascontiguousarray(rows.T)
+def _real_columns(rows: np.ndarray) -> np.ndarray:
+    return np.ascontiguousarray(np.concatenate([np.real(rows), -np.imag(rows)], axis=1).T)
 
 
 def bucket(count: int) -> int:
@@ -309,29 +316,4 @@ def padded(array: np.ndarray, size: int, fill: float | None = None) -> np.ndarra
 
 def complex_basis(kernel: Any, z: np.ndarray, basis: Basis) -> np.ndarray:
     """One of the basis matrices at points ``z`` (k,)."""
-    rows = basis_rows(kernel, z, basis)
-    return rows[:, : basis.n_columns] - 1j * rows[:, basis.n_columns :]
-
-
-def basis_rows(kernel: Any, z: np.ndarray, basis: Basis) -> np.ndarray:
-    """``[Re D, -Im D]`` of one of the basis matrices at points ``z`` (k,)."""
-
-    def rows(z: Any, singularities: Singularities) -> Any:
-        d = kernel(z, singularities)
-        return np.concatenate([np.real(d), -np.imag(d)], axis=1)
-
-    return in_chunks(rows, basis.n_columns, (z,), basis.singularities)
-
-
-def _proof_rows(
-    start: np.ndarray, end: np.ndarray, basis: Basis, certificate: CertificateKind
-) -> tuple[PanelProof, np.ndarray]:
-    """The proof's constants, the panels first, and the slack for rounding."""
-
-    def rows(start: Any, end: Any, singularities: Singularities) -> Any:
-        proof = PROOFS[certificate].on(start, end, singularities)
-        scale = rounding.panel_scale(start, end, singularities)
-        slack = rounding.carried_slack_factor(basis.n_columns) * scale
-        return jax.tree.map(np.transpose, proof), slack
-
-    return in_chunks(rows, basis.n_columns, (start, end), basis.singularities)
+    return in_chunks(kernel, basis.n_columns, (z,), basis.singularities)

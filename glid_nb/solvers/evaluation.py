@@ -17,6 +17,10 @@ from glid_nb.energies import Differentials, Energy
 from glid_nb.solvers.discretisation import Matrices
 from glid_nb.solvers.problem import Problem
 
+Number = Float[Array, ""]
+Coefficients = Float[Array, " 4c"]
+Nodes = Float[Array, "4 s"]
+
 
 class Samples(NamedTuple):
     """``f_z`` and ``conj(f_zbar)`` as rows (Re, Im, Re, Im), and their derivatives."""
@@ -28,40 +32,39 @@ class Samples(NamedTuple):
 class Point(NamedTuple):
     """A map, with what is known of it."""
 
-    coefficients: Float[Array, " 4c"]
+    coefficients: Coefficients
     samples: Samples
-    energy_iso: Float[Array, ""]
-    energy_p2p: Float[Array, ""]
-    largest: Float[Array, ""]
+    energy_iso: Number
+    energy_p2p: Number
+    largest: Number
     """What the rounding errors are relative to, the largest since the samples were computed anew;
     see :func:`reach`."""
 
     @property
-    def energy(self) -> Float[Array, ""]:
-        """The total energy, (20)."""
+    def energy(self) -> Number:
         return self.energy_iso + self.energy_p2p
 
 
 class Line(NamedTuple):
     """A direction, and how the samples change along it."""
 
-    direction: Float[Array, " 4c"]
+    direction: Coefficients
     change: Samples
-    squared_decrement: Float[Array, ""]
+    squared_decrement: Number
     """``-gradient . direction``."""
 
 
-def evaluated(problem: Problem, y: Float[Array, " 4c"]) -> Point:
+def evaluated(problem: Problem, y: Coefficients) -> Point:
     """The point with the coefficients ``y``, its samples computed anew."""
     return _point(problem, y, products(problem.matrices, y - problem.anchor), reach(problem, y))
 
 
-def line_along(problem: Problem, direction: Float[Array, " 4c"], slope: Float[Array, ""]) -> Line:
+def line_along(problem: Problem, direction: Coefficients, slope: Number) -> Line:
     """The line in a direction, along which the energy changes by ``slope`` at first."""
     return Line(direction, products(problem.matrices, direction), -slope)
 
 
-def moved(problem: Problem, point: Point, line: Line, step: Float[Array, ""]) -> Point:
+def moved(problem: Problem, point: Point, line: Line, step: Number) -> Point:
     """The point ``step`` along a line; its samples are carried along (G.11)."""
     samples = Samples(*(a + step * b for a, b in zip(point.samples, line.change, strict=True)))
     y = point.coefficients + step * line.direction
@@ -69,9 +72,7 @@ def moved(problem: Problem, point: Point, line: Line, step: Float[Array, ""]) ->
     return _point(problem, y, samples, largest)
 
 
-def _point(
-    problem: Problem, y: Float[Array, " 4c"], samples: Samples, largest: Float[Array, ""]
-) -> Point:
+def _point(problem: Problem, y: Coefficients, samples: Samples, largest: Number) -> Point:
     iso = isometric_energy(samples.nodes, problem.matrices.weights, problem.energy)
     return Point(y, samples, iso, problem.positional.energy(y), largest)
 
@@ -87,17 +88,15 @@ def isometric_energy(
     return jnp.sum(jnp.where(weights > 0, weights * density, 0), axis=-1)
 
 
-def gradient(problem: Problem, point: Point) -> Float[Array, " 4c"]:
-    """The gradient of the total energy with respect to all coefficients."""
+def gradient(problem: Problem, point: Point) -> Coefficients:
+    """Of the total energy, with respect to all coefficients."""
     nodes = point.samples.nodes
     d = problem.energy.differentials(*squares(nodes))
     isometric = energy_gradient(problem.matrices, nodes, d)
     return isometric + problem.positional.gradient(point.coefficients)
 
 
-def energy_gradient(
-    matrices: Matrices, nodes: Float[Array, "4 s"], d: Differentials
-) -> Float[Array, " 4c"]:
+def energy_gradient(matrices: Matrices, nodes: Nodes, d: Differentials) -> Coefficients:
     """Gradient of the isometric energy, (G.7) with the last block's sign corrected."""
     w1, w2 = 2 * matrices.weights * d.alpha1, 2 * matrices.weights * d.alpha2
     m = matrices.nodes @ (nodes * jnp.stack([w1, w1, w2, w2])).T
@@ -108,7 +107,6 @@ def energy_gradient(
 
 
 def bounds(problem: Problem, point: Point) -> PanelBounds:
-    """The certificate's bounds on every panel."""
     matrices, samples = problem.matrices, point.samples
     pair = jnp.stack(_complex_pair(point.coefficients))
     truncation = matrices.proof.remainder(pair, problem.singularities)
@@ -135,7 +133,7 @@ def tightened_by_splitting(problem: Problem, point: Point) -> Bool[np.ndarray, "
     return truncation.max(axis=0) > matrices.rounding * float(point.largest)
 
 
-def reach(problem: Problem, y: Float[Array, " 4c"]) -> Float[Array, ""]:
+def reach(problem: Problem, y: Coefficients) -> Number:
     """What rounding errors are relative to: the largest coefficient beside the anchor, and of the
     largest one itself the share that its own rounding has in them."""
     share = 8 * rounding.UNIT_ROUNDOFF / rounding.slack_factor(y.shape[0] // 4)
@@ -143,13 +141,13 @@ def reach(problem: Problem, y: Float[Array, " 4c"]) -> Float[Array, ""]:
     return near + share * (near + 2 * jnp.max(jnp.abs(problem.anchor)))
 
 
-def fz_turning(matrices: Matrices, nodes: Float[Array, "4 s"]) -> Float[Array, " p"]:
+def fz_turning(matrices: Matrices, nodes: Nodes) -> Float[Array, " p"]:
     """The change of ``arg f_z`` along each panel (29)."""
     f, _ = _complex_rows(nodes[:, : matrices.real.shape[0]])
     return turning(f, f[matrices.next])
 
 
-def products(matrices: Matrices, y: Float[Array, " 4c"]) -> Samples:
+def products(matrices: Matrices, y: Coefficients) -> Samples:
     """``f_z``, ``conj(f_zbar)`` and their derivatives on the panels (G.6), one product each."""
     c = y.shape[0] // 4
     rows = []
@@ -165,7 +163,7 @@ def squares(nodes: Float[Array, "4 *t s"]) -> tuple[Array, Array]:
     return nodes[0] ** 2 + nodes[1] ** 2, nodes[2] ** 2 + nodes[3] ** 2
 
 
-def directions(nodes: Float[Array, "4 s"]) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+def directions(nodes: Nodes) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
     """Unit vectors along both derivatives; (1, 0) where one vanishes."""
     pairs = []
     for k in (0, 2):
@@ -176,10 +174,10 @@ def directions(nodes: Float[Array, "4 s"]) -> tuple[tuple[Array, Array], tuple[A
     return pairs[0], pairs[1]
 
 
-def _complex_pair(y: Float[Array, " 4c"]) -> tuple[Array, Array]:
+def _complex_pair(y: Coefficients) -> tuple[Array, Array]:
     c = y.shape[0] // 4
     return lax.complex(y[:c], y[c : 2 * c]), lax.complex(y[2 * c : 3 * c], y[3 * c :])
 
 
-def _complex_rows(a: Float[Array, "4 s"]) -> tuple[Array, Array]:
+def _complex_rows(a: Nodes) -> tuple[Array, Array]:
     return lax.complex(a[0], a[1]), lax.complex(a[2], a[3])

@@ -16,6 +16,9 @@ from typing import Any, NamedTuple
 from glid_nb._jax import Array, Float, jax, jnp, lax
 from glid_nb.energies import Differentials
 
+Columns = Float[Array, "u h"]
+Square = Float[Array, "u u"]
+
 Samples = Float[Array, " h"]
 
 
@@ -117,16 +120,8 @@ def assemble(
     ``(D')^T m D'`` with ``D' = conj(f) D``. Each takes two real products instead of four, for a
     product may be off by an antisymmetric matrix where only its symmetric part is wanted.
 
-    Parameters
-    ----------
-    nodes : (2u, h)
-        ``D`` at the nodes as ``[Re D, -Im D]``, transposed.
-    weights : (h,)
-    f, g : pairs of (h,)
-        Unit vectors (Re, Im) along ``f_z`` and ``conj(f_zbar)``; any direction serves where a
-        derivative vanishes.
-    k : LocalHessian
-        Entries of ``K`` at the nodes.
+    ``nodes`` is ``D`` as ``[Re D, -Im D]``, transposed; ``f`` and ``g`` are unit vectors (Re, Im)
+    along ``f_z`` and ``conj(f_zbar)``, any where a derivative vanishes.
     """
     columns = nodes.shape[0] // 2
     re, im = nodes[:columns], -nodes[columns:]
@@ -158,15 +153,15 @@ def assemble_across_f(
 
 
 def _rotated(
-    re: Float[Array, "u h"], im: Float[Array, "u h"], direction: tuple[Samples, Samples]
-) -> tuple[Float[Array, "u h"], Float[Array, "u h"]]:
+    re: Columns, im: Columns, direction: tuple[Samples, Samples]
+) -> tuple[Columns, Columns]:
     """``conj(direction) D`` as real and imaginary part."""
     c, s = direction
     return c * re + s * im, c * im - s * re
 
 
 def _hermitian_products(
-    re: Float[Array, "u h"], im: Float[Array, "u h"], weights: Float[Array, "2 h"]
+    re: Columns, im: Columns, weights: Float[Array, "2 h"]
 ) -> tuple[Float[Array, "2 u u"], Float[Array, "2 u u"]]:
     """``(re + im) w (re + im)^T`` and ``re w im^T`` for two sets of weights.
 
@@ -175,16 +170,14 @@ def _hermitian_products(
     """
     columns = re.shape[0]
 
-    def against(left: Float[Array, "u h"], right: Float[Array, "u h"]) -> Float[Array, "2 u u"]:
+    def against(left: Columns, right: Columns) -> Float[Array, "2 u u"]:
         product = left @ jnp.concatenate([weights[0] * right, weights[1] * right]).T
         return jnp.stack([product[:, :columns], product[:, columns:]])
 
     return against(re + im, re + im), against(re, im)
 
 
-def _symmetric_product(
-    u: Float[Array, "u h"], v: Float[Array, "u h"], weights: Samples
-) -> tuple[Float[Array, "u u"], Float[Array, "u u"]]:
+def _symmetric_product(u: Columns, v: Columns, weights: Samples) -> tuple[Square, Square]:
     """Real and imaginary part of ``(u + iv) diag(weights) (u + iv)^T`` by two real products."""
     # (u - v) w (u + v)^T differs from u w u^T - v w v^T by an antisymmetric matrix.
     real = (u - v) @ (weights * (u + v)).T
@@ -193,10 +186,10 @@ def _symmetric_product(
 
 
 def _embedded(
-    hermitian_re: Float[Array, "u u"],
-    hermitian_im: Float[Array, "u u"],
-    symmetric_re: Float[Array, "u u"],
-    symmetric_im: Float[Array, "u u"],
+    hermitian_re: Square,
+    hermitian_im: Square,
+    symmetric_re: Square,
+    symmetric_im: Square,
 ) -> Float[Array, "2u 2u"]:
     """The real quadratic form ``Re(z^H A z + z^T S z)`` over ``[Re z, Im z]``."""
     return jnp.block(

@@ -10,14 +10,8 @@ from typing import NamedTuple
 
 from glid_nb._jax import AnyArray, Array, Bool, Float, Int, jnp, lax
 from glid_nb.certificate import PanelBounds, fz_vanishes
-from glid_nb.solvers.evaluation import (
-    Line,
-    Point,
-    bounds,
-    fz_turning,
-    isometric_energy,
-    moved,
-)
+from glid_nb.solvers import evaluation
+from glid_nb.solvers.evaluation import Line, Nodes, Number, Point
 from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.status import BLOCKED, NO_DECREASE, PENDING, REFUSED, RUNNING
 
@@ -45,7 +39,7 @@ class Search(NamedTuple):
     """The candidate of least energy."""
 
 
-def largest_step(nodes: Float[Array, "4 s"], change: Float[Array, "4 s"]) -> Float[Array, ""]:
+def largest_step(nodes: Nodes, change: Nodes) -> Number:
     """The step at which the first sample becomes inverted, or infinity, in closed form.
 
     ``|f + t df|^2 - |g + t dg|^2`` is a quadratic in ``t`` that is positive at 0.
@@ -59,7 +53,7 @@ def largest_step(nodes: Float[Array, "4 s"], change: Float[Array, "4 s"]) -> Flo
     return jnp.min(jnp.where(hits, 2 * c / jnp.where(hits, denominator, 1), jnp.inf))
 
 
-def _difference_of_squares(a: Float[Array, "4 s"], b: Float[Array, "4 s"]) -> Float[Array, " s"]:
+def _difference_of_squares(a: Nodes, b: Nodes) -> Float[Array, " s"]:
     """``|f|^2 - |g|^2`` as a bilinear form."""
     return a[0] * b[0] + a[1] * b[1] - a[2] * b[2] - a[3] * b[3]
 
@@ -75,7 +69,7 @@ def search(problem: Problem, point: Point, line: Line) -> Search:
         r = residual + t[:, None] * residual_change
         p2p = 0.5 * jnp.sum(positional.weights * r**2, axis=-1)
         there = nodes[:, None] + t[:, None] * change[:, None]
-        return isometric_energy(there, problem.matrices.weights, problem.energy) + p2p
+        return evaluation.isometric_energy(there, problem.matrices.weights, problem.energy) + p2p
 
     def acceptable(steps: Array, energies: Array) -> Array:
         return energies < total - ARMIJO * steps * line.squared_decrement
@@ -102,7 +96,7 @@ class Backtracking(NamedTuple):
 
     outcome: Int[Array, ""]
     """RUNNING where ``step`` is certified."""
-    step: Float[Array, ""]
+    step: Number
     point: Point
     panel: PanelBounds
     """The bounds at ``point``, a step ``step`` along the line."""
@@ -119,7 +113,7 @@ def backtrack(
     a map with a zero on the boundary; the panels along which ``f_z`` turned most are where.
     """
     real, count = problem.matrices.real, found.steps.shape[0]
-    before = fz_turning(problem.matrices, point.samples.nodes)
+    before = evaluation.fz_turning(problem.matrices, point.samples.nodes)
 
     def refusing(panel: PanelBounds) -> Bool[Array, " p"]:
         refuses = real & ~panel.injective
@@ -130,8 +124,8 @@ def backtrack(
 
     def attempt(carry: tuple) -> tuple:
         _, index, _, _, refused = carry
-        there = moved(problem, point, line, found.steps[index])
-        panel = bounds(problem, there)
+        there = evaluation.moved(problem, point, line, found.steps[index])
+        panel = evaluation.bounds(problem, there)
         refuses = refusing(panel)
         fails = jnp.any(refuses)
         first = index == found.best

@@ -34,7 +34,6 @@ class Stopwatch:
 
     @property
     def compiling(self) -> float:
-        """Seconds of compiling."""
         return self._clock.seconds - self._compiled
 
     @property
@@ -71,31 +70,18 @@ class Reached(NamedTuple):
 
 
 class Descent:
-    """A method at work: what the loop asks of it.
-
-    Attributes
-    ----------
-    method : Method
-    inputs : Inputs
-    history : list of Iteration
-        All iterations so far.
-    initial : Iteration
-        The start; known at the latest after the first advance.
-    shows_start : bool
-        Whether a callback is shown the start too.
-    uses_lapack : bool
-        Whether XLA factorises for it, which several BLAS threads would slow down.
-    discretisation : Discretisation or None
-        The panels, which may be split.
-    factor : array or None
-        Cholesky factor of the last Hessian, for a solve that goes on from here.
-    """
+    """A method at work: what the loop asks of it."""
 
     initial: Iteration
+    """The start; known at the latest after the first advance."""
     shows_start = True
+    """Whether a callback is shown the start too."""
     uses_lapack = False
+    """Whether XLA factorises for it, which several BLAS threads would slow down."""
     discretisation: Discretisation | None = None
+    """The panels, which may be split."""
     factor: Any = None
+    """Cholesky factor of the last Hessian, for a solve that goes on from here."""
 
     def __init__(self, method: Method, inputs: Inputs) -> None:
         self.method, self.inputs = method, inputs
@@ -110,7 +96,6 @@ class Descent:
         raise NotImplementedError
 
     def reached(self) -> Reached:
-        """Where it is now."""
         raise NotImplementedError
 
     def adapt(self, done: Advance) -> Ending | None:
@@ -123,11 +108,9 @@ class Descent:
 
     @property
     def left(self) -> int:
-        """How many iterations it may still make."""
         return self.method.limit(self.inputs.options) - len(self.history)
 
     def record(self, entry: Iteration) -> None:
-        """Add an iteration to the history."""
         self.history.append(replace(entry, iteration=len(self.history) + 1))
 
     def _course(self, entry: Iteration) -> dict[str, Any]:
@@ -141,12 +124,10 @@ class Descent:
         }
 
     def progress(self) -> Progress:
-        """What a callback sees."""
         now = self.reached()
         return Progress(make=now.make, sigma2_lower=now.sigma2_lower, **self._course(now.entry))
 
     def result(self, ending: Ending, compile_time: float, solve_time: float) -> Result:
-        """What a solve returns."""
         now = self.reached()
         made = now.make()
         harmonic = isinstance(made, Certificate)

@@ -41,7 +41,6 @@ class Inputs:
 
     @property
     def start_map(self) -> DeformationMap | None:
-        """The map to start from."""
         return self.start.map if isinstance(self.start, Result) else self.start
 
 
@@ -146,7 +145,6 @@ class Method:
             )
 
     def _import(self, package: str) -> None:
-        """Import the optional package, or say why not and what to do."""
         distribution = _DISTRIBUTIONS.get(package, package)
         needs = f"the method {self.name!r} needs the package {distribution}"
         if not self.available():
@@ -163,13 +161,7 @@ class Method:
             ) from error
 
     def harmonic_start(self, inputs: Inputs) -> HarmonicMap | None:
-        """The map to start from in the harmonic subspace.
-
-        Raises
-        ------
-        MethodError
-            When it is a map of a mesh.
-        """
+        """The map to start from; :class:`MethodError` where it is one of a mesh."""
         start = inputs.start_map
         if start is None or isinstance(start, HarmonicMap):
             return start

@@ -15,7 +15,7 @@ from glid_nb.solvers import evaluation, status, step
 from glid_nb.solvers.loop import Advance, Ending, Stopwatch, follow
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.options import Options
-from glid_nb.solvers.problem import Problem
+from glid_nb.solvers.problem import Problem, map_from
 from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Iteration, Result
 from glid_nb.solvers.status import Status
@@ -53,7 +53,6 @@ class Newton(Method):
     options = tuple(Options.__dataclass_fields__)
 
     def run(self, inputs: Inputs) -> Result:
-        """One descent and, where it ends badly without a start, others."""
         first = descend(inputs, self)
         return first if inputs.start is not None else improve(first, inputs, descend)
 
@@ -65,8 +64,6 @@ def descend(inputs: Inputs, method: Method | None = None) -> Result:
 
 
 class NewtonDescent(SubspaceDescent):
-    """Newton's method at work."""
-
     shows_start = False
 
     def __init__(self, method: Method, inputs: Inputs) -> None:
@@ -125,12 +122,12 @@ class NewtonDescent(SubspaceDescent):
             self.prove(state.sigma2_lower, state.turning)
         if not hasattr(self, "initial"):
             iso, p2p = float(state.start_iso), float(state.start_p2p)
-            self.initial = Iteration(iteration=0, energy_iso=iso, energy_p2p=p2p, time=0.0)
+            self.initial = Iteration(energy_iso=iso, energy_p2p=p2p)
         for row in np.asarray(state.records)[:taken].tolist():
             known: dict[str, Any] = dict(zip(step.Record._fields, row, strict=True))
             known["hessian_modified"] = bool(known["hessian_modified"])
             known |= {"corrections": int(row[-1]), "panels_split": self.just_split}
-            self.record(Iteration(iteration=0, time=seconds / taken, panels=len(panels), **known))
+            self.record(Iteration(time=seconds / taken, panels=len(panels), **known))
             self.just_split = 0
         refused = np.asarray(state.refused)
         if refused.any():
@@ -142,7 +139,8 @@ class NewtonDescent(SubspaceDescent):
     def adapt(self, done: Advance) -> Ending | None:
         """Take the full Hessian or another ridge where that may help; else end."""
         if done.outcome == status.CONVERGED:
-            return None if self.pin(self.reached().make().map) else Ending(Status.CONVERGED)
+            now = map_from(self.inputs.domain, self.point.coefficients)
+            return None if self.pin(now) else Ending(Status.CONVERGED)
         if done.iterations:
             self._relax_ridge()
             # Other nodes make no fewer iterations with K+, which are slow anyway.
@@ -186,7 +184,7 @@ class NewtonDescent(SubspaceDescent):
         self.ridge = max(relaxed if relaxed >= _RIDGE else 0.0, self._least_ridge)
 
     def _raise_ridge(self) -> Ending | None:
-        """A larger epsilon where the Hessian is singular to rounding: two handles in one place."""
+        # The Hessian is singular to rounding where two handles are in one place.
         if self.inputs.options.hessian == "exact":
             return Ending(Status.INDEFINITE)
         self.ridge = max(_RIDGE_FACTOR * self.ridge, _RIDGE)

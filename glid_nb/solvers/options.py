@@ -25,46 +25,7 @@ class OptionError(InputError):
 class Options:
     """How to solve. The defaults are ours; the paper's are ``Options.paper()``.
 
-    Parameters
-    ----------
-    sampling : "graded" or "uniform"
-        Where the energy is integrated: panels graded by their distance to the singularities,
-        or the paper's 10^4 uniform samples (31).
-    certificate : "hermite", "lipschitz" or "bdhm"
-        How local injectivity is proved; "lipschitz" is the paper's (Section 8), "bdhm" has the
-        larger constants that the paper replaces (Figure 7).
-    hessian : "adaptive", "projected" or "exact"
-        The exact Hessian where it is positive definite, else the projected one; always the
-        projected one (the paper's, Section 7); or always the exact one, halting where it is
-        not positive definite.
-    p2p_weight : float
-        ``lambda`` of (20), positive.
-    conformal : bool
-        Restrict the maps to conformal ones, ``psi = 0`` (Section 6).
-    align : bool
-        Begin with the rigid motion that brings the handles closest to their targets. It changes
-        neither distortion nor certificate and often saves half of the iterations.
-    restarts : int
-        How many other ways to a minimum (see :mod:`glid_nb.solvers.restarts`) a solve from the
-        identity may try when its first one does not converge or ends at a high energy; 0 tries
-        none. The result's ``attempts`` tell what each of them reached.
-    max_iterations : int, optional
-        Most iterations of one attempt, at least 0; by default the method's own, 200 for Newton's.
-    tolerance : float
-        The solve has converged when the Newton decrement's promise of a decrease,
-        ``decrement^2 / 2``, falls below ``tolerance`` times the energy. Other methods have
-        tolerances of their own.
-    corrections : int
-        Most steps that an iteration close to the minimum adds by the Hessian it has, 0 to 3. They
-        save iterations, and a solve that goes on from another takes that one's last Hessian first;
-        0 for Newton's method proper.
-    iterations_per_call : int
-        Newton iterations that one compiled call runs before the host sees the state, 1 to 7.
-
-    Raises
-    ------
-    OptionError
-        When a value is out of range; the message names it.
+    Raises an OptionError that names a value out of range.
     """
 
     sampling: Sampling = option(
@@ -73,6 +34,8 @@ class Options:
         "Sampling",
         {"graded": "Graded panels", "uniform": "Uniform (paper)"},
     )
+    """Where the energy is integrated: panels graded by their distance to the singularities, or the
+    paper's 10^4 uniform samples (31)."""
     certificate: CertificateKind = option(
         "hermite",
         "How local injectivity is proved",
@@ -83,27 +46,45 @@ class Options:
             "bdhm": "Lipschitz (BDHM)",
         },
     )
+    """How local injectivity is proved; "lipschitz" is the paper's (Section 8), "bdhm" has the
+    larger constants that the paper replaces (Figure 7)."""
     hessian: HessianKind = option(
         "adaptive",
         "The matrix of Newton's method",
         "Hessian",
         {"adaptive": "Adaptive", "projected": "Projected (paper)", "exact": "Exact"},
     )
+    """The exact Hessian where it is positive definite, else the projected one; with "projected"
+    always that (the paper's, Section 7); with "exact" never, halting where it is not positive
+    definite."""
     p2p_weight: float = option(
         1e5, "How strongly handles are drawn to their targets", "Weight λ", above=0
     )
+    """``lambda`` of (20), positive."""
     conformal: bool = option(False, "No shear anywhere", "Conformal maps only")
+    """Restrict the maps to conformal ones, ``psi = 0`` (Section 6)."""
     align: bool = option(True, "Begin at the best rigid motion to the targets", "Align")
+    """Begin with the rigid motion that brings the handles closest to their targets. It changes
+    neither distortion nor certificate and often saves half of the iterations."""
     restarts: int = option(10, "Other ways to try after a high energy", "Restarts")
+    """How many other ways to a minimum (see :mod:`glid_nb.solvers.restarts`) a solve from the
+    identity may try when its first one does not converge or ends at a high energy; 0 tries none.
+    The result's ``attempts`` tell what each of them reached."""
     max_iterations: int | None = option(
         None, "Most iterations of one attempt; Newton's method makes 200", "Iterations"
     )
+    """Most iterations of one attempt, at least 0; by default the method's own, 200 for Newton's."""
     tolerance: float = option(
         1e-10, "Relative decrease at which the solve ends", "Tolerance", least=0
     )
+    """The solve has converged when the Newton decrement's promise of a decrease, ``decrement^2 /
+    2``, falls below ``tolerance`` times the energy. Other methods have tolerances of their own."""
     corrections: int = option(
         MOST_CORRECTIONS, "Most steps by an old Hessian", "Corrections", most=MOST_CORRECTIONS
     )
+    """Most steps that an iteration close to the minimum adds by the Hessian it has, 0 to 3. They
+    save iterations, and a solve that goes on from another takes that one's last Hessian first; 0
+    for Newton's method proper."""
     iterations_per_call: int = option(
         MOST_PER_CALL,
         "Iterations between two frames",
@@ -111,6 +92,7 @@ class Options:
         least=1,
         most=MOST_PER_CALL,
     )
+    """Newton iterations that one compiled call runs before the host sees the state, 1 to 7."""
 
     def __post_init__(self) -> None:
         kinds = field_kinds(Options)

@@ -14,7 +14,7 @@ from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.harmonic.basis import Basis
 from glid_nb.harmonic.cauchy import Singularities
-from glid_nb.solvers.discretisation import Matrices, basis_rows, complex_basis
+from glid_nb.solvers.discretisation import Matrices, complex_basis
 from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.unknowns import Unknowns
 
@@ -47,15 +47,12 @@ class Positional(NamedTuple):
     """``lambda`` for a handle, 0 for padding."""
 
     def residual(self, y: Float[Array, " 4c"]) -> Float[AnyArray, " 2h"]:
-        """``A y - b``."""
         return self.matrix @ y - self.aims
 
     def energy(self, y: Float[Array, " 4c"]) -> Float[Array, ""]:
-        """The energy at the coefficients ``y``."""
         return 0.5 * jnp.sum(self.weights * self.residual(y) ** 2)
 
     def gradient(self, y: Float[Array, " 4c"]) -> Float[AnyArray, " 4c"]:
-        """Its gradient."""
         return self.matrix.T @ (self.weights * self.residual(y))
 
 
@@ -103,16 +100,15 @@ def _derivatives_at(domain: Domain, points: bytes) -> NDArray[Any]:
 def _matrix_at(domain: Domain, handles: bytes, size: int) -> NDArray[Any]:
     """``A``, kept for the next targets of the same handles."""
     basis, points = basis_of(domain), np.frombuffer(handles).reshape(-1, 2) @ np.array([1, 1j])
-    rows = np.zeros((size, 2 * basis.n_columns))
-    rows[: len(points)] = basis_rows(cauchy.cauchy_coordinates, points, basis)
-    re, minus_im = np.split(rows, 2, axis=1)
+    rows = np.zeros((size, basis.n_columns), dtype=complex)
+    rows[: len(points)] = complex_basis(cauchy.cauchy_coordinates, points, basis)
+    re, minus_im = np.real(rows), -np.imag(rows)
     return np.block([[re, minus_im, re, minus_im], [-minus_im, re, minus_im, -re]])
 
 
 def handle_images(positional: Positional, basis: Basis, map: HarmonicMap) -> NDArray[Any]:
     """(h,) complex images of the padded handles."""
-    real_parts = np.asarray(positional.matrix[: len(positional.aims) // 2])
-    re, minus_im, *_ = np.split(real_parts, 4, axis=1)
+    re, minus_im, *_ = np.split(positional.matrix[: len(positional.aims) // 2], 4, axis=1)
     rows = re - 1j * minus_im
     return rows @ basis.pad(map.phi) + np.conj(rows @ basis.pad(map.psi))
 

@@ -34,13 +34,13 @@ class Iteration:
     Energies are means: of the density over the boundary, or over the area of a mesh.
     """
 
-    iteration: int
+    iteration: int = 0
     """1 for the first; 0 for the start."""
     energy_iso: float
     """Isometric part."""
     energy_p2p: float
     """Positional part, ``lambda / 2`` times the sum of squared distances."""
-    time: float
+    time: float = 0.0
     """Seconds without compilation, shared evenly within one compiled call, and without what only
     serves this record; for the start, what its making took beyond preparing the domain."""
     step: float | None = None

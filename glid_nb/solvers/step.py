@@ -8,19 +8,14 @@ from typing import Any, NamedTuple
 from glid_nb._jax import AnyArray, Array, Bool, Float, Int, jax, jnp, lax
 from glid_nb._programs import Program
 from glid_nb.energies import table1
-from glid_nb.solvers import cholesky, evaluation, line_search, whitening
-from glid_nb.solvers.evaluation import Line, Point
-from glid_nb.solvers.hessian import (
-    LocalHessian,
-    assemble,
-    assemble_across_f,
-    local_hessian,
-    positive_part,
-)
+from glid_nb.solvers import cholesky, evaluation, hessian, line_search, whitening
+from glid_nb.solvers.evaluation import Coefficients, Line, Number, Point
 from glid_nb.solvers.options import MOST_PER_CALL
 from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.status import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.unknowns import expand, restrict_gradient, restrict_hessian
+
+Factor = Float[Array, "4u 4u"]
 
 # A correction that gains more than this share of what the step before it gained is slow: the
 # Hessian has changed, and a new one gains more for its cost.
@@ -69,16 +64,14 @@ class Record(NamedTuple):
 
 
 class State(NamedTuple):
-    """State of the loop."""
-
     point: Point
     """Certified, once a step was taken."""
-    start_iso: Float[Array, ""]
+    start_iso: Number
     """Energies before the first iteration of this call."""
-    start_p2p: Float[Array, ""]
+    start_p2p: Number
     iteration: Int[Array, ""]
     outcome: Int[Array, ""]
-    decrement: Float[Array, ""]
+    decrement: Number
     records: Float[Array, "i r"]
     """A :class:`Record` in each row."""
     refused: Bool[Array, " p"]
@@ -87,18 +80,18 @@ class State(NamedTuple):
     """Certified bound per panel at ``point``, once a step was taken."""
     turning: Float[Array, " p"]
     """The proved change of ``arg f_z`` along each panel there."""
-    factor: Float[Array, "4u 4u"]
+    factor: Factor
     """Cholesky factor of the last Hessian, in whitened coordinates."""
     corrects: Bool[Array, ""]
     """Whether the next step is a correction."""
-    gain: Float[Array, ""]
+    gain: Number
     """What the last step gained."""
 
 
 def iterations(
     problem: Problem,
-    coefficients: Float[Array, " 4c"],
-    factor: Float[Array, "4u 4u"],
+    coefficients: Coefficients,
+    factor: Factor,
     settings: Settings,
 ) -> State:
     """Up to ``settings.iterations`` (at most `MOST_PER_CALL`) Newton iterations, to be compiled.
@@ -204,7 +197,7 @@ def _recorded(known: Record, first: Record, corrects: Bool[Array, ""]) -> Float[
 
 def _factorised(
     problem: Problem, settings: Settings, state: State
-) -> tuple[Float[Array, "4u 4u"], Bool[Array, ""]]:
+) -> tuple[Factor, Bool[Array, ""]]:
     """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected.
 
     The factor that the call was given, where its first iteration is to take that. A loop, for its
@@ -219,21 +212,22 @@ def _factorised(
         _, h, count = carry
         nodes = state.point.samples.nodes[:, matrices.hessian_index]
         x, y = evaluation.squares(nodes)
-        local = local_hessian(energy.differentials(x, y), x, y)
-        projected = positive_part(local)
+        local = hessian.local_hessian(energy.differentials(x, y), x, y)
+        projected = hessian.positive_part(local)
         weights, f, g = jax.tree.map(
             lambda a: a.astype(dtype), (matrices.hessian_weights, *evaluation.directions(nodes))
         )
 
-        def assembled(_: Any) -> Float[Array, "4u 4u"]:
-            k = _where(settings.projects_first | (count > 0), projected, local)
-            k = LocalHessian(*(part.astype(dtype) for part in k))
-            return assemble(matrices.whitened, weights, f, g, k)
+        def assembled(_: Any) -> Factor:
+            projects = settings.projects_first | (count > 0)
+            pairs = zip(projected, local, strict=True)
+            k = hessian.LocalHessian(*(jnp.where(projects, *pair).astype(dtype) for pair in pairs))
+            return hessian.assemble(matrices.whitened, weights, f, g, k)
 
-        def project(h: Float[Array, "4u 4u"]) -> Float[Array, "4u 4u"]:
+        def project(h: Factor) -> Factor:
             # The Hessian that was not definite lacks this block alone.
             across = (projected.across_f - local.across_f).astype(dtype)
-            block = assemble_across_f(matrices.whitened, weights, f, across)
+            block = hessian.assemble_across_f(matrices.whitened, weights, f, across)
             return h.at[: block.shape[0], : block.shape[0]].add(block)
 
         if energy.indefinite_across_f_only:
@@ -253,7 +247,7 @@ def _factorised(
     return factor, wanted & ((count == 2) | settings.projects_first)
 
 
-def _newton_line(problem: Problem, point: Point, factor: Float[Array, "4u 4u"]) -> Line:
+def _newton_line(problem: Problem, point: Point, factor: Factor) -> Line:
     """The line in the direction ``-H^-1 gradient``, computed in whitened coordinates."""
     unknowns, t = problem.unknowns, problem.matrices.whitening
     gradient = evaluation.gradient(problem, point)
@@ -262,10 +256,6 @@ def _newton_line(problem: Problem, point: Point, factor: Float[Array, "4u 4u"]) 
     step = jnp.where(jnp.isfinite(factor[-1, -1]), step, 0)
     direction = whitening.coefficients(expand(step, unknowns), t)
     return evaluation.line_along(problem, direction, jnp.dot(gradient, step))
-
-
-def _where(condition: Bool[AnyArray, ""] | bool, one: Any, other: Any) -> Any:
-    return jax.tree.map(lambda a, b: jnp.where(condition, a, b), one, other)
 
 
 def _is_ours(problem: Problem, *_: Any) -> bool:

@@ -13,20 +13,13 @@ from glid_nb._jax import jit
 from glid_nb.certificate import Certificate, certificate_of, certify, proved_by
 from glid_nb.geometry import Domain, Panels
 from glid_nb.harmonic import HarmonicMap, as_complex
-from glid_nb.solvers import evaluation
+from glid_nb.solvers import evaluation, problem
 from glid_nb.solvers.discretisation import Discretisation, discretise
 from glid_nb.solvers.evaluation import Point
 from glid_nb.solvers.loop import Descent, Ending, Reached
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.pose import Pose, rigid_motion
-from glid_nb.solvers.problem import (
-    Problem,
-    anchor_of,
-    handle_images,
-    map_from,
-    positional_energy,
-    real_coefficients,
-)
+from glid_nb.solvers.problem import Problem, map_from
 from glid_nb.solvers.result import Iteration, Result
 from glid_nb.solvers.status import Status
 from glid_nb.solvers.unknowns import canonical, unknowns_of
@@ -52,22 +45,16 @@ class SubspaceDescent(Descent):
     """A method at work on maps of the harmonic subspace.
 
     ``reduced``: the unknowns are those of the whitened coordinates, not of all columns.
-
-    Attributes
-    ----------
-    problem : Problem
-    point : Point
-        Where it is; known at the latest after the first advance.
-    proved : (Panels, array, array) or None
-        What the last step was proved by: panels, bounds on sigma_2 and turnings.
-    just_split : int
-        Panels split since the last iteration.
     """
 
     uses_lapack = True
     discretisation: Discretisation
     point: Point
+    """Where it is; known at the latest after the first advance."""
     proved: tuple[Panels, Array, Array] | None = None
+    """What the last step was proved by: panels, bounds on sigma_2 and turnings."""
+    just_split = 0
+    """Panels split since the last iteration."""
     _pins = 0
 
     def __init__(self, method: Method, inputs: Inputs, reduced: bool) -> None:
@@ -83,36 +70,36 @@ class SubspaceDescent(Descent):
                 options.conformal,
                 self.discretisation.matrices.whitening if reduced else None,
             ),
-            positional=positional_energy(inputs.domain, pose, options.p2p_weight),
+            positional=problem.positional_energy(inputs.domain, pose, options.p2p_weight),
             energy=inputs.energy,
         )
         if options.align:
-            images = handle_images(self.problem.positional, basis, map_)[: len(pose)]
+            images = problem.handle_images(self.problem.positional, basis, map_)[: len(pose)]
             map_ = aligned(map_, pose, images)
         self.start = map_
         self.pin(map_)
-        self.coefficients: Any = real_coefficients(basis, map_)
-        self.problem = self.problem._replace(anchor=anchor_of(basis, self.coefficients))
-        self.just_split = 0
+        self.coefficients: Any = problem.real_coefficients(basis, map_)
+        self.problem = self.problem._replace(anchor=problem.anchor_of(basis, self.coefficients))
 
     def pin(self, map: HarmonicMap) -> bool:
         """Measure angles and scales from this map; whether that changes what is minimised."""
-        pose, before = self.inputs.pose, self.problem.positional
-        if not pose.turned.any() or self._pins == _MOST_PINS:
+        inputs, before = self.inputs, self.problem.positional
+        if not inputs.pose.turned.any() or self._pins > _MOST_PINS:
             return False
-        weight = self.inputs.options.p2p_weight
-        positional = positional_energy(self.inputs.domain, pose, weight, map)
-        y = real_coefficients(self.discretisation.basis, map)
-        gaps = [np.sqrt(p.weights / weight) * p.residual(y) for p in (before, positional)]
+        weight = inputs.options.p2p_weight
+        now = problem.positional_energy(inputs.domain, inputs.pose, weight, map)
         self._pins += 1
-        self.problem = self.problem._replace(positional=positional)
-        same = np.array_equal(before.weights, positional.weights)
-        return not same or bool(np.abs(gaps[0] - gaps[1]).max() > _SAME_PINS)
+        self.problem = self.problem._replace(positional=now)
+        if before.weights.shape != now.weights.shape or np.any(before.weights != now.weights):
+            return True
+        y = problem.real_coefficients(self.discretisation.basis, map)
+        gaps = (now.weights > 0) * (before.residual(y) - now.residual(y))
+        return bool(np.abs(gaps).max() > _SAME_PINS)
 
     def reached(self) -> Reached:
         point, domain = self.point, self.inputs.domain
         iso, p2p = float(point.energy_iso), float(point.energy_p2p)
-        entry = Iteration(iteration=0, energy_iso=iso, energy_p2p=p2p, time=0.0)
+        entry = Iteration(energy_iso=iso, energy_p2p=p2p)
         if self.proved is None:
             return Reached(entry, lambda: self.start_proof)
         proved, kind = self.proved, self.discretisation.certificate
@@ -124,7 +111,6 @@ class SubspaceDescent(Descent):
 
     @property
     def sigma2_lower(self) -> Array | None:
-        """(p,) certified bound per panel, once a step was taken."""
         return None if self.proved is None else self.proved[1]
 
     def prove(self, sigma2_lower: Any, turning: Any) -> None:
@@ -153,7 +139,7 @@ class SubspaceDescent(Descent):
         """What a solve returns; the last proved map where the start itself cannot be proved."""
         if self.proved is None and not self.start_proof.belongs_to(self.start):
             ending = Ending(Status.UNPROVED)
-            y = real_coefficients(self.discretisation.basis, self.start_proof.map)
+            y = problem.real_coefficients(self.discretisation.basis, self.start_proof.map)
             self.point = _evaluated(self.problem, y)
         return super().result(ending, compile_time, solve_time)
 
@@ -200,8 +186,7 @@ def _starting_point(
 def aligned(map: HarmonicMap, pose: Pose, images: Array | None = None) -> HarmonicMap:
     """The map followed by the rigid motion that brings its handles closest to their targets.
 
-    A rigid motion changes neither the isometric energy nor the certificate. ``images`` (h, 2) are
-    the handles' images under the map, when they are known.
+    ``images`` (h, 2) are the handles' images under the map, when they are known.
     """
     if not len(pose):
         return map

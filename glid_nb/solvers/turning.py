@@ -4,11 +4,18 @@ Handles hang together in the shortest tree of ways inside the shape. From parent
 turns and stretches the line between them; a path does that evenly, so that handles that move
 rigidly together do so all the way. A joint is a line that turns so far that either way round may
 lead to the better minimum, or one whose ends come so close that what lies between has to turn.
+
+Or the parts of a shape, handles that keep together, move rigidly. A part turns about the fixed
+point of its motion, such as the joint of a limb, or where that is far away (a bar's end that is led
+round) about its own middle, which moves straight on. Turns are against the largest part, in whose
+place all stages are.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy.sparse import csgraph
@@ -18,9 +25,13 @@ from glid_nb._arrays import Array
 from glid_nb.geometry import Cage, as_points, triangulate
 from glid_nb.harmonic import as_complex
 from glid_nb.solvers.pose import Pose, rigid_motion
-from glid_nb.solvers.rigid_parts import rigid_ways, stage_times
 
 _VERTICES = 300
+# Handles of one part stray by less than this share of the extent from a rigid motion.
+_RIGID = 0.02
+# Parts that turn by less are not led the other way round.
+_LEAST_TURN = np.deg2rad(10)
+_STAGE = np.deg2rad(40)
 _JOINT, _BEND, _CLOSE = np.deg2rad(100), np.deg2rad(60), 0.5
 # Where two targets of one line nearly coincide, of its length.
 _LEAST_STRETCH = 1e-3
@@ -81,18 +92,19 @@ class Turning:
             side = way[i % len(way)]
             turns[k] = side * (side * turns[k] % (2 * np.pi))
         angles = np.full(len(self.pose), self.whole)
-        for k, (i, j) in enumerate(zip(self.order[1:], self.parents[1:], strict=True), start=1):
-            angles[i] = angles[j] + turns[k]
-        return [self._at(time, angles) for time in stage_times([*angles, *turns])]
-
-    def _at(self, time: float, angles: Array) -> Pose:
+        lines = list(zip(self.order, self.parents, self.stretches, strict=True))[1:]
+        for turn, (i, j, _) in zip(turns[1:], lines, strict=True):
+            angles[i] = angles[j] + turn
         z, w = as_complex(self.pose.handles), as_complex(self.pose.targets)
-        at, root = np.empty_like(z), self.order[0]
-        at[root] = z[root] + time * (w[root] - z[root])
-        for k, (i, j) in enumerate(zip(self.order[1:], self.parents[1:], strict=True), start=1):
-            turned = np.exp(1j * time * angles[i]) * (1 + time * (self.stretches[k] - 1))
-            at[i] = at[j] + turned * (z[i] - z[j])
-        return self.pose.with_targets(as_points(at))
+        stages, root = [], self.order[0]
+        for time in stage_times([*angles, *turns]):
+            at = np.empty_like(z)
+            at[root] = z[root] + time * (w[root] - z[root])
+            for i, j, stretch in lines:
+                turned = np.exp(1j * time * angles[i]) * (1 + time * (stretch - 1))
+                at[i] = at[j] + turned * (z[i] - z[j])
+            stages.append(self.pose.with_targets(as_points(at)))
+        return stages
 
 
 def turning_of(pose: Pose, cage: Cage) -> Turning:
@@ -128,3 +140,84 @@ def _distances(cage: Cage, points: Array) -> Array:
     nearest = cdist(points, mesh.vertices).argmin(axis=1)
     ways = csgraph.dijkstra(mesh.graph, directed=False, indices=nearest)[:, nearest]
     return np.maximum(ways, cdist(points, points))
+
+
+class _Motion(NamedTuple):
+    """A turn of the handles of a part about a pivot that moves straight on."""
+
+    part: list[int]
+    angle: float
+    pivot: complex
+    shift: complex
+
+
+def stage_times(angles: Sequence[float]) -> list[float]:
+    """Times between 0 and 1 of two stages or more, where nothing turns by over 40 degrees."""
+    count = max(int(np.ceil(np.abs(angles).max() / _STAGE)), 2)
+    return [k / count for k in range(1, count)]
+
+
+def rigid_ways(pose: Pose, parents: dict[int, int]) -> dict[str, list[Pose]]:
+    """The stages of the ways by name: parts turn the short way, or all to one side.
+
+    ``parents``, in an order that has them first, tell which handle each hangs at; the root its own.
+    """
+    z, w = as_complex(pose.handles), as_complex(pose.targets)
+    extent = float(np.abs(z - z.mean()).max())
+    largest, *others = sorted(_parts(z, w, parents, _RIGID * extent), key=len, reverse=True)
+    turn, middle, aim = rigid_motion(z[largest], w[largest])
+    at_rest = middle + (w - aim) / turn
+    motions = [_motion(part, z[part], at_rest[part], extent) for part in others]
+    sides = {np.sign(m.angle) for m in motions if abs(m.angle) > _LEAST_TURN}
+    ways = {"rigid parts": 0} if motions and len(sides) != 1 else {}
+    if sides:
+        ways |= {"rigid parts, left": 1, "rigid parts, right": -1}
+    return {
+        name: [
+            pose.with_targets(as_points(aim + turn * (stage - middle)))
+            for stage in _stages(z, [_sided(motion, side) for motion in motions])
+        ]
+        for name, side in ways.items()
+    }
+
+
+def _parts(z: Array, w: Array, parents: dict[int, int], tolerance: float) -> list[list[int]]:
+    """Handles that move rigidly together and hang together, or of which two are left alone."""
+    parts, part_of = list[list[int]](), dict[int, list[int]]()
+    for i, j in parents.items():
+        near = [part_of[j]] if i != j else []
+        for part in [*near, *(part for part in parts if len(part) == 1), []]:
+            wider = [*part, i]
+            turn, middle, aim = rigid_motion(z[wider], w[wider])
+            if np.abs(aim + turn * (z[wider] - middle) - w[wider]).max() <= tolerance:
+                break
+        if not part:
+            parts.append(part)
+        part.append(i)
+        part_of[i] = part
+    return parts
+
+
+def _motion(part: list[int], z: Array, w: Array, extent: float) -> _Motion:
+    turn, middle, aim = rigid_motion(z, w)
+    angle, shift = float(np.angle(turn)), aim - middle
+    if abs(shift) < extent * abs(1 - turn):
+        return _Motion(part, angle, middle + shift / (1 - turn), 0j)
+    return _Motion(part, angle, middle, shift)
+
+
+def _sided(motion: _Motion, side: int) -> _Motion:
+    """The same motion, turning left (1), right (-1) or the short way (0)."""
+    if not side or abs(motion.angle) < _LEAST_TURN:
+        return motion
+    return motion._replace(angle=side * (side * motion.angle % (2 * np.pi)))
+
+
+def _stages(z: Array, motions: list[_Motion]) -> list[Array]:
+    stages = []
+    for time in stage_times([motion.angle for motion in motions]):
+        stage = z.copy()
+        for part, angle, pivot, shift in motions:
+            stage[part] = pivot + np.exp(1j * time * angle) * (z[part] - pivot) + time * shift
+        stages.append(stage)
+    return stages

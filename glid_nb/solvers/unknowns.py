@@ -1,10 +1,9 @@
 """Which coefficients are unknowns, and the tie of the logarithms (paper Section 5).
 
 Real vectors ``[Re phi, Im phi, Re psi, Im psi]`` hold all padded columns, or the coordinates of
-:mod:`glid_nb.solvers.whitening`, padded to a bucket. What is no
-unknown among them is masked: its rows and columns of the Hessian become those of the identity and
-its gradient 0, which keeps shapes fixed. The hole coefficients obey ``psi_j = conj(phi_j)``; their
-``psi`` parts are folded onto the ``phi`` parts.
+:mod:`glid_nb.solvers.whitening`. What is no unknown among them is masked: its rows and columns of
+the Hessian become those of the identity and its gradient 0. The hole coefficients obey
+``psi_j = conj(phi_j)``; their ``psi`` parts are folded onto the ``phi`` parts.
 """
 
 from __future__ import annotations
@@ -17,6 +16,9 @@ import numpy as np
 from glid_nb._jax import AnyArray, Float, jnp
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.basis import Basis
+
+Vector = Float[Array, " 4u"]
+Square = Float[Array, "4u 4u"]
 
 
 class Unknowns(NamedTuple):
@@ -48,7 +50,7 @@ def unknowns_of(
     return Unknowns(np.concatenate([phi, phi, psi, psi]).astype(float), np.ones(n_holes))
 
 
-def restrict_gradient(g: Float[Array, " 4u"], unknowns: Unknowns) -> Float[Array, " 4u"]:
+def restrict_gradient(g: Vector, unknowns: Unknowns) -> Vector:
     """Gradient with respect to the unknowns, 0 elsewhere."""
     phi, psi, sign = _hole_slices(g.shape[0], unknowns)
     if phi is not None:
@@ -66,24 +68,16 @@ def restrict_rows(rows: Float[np.ndarray, "h 4u"], unknowns: Unknowns) -> Float[
 
 
 def restrict_hessian(
-    h: Float[Array, "4u 4u"],
+    h: Square,
     unknowns: Unknowns,
-    other: Float[Array, "4u 4u"] | None = None,
+    other: Square | None = None,
     ridge: Float[AnyArray, ""] | float = 0.0,
-) -> Float[Array, "4u 4u"]:
+) -> Square:
     """Hessian with respect to the unknowns, the identity elsewhere.
 
     Of ``h`` the columns of ``psi`` and the block of ``phi`` are read, not the block below the
-    diagonal ones; there the result means nothing.
-
-    Parameters
-    ----------
-    h : (4u, 4u)
-    unknowns : Unknowns
-    other : (4u, 4u), optional
-        Another Hessian to add, restricted already.
-    ridge : float
-        The diagonal is raised by so many times its mean.
+    diagonal ones; there the result means nothing. ``other`` is another Hessian to add, restricted
+    already. The diagonal is raised by ``ridge`` times its mean.
     """
     phi, psi, sign = _hole_slices(h.shape[0], unknowns)
     if phi is not None:
@@ -102,7 +96,7 @@ def restrict_hessian(
     return jnp.where(index[:, None] == index, diagonal, masked)
 
 
-def expand(step: Float[Array, " 4u"], unknowns: Unknowns) -> Float[Array, " 4u"]:
+def expand(step: Vector, unknowns: Unknowns) -> Vector:
     """A change of the unknowns as a change of all coefficients."""
     phi, psi, sign = _hole_slices(step.shape[0], unknowns)
     step = step * unknowns.free

@@ -1,24 +1,19 @@
 """Coordinates of the subspace in which the Hessian of an isometric energy is well conditioned.
 
-Cauchy coordinates are hat functions seen from afar: their derivatives on the boundary are nearly
-dependent, and the Hessian's condition number is the square of theirs, beyond what single precision
-resolves. New coordinates ``x`` with ``phi = T x``, in which the derivatives ``D T`` are orthonormal
-along the boundary, leave it with the condition of ``K`` alone. Newton's direction is the same in
-any coordinates.
+The derivatives of Cauchy coordinates on the boundary are nearly dependent, and the Hessian's
+condition number is the square of theirs, beyond what single precision resolves. Coordinates ``x``
+with ``phi = T x``, in which the derivatives ``D T`` are orthonormal along the boundary, leave it
+with the condition of ``K`` alone.
 
-Coefficients that are no unknowns have no coordinate, so that nothing is computed for them: ``T``
-has a row for each column, and columns for the translation, of which no derivative knows, for the
-others, zeros for padding, and last one for each logarithm, its coefficient, scaled. So the tie of
-:mod:`glid_nb.solvers.unknowns` serves in both. All but the translation vanish at one point of the
-boundary. So none moves a handle by more than its length along the boundary; pinned at the first
-coefficient instead, what oscillates along a fine cage would move all of them by many times the
-shape's size, and the positional energy would swamp the other.
+``T`` has a row for each column, and columns for the translation, for the other unknowns, zeros for
+padding, and last one for each logarithm, its coefficient, scaled. All but the translation vanish at
+one point of the boundary. So none moves a handle by more than its length along the boundary; pinned
+at the first coefficient instead, what oscillates along a fine cage would move all of them by many
+times the shape's size, and the positional energy would swamp the other.
 
-Cauchy's integral takes the boundary values of what is holomorphic outside to zero. The finer a cage
-is divided, the better its hat functions approach those: large coefficients, whose rounding errors
-the certificate has to allow for, and next to no map. Directions in which the derivative is small
-against the slopes of the coefficients along the offset cage have no coordinate either. What they
-could add to a map with slopes of about 1 is as small.
+On a finely divided cage some large coefficients make next to no map, and rounding errors that the
+certificate has to allow for. Directions in which the derivative is small against the slopes of the
+coefficients along the offset cage have no coordinate.
 """
 
 from __future__ import annotations
@@ -40,26 +35,18 @@ _STEEP, _LEAST = 4.5e-3, 3e-2
 
 
 def whitening(
-    rows: Float[np.ndarray, "s 2c"],
+    rows: Complex[np.ndarray, "s c"],
     weights: Float[np.ndarray, " s"],
-    anchor: Float[np.ndarray, " 2c"],
+    anchor: Complex[np.ndarray, " c"],
     basis: Basis,
 ) -> Float[np.ndarray, "2 c u"]:
     """``T`` as (Re, Im), with zeros for the coordinates that are padding.
 
-    Parameters
-    ----------
-    rows : (s, 2c)
-        ``[Re D, -Im D]`` at samples of the boundary.
-    weights : (s,)
-        Quadrature weights.
-    anchor : (2c,)
-        ``[Re C, -Im C]`` at a point of the boundary, where all new functions but the translation
-        vanish.
-    basis : Basis
+    ``rows`` are ``D`` at samples of the boundary, whose quadrature has the ``weights``; ``anchor``
+    is ``C`` where all new functions but the translation vanish.
     """
     c = basis.n_columns
-    scaled = np.sqrt(weights)[:, None] * (rows[:, :c] - 1j * rows[:, c:])
+    scaled = np.sqrt(weights)[:, None] * rows
     single_valued = np.flatnonzero(basis.psi_free)
     # The exterior's first is no unknown of psi either.
     logarithms = np.flatnonzero(basis.phi_free & ~basis.psi_free)[1:]
@@ -79,8 +66,7 @@ def whitening(
         along = inverse.conj().T @ (inverse @ (columns.conj().T @ scaled[:, j]))
         rest = np.linalg.norm(scaled[:, j] - columns @ along)
         t[single_valued, u - c + j], t[j, u - c + j] = -along / rest, 1 / rest
-    value = anchor[:c] - 1j * anchor[c:]
-    t[: basis.n_exterior, 1:] -= value @ t[:, 1:]
+    t[: basis.n_exterior, 1:] -= anchor @ t[:, 1:]
     return np.stack([np.real(t), np.imag(t)])
 
 

@@ -1,10 +1,10 @@
 """The notebook's user interface: thin views over plain models; the browser is known only here."""
 
 from glid_nb.widgets.canvas import DeformCanvas
-from glid_nb.widgets.controls import PoseList
 from glid_nb.widgets.editor import Editor
 from glid_nb.widgets.monitor import SolverMonitor
 from glid_nb.widgets.solver_panel import SolverPanel
+from glid_nb.widgets.timeline import TimelinePanel
 from glid_nb.widgets.tracer import CageTracer
 
-__all__ = ["CageTracer", "DeformCanvas", "Editor", "PoseList", "SolverMonitor", "SolverPanel"]
+__all__ = ["CageTracer", "DeformCanvas", "Editor", "SolverMonitor", "SolverPanel", "TimelinePanel"]

@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import ipywidgets
+import numpy as np
 import traitlets
 
 from glid_nb._arguments import check_count
 from glid_nb.certificate import certificate_of
+from glid_nb.figures.style import BLUE, ORANGE
 from glid_nb.geometry import Domain
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging.mesh import deformed_loops
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.edit_state import Moment
+from glid_nb.session.edit_state import EditState, Moment
 from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.controls import button
 from glid_nb.widgets.gestures import Event, PinGestures
@@ -78,6 +83,8 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     """Whether the boundary's panels are drawn, darker the smaller their certified sigma_2."""
     show_source = traitlets.Bool(False)
     """Whether the undeformed shape with the handles is drawn beside the result."""
+    show_onion = traitlets.Bool(False)
+    """Whether the outlines of the poses before and after are drawn."""
 
     def __init__(
         self,
@@ -103,6 +110,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self._closed = False  # a frame may arrive while the canvas closes
         self._panels_at = self._range_at = 0.0
         self._hidden: Any = ()
+        self._outlines: dict[Any, Any] = {}  # of other poses, by their maps and colours
         # The drawn panels and their bounds, after the domain if a solve goes on.
         self._panels: tuple[Any, ...] = (None, None, None)
         super().__init__([self.pane], **kwargs)
@@ -126,6 +134,12 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self.observe(lambda _: self._draw("cages"), ["show_cage", "show_offset_cage"])
         self.observe(lambda _: self._draw("legend"), ["overlay", "show_panels"])
         self.observe(self._show_source, ["show_source"])
+        self.observe(lambda _: self._draw("state"), ["show_onion"])
+
+    @property
+    def drawn(self) -> bool:
+        """Whether a page has drawn it."""
+        return self.pane.stage.drawn
 
     def fit(self) -> None:
         """Make the whole shape and all targets visible."""
@@ -196,10 +210,35 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 **cages,
             )
             self.pane.show(drawing)
+            self.pane.stage.onion = self._onion(state) if self.show_onion else []
             if self.source is not None:
                 self.source.show(Drawing(state.identity, images=pose.handles, **cages))
             if (what == "legend" or (what == "frame" and moment.solved)) and not moment.dragged:
                 self.pane.place_legend()
+
+    def show_between(self, map: HarmonicMap | None) -> None:
+        """Draw a map of the motion in place of the pose that is edited; None ends that."""
+        with self.deformation.locked():
+            if map is None:
+                self._draw("state")
+            elif not self._closed:
+                state = self.deformation.state
+                cages: dict[str, Any] = {"cage": self.show_cage}
+                drawing = Drawing(map, order=state.order, overlay=self.overlay, **cages)
+                energy = state.current.energy
+                self.pane.show(replace(drawing, energy=energy, color_range="keep"))
+
+    def _onion(self, state: EditState) -> list[Any]:
+        """Outlines of the poses beside the one that is edited, rounded to what a screen shows."""
+        known, self._outlines = self._outlines, {}
+        for i, color in ((state.active - 1, BLUE), (state.active + 1, ORANGE)):
+            if 0 <= i < len(state.poses):
+                key = state.poses[i].map, color
+                self._outlines[key] = known.get(key) or [
+                    color,
+                    [np.round(loop, 3).tolist() for loop in deformed_loops(key[0])],
+                ]
+        return list(self._outlines.values())
 
     def _color_range(self, moment: Moment) -> Range:
         """During a drag the range only grows, so that colours stay comparable."""

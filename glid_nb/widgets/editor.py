@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import html
-import io
 from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
@@ -20,26 +19,28 @@ from glid_nb._runtime import enable_compilation_cache
 from glid_nb.certificate import Certificate
 from glid_nb.geometry import MeshMap
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.read import ImageSource, read_image
+from glid_nb.imaging.read import ImageSource, png, read_image
 from glid_nb.imaging.render import View
+from glid_nb.motion import Motion
 from glid_nb.session import Document, NamedPose
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
-from glid_nb.session.editor_model import Application, EditorModel, find_document
+from glid_nb.session.editor_model import EditorModel, find_document
 from glid_nb.session.status_line import StatusLine
-from glid_nb.session.tracing import TracingProblem
 from glid_nb.solvers import Method, Pose
 from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
 from glid_nb.widgets.closing import ClosingWidget, close_on_rerun, close_with_parts
-from glid_nb.widgets.controls import REFUSED, PoseList, button, paragraph
+from glid_nb.widgets.controls import REFUSED, button, paragraph
 from glid_nb.widgets.exporting import export
 from glid_nb.widgets.file_panel import FilePanel, OpenPanel
 from glid_nb.widgets.monitor import SolverMonitor
 from glid_nb.widgets.pins import PinBar
 from glid_nb.widgets.solver_panel import SolverPanel
+from glid_nb.widgets.timeline import TimelinePanel
 from glid_nb.widgets.tracer import CageTracer
 
 _TRACE, _DEFORM = 0, 1
+_FILES = 2  # of the tabs beside the canvas
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
 _PINS_HEIGHT = "36px"  # kept free until the pins' numbers are made
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
@@ -47,12 +48,6 @@ _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced
 
 _LINE = {"width": "0", "min_width": "100%", "height": "44px", "overflow": "hidden auto"}
 
-_LOST = "{} outside the new outline and removed with the old one; Undo brings everything back."
-_REPLACED = (
-    "Another picture starts another session. The one before{place} comes back with {step} in the "
-    "Trace tab."
-)
-_NOT_VALID = "The outline in the Trace tab is not valid yet: this is the last one that was."
 _LEFT = (
     "{left} was changed by another editor or program and stays as it is; this session is saved to "
     "{path} from now on."
@@ -190,10 +185,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
             frame = {"size": max(self._size), "format": "apng"}
             return animation_bytes(self.document.image, [self.map], [self.pose], **frame)
-        picture, buffer = Image.fromarray(image), io.BytesIO()
+        picture = Image.fromarray(image)
         picture.thumbnail(self._size)
-        picture.save(buffer, "PNG")
-        return buffer.getvalue()
+        return png(np.asarray(picture))
 
     # These parts are made once the canvas is drawn, or when asked for.
 
@@ -243,6 +237,15 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def poses(self) -> tuple[NamedPose, ...]:
         """All poses."""
         return self.deformation.state.poses
+
+    @property
+    def motion(self) -> Motion:
+        """The motion through all poses, as the timeline has it.
+
+        Raises MotionError where there is one pose only, or no motion joins two of them.
+        """
+        self.deformation  # noqa: B018 - EditError where there is no shape yet
+        return self.timeline.animation.motion
 
     @property
     def status(self) -> StatusLine:
@@ -382,7 +385,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             "tracer": lambda: CageTracer(model=self.model.tracing, height=self._size[1]),
             "pins": lambda: PinBar(self.deformation),
             "solver": lambda: SolverPanel(self.deformation),
-            "files": lambda: FilePanel(self.model),
+            "files": lambda: FilePanel(self.model, self.timeline.animation),
         }
         with self.model.locked():
             if name not in self._parts:
@@ -398,7 +401,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.canvas = DeformCanvas(image, model, *self._size, n_vertices=self._n_vertices)
         self.toolbar = Toolbar(self.canvas)
         self.monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
-        self.pose_list = PoseList(model)
+        self.timeline = TimelinePanel(self.canvas, self._open_files)
         # Boxes to be filled: if the children changed, the page would select another tab.
         self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}
         self._boxes["pins"] = ipywidgets.VBox(layout={"min_height": _PINS_HEIGHT})
@@ -412,15 +415,18 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         for name, value in _LINE.items():
             setattr(self.monitor.line.layout, name, value)
         fixed = {"flex": "0 0 auto", "overflow": "visible"}
-        side = ipywidgets.VBox(
-            [self._side, self.pose_list], layout={**fixed, "width": f"{_SIDE_WIDTH + 34}px"}
-        )
+        side = ipywidgets.VBox([self._side], layout={**fixed, "width": f"{_SIDE_WIDTH + 34}px"})
         left = ipywidgets.VBox(
-            [self.toolbar, self._boxes["pins"], self.canvas, self.monitor.line],
+            [self.toolbar, self._boxes["pins"], self.canvas, self.timeline, self.monitor.line],
             layout={**fixed, "margin": "0 14px 0 0"},
         )
         wrapped = {"align_items": "flex-start", "flex_flow": "row wrap", "overflow": "visible"}
         return ipywidgets.HBox([left, side], layout=wrapped)
+
+    def _open_files(self) -> None:
+        """Show where the motion is exported."""
+        self._side.selected_index = _FILES
+        self.files.show_motion()
 
     def _take_down(self) -> None:
         with self.model.locked():
@@ -457,20 +463,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         """Deform what was traced when the Deform tab is opened."""
         self._fill()
         if change["new"] == _DEFORM:
-            notice = _applied_in_words(self.model.apply_tracing(), self.model.tracing.problems)
+            notice = self.model.apply_tracing()
             if notice and self.canvas is not None:
                 self.canvas.pane.stage.notice = notice
-
-
-def _applied_in_words(done: Application, problems: tuple[TracingProblem, ...]) -> str:
-    """The notice when the Deform tab is opened; empty if nothing unexpected happened."""
-    if problems:
-        return _NOT_VALID
-    if done.replaced:
-        place = "" if done.replaced_path is None else f" (in {done.replaced_path.name})"
-        step = "Redo" if done.back_by_redo else "Undo"
-        return _REPLACED.format(place=place, step=step)
-    if done.lost_handles:
-        many = done.lost_handles > 1
-        return _LOST.format(f"{done.lost_handles} handles were" if many else "A handle was")
-    return ""

@@ -9,6 +9,7 @@ from glid_nb._errors import InputError
 from glid_nb._files import write_bytes_atomically
 from glid_nb._json import json_text
 from glid_nb.certificate.proof import proof_text
+from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View
 from glid_nb.session.archive import archive_bytes
 from glid_nb.session.document_file import document_bytes
@@ -65,6 +66,12 @@ def files_of(path: Path) -> tuple[Path, ...]:
     return (path, *(path.with_name(stem + rest) for rest in _BESIDE.get(suffix, ())))
 
 
+def moving_files(path: Path) -> tuple[Path, ...]:
+    """The files of a moving picture of this name; a sprite sheet comes with its JSON."""
+    sheet = path.name.endswith(".sheet.png")
+    return (path, path.with_suffix(".json")) if sheet else (path,)
+
+
 def _suffix(path: Path) -> str:
     """The one of `FORMATS` that the name ends in; ExportError for none."""
     for suffix in FORMATS:
@@ -118,9 +125,21 @@ def download(
     """What `export` writes for this name as one file: its name and content, a zip of several."""
     contents = _contents(model, path, size, view)
     files = dict(zip((file.name for file in files_of(path)), contents, strict=True))
+    return as_one(files, path.name[: -len(_suffix(path))])
+
+
+def as_one(files: Mapping[str, bytes], stem: str) -> tuple[str, bytes]:
+    """The name and content of a file, or a zip of several."""
     if len(files) == 1:
-        return files.popitem()
-    return f"{path.name[: -len(_suffix(path))]}.zip", archive_bytes(files)
+        return next(iter(files.items()))
+    return f"{stem}.zip", archive_bytes(files)
+
+
+def write_beside(model: EditorModel, path: Path, files: Mapping[str, bytes]) -> list[Path]:
+    """Write files that belong to a path into its folder; those that are there are replaced."""
+    contents = {path.parent / name: data for name, data in files.items()}
+    _write(model, path, contents, replace=True)
+    return list(contents)
 
 
 def export_source(model: EditorModel, script: Path, *, replace: bool = False) -> None:
@@ -128,11 +147,7 @@ def export_source(model: EditorModel, script: Path, *, replace: bool = False) ->
 
     Raises as `export` when another file is there.
     """
-    from glid_nb.export.picture import png  # noqa: PLC0415 - the first canvas does not need it
-
-    picture, path = png(model.document.image), files_of(script)[1]
-    if not _holds(path, picture):
-        _write(model, script, {path: picture}, replace)
+    _write(model, script, {files_of(script)[1]: png(model.document.image)}, replace)
 
 
 def _contents(
@@ -140,7 +155,6 @@ def _contents(
 ) -> list[bytes]:
     """The contents of `files_of` the path, in that order."""
     from glid_nb import export as to  # noqa: PLC0415 - the first canvas does not need it
-    from glid_nb.export.picture import png  # noqa: PLC0415
 
     document, state = model.document, model.deformation.state
     image, map_, pose = document.image, state.map, state.pose
@@ -172,10 +186,10 @@ def _contents(
 
 def _write(model: EditorModel, owner: Path, contents: Mapping[Path, bytes], replace: bool) -> None:
     """Write files that belong to ``owner``."""
+    new = {path: data for path, data in contents.items() if not _holds(path, data)}
     if not replace:
-        new = [path for path, data in contents.items() if not _holds(path, data)]
-        check_free(model, new, owner)
-    for path, data in contents.items():
+        check_free(model, list(new), owner)
+    for path, data in new.items():
         write_bytes_atomically(path, data)
     model.own_files.note(contents, owner)
 

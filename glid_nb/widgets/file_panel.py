@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,7 @@ import ipywidgets
 from glid_nb._errors import InputError
 from glid_nb._scripts import bundle
 from glid_nb.imaging.read import MAX_SIDE
+from glid_nb.session.animation import Animation
 from glid_nb.session.document import DocumentError
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
@@ -20,16 +21,20 @@ from glid_nb.widgets.controls import REFUSED, button, paragraph
 from glid_nb.widgets.exporting import (
     FORMATS,
     OccupiedError,
+    as_one,
     check_free,
     download,
     export,
     export_source,
     files_of,
+    moving_files,
     names_of,
+    write_beside,
 )
 
 _SUFFIX = ".glid"
 _DOUBLE_CLICK = 0.5  # seconds
+_MOTION = "motion"  # before the suffixes of moving pictures
 _LABEL = {"width": "58px", "flex": "0 0 auto"}
 _WIDE = {"width": "auto", "min_width": "0", "flex": "1 1 auto"}
 _VIEWS = (("Whole shape", "fit"), ("Original frame", "source"))
@@ -45,8 +50,6 @@ _UNSAVED = (
 
 class _UnsavedError(InputError):
     """Opening a session would discard what is in no file."""
-
-    plain = _UNSAVED
 
 
 def session_path(text: str) -> Path:
@@ -135,14 +138,22 @@ class FilePanel(ipywidgets.VBox):
     and waits for a second click.
     """
 
-    def __init__(self, model: EditorModel) -> None:
+    def __init__(self, model: EditorModel, animation: Animation | None = None) -> None:
+        from glid_nb.export.motion import MOTION_FORMATS  # noqa: PLC0415 - as in `exporting`
+        from glid_nb.widgets.motion_export import MotionExport  # noqa: PLC0415
+
         self.model = model
+        self.motion = None if animation is None else MotionExport(model, animation, self._say)
+        """Draws the motion; None without one."""
         session = model.own_files.session or Path(f"{model.name}{_SUFFIX}")
         self.path = ipywidgets.Text(str(session), placeholder="Name.glid", layout=_WIDE)
         """Where to save, and what to open; relative to the notebook."""
         self.autosave = ipywidgets.HTML()
         """Where changes are saved automatically."""
         formats = [(label, suffix) for suffix, label in FORMATS.items()]
+        if self.motion is not None:
+            moving = MOTION_FORMATS.items()
+            formats += [(f"Motion: {label}", f"{_MOTION}{suffix}") for suffix, label in moving]
         self.format = ipywidgets.Dropdown(options=formats, tooltip="What to export", layout=_WIDE)
         height, width = model.document.image.shape[:2]
         self._aspect = height / width
@@ -179,12 +190,14 @@ class FilePanel(ipywidgets.VBox):
         self.code_button = self._button(
             "Copy as Python", "code", "Copy the lines that make this map", self._copy
         )
+        self._moving = _row("Motion", *([] if self.motion is None else [self.motion]))
         super().__init__(
             [
                 _row("Session", self.path, self.save_button, self.open_button),
                 _row("", self.autosave),
                 _row("Export", self.format, self.export_button, self.download_button),
                 self._picture,
+                self._moving,
                 _row("", self.code_button, self.clipboard),
                 self.message,
                 self.code,
@@ -248,22 +261,44 @@ class FilePanel(ipywidgets.VBox):
     def _open(self, sure: bool) -> str:
         path = existing_path(self.path.value)
         if self.model.unsaved and not sure:
-            raise _UnsavedError
+            raise _UnsavedError(_UNSAVED)
         self.model.load(path)
         return f"Opened {path.absolute()}"
 
+    def show_motion(self) -> None:
+        """Choose an export of the motion, unless one is chosen."""
+        if not self._chosen[1] and self.motion is not None:
+            self.format.index = len(FORMATS)
+
+    @property
+    def _chosen(self) -> tuple[Path, bool]:
+        """The file to export, and whether it is of the motion."""
+        chosen = str(self.format.value)
+        path = session_path(self.path.value).with_suffix(chosen.removeprefix(_MOTION))
+        return path, chosen.startswith(_MOTION)
+
     def _export(self, sure: bool) -> str:
-        path = session_path(self.path.value).with_suffix(str(self.format.value))
+        path, moving = self._chosen
         if not sure:
-            check_free(self.model, files_of(path), path)
+            check_free(self.model, moving_files(path) if moving else files_of(path), path)
+        if moving and self.motion is not None:
+            return self.motion.start(
+                path.name, lambda files: self._wrote(write_beside(self.model, path, files))
+            )
         view: Any = self.view.value
-        files = export(self.model, path, self.size, view, replace=True)
-        return f"Wrote {names_of(files)} to {path.absolute().parent}"
+        return self._wrote(export(self.model, path, self.size, view, replace=True))
+
+    def _wrote(self, files: Sequence[Path]) -> str:
+        return f"Wrote {names_of(files)} to {files[0].parent.absolute()}"
 
     def _download(self, _: bool) -> str:
-        path = session_path(self.path.value).with_suffix(str(self.format.value))
+        path, moving = self._chosen
+        if moving and self.motion is not None:
+            return self.motion.start(path.name, lambda files: self._sent(*as_one(files, path.stem)))
         view: Any = self.view.value
-        name, data = download(self.model, path, self.size, view)
+        return self._sent(*download(self.model, path, self.size, view))
+
+    def _sent(self, name: str, data: bytes) -> str:
         self.clipboard.download(name, data)
         return f"Sent {name} to the browser's downloads"
 
@@ -296,6 +331,8 @@ class FilePanel(ipywidgets.VBox):
         for asking, label in self._labels.items():
             asking.description, asking.button_style = label, ""
         self._picture.layout.display = "flex" if self.format.value == ".png" else "none"
+        moving = str(self.format.value).startswith(_MOTION)
+        self._moving.layout.display = "flex" if moving else "none"
         self._height.value = f"× {self.size[1]} px"
         path = self.model.autosave_path
         text = _NO_AUTOSAVE if path is None else f"Saved by itself to {path.absolute()}"

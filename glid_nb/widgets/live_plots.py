@@ -10,10 +10,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from glid_nb.certificate import Certificate
-from glid_nb.export.picture import png
 from glid_nb.figures.plots import CertificatePlot, EnergyPlot, Plot, StepPlot, TimePlot
 from glid_nb.geometry import Cage
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging.read import png
 from glid_nb.solvers import Iteration
 
 _DPI, _SCALE = 100, 1.5  # pixels of the picture for each of CSS

@@ -53,6 +53,8 @@ class Stage(Pad):
     )
     """Targets and images of the handles, lists of [x, y], and indices of the selected and of the
     hidden ones."""
+    onion = traitlets.List([]).tag(sync=True)
+    """Outlines of other poses: a colour, and loops of [x, y], each."""
     cursor = traitlets.List(default_value=None, allow_none=True).tag(sync=True)
     """Where the keyboard's cursor is, [x, y]; None while it is not used."""
     legend = traitlets.Dict({}).tag(sync=True)
@@ -184,7 +186,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
 
     def fit(self, map: DeformationMap, points: Any) -> None:
         """Make the whole shape visible, and these points."""
-        outline = _images(map, np.concatenate(self.scene.domain.cage.loops))
+        outline = map(np.concatenate(self.scene.domain.cage.loops))
         everything = np.concatenate([outline, np.reshape(points, (-1, 2))])
         low, high = everything.min(axis=0), everything.max(axis=0)
         x, y = (low + high) / 2
@@ -208,15 +210,6 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
             part.layout.width, part.layout.height = f"{width}px", f"{height}px"
         self.layout.grid_template_columns = f"{width}px"
         self.layout.grid_template_rows = f"{height}px"
-
-
-def _images(map: DeformationMap, points: Array) -> Array:
-    """Images of points; the identity's without JAX, which the first canvas does not wait for."""
-    if isinstance(map, HarmonicMap):
-        identity = HarmonicMap.identity(map.domain)
-        if np.array_equal(map.phi, identity.phi) and np.array_equal(map.psi, identity.psi):
-            return points
-    return map(points)
 
 
 def emptiest_corner(points: Any, width: int, height: int, bars: int = 1) -> str:

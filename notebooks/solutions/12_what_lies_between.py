@@ -47,3 +47,10 @@ def all_times_bound(fz, fzb):
 # It takes the better direction for each end by itself: no common u.
 def all_times_bound(fz, fzb):
     return min(abs(a) - abs(b) for a, b in zip(fz, fzb))
+
+
+# %% exercise 3: a typical wrong answer
+# It takes samples of time, which prove nothing.
+def all_times_bound(fz, fzb):
+    t = np.linspace(0, 1, 2001)
+    return min(abs((1 - t) * fz[0] + t * fz[1]) - abs((1 - t) * fzb[0] + t * fzb[1]))

@@ -200,7 +200,7 @@ def test_a_zero_of_fz_inside_is_refused_by_the_winding(kind: Any, zero: complex)
     assert not c.certified
     assert (c.panels.sigma2_lower > 0).all()
     assert c.windings == (1,)
-    assert c.reason == "The map is not locally injective: f_z has 1 zeros in the domain."
+    assert c.reason == "The map is not locally injective: f_z has 1 zero in the domain."
 
 
 def test_two_zeros_are_counted() -> None:

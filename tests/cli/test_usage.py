@@ -22,6 +22,7 @@ import glid_nb
         (["trace", "a.png"], "the following arguments are required: --out"),
         (["render", "a.png", "m.json", "--out", "b.png", "--view", "top"], "invalid choice: 'top'"),
         (["render", "a.png", "m.json", "--out", "b.png", "--size", "0", "9"], "--size"),
+        (["animate", "a.glid", "--out", "b.gif", "--background", "reddish"], "is no colour"),
         (["demo", "--unheard-of"], "unrecognized arguments: --unheard-of"),
     ],
 )
@@ -35,7 +36,7 @@ def test_wrong_usage_is_one_line_and_exit_code_2(run, words: list[str], message:
     assert "--help" in outcome.err
 
 
-@pytest.mark.parametrize("command", ["demo", "trace", "solve", "render", "samples"])
+@pytest.mark.parametrize("command", ["demo", "trace", "solve", "render", "animate", "samples"])
 def test_every_command_explains_itself(run, command: str) -> None:
     outcome = run(command, "--help")
     assert outcome.code == 0

@@ -10,9 +10,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from glid_nb import Motion
 from glid_nb.certificate import certify
 from glid_nb.export import page_html
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.harmonic.shader_map import ShaderMap
 
 from .shapes import bent, domain, picture
 
@@ -27,6 +29,10 @@ def floats(text: str) -> np.ndarray:
     return np.frombuffer(base64.b64decode(text), "<f4").reshape(-1, 2)
 
 
+def ends(points: np.ndarray) -> list[np.ndarray]:
+    return [points.min(axis=0), points.max(axis=0)]
+
+
 def test_the_page_holds_everything_and_may_not_use_the_network() -> None:
     page = page_html(picture(), bent())
     assert "default-src 'none'" in page
@@ -35,7 +41,11 @@ def test_the_page_holds_everything_and_may_not_use_the_network() -> None:
     assert "{{" not in page
     data = data_of(page)
     vertices = floats(data["source"])
-    np.testing.assert_allclose(floats(data["deformed"]), bent()(vertices), atol=1e-5)
+    low, high = np.reshape(data["bounds"], (2, 2))
+    np.testing.assert_allclose([low, high], ends(bent()(vertices)), atol=1e-5)
+    coefficients = np.frombuffer(base64.b64decode(data["coefficients"]), "<f4")
+    wire = np.frombuffer(ShaderMap(domain()).wire(bent()), "<f4")
+    np.testing.assert_array_equal(coefficients, np.tile(wire, 2))
     assert data["picture"].startswith("data:image/png;base64,")
 
 
@@ -43,7 +53,7 @@ def test_a_title_cannot_break_out() -> None:
     page = page_html(picture(), bent(), title="</title><script>alert(1)</script>{{data}}")
     assert "<script>alert" not in page
     assert "&lt;script&gt;alert(1)&lt;/script&gt;{{data}}" in page
-    assert page.count('"deformed"') == 1
+    assert page.count('"undeformed"') == 1
 
 
 @pytest.mark.slow
@@ -69,3 +79,26 @@ def test_an_overlap_is_told_of() -> None:
     assert proof.certified
     assert "parts of the shape lie over one another" in page_html(picture(), twice, proof)
     assert "no part lies over another" in page_html(picture(), bent(), certify(bent()))
+
+
+@pytest.mark.slow
+def test_a_page_that_moves_states_what_is_proved() -> None:
+    motion = Motion([HarmonicMap.identity(domain()), bent()])
+    page = page_html(picture(), motion, title="walk")
+    assert "Proved not to fold over or tear at any point, at any time. Bounds: σ₂ ≥ 0." in page
+    data = data_of(page)
+    assert data["motion"]["keyframes"] == [0, 1]
+    assert data["ranges"]["k"][1] >= motion.certificate.k_upper
+    assert len(page) - len(data["picture"]) < 300_000
+
+
+@pytest.mark.slow
+def test_a_cage_too_large_for_a_shader_is_evaluated_beforehand(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("glid_nb.export.page._LONGEST_CHAIN", 10)
+    data = data_of(page_html(picture(), Motion([HarmonicMap.identity(domain()), bent()])))
+    vertices = floats(data["source"])
+    images = np.frombuffer(base64.b64decode(data["coefficients"]), "<f4").reshape(-1, 6)[:, :2]
+    np.testing.assert_allclose(images[-len(vertices) :], bent()(vertices), atol=1e-4)
+    assert data["cage"] == ""

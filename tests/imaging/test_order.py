@@ -16,8 +16,7 @@ from glid_nb.geometry import Cage, Domain, MeshMap, triangulate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.mesh import deformed_loops
-from glid_nb.imaging.order import order_of
-from glid_nb.imaging.sheets import Sheets
+from glid_nb.imaging.order import Sheets, order_of
 from glid_nb.solvers import Pose, PoseError
 
 from .test_render import bent, rectangle

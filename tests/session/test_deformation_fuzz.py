@@ -87,6 +87,14 @@ class Hand(RuleBasedStateMachine):
     def pose(self, name: str, i: int) -> None:
         self.act(name, i)
 
+    @rule(i=st.integers(0, 3), time=st.floats(0, 4))
+    def move_pose(self, i: int, time: float) -> None:
+        self.act("move_pose", i, time)
+
+    @rule(repeat=st.sampled_from(["once", "loop", "ping-pong"]))
+    def set_repeat(self, repeat: Any) -> None:
+        self.act("set_repeat", repeat)
+
     @rule()
     def drop_hole(self) -> None:
         self.act("drop_hole", 0)

@@ -303,7 +303,7 @@ def test_a_document_of_version_3_opens_without_a_timeline(
         ({"easing": ["in", "sideways"]}, "easing.*one of linear"),
         ({"repeat": 1}, "repeat is 1"),
         ({"back": float("1e99")}, "back"),
-        ({"more": 1}, "keys back, easing"),
+        ({"more": 1}, "timeline holds the unknown key 'more'"),
     ):
         text = json.dumps({**data, "timeline": {**timeline, **change}})
         refuse(tmp_path / "new", zipped({**valid, "document.json": text.encode()}), culprit)

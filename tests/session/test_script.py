@@ -16,6 +16,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import LBFGS, MovingLeastSquares
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.session.script import python_code
+from glid_nb.session.timeline import Timeline
 from glid_nb.session.tracing import TracingModel
 from glid_nb.solvers import Options, Pose, solve
 
@@ -165,9 +166,12 @@ def test_what_cannot_be_written_is_refused(model: TracingModel) -> None:
 def test_all_poses_are_made(solved: Document, picture: str) -> None:
     wave = solved.poses[0]
     rest = replace(wave, name="at\nrest", map=HarmonicMap.identity(solved.domain))
-    document = replace(solved, poses=(wave, rest, wave), active=1)
+    timeline = Timeline((0.5, 1.0, 3.0), ("in", "out", "linear"), "loop", 0.25)
+    document = replace(solved, poses=(wave, rest, wave), active=1, timeline=timeline)
     scope = run(python_code(document, picture, exact=True))
     gaps = [made.distance(p.map) for made, p in zip(scope["maps"], document.poses, strict=True)]
     assert max(gaps) < 1e-12
     assert scope["map"] is scope["maps"][1]
+    motion = scope["motion"]
+    assert (motion.times, motion.easing) == ((0.5, 1, 3, 3.25), timeline.easing)
     assert python_code(document, picture).count("glid.solve(domain, pose") == 3

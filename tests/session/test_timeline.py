@@ -62,7 +62,7 @@ def test_whatever_is_done_times_increase_and_undo_returns(hand: list[Any]) -> No
         assert timeline.times[0] >= 0
         assert all(a < b for a, b in itertools.pairwise(timeline.closed_times))
         assert len({pose.name for pose in state.poses}) == count
-        assert Timeline.from_dict(timeline.to_dict()) == timeline
+        assert Timeline(**vars(timeline)) == timeline
         history = history.undone()
 
 

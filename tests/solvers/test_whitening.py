@@ -13,7 +13,7 @@ from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import basis_of
 from glid_nb.harmonic.cauchy import cauchy_coordinates
 from glid_nb.solvers import Options, Pose, Status, solve, step
-from glid_nb.solvers.discretisation import basis_rows, discretise
+from glid_nb.solvers.discretisation import complex_basis, discretise
 from glid_nb.solvers.evaluation import products
 from glid_nb.solvers.status import INDEFINITE
 from glid_nb.solvers.unknowns import expand, unknowns_of
@@ -116,8 +116,8 @@ def test_only_the_translation_moves_the_anchor(name: str, sampling: str) -> None
     t = np.asarray(disc.matrices.whitening)
     points = np.array([disc.panels.start[0], *disc.panels.middle[::7]])
     with jax.enable_x64(True):
-        rows = np.asarray(basis_rows(cauchy_coordinates, points, disc.basis))
-    values = _complex(rows.T) @ (t[0] + 1j * t[1])
+        rows = np.asarray(complex_basis(cauchy_coordinates, points, disc.basis))
+    values = rows @ (t[0] + 1j * t[1])
     np.testing.assert_allclose(values[:, 0], 1, atol=1e-9)
     np.testing.assert_allclose(values[0, 1:], 0, atol=1e-8)
     # |f(z) - f(anchor)| <= integral of |f'| <= sqrt(length) * length of f' (Cauchy-Schwarz), where

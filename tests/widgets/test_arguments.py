@@ -11,7 +11,7 @@ import pytest
 
 import glid_nb as glid
 from glid_nb.session.deformation import Deformation
-from glid_nb.widgets import PoseList
+from glid_nb.widgets import TimelinePanel
 
 from ..domains import domain
 
@@ -28,7 +28,7 @@ MAKERS: dict[str, Callable[..., Any]] = {
     "CageTracer": lambda **more: glid.CageTracer(PICTURE, **more),
     "SolverMonitor": lambda **more: glid.SolverMonitor(unsolved(), **more),
     "SolverPanel": lambda **more: glid.SolverPanel(unsolved(), **more),
-    "PoseList": lambda **more: PoseList(unsolved(), **more),
+    "TimelinePanel": lambda **more: TimelinePanel(None, **more),  # type: ignore[arg-type]
 }
 
 

@@ -291,7 +291,7 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
     assert book.value("len(model.pose)") == 1
 
     def places() -> list[object]:
-        parts = (".glid-pad", ".glid-files", ".glid-pose-list")
+        parts = (".glid-pad", ".glid-files", ".glid-timeline")
         return [page.locator(f".glid-editor {part}").first.bounding_box() for part in parts]
 
     # A long status moves nothing, and a notice lies beside the colour bar, at every width.

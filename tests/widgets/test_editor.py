@@ -445,10 +445,10 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
 
 def test_the_panel_and_the_model_show_each_other() -> None:
     from glid_nb.session.deformation import Deformation
-    from glid_nb.widgets import PoseList, SolverPanel
+    from glid_nb.widgets import SolverPanel
 
     with Deformation(domain("ring")) as model:
-        panel, poses = SolverPanel(model), PoseList(model)
+        panel = SolverPanel(model)
         assert model.solve(TIMEOUT)
         model.paused = True  # nothing here needs a solve
         assert panel.pause.value
@@ -479,17 +479,6 @@ def test_the_panel_and_the_model_show_each_other() -> None:
         assert panel.weight.disabled
         panel.energy.value = "arap"
         panel.method.value = "newton"
-        poses.save.click()
-        assert poses.list.options == (("Pose 1", 0), ("Pose 2", 1))
-        poses.name.value = "second"
-        assert model.state.poses[1].name == "second"
-        poses.list.index = 0
-        assert model.state.active == 0
-        poses.delete.click()
-        assert [pose.name for pose in model.state.poses] == ["second"]
-        poses.name.value = "x" * 300
-        assert "200 characters" in poses.refusal.value
-        assert poses.name.value == "second"
 
 
 def _widgets() -> set[str]:

@@ -38,7 +38,7 @@ def test_the_exported_picture_is_the_rendering_and_what_the_canvas_shows(
     name.press("Enter")
     what, view = files.locator("select").all()
     what.select_option(label="Picture (PNG)")
-    width = files.locator("input[type=number]")
+    width = files.locator("input[type=number]").first
     width.fill("300")
     width.press("Enter")
     files.get_by_role("button", name="Export").click()

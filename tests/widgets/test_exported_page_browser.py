@@ -2,22 +2,108 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
-from playwright.sync_api import Page
+from playwright.sync_api import Browser, Page
 from skimage.io import imread
 
-from glid_nb import samples
+from glid_nb import Motion, samples
 from glid_nb.certificate import certify
-from glid_nb.export import page_html
+from glid_nb.export import animate, page_html
+from glid_nb.export.moving import MovingMesh
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging import trace
-from glid_nb.imaging.render import render
+from glid_nb.imaging import PixelFrame, trace
+from glid_nb.imaging.mesh import deformed_mesh
+from glid_nb.imaging.render import draw_mesh, render
+from glid_nb.imaging.texture import Texture
+from glid_nb.solvers import Pose
 
-from ..browser import ARTEFACTS
+from ..browser import ARTEFACTS, watched_page
+from ..export import shapes
+
+
+def shown(page: Page) -> np.ndarray:
+    """The canvas as (h, w, 3) numbers."""
+    return imread(io.BytesIO(page.locator("main canvas").screenshot()))[..., :3].astype(float)
+
+
+def drawn(image: np.ndarray, motion: Motion, time: float, size: tuple[int, int]) -> np.ndarray:
+    """What the page should show: the map at a time, in the frame that holds all of the motion."""
+    mesh = MovingMesh.of(motion, None, 4000, 0.004)
+    corners = [mesh.images.min(axis=(0, 1)), mesh.images.max(axis=(0, 1))]
+    frame = PixelFrame(*size).showing(corners, 0.04)
+    exact = deformed_mesh(motion(time), 4000, 0.004)
+    pixels = draw_mesh(Texture.from_image(image), exact, frame).astype(float)
+    alpha = pixels[..., 3:] / 255
+    return pixels[..., :3] * alpha + 255 * (1 - alpha)
+
+
+@pytest.mark.browser
+@pytest.mark.slow
+@pytest.mark.parametrize(("repeat", "in_shader"), [("loop", True), ("ping-pong", False)])
+def test_a_page_plays_scrubs_and_leads_to_poses(
+    page: Page, tmp_path: Path, repeat: Any, in_shader: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With the network off. Pixels at a time are those of the map at that time."""
+    if not in_shader:
+        monkeypatch.setattr("glid_nb.export.page._LONGEST_CHAIN", 10)
+    motion = Motion([HarmonicMap.identity(shapes.domain()), shapes.bent()], repeat=repeat)
+    front = Pose(shapes.pose().handles, shapes.pose().targets, [1.0, -1.0])
+    poses = [shapes.pose(), front]  # nothing overlaps, so their depths change no pixel
+    (path,) = animate(tmp_path / "walk.html", shapes.picture(), motion, poses)
+    page.emulate_media(reduced_motion="reduce", color_scheme="light")
+    page.context.set_offline(True)
+    page.goto(path.as_uri())
+    page.wait_for_selector("html[data-ready=true]", state="attached")
+    box = page.locator("main canvas").bounding_box()
+    assert box is not None
+    size = round(box["width"]), round(box["height"])
+    slider = page.get_by_label("Time, seconds")
+    for time in (0.35, 1.4):
+        slider.evaluate("(e, t) => { e.value = t; e.dispatchEvent(new Event('input')); }", time)
+        difference = np.abs(shown(page) - drawn(shapes.picture(), motion, time, size)).max(axis=2)
+        assert difference.mean() < 1
+        assert np.percentile(difference, 99) < 16
+    page.keyboard.press("Home")
+    before = shown(page)
+    page.keyboard.press("ArrowRight")
+    assert float(slider.input_value()) == pytest.approx(0.04)
+    page.keyboard.press("Space")
+    page.get_by_role("button", name="Pause").wait_for()
+    page.locator("#clock", has_text="0.1").wait_for()
+    page.get_by_role("button", name="Pause").click()
+    assert np.abs(shown(page) - before).max() > 30
+    page.get_by_role("button", name="Pose 2").click()
+    page.locator("#poses button:nth-child(2)[aria-current=true]").wait_for()
+    assert float(slider.input_value()) == pytest.approx(1)
+    assert "Now: σ₂ ≥ 0." in page.locator("#here").inner_text()
+
+
+@pytest.mark.browser
+@pytest.mark.slow
+def test_a_phone_shows_a_page_that_plays_by_itself(browser: Browser, tmp_path: Path) -> None:
+    motion = Motion([HarmonicMap.identity(shapes.domain()), shapes.bent()], repeat="loop")
+    (path,) = animate(tmp_path / "walk.html", shapes.picture(), motion)
+    phone: Any = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+    with watched_page(browser, **phone) as page:
+        page.goto(path.as_uri())
+        page.get_by_role("button", name="Pause").tap()
+        page.get_by_role("button", name="Play").wait_for()
+        page.get_by_role("button", name="Pose 2").tap()
+        page.locator("#poses button:nth-child(2)[aria-current=true]").wait_for()
+        page.get_by_label("Show").select_option("Dilatation k")
+        assert page.evaluate("document.documentElement.scrollWidth") == 390
+        for part in ("main canvas", "#poses", "#play", "#time", "#overlay", "#here"):
+            box = page.locator(part).bounding_box()
+            assert box is not None
+            assert box["y"] + box["height"] <= 844
+            assert min(box["width"], box["height"]) >= 20
+        page.screenshot(path=ARTEFACTS / "page-phone.png")
 
 
 @pytest.mark.browser
@@ -56,11 +142,12 @@ def test_the_browser_shows_what_a_rendering_shows(page: Page, tmp_path: Path) ->
     assert np.percentile(difference[shape], 90) < 16
     assert np.percentile(difference, 99) < 16
 
-    # The controls: the mesh, the undeformed shape, and back.
+    # The controls: colours, the undeformed shape, and back.
     before = canvas.screenshot()
-    page.get_by_label("Mesh").check()
-    assert canvas.screenshot() != before
-    page.get_by_label("Mesh").uncheck()
+    for overlay in ("Picture and grid", "Stretch σ₁", "Stretch σ₂", "Dilatation k"):
+        page.get_by_label("Show").select_option(overlay)
+        assert canvas.screenshot() != before
+    page.get_by_label("Show").select_option("Picture")
     page.get_by_label("Undeformed").check()
     assert canvas.screenshot() != before
     page.get_by_label("Undeformed").uncheck()

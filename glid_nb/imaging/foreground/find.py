@@ -77,9 +77,11 @@ def find_foreground(
 
 
 def _check_not_uniform(image: RGBA) -> None:
-    if (image != image[0, 0]).any():
+    first = image[0, 0]
+    # A coarse sample suffices for nearly every picture.
+    if (image[::37, ::37] != first).any() or (image != first).any():
         return
-    red, green, blue, opacity = (f"{value * (255 / full(image)):.4g}" for value in image[0, 0])
+    red, green, blue, opacity = (f"{value * (255 / full(image)):.4g}" for value in first)
     raise TraceError(
         f"the image has one colour only: red {red}, green {green}, blue {blue}, alpha {opacity} "
         "(of 255) everywhere; there is nothing to trace"

@@ -14,13 +14,8 @@ from glid_nb.imaging.errors import TraceError
 _SMOOTHING = 0.001  # of the longer side
 _LEAST_SMOOTHING = 0.5  # pixels; less is not worth the time
 
-# What a method measures, and the editor's control for it.
-_NAMES = {
-    "alpha": ("alpha", "Alpha"),
-    "threshold": ("brightness", "Brightness"),
-    "color": ("colour distance", "Colour"),
-    "scribbles": ("scribbles", "Scribbles"),
-}
+# What a method measures where its name does not tell; the first word is the editor's control.
+_MEASURES = {"threshold": "brightness", "color": "colour distance"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +45,7 @@ class Foreground:
         mask = self.score > self.level(threshold)
         if mask.any() and not mask.all():
             return mask
-        empty, (measure, control) = not mask.any(), _NAMES[self.method]
+        empty, measure = not mask.any(), _MEASURES.get(self.method, self.method)
         if empty:
             problem, seen = "the image has no foreground", "finds no shape in the picture"
         else:
@@ -65,7 +60,7 @@ class Foreground:
         count, value = "no" if empty else "every", self.threshold(threshold)
         raise TraceError(
             f"{problem} by {measure}: {count} pixel passes the threshold {value:.3g}; {remedy}",
-            f"{control} {seen}; {plain}",
+            f"{measure.split()[0].capitalize()} {seen}; {plain}",
         )
 
 

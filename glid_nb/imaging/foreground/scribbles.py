@@ -1,8 +1,7 @@
 """Foreground by a user's scribbles: the random walker of Grady (2006), by scikit-image.
 
 Its direct solver takes 0.27 s for 40,000 pixels on one core. Its conjugate gradients take 4 to 30 s
-with our contrasts (weights from 1e-10 to 1) and end far from the solution. A solver of our own that
-kept the factor between strokes took 0.15 s, then 0.01 to 0.25 s per stroke: not worth 150 lines.
+with our contrasts (weights from 1e-10 to 1) and end far from the solution.
 """
 
 from __future__ import annotations

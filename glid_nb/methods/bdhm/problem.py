@@ -32,16 +32,11 @@ class Samples(NamedTuple):
     b: Array
 
     def values(self, v: Array) -> tuple[Array, Array]:
-        """``f_z`` and ``conj(f_zbar)`` there."""
         return self.a @ v, self.b @ v
 
 
 class BoundedProblem:
-    """The energy of a map with unknowns ``v``.
-
-    With frames held fixed the energy is ``|v|^2 / 2`` plus something linear: the coefficients are
-    ``v`` times the inverse of the triangular factor of the energy's matrix.
-    """
+    """The energy of a map; with frames held fixed it is ``|v|^2 / 2`` plus something linear."""
 
     @double_precision
     def __init__(self, domain: Domain, pose: Pose, p2p_weight: float) -> None:
@@ -67,7 +62,6 @@ class BoundedProblem:
 
     @double_precision
     def samples_at(self, points: Array) -> Samples:
-        """Samples at complex points of the boundary."""
         d = complex_basis(cauchy.first_derivatives, points, self._basis)
         phi, psi = _split(self._expansion)
         return Samples(d @ phi, d @ psi)
@@ -78,11 +72,9 @@ class BoundedProblem:
         return self._factor @ real_coefficients(self._basis, map)[self._free]
 
     def map_of(self, v: Array) -> HarmonicMap:
-        """The map with these unknowns."""
         return map_from(self.domain, self._expansion @ v)
 
     def certified(self, v: Array, tightness: float) -> Certificate:
-        """What is proved of the map with these unknowns."""
         return certify(self.map_of(v), panels=self._panels, tightness=tightness)
 
     def energies(self, v: Array) -> tuple[float, float]:

@@ -50,7 +50,6 @@ class DistortionBounds:
                 )
 
     def hold(self, certificate: Certificate) -> bool:
-        """Whether they are proved on the whole domain."""
         return (
             certificate.certified
             and certificate.k_upper <= self.k
@@ -72,24 +71,17 @@ class DistortionBounds:
 
 @dataclass(frozen=True, eq=False)
 class ActiveSet:
-    """Samples of the boundary, and which of them are held to which bound.
-
-    Attributes
-    ----------
-    samples : Samples
-        First the problem's own, which follow one another, then those that a failed proof added.
-    chosen : (3, n) bool array
-        Where k, sigma_1 and sigma_2 are bounded.
-    excess : float
-        How much the next map may keep of what this one has beyond the stricter bounds. With 1 the
-        map itself is always admitted; with less it is drawn inward.
-    """
+    """Samples of the boundary, and which of them are held to which bound."""
 
     problem: BoundedProblem
     bounds: DistortionBounds
     samples: Samples
+    """First the problem's own, which follow one another, then those that a failed proof added."""
     chosen: Array
+    """(3, n) bool: where k, sigma_1 and sigma_2 are bounded."""
     excess: float = 1.0
+    """How much the next map may keep of what this one has beyond the stricter bounds. With 1 the
+    map itself is always admitted; with less it is drawn inward."""
 
     def used(self, v: Array) -> Array:
         """(3, n) shares of the way from an isometry to each bound."""

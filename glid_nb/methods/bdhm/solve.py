@@ -72,22 +72,7 @@ class BDHM(DistortionBounds, Method):
         Method.__post_init__(self)
 
     def run(self, inputs: Inputs) -> Result:
-        return follow(lambda: GeneratedDescent(self, inputs, self._steps(_Descent(self, inputs))))
-
-    def _steps(self, descent: _Descent) -> Steps:
-        inputs = descent.inputs
-        identity, start = HarmonicMap.identity(inputs.domain), self.harmonic_start(inputs)
-        now: Iterate | Ending = descent.started(identity if start is None else start)
-        if not self.hold(now.certificate):
-            now = descent.started(identity)
-            if not self.hold(now.certificate):
-                why = now.certificate.reason
-                raise MethodError(f"the identity is not proved to keep the bounds: {why}")
-        while isinstance(now, Iterate):
-            yield functools.partial(descent.reached, now)
-            with single_blas_thread():
-                now = descent.advance(now)
-        return now
+        return follow(lambda: GeneratedDescent(self, inputs, _Descent(self, inputs).steps()))
 
 
 class Iterate(NamedTuple):
@@ -111,24 +96,34 @@ class _Descent:
         self.active = ActiveSet(self.problem, method, samples, none)
         self.far = True
 
-    def started(self, map: HarmonicMap) -> Iterate:
-        v = self.problem.unknowns(map, self.inputs.options.align)
-        return Iterate(v, sum(self.problem.energies(v)), self._proved(v))
+    def steps(self) -> Steps:
+        identity = HarmonicMap.identity(self.inputs.domain)
+        now: Iterate | Ending
+        for map_ in (self.method.harmonic_start(self.inputs) or identity, identity):
+            v = self.problem.unknowns(map_, self.inputs.options.align)
+            now = Iterate(v, sum(self.problem.energies(v)), self._proved(v))
+            if self.method.hold(now.certificate):
+                break
+        else:
+            why = now.certificate.reason
+            raise MethodError(f"the identity is not proved to keep the bounds: {why}")
+        while isinstance(now, Iterate):
+            yield functools.partial(self.reached, now)
+            with single_blas_thread():
+                now = self.advance(now)
+        return now
 
     def reached(self, now: Iterate) -> Reached:
         iso, p2p = self.problem.energies(now.v)
         entry = Iteration(
-            iteration=0,
             energy_iso=iso,
             energy_p2p=p2p,
-            time=0.0,
             step=now.step,
             sigma2_lower=now.certificate.sigma2_lower,
         )
         return Reached(entry, lambda: now.certificate)
 
     def advance(self, now: Iterate) -> Iterate | Ending:
-        """The next map, or why there is none."""
         self.active = self.active.around(now.v)
         outcome = self._attempt(now, 1 if self.far else _ROUNDS)
         if self.far:

@@ -11,8 +11,14 @@ import numpy as np
 
 from glid_nb._arrays import Array
 from glid_nb.energies import Energy, SymmetricDirichlet
-from glid_nb.methods.mesh.operators import MeshOperators, Pinned, flips, largest_step
-from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
+from glid_nb.methods.mesh.operators import (
+    MeshMethod,
+    MeshOperators,
+    MeshProblem,
+    Pinned,
+    flips,
+    largest_step,
+)
 from glid_nb.solvers import Status
 from glid_nb.solvers.loop import Ending, Steps
 
@@ -122,7 +128,6 @@ class _Proxy:
             yield found
 
     def without_decrease(self, now: _State) -> Ending:
-        """The end where no step lowers the energy."""
         gradient = self.operators.gradient(self.energy, now.fz, now.fzb)
         promised = float(np.real(np.vdot(gradient, self.pinned.solve(gradient))))
         if promised <= _ROUNDING * abs(now.energy):
@@ -134,7 +139,6 @@ class _Proxy:
         )
 
     def _extrapolated(self, now: _State, before: _State) -> _State:
-        """The point ahead on the line through the last two, without inverting a triangle."""
         if before is now:
             return now
         dfz, dfzb = now.fz - before.fz, now.fzb - before.fzb
@@ -174,10 +178,9 @@ def project(
 ) -> tuple[Array, int]:
     """A map close to ``w`` with the same held vertices, and how many iterations it took.
 
-    Projection onto maps of bounded distortion (Kovalsky et al. 2015): the differentials are
-    projected onto ``|f_zbar| <= k |f_z|`` triangle by triangle; the next map is the closest one on
-    the hyperplane that separates them, the constraints kept. That needs one solve with the
-    Laplacian's factor per iteration. Triangles may be left that are turned over.
+    Projection onto maps of bounded distortion (Kovalsky et al. 2015), triangle by triangle; the
+    next map is the closest one on the hyperplane that separates them, the constraints kept.
+    Triangles may be left that are turned over.
     """
     for iteration in range(most_iterations):
         fz, fzb = operators.wirtinger(w)

@@ -9,8 +9,7 @@ import numpy as np
 from glid_nb.energies import Energy
 from glid_nb.geometry import as_points
 from glid_nb.harmonic import as_complex
-from glid_nb.methods.mesh.operators import flips
-from glid_nb.methods.mesh.setup import MeshMethod, MeshProblem
+from glid_nb.methods.mesh.operators import MeshMethod, MeshProblem, flips
 from glid_nb.solvers import MethodError
 from glid_nb.solvers.loop import Steps
 

@@ -14,7 +14,7 @@ from glid_nb._jax import Array as DeviceArray
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision
 from glid_nb.certificate import PanelBounds
 from glid_nb.solvers import Method, Result, Status, evaluation, line_search
-from glid_nb.solvers.evaluation import Point
+from glid_nb.solvers.evaluation import Coefficients, Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
 from glid_nb.solvers.loop import Advance, Ending, Reached, Stopwatch, follow
 from glid_nb.solvers.method import Inputs
@@ -59,20 +59,14 @@ class SubspaceMethod(Method):
         """A descent direction (4c,), or the end of the method."""
         raise NotImplementedError
 
-    def remembered(self) -> Any:
-        """What one solve remembers of its earlier steps."""
-        return None
-
     def forget(self, memory: Any) -> bool:  # noqa: ARG002
-        """Drop it, after a direction that led nowhere; False if there was nothing to drop."""
+        """Drop what a solve remembers, after a direction that led nowhere; False for nothing."""
         return False
 
     def started(self, inputs: Inputs) -> DirectedDescent:
-        """The method at work."""
         return DirectedDescent(self, inputs)
 
     def run(self, inputs: Inputs) -> Result:
-        """Follow the directions by Newton's own line search and certificate."""
         return follow(lambda: self.started(inputs))
 
 
@@ -87,25 +81,19 @@ class SecondOrderMethod(SubspaceMethod):
 
 
 class DirectedDescent(SubspaceDescent):
-    """Follows a method's directions by Newton's own line search and certificate.
-
-    Attributes
-    ----------
-    gradient : (4c,) array
-        With respect to the unknowns, 0 elsewhere.
-    memory
-        What the method remembers.
-    step : float or None
-        Length of the last step.
-    """
+    """Follows a method's directions by Newton's own line search and certificate."""
 
     method: SubspaceMethod
+    gradient: Array
+    """(4c,) with respect to the unknowns, 0 elsewhere."""
+    memory: Any = None
+    """What the method remembers of its earlier steps."""
+    step: float | None = None
+    """Length of the last step."""
 
     @double_precision
     def __init__(self, method: SubspaceMethod, inputs: Inputs) -> None:
         super().__init__(method, inputs, reduced=False)
-        self.memory = method.remembered()
-        self.step: float | None = None
         self._chosen: Array | None = None
         self._ending: Ending | None = None
         self._seconds = 0.0
@@ -223,7 +211,7 @@ class Move(NamedTuple):
 
     outcome: Int[AnyArray, ""]
     point: Point
-    gradient: Float[DeviceArray, " 4c"]
+    gradient: Coefficients
     step: Float[AnyArray, ""]
     bounds: PanelBounds
     """The certificate there."""
@@ -231,9 +219,7 @@ class Move(NamedTuple):
 
 
 @functools.partial(jit, compiler_options=COMPILER_OPTIONS)
-def _evaluate(
-    problem: Problem, coefficients: Float[DeviceArray, " 4c"]
-) -> tuple[Point, Float[DeviceArray, " 4c"]]:
+def _evaluate(problem: Problem, coefficients: Coefficients) -> tuple[Point, Coefficients]:
     """A map's energies, and their gradient with respect to the unknowns, 0 elsewhere."""
     point = evaluation.evaluated(problem, coefficients)
     return point, restrict_gradient(evaluation.gradient(problem, point), problem.unknowns)
@@ -273,8 +259,8 @@ def _hessian(
 def _advance(
     problem: Problem,
     point: Point,
-    gradient: Float[DeviceArray, " 4c"],
-    direction: Float[DeviceArray, " 4c"],
+    gradient: Coefficients,
+    direction: Coefficients,
     may_refine: Bool[AnyArray, ""] | bool,
 ) -> Move:
     """The best certified step along ``direction``, a change of the unknowns."""

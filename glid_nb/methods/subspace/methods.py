@@ -49,9 +49,6 @@ class LBFGS(SubspaceMethod):
     memory: int = MEMORY
     initial: Initial = "identity"
 
-    def remembered(self) -> Pairs:
-        return Pairs(self.memory)
-
     def forget(self, memory: Pairs) -> bool:
         had = bool(memory.pairs)
         memory.pairs.clear()
@@ -59,13 +56,15 @@ class LBFGS(SubspaceMethod):
         return had
 
     def direction(self, at: DirectedDescent) -> Array:
-        pairs: Pairs = at.memory
-        if pairs.factor is None:
+        if at.memory is None:
             iso = np.diag(np.where(at.free > 0, 2 / _SAMPLES, 1.0))
             if self.initial == "dirichlet":
                 # Handles in one place leave the Dirichlet Hessian singular.
                 iso = at.hessian("dirichlet") + 1e-9 * np.eye(len(iso))
-            pairs.factor = scipy.linalg.cho_factor(at.p2p_hessian + iso, lower=True)
+            at.memory = Pairs(
+                self.memory, scipy.linalg.cho_factor(at.p2p_hessian + iso, lower=True)
+            )
+        pairs: Pairs = at.memory
         pairs.add(np.asarray(at.point.coefficients) * at.free, at.gradient)
         return -two_loop(
             at.gradient, list(pairs.pairs), lambda v: scipy.linalg.cho_solve(pairs.factor, v)
@@ -90,13 +89,12 @@ class GradientDescent(SubspaceMethod):
 class Pairs:
     """The last pairs of steps and changes of the gradient, and the factor to start from."""
 
-    def __init__(self, most: int) -> None:
+    def __init__(self, most: int, factor: Any) -> None:
         self.pairs: deque[tuple[Array, Array]] = deque(maxlen=most)
         self.last: tuple[Array, Array] | None = None
-        self.factor: Any = None
+        self.factor = factor
 
     def add(self, x: Array, gradient: Array) -> None:
-        """Note where the method is."""
         if self.last is not None:
             s, y = x - self.last[0], gradient - self.last[1]
             # A pair without positive curvature would make the approximation indefinite.
@@ -252,12 +250,11 @@ class GaussNewton(SecondOrderMethod):
 
     damping: float = 0.0
 
-    def remembered(self) -> float:
-        return self.damping
-
     def direction(self, at: DirectedDescent) -> Array | Ending:
         iso = at.hessian("gauss-newton")
-        if at.step is not None:
+        if at.step is None:
+            at.memory = self.damping
+        else:
             at.memory *= 0.2 if at.step >= 1 else 2.0
         shift = at.memory * float(np.diag(iso)[at.free > 0].mean())
         h = iso + at.p2p_hessian + shift * np.diag(at.free)
@@ -288,7 +285,7 @@ def _solve_semidefinite(h: Array, gradient: Array) -> Array | Ending:
 
 
 def _solve(h: Array, gradient: Array) -> Array | None:
-    """``-H^-1 g`` by Cholesky's factorisation; ``None`` where H is not positive definite."""
+    """``-H^-1 g``; None where H is not positive definite."""
     try:
         factor = scipy.linalg.cho_factor(h, lower=True, check_finite=False)
     except np.linalg.LinAlgError:

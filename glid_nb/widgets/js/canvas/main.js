@@ -1,12 +1,12 @@
 // The pad over the renderer: sends pointers and keys, draws handles, colour bars and notices.
 
-import { make } from "../pad/dom.js";
+import { follow, make } from "../pad/dom.js";
 import { help } from "../pad/help.js";
 import { Link } from "../pad/link.js";
 import { Pad, undoAround } from "../pad/pad.js";
 import { clearedContext } from "../pad/pen.js";
 import { View } from "../pad/view.js";
-import { drawMarks, markAt } from "./marks.js";
+import { drawMarks, drawOnion, markAt } from "./marks.js";
 import { Shapes, drawingTime, uniformVectors } from "./shapes.js";
 
 const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
@@ -27,6 +27,9 @@ const HELP = [
   ["Esc", "cancel a drag; select nothing"],
   ["0", "back to the undeformed shape"],
   ["F", "see everything"],
+  ["Space", "play the motion through the poses, pause; in the timeline too"],
+  ["Timeline: arrow keys, Home, End", "step in time, with Shift to the next pose; first, last pose"],
+  ["Timeline: Alt and arrow keys", "move the pose in time; Delete removes it"],
   ["Wheel, two fingers", "zoom"],
   ["Middle button, Space and drag", "move the view"],
 ];
@@ -96,7 +99,10 @@ function render({ model, el }) {
     due = 0;
     const { found, held, focused } = pad ?? { held: new Map() };
     const cursor = focused ? model.get("cursor") : null;
-    drawMarks(clearedContext(paper, view), view, model.get("marks"), { hovered: found?.mark, held, cursor });
+    const pen = clearedContext(paper, view);
+    if (shapes.motion) return; // pins belong to the pose that is edited
+    drawOnion(pen, view, model.get("onion"));
+    drawMarks(pen, view, model.get("marks"), { hovered: found?.mark, held, cursor });
   };
   const soon = () => { due = due || requestAnimationFrame(draw); };
 
@@ -117,7 +123,8 @@ function render({ model, el }) {
     keys: KEYS,
     actions: { "?": keys.toggle },
     removesByLongPress: true,
-    find: (point, reach) => markAt(marks(), point, reach),
+    tapped: () => box.dispatchEvent(new CustomEvent("glid:play", { bubbles: true })),
+    find: (point, reach) => shapes.motion ? null : markAt(marks(), point, reach),
     held: ({ mark }) => {
       const { selected, targets } = marks();
       return new Map((selected.includes(mark) ? selected : [mark]).map((i) => [i, targets[i]]));
@@ -130,6 +137,23 @@ function render({ model, el }) {
   }) : null;
   if (pad) box.append(keys.button, keys.table, resizeGrip(model));
   const forget = pad && undoAround(box, (e) => pad.keydown(e));
+
+  // While the timeline shows a motion, the first touch goes back to the pose that is edited.
+  let back = null;
+  const showMotion = (motion, release) => {
+    back = release;
+    shapes.motion = motion;
+    shapes.refresh();
+    soon();
+  };
+  for (const name of ["pointerdown", "keydown"]) {
+    box.addEventListener(name, (e) => {
+      if (!shapes.motion || e.button === 1 || (e.key && (e.ctrlKey || e.metaKey || !KEYS.has(e.key)))) return;
+      e.stopImmediatePropagation();
+      e.preventDefault();
+      back();
+    }, true);
+  }
 
   const fit = () => {
     Object.assign(view, { width: model.get("width"), height: model.get("height") });
@@ -155,19 +179,15 @@ function render({ model, el }) {
     bars.hidden = !shown.length;
     bars.dataset.corner = model.get("legend_corner");
   };
-  const listeners = {
+  const unfollow = follow(model, {
     "change:width change:height change:view": fit,
     "change:coefficients": () => shapes.refresh(),
-    "change:marks change:cursor": soon,
+    "change:marks change:cursor change:onion": soon,
+    "glid:motion": showMotion,
     "change:legend change:panel_legend change:legend_corner": showLegend,
     "change:notice change:marks": tell,
     "change:prepared": prepare,
-  };
-  for (const [names, listener] of Object.entries(listeners)) model.on(names, listener);
-  fit();
-  showLegend();
-  tell();
-  prepare();
+  });
   let gone = false;
   shapes.load().then(() => drawingTime(box, shapes)).then((time) => {
     if (!gone) save(model, { drawn: true, drawing_time: time });
@@ -178,7 +198,7 @@ function render({ model, el }) {
     gone = true;
     cancelAnimationFrame(due);
     clearTimeout(saving);
-    for (const [names, listener] of Object.entries(listeners)) model.off(names, listener);
+    unfollow();
     forget?.();
     pad?.close();
     link.close();

@@ -1,23 +1,15 @@
 // Handles and targets, drawn over the shape: cyan disks where handles should go, black dots where
 // they are, and a line between the two. Those that another part of the shape covers are faint rings.
 
-import { disk } from "../pad/pen.js";
+import { disk, strokePath, tracePath } from "../pad/pen.js";
 
 const TARGET = 7.5, IMAGE = 3.5, RING = 12; // radii, CSS pixels
 
 // Lines between pairs of points, with a border.
 function lines(pen, pairs, styles) {
   pen.lineCap = "round";
-  for (const [width, color] of styles) {
-    pen.lineWidth = width;
-    pen.strokeStyle = color;
-    pen.beginPath();
-    for (const [from, to] of pairs) {
-      pen.moveTo(...from);
-      pen.lineTo(...to);
-    }
-    pen.stroke();
-  }
+  tracePath(pen, pairs, false);
+  strokePath(pen, styles);
 }
 
 // A dashed ring with a border.
@@ -26,6 +18,19 @@ function ring(pen, place) {
   disk(pen, place, TARGET, null, "rgba(255,255,255,0.85)", 3.4);
   disk(pen, place, TARGET, null, "#067a82", 1.6);
   pen.setLineDash([]);
+}
+
+// Outlines of other poses: colour, and loops of points.
+export function drawOnion(pen, view, outlines) {
+  for (const [color, loops] of outlines) {
+    tracePath(pen, loops.map((loop) => loop.map((p) => view.toScreen(p))));
+    pen.globalAlpha = 0.13;
+    pen.fillStyle = color;
+    pen.fill("evenodd");
+    pen.globalAlpha = 0.8;
+    strokePath(pen, [[1.4, color]]);
+  }
+  pen.globalAlpha = 1;
 }
 
 // held: where the pointer holds targets, by index.

@@ -4,6 +4,7 @@ export class Shapes {
   constructor(model) {
     this.model = model;
     this.materials = [];
+    this.motion = null; // what the timeline shows instead: coefficients, or true for the kernel's frames
     this.loading = 0;
     this.onMaterials = () => this.load();
     model.on("change:materials change:camera change:renderer", this.onMaterials);
@@ -34,7 +35,7 @@ export class Shapes {
   // Puts the newest coefficients into every material.
   refresh() {
     const bytes = this.model.get("coefficients");
-    const floats = bytes?.byteLength
+    const floats = this.motion?.length ? this.motion : bytes?.byteLength
       ? new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength))
       : null;
     for (const { obj } of this.materials) {

@@ -9,3 +9,15 @@ export function make(tag, properties = {}, ...children) {
   element.append(...children);
   return element;
 }
+
+// Calls listeners now, and whenever the model tells one of their events ("change:a change:b").
+// Returns a function that ends this.
+export function follow(model, listeners) {
+  for (const [names, listener] of Object.entries(listeners)) {
+    model.on(names, listener);
+    listener();
+  }
+  return () => {
+    for (const [names, listener] of Object.entries(listeners)) model.off(names, listener);
+  };
+}

@@ -2,32 +2,28 @@
 
 const distance = ([x, y], [u, v]) => Math.hypot(x - u, y - v);
 
+// The nearest of things at a distance `d`, within reach; null for none.
+function nearest(things, reach) {
+  return things.filter(({ d }) => d <= reach).sort((a, b) => a.d - b.d)[0] ?? null;
+}
+
 export function nearestVertex(loops, point, reach) {
-  let best = null;
-  loops.forEach((loop, i) =>
-    loop.forEach((vertex, j) => {
-      const d = distance(vertex, point);
-      if (d <= (best?.d ?? reach)) best = { loop: i, index: j, d };
-    }),
-  );
-  return best;
+  const vertices = loops.flatMap((loop, i) =>
+    loop.map((vertex, j) => ({ loop: i, index: j, d: distance(vertex, point) })));
+  return nearest(vertices, reach);
 }
 
 export function nearestEdge(loops, point, reach) {
-  let best = null;
-  loops.forEach((loop, i) =>
-    loop.forEach((a, j) => {
-      const b = loop[(j + 1) % loop.length];
-      const along = [b[0] - a[0], b[1] - a[1]];
-      const square = along[0] ** 2 + along[1] ** 2 || 1e-30;
-      const dot = (point[0] - a[0]) * along[0] + (point[1] - a[1]) * along[1];
-      const t = Math.min(Math.max(dot / square, 0), 1);
-      const foot = [a[0] + t * along[0], a[1] + t * along[1]];
-      const d = distance(foot, point);
-      if (d <= (best?.d ?? reach)) best = { foot, d };
-    }),
-  );
-  return best;
+  const edges = loops.flatMap((loop) => loop.map((a, j) => {
+    const b = loop[(j + 1) % loop.length];
+    const along = [b[0] - a[0], b[1] - a[1]];
+    const square = along[0] ** 2 + along[1] ** 2 || 1e-30;
+    const dot = (point[0] - a[0]) * along[0] + (point[1] - a[1]) * along[1];
+    const t = Math.min(Math.max(dot / square, 0), 1);
+    const foot = [a[0] + t * along[0], a[1] + t * along[1]];
+    return { foot, d: distance(foot, point) };
+  }));
+  return nearest(edges, reach);
 }
 
 export function contains(loop, [x, y]) {

@@ -41,6 +41,7 @@ export class Pad {
   //   find(point, reach): what is there, or null; with `mark` if it can be dragged
   //   held(found): the points that a drag moves, by their marks
   //   pans(found), painting: whether the left button moves the view, or paints a path
+  //   tapped(): the space bar was pressed and let go, and nothing was dragged
   //   cursor(found): the pointer's shape
   //   removesByLongPress: whether a long touch removes what it is on
   //   wheelNeedsFocus: whether the wheel zooms only while the element has the focus
@@ -68,7 +69,11 @@ export class Pad {
       e.stopPropagation();
     });
     this.on("keydown", (e) => this.keydown(e));
-    this.on("keyup", (e) => e.key === " " && this.setSpace(false));
+    this.on("keyup", (e) => {
+      if (e.key !== " ") return;
+      this.setSpace(false);
+      if (this.tap) this.canvas.tapped?.();
+    });
     this.on("focus", () => this.setFocus(true));
     this.on("blur", () => this.setFocus(false));
   }
@@ -107,6 +112,7 @@ export class Pad {
     if (this.pointers.has(e.pointerId) || this.pointers.size > 1) return;
     e.preventDefault();
     this.element.focus({ preventScroll: true });
+    this.tap = false; // the space bar pans
     const place = this.place(e);
     this.pointers.set(e.pointerId, place);
     this.element.setPointerCapture(e.pointerId);
@@ -241,7 +247,10 @@ export class Pad {
     }
     e.preventDefault();
     e.stopPropagation();
-    if (e.key === " ") return this.setSpace(true);
+    if (e.key === " ") {
+      this.tap ||= !e.repeat;
+      return this.setSpace(true);
+    }
     if (action) return action();
     if (e.key === "Escape" || isUndo(e)) {
       this.letGo();

@@ -22,3 +22,20 @@ export function disk(ctx, [x, y], radius, fill, stroke, width) {
     ctx.stroke();
   }
 }
+
+// Begins a path along lines of points, by default closed.
+export function tracePath(ctx, lines, closed = true) {
+  ctx.beginPath();
+  for (const line of lines) {
+    line.forEach(([x, y], i) => (i ? ctx.lineTo(x, y) : ctx.moveTo(x, y)));
+    if (closed) ctx.closePath();
+  }
+}
+
+// Strokes the present path in widths and colours, the lowest first.
+export function strokePath(ctx, styles) {
+  for (const [lineWidth, strokeStyle] of styles) {
+    Object.assign(ctx, { lineWidth, strokeStyle });
+    ctx.stroke();
+  }
+}

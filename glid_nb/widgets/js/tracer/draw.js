@@ -1,17 +1,19 @@
 // Draws the stage: picture, cage, vertices, holes, strokes and the places of problems.
 
-import { disk } from "../pad/pen.js";
+import { make } from "../pad/dom.js";
+import { disk, strokePath, tracePath } from "../pad/pen.js";
 
 const HALO = "rgba(255, 255, 255, 0.9)";
 const SPECK = 12; // CSS pixels; dropped holes smaller than this show under the pointer only
 const CHECK = 8; // CSS pixels per square of the checkerboard under transparent pictures
 
 export function drawStage(ctx, scene) {
-  const { width, height, view, colors } = scene;
+  const { view, colors } = scene;
   if (!scene.size) return;
   const corner = view.toScreen([0, 0]);
   const extent = scene.size.map((n) => n / view.unit);
-  drawChecks(ctx, colors, corner, extent, width, height);
+  ctx.fillStyle = checks(ctx, colors);
+  ctx.fillRect(...corner, ...extent);
   if (scene.bitmap) {
     ctx.imageSmoothingEnabled = 6 * view.unit > 1;
     ctx.imageSmoothingQuality = "high";
@@ -28,7 +30,7 @@ export function drawStage(ctx, scene) {
     const hovered = scene.hover?.hole === i;
     if (hovered) fillPath(ctx, [loop], hole.kept ? colors.warnSoft : colors.accentSoft);
     const visible = Math.sqrt(hole.area) > SPECK * view.unit;
-    if (hovered || (!hole.kept && visible)) strokePath(ctx, [loop], colors.faint, 1.25, [4, 3]);
+    if (hovered || (!hole.kept && visible)) strokeLoops(ctx, [loop], colors.faint, 1.25, [4, 3]);
   });
   drawStrokes(ctx, scene);
   if (loops.length && !(scene.drawing && scene.doubt)) drawCage(ctx, scene, loops);
@@ -40,32 +42,14 @@ export function drawStage(ctx, scene) {
   }
 }
 
-function drawChecks(ctx, colors, [x, y], [w, h], width, height) {
-  // Only the visible part; a picture may be zoomed in far.
-  const [left, top] = [Math.max(x, 0), Math.max(y, 0)];
-  const [right, bottom] = [Math.min(x + w, width), Math.min(y + h, height)];
-  if (right <= left || bottom <= top) return;
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(left, top, right - left, bottom - top);
-  ctx.clip();
-  ctx.fillStyle = colors.checkLight;
-  ctx.fillRect(left, top, right - left, bottom - top);
-  ctx.fillStyle = colors.checkDark;
-  for (let j = Math.floor(top / CHECK); j * CHECK < bottom; j++) {
-    for (let i = Math.floor(left / CHECK) + ((Math.floor(left / CHECK) + j) & 1); i * CHECK < right; i += 2) {
-      ctx.fillRect(i * CHECK, j * CHECK, CHECK, CHECK);
-    }
-  }
-  ctx.restore();
-}
-
-function tracePath(ctx, loops) {
-  ctx.beginPath();
-  for (const loop of loops) {
-    loop.forEach(([x, y], i) => (i ? ctx.lineTo(x, y) : ctx.moveTo(x, y)));
-    ctx.closePath();
-  }
+function checks(ctx, { checkLight, checkDark }) {
+  const tile = make("canvas", { width: 2 * CHECK, height: 2 * CHECK });
+  const pen = tile.getContext("2d");
+  pen.fillStyle = checkLight;
+  pen.fillRect(0, 0, tile.width, tile.height);
+  pen.fillStyle = checkDark;
+  for (const at of [0, CHECK]) pen.fillRect(at, at, CHECK, CHECK);
+  return ctx.createPattern(tile, "repeat");
 }
 
 function fillPath(ctx, loops, style) {
@@ -74,21 +58,13 @@ function fillPath(ctx, loops, style) {
   ctx.fill("evenodd");
 }
 
-function strokePath(ctx, loops, style, width, dash = []) {
+// Strokes loops over wider pale lines, which are seen on dark pictures.
+function strokeLoops(ctx, loops, style, width, dash = []) {
   ctx.lineJoin = "round";
   tracePath(ctx, loops);
-  strokeWithHalo(ctx, style, width, width + 2.25, dash);
-}
-
-// Strokes the current path over a wider pale line, which is seen on dark pictures.
-function strokeWithHalo(ctx, style, width, haloWidth, dash = []) {
-  ctx.strokeStyle = HALO;
-  ctx.lineWidth = haloWidth;
-  ctx.stroke();
+  strokePath(ctx, [[width + 2.25, HALO]]);
   ctx.setLineDash(dash);
-  ctx.strokeStyle = style;
-  ctx.lineWidth = width;
-  ctx.stroke();
+  strokePath(ctx, [[width, style]]);
   ctx.setLineDash([]);
 }
 
@@ -100,25 +76,22 @@ function drawStrokes(ctx, scene) {
   ctx.lineCap = ctx.lineJoin = "round";
   for (const [lines, color] of pairs) {
     for (const line of lines) {
-      ctx.beginPath();
-      line.forEach((point, i) => ctx[i ? "lineTo" : "moveTo"](...view.toScreen(point)));
-      if (line.length === 1) ctx.lineTo(...view.toScreen(line[0]));
-      strokeWithHalo(ctx, color, 5, 8);
+      tracePath(ctx, [[...line, line.at(-1)].map((p) => view.toScreen(p))], false); // a dot too
+      strokePath(ctx, [[8, HALO], [5, color]]);
     }
   }
 }
 
 function drawOutline(ctx, { outline, corners, colors, view }) {
-  ctx.beginPath();
-  outline.forEach((point, i) => ctx[i ? "lineTo" : "moveTo"](...view.toScreen(point)));
-  strokeWithHalo(ctx, colors.foreground, 2, 4.5);
+  tracePath(ctx, [outline.map((p) => view.toScreen(p))], false);
+  strokePath(ctx, [[4.5, HALO], [2, colors.foreground]]);
   for (const corner of corners) disk(ctx, view.toScreen(corner), 4, "white", colors.foreground, 2);
 }
 
 function drawCage(ctx, scene, loops) {
   const { colors, hover, selected } = scene;
   const color = scene.problems.length ? colors.warn : colors.accent;
-  strokePath(ctx, loops, color, 1.75);
+  strokeLoops(ctx, loops, color, 1.75);
   if (!scene.showVertices) return;
   const radius = vertexRadius(loops);
   loops.forEach((loop, i) =>
@@ -142,10 +115,6 @@ function vertexRadius(loops) {
 
 function drawPlus(ctx, [x, y], color) {
   disk(ctx, [x, y], 7, "white", color, 1.5);
-  ctx.beginPath();
-  ctx.moveTo(x - 3.5, y);
-  ctx.lineTo(x + 3.5, y);
-  ctx.moveTo(x, y - 3.5);
-  ctx.lineTo(x, y + 3.5);
+  tracePath(ctx, [[[x - 3.5, y], [x + 3.5, y]], [[x, y - 3.5], [x, y + 3.5]]], false);
   ctx.stroke();
 }

@@ -1,10 +1,10 @@
 // The cage tracer's page: a toolbar, the stage with picture and cage, the panel, a status line.
 
-import { make } from "../pad/dom.js";
+import { follow, make } from "../pad/dom.js";
 import { help } from "../pad/help.js";
 import { Link } from "../pad/link.js";
 import { isUndo, undoAround, undoOrRedo } from "../pad/pad.js";
-import { iconButton } from "./icons.js";
+import { iconButton } from "../pad/icons.js";
 import { Panel } from "./panel.js";
 import { Stage } from "./stage.js";
 
@@ -33,7 +33,7 @@ const PART = 1 << 20; // bytes of a file per message
 
 function render({ model, el }) {
   let refusal = null, busy = false;
-  const root = make("div", { className: "glid-tracer" });
+  const root = make("div", { className: "glid-skin glid-tracer" });
   const link = new Link(model, el, (report) => {
     busy = report.busy;
     if (report.refusal || !busy) refusal = report.refusal;
@@ -155,16 +155,12 @@ function render({ model, el }) {
   }
 
   const setHeight = () => root.style.setProperty("--glid-height", `${model.get("height")}px`);
-  const listeners = {
-    "change:shown": showState, "change:picture": showPicture, "change:height": setHeight,
-  };
-  for (const [name, listener] of Object.entries(listeners)) model.on(name, listener);
-  setHeight();
-  showState();
-  showPicture();
+  const unfollow = follow(model, {
+    "change:height": setHeight, "change:shown": showState, "change:picture": showPicture,
+  });
 
   return () => {
-    for (const [name, listener] of Object.entries(listeners)) model.off(name, listener);
+    unfollow();
     window.removeEventListener("keydown", guard, true);
     forget();
     link.close();

@@ -194,8 +194,6 @@ export class Stage {
     const { shown, painting, pad, view } = this;
     const hover = this.listed ?? (pad.mode === "pan" ? null : pad.found);
     drawStage(clearedContext(this.canvas, this), {
-      width: this.width,
-      height: this.height,
       view,
       colors: this.colors,
       ...shown,

@@ -1,4 +1,4 @@
-import { make } from "../pad/dom.js";
+import { make } from "./dom.js";
 
 // Outlines on a 16 x 16 grid.
 const PATHS = {
@@ -15,6 +15,12 @@ const PATHS = {
   plus: "M8 3v10 M3 8h10",
   minus: "M3 8h10",
   open: "M2 12.5v-9h4l1.5 2H14v7z",
+  play: "M5 3l8 5-8 5z",
+  pause: "M5.5 3v10 M10.5 3v10",
+  record: "M8 4.2a3.8 3.8 0 1 0 0 7.6 3.8 3.8 0 0 0 0-7.6z",
+  onion: "M6.2 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8z M9.8 4a4 4 0 1 1 0 8",
+  copy: "M5.5 5.5h8v8h-8z M3 10.5v-8h8",
+  export: "M8 2v8 M4.8 6.8L8 10l3.2-3.2 M3 13.5h10",
   trash: "M3 4.5h10 M6.5 4.5v-2h3v2 M4.5 4.5l.6 9h5.8l.6-9",
 };
 

@@ -1,0 +1,116 @@
+"""Make a moving picture from the poses of a session.
+
+SOURCE is a session (.glid), whose poses are the keyframes, as its timeline has them, or a file of
+`Motion.save`, which needs --picture. The suffix of --out says the format: .gif, .apng, .mp4 and
+.webm (with the extra `video`), .html for a page, .glb for a mesh with morph targets, .sheet.png for
+a sprite sheet with its JSON, .zip for frames as PNG, none for a folder of them.
+"""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from PIL import ImageColor
+
+import glid_nb
+from glid_nb._errors import InputError, InputFileError
+from glid_nb.cli.output import check_files, check_folder
+from glid_nb.cli.progress import step
+from glid_nb.session.timeline import Timeline
+
+_SETTINGS = ("easing", "repeat", "between", "tolerance", "turns", "handles")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("source", type=Path, metavar="SOURCE", help="a session, or a saved motion")
+    add("--out", type=Path, metavar="walk.mp4", required=True, help="where the result goes")
+    add("--picture", type=Path, metavar="IMAGE", help="of a saved motion: what it moves")
+    size = "pixels of the longer side (default: %(default)s); not for .html and .glb"
+    add("--size", type=int, default=480, metavar="N", help=size)
+    add("--fps", type=float, default=25.0, metavar="N", help="frames per second, 0 to 100")
+    seconds = "length of the whole (default: as the timeline or the saved motion has it)"
+    add("--seconds", type=float, metavar="S", help=seconds)
+    loop = "after the last pose: the first one, the way back, or nothing (default: as above)"
+    add("--loop", choices=("loop", "ping-pong", "once"), help=loop)
+    color = "a name or #rrggbb, or `transparent`, for all but .gif and .mp4 (default: white)"
+    add("--background", type=_color, default="white", metavar="COLOR", help=color)
+
+
+def run(chosen: argparse.Namespace) -> None:
+    out: Path = chosen.out
+    glid_nb.export.suffix_of(out.name)
+    if not out.suffix:
+        check_folder(out)
+    else:
+        sheet = [out.with_suffix(".json")] if out.name.lower().endswith(".sheet.png") else []
+        check_files([out, *sheet], [chosen.source, chosen.picture])
+    glid_nb.enable_compilation_cache()
+    image, motion, poses = _read(chosen)
+    with step("proving the motion"):
+        proof = motion.certificate
+    with step("drawing (Ctrl-C stops, and nothing is written)") as detail:
+        files = glid_nb.export.animate(
+            out,
+            image,
+            motion,
+            poses,
+            size=chosen.size,
+            frames_per_second=chosen.fps,
+            background=chosen.background,
+            loop=motion.repeat != "once",
+            progress=lambda done, total: detail(f"frame {done} of {total}"),
+        )
+    written = ", ".join(map(str, files)) if out.suffix else f"{out}: {len(files)} files"
+    print(f"{written}; {motion.duration:g} s. {proof.reason}")
+    if not proof.certified:
+        raise InputError(proof.reason)
+
+
+def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb.Pose] | None]:
+    """The picture, the motion, and the keyframes' poses where they are known."""
+    if chosen.source.suffix.lower() != ".json":
+        document = glid_nb.load_document(chosen.source)
+        if len(document.poses) < 2:
+            raise InputFileError(
+                f"{chosen.source} holds {len(document.poses)} poses; a motion needs at least 2"
+            )
+        if chosen.picture is not None:
+            raise InputError("--picture is for saved motions; a session holds its picture")
+        timeline = document.timeline or replace(Timeline.even(len(document.poses)), repeat="loop")
+        timeline = replace(timeline, repeat=chosen.loop or timeline.repeat)
+        if chosen.seconds is not None:
+            there = 2 if timeline.repeat == "ping-pong" else 1
+            timeline = timeline.lasting(_seconds(chosen) / there)
+        motion = timeline.motion([pose.map for pose in document.poses])
+        return document.image, motion, [pose.pose for pose in document.poses]
+    motion = glid_nb.Motion.load(chosen.source)
+    if chosen.picture is None or chosen.loop not in (None, motion.repeat):
+        raise InputError(
+            f"{chosen.source} is a saved motion: name its picture by --picture, and leave out "
+            "--loop, for it has its own"
+        )
+    if chosen.seconds is not None:
+        longer = _seconds(chosen) / motion.duration
+        own = {key: getattr(motion, key) for key in _SETTINGS}
+        motion = glid_nb.Motion(motion.keyframes, [longer * t for t in motion.times], **own)
+    return glid_nb.read_image(chosen.picture), motion, None
+
+
+def _seconds(chosen: argparse.Namespace) -> float:
+    if not 0 < chosen.seconds < 1e6:
+        raise InputError(f"--seconds is {chosen.seconds:g}; it must be above 0, up to a million")
+    return chosen.seconds
+
+
+def _color(text: str) -> tuple[int, int, int] | None:
+    if text == "transparent":
+        return None
+    try:
+        red, green, blue, *_ = ImageColor.getrgb(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r:.40} is no colour") from None
+    return red, green, blue

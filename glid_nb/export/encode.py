@@ -1,0 +1,193 @@
+"""Frames as files: animated GIF and PNG, MP4 and WebM, a sprite sheet, pictures in a zip.
+
+Frames are (h, w, 4) uint8 arrays of one size with straight alpha, opaque where a format wants it.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import io
+import json
+import math
+import subprocess
+import tempfile
+import zipfile
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from glid_nb._errors import InputError
+
+Frames = Iterable[NDArray[np.uint8]]
+Color = tuple[int, int, int]
+
+
+class Drawn(NamedTuple):
+    """Frames that are drawn one after the other, when they are wanted."""
+
+    size: tuple[int, int]
+    """Width and height, pixels."""
+    count: int
+    pictures: Iterator[NDArray[np.uint8]]
+
+
+_LARGEST_SHEET = 16384  # pixels of a side
+# ffmpeg's settings: close to lossless for drawings. Browsers guess what colours are not named.
+_CODECS = {
+    "mp4": ("-c:v", "libx264", "-crf", "16", "-preset", "slow", "-movflags", "+faststart"),
+    "webm": ("-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-auto-alt-ref", "0"),
+}
+_COLORS = (
+    "-vf",
+    "scale=out_color_matrix=bt709:out_range=tv,"
+    "setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709:range=tv",
+)
+
+
+def check_settings(size: int, fps: float, background: Sequence[int] | None) -> None:
+    """Raise an InputError that names the setting which is out of range."""
+    if isinstance(size, bool) or not isinstance(size, int | np.integer) or size < 16:
+        raise InputError(f"size is {size!r:.40}; it must be at least 16 pixels, a whole number")
+    if not (math.isfinite(fps) and 0 < fps <= 100):
+        raise InputError(f"frames_per_second is {fps}; it must be above 0, up to 100")
+    if background is not None and (
+        len(background) != 3 or not all(0 <= channel <= 255 for channel in background)
+    ):
+        raise InputError(f"background is {background}; it must be three numbers from 0 to 255")
+
+
+def gif(frames: Frames, fps: float, background: Color, loop: bool = True) -> bytes:
+    """An animated GIF of 256 colours; it counts in hundredths of a second, on average exactly."""
+    pictures = _with_palette(
+        [Image.fromarray(frame[..., :3]) for frame in frames], background or (255, 255, 255)
+    )
+    ends = np.round(np.arange(len(pictures) + 1) * 100 / fps)
+    return _saved(pictures, "GIF", (10 * np.diff(ends)).astype(int).tolist(), loop)
+
+
+def apng(frames: Frames, fps: float, loop: bool = True) -> bytes:
+    """An animated PNG; it keeps all colours, and transparency."""
+    pictures = [Image.fromarray(frame) for frame in frames]
+    return _saved(pictures, "PNG", 1000 / fps, loop)
+
+
+def _saved(pictures: list[Image.Image], format: str, duration: Any, loop: bool) -> bytes:
+    repeats = {} if format == "GIF" and not loop else {"loop": int(not loop)}
+    settings = {"save_all": True, "optimize": False, "duration": duration, **repeats}
+    buffer = io.BytesIO()
+    pictures[0].save(buffer, format, append_images=pictures[1:], **settings)
+    return buffer.getvalue()
+
+
+def check_video() -> None:
+    """Raise an InputError that says what to install, where the extra ``video`` is missing."""
+    if importlib.util.find_spec("imageio_ffmpeg") is None:
+        raise InputError(
+            "MP4 and WebM need the package imageio-ffmpeg, which brings ffmpeg along: "
+            "pip install 'glid-nb[video]'"
+        )
+
+
+def video(drawn: Drawn, fps: float, kind: str, transparent: bool = False) -> bytes:
+    """An MP4 (H.264) or WebM (VP9) video of even sides. WebM may be transparent.
+
+    ffmpeg runs as a process of its own, to which frames are sent as they are drawn.
+    """
+    check_video()
+    from imageio_ffmpeg import get_ffmpeg_exe  # noqa: PLC0415 - an extra
+
+    size = "x".join(map(str, drawn.size))
+    given = ["-f", "rawvideo", "-pix_fmt", "rgba", "-s", size, "-r", str(fps), "-i", "-"]
+    pixels = ["-pix_fmt", "yuva420p" if transparent else "yuv420p"]
+    with tempfile.TemporaryDirectory(prefix="glid_nb-") as folder:
+        path, log = Path(folder) / f"frames.{kind}", Path(folder) / "log"
+        command = [get_ffmpeg_exe(), "-v", "error", *given, *_CODECS[kind], *_COLORS, *pixels]
+        with (
+            log.open("wb") as told,
+            subprocess.Popen([*command, str(path)], stdin=subprocess.PIPE, stderr=told) as ffmpeg,
+        ):
+            assert ffmpeg.stdin is not None
+            try:
+                for frame in drawn.pictures:
+                    ffmpeg.stdin.write(frame.tobytes())
+            except BrokenPipeError:
+                pass  # its log says why
+            except BaseException:
+                ffmpeg.kill()
+                raise
+        if ffmpeg.returncode:
+            raise OSError(f"ffmpeg could not write the {kind} video: {log.read_text()[-500:]}")
+        return path.read_bytes()
+
+
+def sprite_sheet(drawn: Drawn, fps: float, name: str, png: Callable[..., bytes]) -> list[bytes]:
+    """A picture of all frames side by side, and JSON that says where each is.
+
+    The JSON is TexturePacker's "hash" with Pixi's ``animations``; durations are milliseconds.
+    """
+    (width, height), columns = drawn.size, math.ceil(math.sqrt(drawn.count))
+    sides = columns * width, math.ceil(drawn.count / columns) * height
+    if max(sides) > _LARGEST_SHEET:
+        raise InputError(
+            f"{drawn.count} frames of {width} x {height} pixels need a sheet of {sides[0]} x "
+            f"{sides[1]}; {_LARGEST_SHEET} is the most, so choose a smaller size or fewer frames "
+            "per second"
+        )
+    sheet = np.zeros((*sides[::-1], 4), np.uint8)
+    size, found = {"w": width, "h": height}, {}
+    for i, (picture, frame) in enumerate(zip(drawn.pictures, names(drawn.count), strict=True)):
+        x, y = i % columns * width, i // columns * height
+        sheet[y : y + height, x : x + width] = picture
+        found[frame] = {
+            "frame": {"x": x, "y": y, **size},
+            "rotated": False,
+            "trimmed": False,
+            "spriteSourceSize": {"x": 0, "y": 0, **size},
+            "sourceSize": size,
+            "duration": 1000 / fps,
+        }
+    meta = {
+        **{"app": "glid_nb", "version": "1.0", "image": name, "format": "RGBA8888"},
+        **{"size": dict(zip("wh", sides, strict=True)), "scale": "1"},
+    }
+    told = {"frames": found, "animations": {name.partition(".")[0]: list(found)}, "meta": meta}
+    return [png(sheet), json.dumps(told, indent=1).encode()]
+
+
+def names(count: int) -> list[str]:
+    """Names of the frames' files: frame-000.png and so on."""
+    return [f"frame-{i:0{max(3, len(str(count - 1)))}}.png" for i in range(count)]
+
+
+def zipped(files: dict[str, bytes]) -> bytes:
+    """Files as a zip."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:  # stored: PNG is compressed
+        for name, data in files.items():
+            archive.writestr(zipfile.ZipInfo(name), data)
+    return buffer.getvalue()
+
+
+def _with_palette(pictures: list[Image.Image], background: Color) -> list[Image.Image]:
+    """The pictures with one palette, made from at most eight of them.
+
+    Flat areas would flicker if each had its own. The exact background comes first; an averaged one
+    would show a dither pattern.
+    """
+    chosen = pictures[:: math.ceil(len(pictures) / 8)]
+    montage = Image.fromarray(np.concatenate([np.asarray(picture) for picture in chosen]))
+    colors = [*background, *(montage.quantize(255).getpalette() or [])]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(colors)
+    result = []
+    for picture in pictures:
+        indices = np.array(picture.quantize(palette=palette))
+        # Pillow looks up colours in bins of four levels, so it may miss the background.
+        indices[(np.asarray(picture) == background).all(axis=2)] = 0
+        result.append(Image.fromarray(indices))
+        result[-1].putpalette(colors)
+    return result

@@ -1,0 +1,130 @@
+"""A motion with a picture as a file of any kind, chosen by its suffix."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from glid_nb._errors import InputError
+from glid_nb._files import write_bytes_atomically
+from glid_nb.export import encode
+from glid_nb.export.encode import Color
+from glid_nb.export.mesh import motion_glb
+from glid_nb.export.moving import Progress, Stopped, frames
+from glid_nb.export.page import page_html
+from glid_nb.imaging import PixelFrame
+from glid_nb.imaging.read import png
+from glid_nb.imaging.render import check_fits
+from glid_nb.motion import Motion
+from glid_nb.solvers import Pose
+
+MOTION_FORMATS = {
+    ".gif": "Animation (GIF)",
+    ".apng": "Animation with transparency (PNG)",
+    ".mp4": "Video (MP4)",
+    ".webm": "Video (WebM)",
+    ".html": "Page that plays it (HTML)",
+    ".glb": "Moving mesh (glTF)",
+    ".sheet.png": "Sprite sheet (PNG and JSON)",
+    ".zip": "Frames (PNG in a zip)",
+}
+"""What each suffix of a moving picture stands for. A name without one is a folder of frames."""
+
+_VIDEO = (".mp4", ".webm")
+
+
+def animate(
+    path: str | Path,
+    image: ArrayLike,
+    motion: Motion,
+    poses: Sequence[Pose] | None = None,
+    **settings: Any,
+) -> tuple[Path, ...]:
+    """Write a motion as the path's suffix says; the settings are those of `motion_files`.
+
+    Returns the written files, none where ``progress`` stopped it. A path without a suffix is a
+    folder, which is made. An OSError where a file cannot be written.
+    """
+    path = Path(path)
+    files = motion_files(path.name, image, motion, poses, **settings)
+    if files and not path.suffix:
+        path.mkdir(exist_ok=True)
+    for name, data in files.items():
+        write_bytes_atomically(path.parent / name, data)
+    return tuple(path.parent / name for name in files)
+
+
+def motion_files(
+    name: str,
+    image: ArrayLike,
+    motion: Motion,
+    poses: Sequence[Pose] | None = None,
+    *,
+    size: int = 480,
+    frames_per_second: float = 25.0,
+    background: Color | None = (255, 255, 255),
+    loop: bool = True,
+    progress: Progress | None = None,
+) -> dict[str, bytes]:
+    """A motion as files, by name: that of the given name, and what comes with it.
+
+    The suffix says the format: one of `MOTION_FORMATS`, of which .mp4 and .webm need
+    ``glid-nb[video]``; .sheet.png comes with .sheet.json; without a suffix frames are in a folder.
+    The image, (h, w), (h, w, 3) or (h, w, 4), is the one that the cage was traced from. The depths
+    of poses, one per keyframe, say which part is in front where the shape overlaps itself.
+
+    Frames have a longer side of ``size`` pixels, at least 16, and even sides; there are at most
+    100 per second. The background's red, green and blue are 0 to 255; None is transparent, which
+    GIF and MP4 cannot be. With ``loop`` GIF, APNG and page begin again at the end. ``progress`` is
+    called with the numbers of finished and of all frames; when it returns True the export stops,
+    and there are no files.
+
+    Raises an InputError for another suffix, a setting that is out of range, or a missing package.
+    """
+    suffix = suffix_of(name)
+    encode.check_settings(size, frames_per_second, background)
+    check_fits(PixelFrame(*np.shape(image)[1::-1]), motion.keyframes[0])
+    if background is None and suffix in (".gif", ".mp4"):
+        raise InputError(
+            f"{name}: {suffix[1:].upper()} has no transparency; choose a background, or .apng or "
+            ".webm"
+        )
+    if suffix in _VIDEO:
+        encode.check_video()
+    if suffix == ".html":
+        return {name: page_html(image, motion, title=name[:-5], pose=poses, loop=loop).encode()}
+    if suffix == ".glb":
+        return {name: motion_glb(image, motion, poses)}
+    fps = frames_per_second
+    drawn = frames(image, motion, poses, size, fps, background, progress)
+    try:
+        if suffix == ".gif" and background is not None:
+            return {name: encode.gif(drawn.pictures, fps, background, loop)}
+        if suffix == ".apng":
+            return {name: encode.apng(drawn.pictures, fps, loop)}
+        if suffix in _VIDEO:
+            return {name: encode.video(drawn, fps, suffix[1:], background is None)}
+        if suffix == ".sheet.png":
+            sheet, told = encode.sprite_sheet(drawn, fps, name, png)
+            return {name: sheet, f"{name[:-4]}.json": told}
+        files = dict(zip(encode.names(drawn.count), map(png, drawn.pictures), strict=True))
+    except Stopped:
+        return {}
+    if suffix == ".zip":
+        return {name: encode.zipped(files)}
+    return {f"{name}/{frame}": data for frame, data in files.items()}
+
+
+def suffix_of(name: str) -> str:
+    """The one of `MOTION_FORMATS` that a name ends in, "" for a folder."""
+    found = next((suffix for suffix in MOTION_FORMATS if name.lower().endswith(suffix)), "")
+    if len(name) == len(found) or (not found and Path(name).suffix):
+        raise InputError(
+            f"{name!r:.200} cannot be written: the name must end in {', '.join(MOTION_FORMATS)}, "
+            "or have no suffix for a folder of frames"
+        )
+    return found

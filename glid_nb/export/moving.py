@@ -1,0 +1,136 @@
+"""A motion on one mesh: its shape and picture at any time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from glid_nb._arrays import Array
+from glid_nb._errors import InputError
+from glid_nb.export.encode import Color, Drawn
+from glid_nb.export.picture import frame_around, on_background
+from glid_nb.harmonic import HarmonicMap, images_under
+from glid_nb.imaging import as_rgba8
+from glid_nb.imaging.mesh import DeformedMesh, fine_mesh
+from glid_nb.imaging.order import order_of
+from glid_nb.imaging.render import draw_mesh
+from glid_nb.imaging.texture import Texture
+from glid_nb.motion import Motion
+from glid_nb.solvers import Pose
+
+_VERTICES = 1500  # evenly spread ones, before refinement
+_TOLERANCE_PX = 0.25  # straight edges stray from every map by less than this
+
+Progress = Callable[[int, int], bool | None]
+
+
+class Stopped(Exception):  # noqa: N818 - not an error
+    """The caller's progress function wants no more frames."""
+
+
+@dataclass(frozen=True, eq=False)
+class MovingMesh:
+    """A triangulated domain, its images at the knots of a motion, heights at the keyframes.
+
+    All of it moves on straight lines in between, as the motion does. A ping-pong's way there only.
+    """
+
+    vertices: Array  # (v, 2), world coordinates
+    triangles: NDArray[np.int32]  # (t, 3), counter-clockwise, those that are low at first before
+    times: Array  # (n,) of the knots, seconds
+    images: Array  # (n, v, 2)
+    height_times: Array  # (m,) of the keyframes, and a loop's return
+    heights: Array  # (m, v) then, or one row for all; see `order_of`
+    error: float  # as in `DeformedMesh`, for every map of the motion: it is convex in time
+
+    @classmethod
+    def of(
+        cls,
+        shown: Motion | HarmonicMap,
+        pose: Sequence[Pose] | Pose | None,
+        n_vertices: int,
+        tolerance: float | None = None,
+    ) -> MovingMesh:
+        """The mesh that is fine enough for all maps, and each keyframe's pose for what is in front.
+
+        A map stands still. Raises an InputError where there is not a pose for each keyframe.
+        """
+        poses = [pose] if pose is None or isinstance(pose, Pose) else list(pose)
+        if isinstance(shown, HarmonicMap):
+            maps, times, pose_times = (shown, shown), (0.0, 1.0), (0.0, 1.0)
+        else:
+            wanted, given = len(shown.keyframes), len(poses)
+            if pose is not None and given != wanted:
+                raise InputError(f"there are {wanted} keyframes but {given} poses; give one each")
+            pieces, pose_times = shown.pieces_forth, shown.times
+            maps = (pieces[0].start_map, *(piece.end_map for piece in pieces))
+            times = (pieces[0].start, *(piece.end for piece in pieces))
+            poses += poses[: shown.repeat == "loop"]
+        cage = shown.domain.cage
+        vertices, images, triangles, error = fine_mesh(
+            cage, lambda points: images_under(maps, points), n_vertices, tolerance
+        )
+        orders = [order_of(cage, one) for one in poses]
+        if all(order is orders[0] for order in orders):
+            del orders[1:]
+        heights = np.stack([order(vertices) for order in orders])
+        images = np.moveaxis(images.reshape(len(vertices), -1, 2), 1, 0)
+        triangles = triangles[np.argsort(heights[0][triangles].mean(axis=1), kind="stable")]
+        both = np.array(times), np.array(pose_times)
+        return cls(vertices, triangles, both[0], images, both[1], heights, error)
+
+    def at(self, time: float) -> DeformedMesh:
+        """The mesh at a time from the motion's start to its end."""
+        time = min(time, 2 * self.times[-1] - time)  # a ping-pong's way back
+        images, heights = between(self.times, self.images, time), self.heights_at(time)
+        order = np.argsort(heights[self.triangles].mean(axis=1), kind="stable")
+        return DeformedMesh(self.vertices, images, self.triangles[order], heights, self.error)
+
+    def heights_at(self, time: float, heights: Array | None = None) -> Array:
+        """(v,) heights, or the likes of them, at a time of the way there."""
+        heights = self.heights if heights is None else heights
+        return heights[0] if len(heights) == 1 else between(self.height_times, heights, time)
+
+
+def between(times: Array, values: Array, time: float) -> Array:
+    """Values (n, ...) at times, and on straight lines between, at one time."""
+    i = int(np.clip(np.searchsorted(times, time, side="right") - 1, 0, len(times) - 2))
+    share = (time - times[i]) / (times[i + 1] - times[i])
+    return (1 - share) * values[i] + share * values[i + 1]
+
+
+def frames(
+    image: ArrayLike,
+    motion: Motion,
+    poses: Sequence[Pose] | None,
+    size: int,
+    fps: float,
+    background: Color | None,
+    progress: Progress | None = None,
+) -> Drawn:
+    """Pictures at even times; all show the same part of the plane, which holds them all.
+
+    Drawing raises `Stopped` when ``progress(done, count)``, called before each frame and at the
+    end, is true.
+    """
+    corners = images_under(motion.keyframes, motion.domain.cage.exterior).reshape(-1, 2)
+    tolerance = _TOLERANCE_PX * float(np.ptp(corners, axis=0).max()) / size
+    mesh = MovingMesh.of(motion, poses, _VERTICES, tolerance)
+    frame = frame_around(mesh.images.reshape(-1, 2), size)
+    texture, (times, _) = Texture.from_image(as_rgba8(image)), motion.resample(fps)
+
+    def tell(done: int) -> None:
+        if progress is not None and progress(done, len(times)):
+            raise Stopped
+
+    def pictures() -> Iterator[NDArray[np.uint8]]:
+        for i, time in enumerate(times):
+            tell(i)
+            pixels = draw_mesh(texture, mesh.at(float(time)), frame)
+            yield pixels if background is None else np.asarray(on_background(pixels, background))
+        tell(len(times))
+
+    return Drawn((frame.width, frame.height), len(times), pictures())

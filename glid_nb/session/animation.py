@@ -1,0 +1,258 @@
+"""What lies between the poses of a deformation: proved in the background, interval by interval."""
+
+from __future__ import annotations
+
+import itertools
+import time
+from collections.abc import Iterator
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from glid_nb.certificate import certificate_of
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.motion import Motion
+from glid_nb.motion.curve import Piece
+from glid_nb.motion.settings import MotionError, unlike_turns
+from glid_nb.session.deformation import Deformation
+from glid_nb.session.document import NamedPose
+from glid_nb.session.edit_state import EditError, EditState, Moment
+from glid_nb.session.model import Observed
+from glid_nb.session.timeline import Timeline, thinned
+from glid_nb.session.worker import LatestWins, weakly
+
+_THINNED = 0.02  # how far a recorded target may be off, as a share of the cage's longer side
+_INTERVAL = 0.25  # least seconds between two reports of a proof under way
+_ALMOST = 1 - 1e-9
+
+
+class Span(NamedTuple):
+    """What is known of the motion from a keyframe to the next."""
+
+    start: float
+    end: float
+    map: HarmonicMap
+    """Of its first keyframe."""
+    status: Literal["computing", "proved", "fails", "refused"] = "computing"
+    reason: str = ""
+    """Why it fails, and until when it is proved, or why it is refused."""
+    pieces: tuple[Piece, ...] = ()
+    """What is proved, from the start on; all of it where it is proved."""
+    sigma2: tuple[float, ...] = ()
+    """The certified bound on each piece."""
+
+
+class _Task(NamedTuple):
+    timeline: Timeline
+    poses: tuple[NamedPose, ...]
+
+    @classmethod
+    def of(cls, state: EditState) -> _Task:
+        return cls(state.timeline, state.poses)
+
+    def asks_the_same(self, other: _Task) -> bool:
+        """Whether the motions are the same, whatever the poses are called."""
+        maps = ([pose.map for pose in task.poses] for task in (self, other))
+        return self.timeline == other.timeline and all(
+            a is b for a, b in itertools.zip_longest(*maps)
+        )
+
+    @property
+    def spans(self) -> tuple[Span, ...]:
+        """The intervals, still to be computed."""
+        times = self.timeline.closed_times if len(self.poses) > 1 else ()
+        ends = itertools.pairwise(times)
+        return tuple(Span(*e, p.map) for e, p in zip(ends, self.poses, strict=False))
+
+
+class Animation(Observed):
+    """The motion through the poses of a deformation, and the recording of a drag.
+
+    ``observe`` reports ``"motion"`` when more is proved, or what was is no longer the motion, and
+    ``"recording"``. Nothing is computed while a hand drags or the solver works.
+    """
+
+    def __init__(self, deformation: Deformation) -> None:
+        super().__init__()
+        self.deformation = deformation
+        self.spans: tuple[Span, ...] = ()
+        """From each keyframe to the next, and from the last to the first of a loop."""
+        self.recording = False
+        """Whether the next drag, or the present one, is kept as keyframes."""
+        self._task = _Task(Timeline(), ())
+        self._asked = False
+        self._began: tuple[float, EditState] | None = None
+        self._samples: list[tuple[float, NamedPose]] = []  # of the drag that is recorded
+        self._worker: LatestWins[_Task] = LatestWins(weakly(self._prove), self, "motion")
+        self._stop = deformation.observe(weakly(self._on_model))
+        self._on_model("state")
+
+    @property
+    def motion(self) -> Motion:
+        """The motion as a value, whether proved or not; MotionError where it cannot be made."""
+        return _motion(_Task.of(self.deformation.state))
+
+    def at(self, time: float) -> HarmonicMap | None:
+        """The proved map at a time, or the last proved one before it; None outside the motion."""
+        span = next((s for s in self.spans if s.start <= time <= s.end), None)
+        if span is None:
+            return None
+        if not span.pieces:
+            return span.map
+        piece = next((p for p in span.pieces if time <= p.end), span.pieces[-1])
+        return piece.at(min(time, piece.end))
+
+    def keep(self, time: float) -> None:
+        """Keep the map at a time as a pose; between poses, where that is proved."""
+        state = self.deformation.state
+        if time in state.timeline.times or not self.spans:
+            return self.deformation.save_pose()
+        pieces = (piece for span in self.spans for piece in span.pieces)
+        piece = next((p for p in pieces if p.start <= time <= p.end), None)
+        if piece is None:
+            raise EditError(f"nothing is proved at {time:.2f} s, so there is no shape to keep")
+        return self.deformation.keep_between(time, piece.at(time))
+
+    def record(self, on: bool) -> None:
+        """Keep the next drag as keyframes, or do not."""
+        with self.locked():
+            self.recording, self._began, self._samples = on, None, []
+            self._tell("recording")
+
+    def wait(self, timeout: float | None = None) -> bool:
+        """Wait until all is proved or refused; whether that is within ``timeout`` seconds."""
+        return self.deformation.solve(timeout) and self._worker.wait(timeout)
+
+    def close(self) -> None:
+        """End the thread."""
+        self._stop()
+        self._worker.close()
+
+    def _on_model(self, what: str) -> None:
+        if what == "selection":
+            return
+        model, finished = self.deformation, None
+        with model.locked():  # always before this one's lock
+            moment = model.moment
+            with self.locked():
+                if self.recording:
+                    finished = self._sample(moment, what == "frame")
+                self._follow(moment)
+            if finished is not None:
+                model.record(*finished)
+
+    def _follow(self, moment: Moment) -> None:
+        """Ask for what is to be proved, once the pose that is edited has come to rest."""
+        task, settled = _Task.of(moment.state), moment.solved or moment.error is not None
+        if not task.asks_the_same(self._task):
+            self._worker.cancel()
+            self._asked = False
+            spans = task.spans
+            if [(*s[:2], "computing") for s in spans] != [(*s[:2], s.status) for s in self.spans]:
+                self.spans = spans
+                self._tell("motion")
+        self._task = task
+        at_rest = not moment.dragged and (settled or (self.deformation.begun and not moment.busy))
+        if at_rest and not self._asked and len(task.poses) > 1:
+            self._asked = True
+            self._worker.submit(task)
+
+    # Recording
+
+    def _sample(
+        self, moment: Moment, moved: bool
+    ) -> tuple[NamedPose, list[NamedPose], list[float]] | None:
+        """Note where a drag is; at its end what of it is kept."""
+        now, past, state = time.monotonic(), self.deformation.history.past, moment.state
+        if moment.dragged:
+            if self._began is None and past:
+                self._began = now, past[-1]
+            if moved and (frame := moment.frame) is not None:
+                posed = state.current.changed(pose=frame.task.pose.pose, map=frame.map)
+                self._samples.append((now, posed))
+            return None
+        if self._began is None:
+            return None
+        (began, before), samples = self._began, self._samples
+        self.recording, self._began, self._samples = False, None, []
+        self._tell("recording")
+        if not past or past[-1] is not before:
+            return None  # the drag was cancelled
+        samples = [(began, before.current), *samples, (now, state.current)]
+        times, places = np.array([t for t, _ in samples]), [pose for _, pose in samples]
+        points = np.stack([pose.pose.targets for pose in places])
+        kept = thinned(times, points, _THINNED * state.domain.cage.longer_side)[1:]
+        offsets = np.maximum.accumulate(times[kept] - times[0] + 0.01 * np.arange(1, len(kept) + 1))
+        return before.current, [places[i] for i in kept[:-1]], offsets.tolist()
+
+    # Proving
+
+    def _prove(self, task: _Task, worker: LatestWins[_Task]) -> None:
+        spans, told = list(task.spans), time.monotonic()
+        for i, span in _proved(task, worker):
+            spans[i] = span
+            if time.monotonic() - told > _INTERVAL:
+                told = time.monotonic()
+                self._publish(task, spans)
+        if not worker.overtaken:
+            self._publish(task, spans)
+
+    def _publish(self, task: _Task, spans: list[Span]) -> None:
+        with self.locked():
+            if task.asks_the_same(self._task):
+                self.spans = tuple(spans)
+                self._tell("motion")
+
+
+def _motion(task: _Task, first: int = 0, last: int | None = None) -> Motion:
+    """The motion through the poses from the first to the last, or through all and back."""
+    timeline, maps = task.timeline, [pose.map for pose in task.poses]
+    if last is None:
+        return timeline.motion(maps)
+    times = timeline.closed_times[first : last + 1]
+    chosen = (maps + maps[:1])[first : last + 1]
+    return Motion(chosen, times, easing=timeline.easing[first:last])
+
+
+def _proved(task: _Task, worker: LatestWins[_Task]) -> Iterator[tuple[int, Span]]:
+    """Interval after interval; where poses turn otherwise around holes, motions end and begin."""
+    spans = task.spans
+    poses = [*task.poses, task.poses[0]][: len(spans) + 1]
+    refused = {}
+    for i, pair in enumerate(itertools.pairwise(poses)):
+        if worker.overtaken:
+            return
+        if reason := unlike_turns(*(certificate_of(pose.map) for pose in pair)):
+            names = " and ".join(repr(pose.name) for pose in pair)
+            refused[i] = spans[i]._replace(status="refused", reason=f"{names} {reason}")
+    yield from refused.items()
+    runs = [(None, range(len(spans)))]
+    if refused:
+        ends = [-1, *refused, len(spans)]
+        runs = [(b, range(a + 1, b)) for a, b in itertools.pairwise(ends) if b - a > 1]
+    for last, run in runs:
+        try:
+            motion = _motion(task, run.start, last)
+        except MotionError as error:
+            yield from ((i, spans[i]._replace(status="refused", reason=str(error))) for i in run)
+            continue
+        for i in run:
+            if worker.overtaken:
+                return
+            yield i, _span(motion, i - run.start, spans[i])
+
+
+def _span(motion: Motion, index: int, span: Span) -> Span:
+    pieces, proofs = motion.interval(index)
+    sigma2 = tuple(proof.sigma2_lower for proof in proofs)
+    failing = next((i for i, proof in enumerate(proofs) if not proof.certified), None)
+    if failing is None:
+        return span._replace(status="proved", pieces=pieces, sigma2=sigma2)
+    piece, proof = pieces[failing], proofs[failing]
+    until = piece.start + proof.until * (piece.end - piece.start) * _ALMOST
+    x, y = proof.place.real, proof.place.imag
+    reason = f"Proved up to {until:.2f} s; the panel near ({x:.2f}, {y:.2f}) fails. Add a keyframe."
+    held = pieces[:failing]
+    if until > piece.start:
+        held += (Piece(piece.start, until, piece.start_map, piece.at(until)),)
+    return span._replace(status="fails", reason=reason, pieces=held, sigma2=sigma2[:failing])

@@ -1,0 +1,203 @@
+"""The timeline below the canvas: keyframes, what is proved between them, playing, recording."""
+
+from __future__ import annotations
+
+import base64
+import io
+import weakref
+from collections.abc import Callable, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+import traitlets
+from PIL import Image
+
+from glid_nb._scripts import bundle, stylesheet
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging.render import render
+from glid_nb.imaging.texture import Texture
+from glid_nb.session.animation import Animation, Span
+from glid_nb.session.document import NamedPose
+from glid_nb.session.worker import LatestWins, weakly
+from glid_nb.widgets.canvas import DeformCanvas
+from glid_nb.widgets.gestures import Event, Gestures
+from glid_nb.widgets.pad import Pad
+
+_THUMBNAIL, _SMALL = (104, 80), 512  # pixels, drawn from the picture at this size
+_COLORS, _VERTICES = 64, 300
+
+
+class _Actions(Gestures):
+    """What the timeline's buttons and keys do."""
+
+    takes = frozenset({"keep", "record", "onion", "frame"})
+    asks: ClassVar = {
+        **dict.fromkeys(("duplicate_pose", "delete_pose", "go_to_pose"), ("index",)),
+        "rename_pose": ("index", "name"),
+        "move_pose": ("index", "time"),
+        "set_easing": ("index", "easing"),
+        "set_repeat": ("repeat",),
+        "undo": (),
+        "redo": (),
+    }
+
+    def __init__(self, panel: TimelinePanel) -> None:
+        super().__init__(panel.canvas.deformation)
+        self._canvas, self._animation = panel.canvas, panel.animation
+
+    def _keep(self, event: Event) -> None:
+        self._animation.keep(event["time"])
+
+    def _record(self, event: Event) -> None:
+        self._animation.record(event["on"])
+
+    def _onion(self, event: Event) -> None:
+        self._canvas.show_onion = event["on"]
+
+    def _frame(self, event: Event) -> None:
+        time = event["time"]
+        self._canvas.show_between(None if time is None else self._animation.at(time))
+
+
+class TimelinePanel(Pad):
+    """The poses of a canvas as keyframes in time, and the motion between them.
+
+    Poses are kept, named, moved along time, duplicated and deleted; the motion is proved in the
+    background, and what is proved is played by the page itself, from the maps at which the motion
+    bends. The strip's height is the certified bound on sigma_2.
+
+    Parameters
+    ----------
+    canvas : DeformCanvas
+        Where the motion is shown; its model has the poses.
+    on_export : callable, optional
+        What the export button does; there is none without it.
+    """
+
+    _esm = bundle("timeline/main.js")
+    _css = stylesheet("timeline/timeline.css")
+
+    stage = traitlets.Unicode("").tag(sync=True)
+    """The identity of the canvas's stage, which the page hands coefficients to."""
+    shown = traitlets.Dict({}).tag(sync=True)
+    """``keyframes`` (``name``, ``time``, ``easing``, ``thumbnail``), which is ``active``, the
+    timeline's ``repeat`` and ``back``, and what is switched on."""
+    motion = traitlets.Dict({"spans": []}).tag(sync=True)
+    """``spans`` from keyframe to keyframe: ``start``, ``end``, ``status``, ``reason``; ``times`` of
+    the knots and ``floats``, their coefficients, as far as proved; ``sigma2`` between them."""
+    thumbnails = traitlets.Dict({}).tag(sync=True)
+    """Pictures as data URIs, by their keys."""
+
+    def __init__(
+        self, canvas: DeformCanvas, on_export: Callable[[], None] | None = None, **kwargs: Any
+    ) -> None:
+        self.canvas, self.on_export = canvas, on_export
+        self.animation = Animation(canvas.deformation)
+        """What is proved between the poses."""
+        self._pictures = weakref.WeakKeyDictionary[HarmonicMap, tuple[str, str]]()
+        self._latest: dict[str, tuple[str, str]] = {}  # by the poses' names
+        self._texture: Texture | None = None
+        self._worker: LatestWins[tuple[NamedPose, ...]] = LatestWins(
+            weakly(self._draw_thumbnails), self, "thumbnails"
+        )
+        super().__init__(stage=canvas.pane.stage.model_id, **kwargs)
+        self.layout.width, self.layout.min_width = "0", "100%"  # as wide as the canvas
+        model = canvas.deformation
+        self._actions = _Actions(self)
+        self.serve(model, self._on_events)
+        canvas.observe(lambda _: self._show("state"), ["show_onion"])
+        canvas.pane.stage.observe(lambda _: self._show("motion"), ["materials"])
+        canvas.pane.stage.observe(lambda _: self._show("state"), ["drawn"])
+        self._endings = (
+            model.observe(self._show),
+            self.animation.observe(self._show),
+            self.animation.close,
+            self._worker.close,
+        )
+        for what in ("state", "motion"):
+            self._show(what)
+
+    def _on_events(self, events: Sequence[Event]) -> str | None:
+        rest = [event for event in events if event["type"] != "export"]
+        refusal = self._actions.handle(rest)
+        if self.on_export is not None and len(rest) < len(events):
+            self.on_export()  # without the model's lock
+        return refusal
+
+    def _show(self, what: str) -> None:
+        with self.canvas.deformation.locked():
+            if self.comm is None:
+                return  # closed
+            if what == "motion":
+                self.motion = {"spans": [self._span(span) for span in self.animation.spans]}
+            if what in ("state", "recording", "motion"):
+                self._show_state()
+            moment = self.canvas.deformation.moment
+            # Drawing needs JAX and the processor, which the first solve has first.
+            at_rest = moment.solved and not moment.dragged and self.canvas.drawn
+            if what in ("state", "frame") and at_rest:
+                self._worker.submit(moment.state.poses)
+
+    def _show_state(self) -> None:
+        state = self.canvas.deformation.state
+        timeline = state.timeline
+        # Until a pose that moves has come to rest its last thumbnail stays.
+        latest = {p.name: self._pictures.get(p.map, self._latest.get(p.name)) for p in state.poses}
+        self._latest = {name: picture for name, picture in latest.items() if picture}
+        self.thumbnails = dict(self._latest.values())
+        keyframes = [
+            {
+                "name": pose.name,
+                "time": time,
+                "easing": easing,
+                "thumbnail": self._latest.get(pose.name, ("", ""))[0],
+            }
+            for pose, time, easing in zip(state.poses, timeline.times, timeline.easing, strict=True)
+        ]
+        self.shown = {
+            "keyframes": keyframes,
+            "active": state.active,
+            "repeat": timeline.repeat,
+            "back": timeline.back,
+            "recording": self.animation.recording,
+            "onion": self.canvas.show_onion,
+            "kernel": self.canvas.pane.scene.evaluated_in == "kernel",
+            "exports": self.on_export is not None,
+        }
+
+    def _span(self, span: Span) -> dict[str, Any]:
+        """A span as the page takes it; one of which nothing is proved stays at its keyframe."""
+        scene, pieces = self.canvas.pane.scene, span.pieces
+        times, maps = [piece.end for piece in pieces], [piece.end_map for piece in pieces]
+        if pieces:
+            times, maps = [span.start, *times], [pieces[0].start_map, *maps]
+        else:
+            times, maps = [span.start, span.end], [span.map] * 2
+        shader = scene.evaluated_in == "shader"
+        floats = b"".join(map(scene.shader_map.wire, maps)) if shader else b""
+        return {
+            **{key: getattr(span, key) for key in ("start", "end", "status", "reason")},
+            "sigma2": list(span.sigma2),
+            "times": times,
+            "floats": floats,
+        }
+
+    def _draw_thumbnails(self, poses: tuple[NamedPose, ...], worker: Any) -> None:
+        pictures, done = self._pictures, False
+        for pose in poses:
+            if pose.map in pictures or worker.overtaken:
+                continue
+            if self._texture is None:
+                picture = Image.fromarray(self.canvas.image)
+                picture.thumbnail((_SMALL, _SMALL))
+                self._texture = Texture.from_image(np.asarray(picture))
+            drawn = render(self._texture, pose.map, _THUMBNAIL, _VERTICES, "fit", pose.pose)
+            buffer = io.BytesIO()
+            Image.fromarray(drawn).quantize(_COLORS).save(buffer, "PNG")
+            data = base64.b64encode(buffer.getvalue()).decode()
+            pictures[pose.map] = f"{id(pose.map):x}", f"data:image/png;base64,{data}"
+            done = True
+        if done:
+            with self.canvas.deformation.locked():
+                if self.comm is not None:
+                    self._show_state()

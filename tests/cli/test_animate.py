@@ -1,0 +1,146 @@
+"""`glid-nb animate`: sessions and saved motions as moving pictures."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from glid_nb import Motion
+from glid_nb.cli import animate
+from glid_nb.energies import SymmetricDirichlet
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging import TraceOptions
+from glid_nb.session import Document, NamedPose, save_document
+from glid_nb.session.timeline import Timeline
+from glid_nb.solvers import Options
+
+from ..export import shapes
+
+pytestmark = pytest.mark.slow
+
+SMALL = ("--size", 32, "--fps", 2)
+
+
+def document(timeline: Timeline | None = None, count: int = 2) -> Document:
+    maps = [HarmonicMap.identity(shapes.domain()), shapes.bent()][:count]
+    poses = [
+        NamedPose(f"pose {i}", shapes.pose(), SymmetricDirichlet(), Options(), map)
+        for i, map in enumerate(maps)
+    ]
+    domain = shapes.domain()
+    return Document(
+        shapes.picture(), domain.cage, domain, TraceOptions(), None, tuple(poses), 0, timeline
+    )
+
+
+@pytest.fixture
+def session(tmp_path: Path) -> Path:
+    save_document(document(), tmp_path / "walk.glid")
+    return tmp_path / "walk.glid"
+
+
+def opened(path: Path) -> tuple[int, float, bool]:
+    """Frames of a GIF, seconds, and whether it goes on for ever."""
+    with Image.open(path) as read:
+        seconds = 0.0
+        for i in range(read.n_frames):
+            read.seek(i)
+            seconds += read.info["duration"] / 1000
+        return read.n_frames, seconds, "loop" in read.info
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        ((), (4, 2.0, True)),
+        (("--loop", "once"), (3, 1.5, False)),
+        (("--loop", "ping-pong", "--seconds", 3), (6, 3.0, True)),
+    ],
+)
+def test_a_session_becomes_a_gif(
+    run: Any, session: Path, tmp_path: Path, words: tuple, expected: tuple[int, float, bool]
+) -> None:
+    outcome = run("animate", session, "--out", tmp_path / "walk.gif", *SMALL, *words)
+    assert outcome.code == 0, outcome.err
+    assert opened(tmp_path / "walk.gif") == pytest.approx(expected)
+    assert "Proved locally injective at every time" in outcome.out
+
+
+def test_the_timeline_of_a_session_is_followed(run: Any, tmp_path: Path) -> None:
+    timeline = Timeline((0.5, 1.0), ("in", "linear"), "ping-pong")
+    save_document(document(timeline), tmp_path / "walk.glid")
+    assert run("animate", tmp_path / "walk.glid", "--out", tmp_path / "a.gif", *SMALL).code == 0
+    assert opened(tmp_path / "a.gif") == (2, 1.0, True)
+    assert replace(timeline, repeat="loop").lasting(3).closed_times == pytest.approx((0, 1, 3))
+
+
+@pytest.mark.parametrize("name", ["a.webm", "a.sheet.png", "a"])
+def test_the_suffix_says_the_format(run: Any, session: Path, tmp_path: Path, name: str) -> None:
+    outcome = run("animate", session, "--out", tmp_path / name, *SMALL, "--background", "#204060")
+    assert outcome.code == 0, outcome.err
+    assert (tmp_path / name).exists()
+
+
+def test_a_saved_motion_moves_its_picture(run: Any, tmp_path: Path) -> None:
+    Motion([HarmonicMap.identity(shapes.domain()), shapes.bent()]).save(tmp_path / "motion.json")
+    Image.fromarray(shapes.picture()).save(tmp_path / "picture.png")
+    words = ("animate", tmp_path / "motion.json", "--picture", tmp_path / "picture.png", *SMALL)
+    outcome = run(*words, "--out", tmp_path / "a.apng", "--background", "transparent")
+    assert outcome.code == 0, outcome.err
+    with Image.open(tmp_path / "a.apng") as read:
+        assert read.n_frames == 3
+        assert np.asarray(read.convert("RGBA"))[0, 0, 3] == 0
+    own = tmp_path / "a.apng"
+    outcome = run("animate", tmp_path / "motion.json", "--picture", own, "--out", own)
+    assert (outcome.code, "it is read too" in outcome.err) == (1, True)
+    assert run(*words, "--out", tmp_path / "b.gif", "--seconds", 2).code == 0
+    assert opened(tmp_path / "b.gif")[0] == 5
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--out", "walk.avi"), "must end in .gif"),
+        (("--out", "walk.gif", "--seconds", "-1"), "--seconds is -1"),
+        (("--out", "walk.gif", "--fps", "0"), "above 0"),
+        (("--out", "walk.gif", "--picture", "a.png"), "a session holds its picture"),
+        (("--out", "walk.glid"), "must end in .gif"),
+    ],
+)
+def test_what_does_not_fit_is_refused(
+    run: Any, session: Path, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], message: str
+) -> None:
+    monkeypatch.chdir(session.parent)
+    outcome = run("animate", session, *words)
+    assert outcome.code == 1
+    assert message in outcome.err
+    assert outcome.err.count("\n") == 1
+
+
+def test_a_session_needs_two_poses_and_a_motion_its_picture(run: Any, tmp_path: Path) -> None:
+    save_document(document(count=1), tmp_path / "one.glid")
+    outcome = run("animate", tmp_path / "one.glid", "--out", tmp_path / "a.gif")
+    assert outcome.code == 1
+    assert "holds 1 poses; a motion needs at least 2" in outcome.err
+    Motion([HarmonicMap.identity(shapes.domain()), shapes.bent()]).save(tmp_path / "motion.json")
+    outcome = run("animate", tmp_path / "motion.json", "--out", tmp_path / "a.gif")
+    assert outcome.code == 1
+    assert "name its picture by --picture" in outcome.err
+
+
+def test_ctrl_c_leaves_nothing(
+    run: Any, session: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: Any, progress: Any, **__: Any) -> None:
+        progress(1, 4)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(animate.glid_nb.export, "animate", interrupted)
+    outcome = run("animate", session, "--out", tmp_path / "walk.gif")
+    assert outcome.code == 130
+    assert not (tmp_path / "walk.gif").exists()

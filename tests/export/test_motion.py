@@ -1,0 +1,240 @@
+"""Motions as files, opened again by programs that did not write them."""
+
+from __future__ import annotations
+
+import io
+import json
+import struct
+import subprocess
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import imageio_ffmpeg
+import numpy as np
+import pytest
+import trimesh
+from PIL import Image, ImageSequence
+
+from glid_nb import InputError, Motion
+from glid_nb.export import MOTION_FORMATS, animate, encode, motion_files, motion_glb
+from glid_nb.export.moving import MovingMesh, frames
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging import PixelFrame
+from glid_nb.imaging.order import order_of
+from glid_nb.solvers import Pose
+
+from .shapes import SIZE, bent, domain, picture, pose
+
+pytestmark = pytest.mark.slow
+
+SMALL = {"size": 64, "frames_per_second": 3.0}
+
+
+def motion(repeat: Any = "once") -> Motion:
+    return Motion([HarmonicMap.identity(domain()), bent()], repeat=repeat)
+
+
+@pytest.fixture(scope="module")
+def drawn() -> list[np.ndarray]:
+    return list(frames(picture(), motion(), None, 64, 3.0, (255, 255, 255)).pictures)
+
+
+def rgb(image: Image.Image) -> np.ndarray:
+    return np.asarray(image.convert("RGB")).astype(int)
+
+
+def test_the_mesh_moves_as_the_motion_does() -> None:
+    for repeat in ("once", "loop", "ping-pong"):
+        moving = motion(repeat)
+        mesh = MovingMesh.of(moving, None, 300, 0.05)
+        for time in np.linspace(moving.start, moving.end, 7):
+            at, map = mesh.at(time), moving(time)
+            np.testing.assert_allclose(at.images, map(mesh.vertices), atol=1e-10)
+            sides = at.triangles[:, [0, 1]]
+            middles = map(mesh.vertices[sides].mean(axis=1)) - at.images[sides].mean(axis=1)
+            assert np.linalg.norm(middles, axis=1).max() <= mesh.error + 1e-10 <= 0.05 + 1e-10
+
+
+def test_depths_pass_from_one_keyframes_to_the_next() -> None:
+    there = Pose(pose().handles, pose().targets, [1.0, -1.0])
+    mesh = MovingMesh.of(motion(), [pose(), there], 300)
+    first, last = (order_of(domain().cage, one)(mesh.vertices) for one in (pose(), there))
+    np.testing.assert_allclose(mesh.at(0).heights, first)
+    np.testing.assert_allclose(mesh.at(1).heights, last)
+    np.testing.assert_allclose(mesh.at(0.25).heights, 0.75 * first + 0.25 * last)
+    assert len(MovingMesh.of(motion(), [pose(), pose()], 300).heights) == 1
+    with pytest.raises(InputError, match="2 keyframes but 1 poses"):
+        MovingMesh.of(motion(), [pose()], 300)
+
+
+@pytest.mark.parametrize("loop", [True, False])
+@pytest.mark.parametrize("kind", ["gif", "apng"])
+def test_pillow_opens_animations(kind: str, loop: bool, drawn: list[np.ndarray]) -> None:
+    name = f"walk.{kind}"
+    with Image.open(
+        io.BytesIO(motion_files(name, picture(), motion(), loop=loop, **SMALL)[name])
+    ) as read:
+        shown, spans = [], []
+        for frame in ImageSequence.Iterator(read):
+            shown.append(rgb(frame))
+            spans.append(frame.info["duration"])
+        assert read.info.get("loop", 1) == int(not loop)
+    assert len(shown) == len(drawn) == 4
+    assert sum(spans) == pytest.approx(4000 / 3, abs=6)
+    assert max(shown[0].shape) == 64
+    for seen, frame in zip(shown, drawn, strict=True):
+        assert np.abs(seen - frame[..., :3]).mean() < (4 if kind == "gif" else 1e-9)
+
+
+def test_an_apng_may_be_transparent() -> None:
+    data = motion_files("a.apng", picture(), motion(), background=None, **SMALL)["a.apng"]
+    with Image.open(io.BytesIO(data)) as read:
+        last = np.asarray(list(ImageSequence.Iterator(read))[-1].convert("RGBA"))
+    assert last[0, 0, 3] == 0
+    assert last[..., 3].max() == 255
+
+
+def decoded(path: Path, kind: str, *before: str) -> bytes:
+    """Pixels of a video, by ffmpeg."""
+    command = [imageio_ffmpeg.get_ffmpeg_exe(), "-v", "error", *before, "-i", str(path)]
+    raw = ["-f", "rawvideo", "-pix_fmt", kind, "-"]
+    return subprocess.run([*command, *raw], capture_output=True, check=True).stdout
+
+
+@pytest.mark.parametrize("kind", ["mp4", "webm"])
+def test_ffmpeg_reads_videos(kind: str, drawn: list[np.ndarray], tmp_path: Path) -> None:
+    (path,) = animate(tmp_path / f"walk.{kind}", picture(), motion(), **SMALL)
+    count, seconds = imageio_ffmpeg.count_frames_and_secs(str(path))
+    assert (count, seconds) == (4, pytest.approx(4 / 3, abs=0.02))
+    # Browsers guess colours that a video does not name.
+    probe = [imageio_ffmpeg.get_ffmpeg_exe(), "-hide_banner", "-i", str(path)]
+    told = subprocess.run(probe, capture_output=True, text=True, check=False).stderr
+    assert "yuv420p(tv, bt709, progressive), 64x" in told
+    assert " 3 fps" in told
+    shape = (*drawn[0].shape[:2], 3)
+    seen = np.frombuffer(decoded(path, "rgb24"), np.uint8).reshape(4, *shape).astype(int)
+    for frame, expected in zip(seen, drawn, strict=True):
+        assert np.abs(frame - expected[..., :3]).mean() < 5
+
+
+def test_a_video_may_be_transparent(drawn: list[np.ndarray], tmp_path: Path) -> None:
+    (path,) = animate(tmp_path / "a.webm", picture(), motion(), background=None, **SMALL)
+    # ffmpeg's own decoder leaves the alpha out.
+    data = decoded(path, "rgba", "-c:v", "libvpx-vp9")
+    alpha = np.frombuffer(data, np.uint8).reshape(4, *drawn[0].shape)[..., 3]
+    assert alpha[:, 0, 0].max() < 10
+    assert alpha.max() > 245
+
+
+def test_a_sheet_says_where_its_frames_are(drawn: list[np.ndarray]) -> None:
+    files = motion_files("walk.sheet.png", picture(), motion(), **SMALL)
+    assert list(files) == ["walk.sheet.png", "walk.sheet.json"]
+    told = json.loads(files["walk.sheet.json"])
+    with Image.open(io.BytesIO(files["walk.sheet.png"])) as sheet:
+        assert told["meta"]["image"] == "walk.sheet.png"
+        assert told["meta"]["size"] == {"w": sheet.width, "h": sheet.height}
+        assert told["animations"]["walk"] == list(told["frames"]) == encode.names(4)
+        for one, expected in zip(told["frames"].values(), drawn, strict=True):
+            x, y, w, h = (one["frame"][key] for key in "xywh")
+            np.testing.assert_array_equal(sheet.crop((x, y, x + w, y + h)), expected)
+            assert one["sourceSize"] == {"w": w, "h": h}
+
+
+def test_frames_go_into_a_zip_or_a_folder(drawn: list[np.ndarray], tmp_path: Path) -> None:
+    (path,) = animate(tmp_path / "walk.zip", picture(), motion(), **SMALL)
+    files = animate(tmp_path / "walk", picture(), motion(), **SMALL)
+    with zipfile.ZipFile(path) as archive:
+        assert archive.namelist() == [file.name for file in files]
+        for file, expected in zip(files, drawn, strict=True):
+            assert archive.read(file.name) == file.read_bytes()
+            with Image.open(file) as read:
+                np.testing.assert_array_equal(read, expected)
+
+
+def parts_of(glb: bytes) -> tuple[dict[str, Any], list[np.ndarray]]:
+    """The JSON of a binary glTF, and its accessors as arrays."""
+    magic, version, size, length = struct.unpack_from("<4sIII", glb)
+    assert (magic, version, size) == (b"glTF", 2, len(glb))
+    tree = json.loads(glb[20 : 20 + length])
+    start = 20 + length + 8
+    kinds = {5126: "<f4", 5125: "<u4", 5123: "<u2"}
+    arrays = []
+    for accessor in tree["accessors"]:
+        view = tree["bufferViews"][accessor["bufferView"]]
+        at = start + view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+        width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}[accessor["type"]]
+        count = accessor["count"] * width
+        values = np.frombuffer(glb, kinds[accessor["componentType"]], count, at).reshape(-1, width)
+        np.testing.assert_array_equal(values.min(axis=0), accessor["min"])
+        np.testing.assert_array_equal(values.max(axis=0), accessor["max"])
+        arrays.append(values)
+    return tree, arrays
+
+
+@pytest.mark.parametrize("repeat", ["once", "loop", "ping-pong"])
+def test_morph_targets_follow_the_motion(repeat: Any) -> None:
+    moving = motion(repeat)
+    glb = motion_glb(picture(), moving, n_vertices=300)
+    scene = trimesh.load(io.BytesIO(glb), file_type="glb", process=False)
+    (read,) = scene.geometry.values()
+    tree, arrays = parts_of(glb)
+    (primitive,) = tree["meshes"][0]["primitives"]
+    positions = arrays[primitive["attributes"]["POSITION"]]
+    np.testing.assert_allclose(read.vertices, positions, atol=1e-6)
+    targets = np.stack([arrays[target["POSITION"]] for target in primitive["targets"]])
+    (animation,) = tree["animations"]
+    (channel,), (sampler,) = animation["channels"], animation["samplers"]
+    assert sampler["interpolation"] == "LINEAR"
+    assert channel["target"]["path"] == "weights"
+    assert "mesh" in tree["nodes"][channel["target"]["node"]]
+    times = arrays[sampler["input"]].ravel()
+    weights = arrays[sampler["output"]].reshape(len(times), -1)
+    assert times[0] == 0
+    assert times[-1] == pytest.approx(moving.duration)
+    u, v = arrays[primitive["attributes"]["TEXCOORD_0"]].T
+    z = PixelFrame(*SIZE).to_world(np.stack([u, v], axis=-1) * SIZE)  # glTF's v points down
+    for time in np.linspace(0, moving.duration, 9):
+        shares = [np.interp(time, times, column) for column in weights.T]
+        seen = positions + np.tensordot(shares, targets, 1)
+        np.testing.assert_allclose(seen[:, :2], moving(time)(z), atol=2e-4)
+
+
+def test_progress_is_told_and_stops(tmp_path: Path) -> None:
+    told = []
+    settings = {**SMALL, "progress": lambda done, total: told.append((done, total))}
+    animate(tmp_path / "walk.gif", picture(), motion(), **settings)
+    assert told == [(i, 4) for i in range(5)]
+    for kind in (".apng", ".mp4", ""):
+        settings["progress"] = lambda done, _: done == 1
+        assert animate(tmp_path / f"stopped{kind}", picture(), motion(), **settings) == ()
+    assert [path.name for path in tmp_path.iterdir()] == ["walk.gif"]
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "message"),
+    [
+        ("walk.avi", {}, "must end in .gif"),
+        (".gif", {}, "must end in .gif"),
+        ("walk.gif", {"background": None}, "GIF has no transparency"),
+        ("walk.mp4", {"background": (0, 0)}, "three numbers"),
+        ("walk.mp4", {"size": 8}, "at least 16"),
+        ("walk.zip", {"frames_per_second": 0}, "above 0"),
+        ("walk.sheet.png", {"size": 3000, "frames_per_second": 60}, "smaller size"),
+    ],
+)
+def test_what_cannot_be_made_is_refused(name: str, changes: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        motion_files(name, picture(), motion(), **changes)
+
+
+def test_a_picture_of_other_proportions_is_refused() -> None:
+    with pytest.raises(InputError, match="take the picture that the cage was traced from"):
+        motion_files("walk.glb", picture()[:60], motion())
+
+
+def test_a_missing_ffmpeg_is_told_before_anything_is_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(encode.importlib.util, "find_spec", lambda _: None)
+    with pytest.raises(InputError, match=r"pip install 'glid-nb\[video\]'"):
+        motion_files("walk.mp4", picture(), motion())
+    assert ".mp4" in MOTION_FORMATS

@@ -1,0 +1,182 @@
+"""What lies between the poses of a deformation, proved in the background."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from glid_nb.harmonic import HarmonicMap
+from glid_nb.motion import Motion, MotionError
+from glid_nb.session.animation import Animation
+from glid_nb.session.deformation import Deformation
+from glid_nb.session.edit_state import EditError
+from glid_nb.solvers import Pose
+
+from ..domains import domain
+
+pytestmark = pytest.mark.slow
+
+TIMEOUT = 60.0
+POSE = Pose([[2, 0], [-2, 0]], [[2, 0], [-2, 0]])
+
+
+@pytest.fixture
+def model() -> Iterator[Deformation]:
+    with Deformation(domain("ring"), POSE) as model:
+        yield model
+
+
+@pytest.fixture
+def animation(model: Deformation) -> Iterator[Animation]:
+    animation = Animation(model)
+    yield animation
+    animation.close()
+
+
+def put(model: Deformation, *maps: HarmonicMap) -> None:
+    """Make these maps the poses of a model that is paused."""
+    for i, map in enumerate(maps):
+        if i:
+            model.save_pose()
+        model.apply(lambda state, map=map: state.changed(map=map))
+
+
+def statuses(animation: Animation) -> list[str]:
+    return [span.status for span in animation.spans]
+
+
+def test_all_is_proved_once_the_poses_have_come_to_rest(
+    model: Deformation, animation: Animation
+) -> None:
+    told: list[Any] = []
+    assert animation.spans == ()
+    with pytest.raises(MotionError, match="at least 2 keyframes"):
+        animation.motion  # noqa: B018
+    model.save_pose()
+    model.drag(0, (2.5, 0.5))
+    animation.observe(lambda what: told.append((what, statuses(animation))))
+    assert animation.wait(TIMEOUT)
+    model.save_pose()
+    model.drag(1, (-2.5, 1))
+    assert animation.wait(TIMEOUT)
+    assert told[-1] == ("motion", ["proved", "proved"])
+    motion = animation.motion
+    assert min(min(span.sigma2) for span in animation.spans) == motion.certificate.sigma2_lower
+    for time in (0.0, 0.3, 1.0, 1.7, 2.0):
+        shown = animation.at(time)
+        assert shown is not None
+        np.testing.assert_array_equal(shown.phi, motion(time).phi)
+    assert animation.at(2.5) is None
+    # A drag makes it stale, and the solved pose proves it again.
+    model.begin_drag([0])
+    model.drag_to((2.8, 0))
+    assert model.solve(TIMEOUT)
+    assert statuses(animation) == ["computing", "computing"]
+    assert animation.at(0.5) is model.state.poses[0].map
+    model.end_drag()
+    assert animation.wait(TIMEOUT)
+    assert statuses(animation) == ["proved", "proved"]
+    model.set_repeat("loop")
+    assert animation.wait(TIMEOUT)
+    assert statuses(animation) == ["proved"] * 3
+    assert isinstance(animation.motion, Motion)
+
+
+def test_what_lies_between_is_kept_where_it_is_proved(
+    model: Deformation, animation: Animation
+) -> None:
+    model.save_pose()
+    model.drag(0, (2.5, 0.5))
+    assert animation.wait(TIMEOUT)
+    shown = animation.at(0.25)
+    assert shown is not None
+    animation.keep(0.25)
+    assert model.state.timeline.times == (0, 0.25, 1)
+    assert model.state.active == 1
+    np.testing.assert_allclose(model.pose.targets, shown(POSE.handles))
+    animation.keep(0.25)  # a pose already: a copy follows
+    assert model.state.timeline.times == (0, 0.25, 0.625, 1)
+    assert animation.wait(TIMEOUT)
+    model.begin_drag([0])
+    model.drag_to((2.8, 0))
+    assert model.solve(TIMEOUT)
+    with pytest.raises(EditError, match=r"nothing is proved at 0\.10 s"):
+        animation.keep(0.1)
+    model.cancel_drag()
+
+
+def test_poses_that_wind_otherwise_are_not_joined_and_the_others_are() -> None:
+    """The ring turned inside out; no motion of locally injective maps leads there."""
+    d = domain("ring")
+    vertices = np.concatenate(d.offset_cage.loops_complex)
+    phi = np.append(9 / (vertices - d.hole_points_complex[0]), 0)  # Cauchy's integral formula
+    identity, inverse = HarmonicMap.identity(d), HarmonicMap(d, phi, np.zeros_like(phi))
+    with Deformation(d, begin=False) as model:
+        model.paused = True  # nothing moves the maps that are put there
+        animation = Animation(model)
+        put(model, identity, inverse, inverse)
+        model.set_repeat("loop")
+        assert animation._worker.wait(TIMEOUT)
+        assert statuses(animation) == ["refused", "proved", "refused"]
+        reason = animation.spans[0].reason
+        assert reason.startswith("'Pose 1' and 'Pose 2' cannot be joined without folding")
+        assert animation.at(0.9) is identity
+        animation.close()
+
+
+def test_a_motion_that_folds_stops_where_its_proof_does(monkeypatch: pytest.MonkeyPatch) -> None:
+    identity = HarmonicMap.identity(domain("ell"))
+    turned = HarmonicMap(domain("ell"), -identity.phi, -identity.psi)
+
+    def blended(task: Any, *_: Any) -> Motion:
+        return Motion([pose.map for pose in task.poses], between="linear")
+
+    monkeypatch.setattr("glid_nb.session.animation._motion", blended)
+    with Deformation(domain("ell"), begin=False) as model:
+        model.paused = True
+        animation = Animation(model)
+        put(model, identity, turned)
+        assert animation._worker.wait(TIMEOUT)
+        (span,) = animation.spans
+        assert span.status == "fails"
+        assert span.reason.startswith("Proved up to 0.50 s; the panel near (")
+        last = span.pieces[-1]
+        assert 0.4 < last.end < 0.5
+        assert animation.at(0.9) is last.end_map
+        with pytest.raises(EditError, match=r"nothing is proved at 0\.60 s"):
+            animation.keep(0.6)
+        animation.close()
+
+
+def test_a_recorded_drag_becomes_keyframes_in_one_step(
+    model: Deformation, animation: Animation
+) -> None:
+    assert model.solve(TIMEOUT)
+    before = model.state
+    animation.record(True)
+    model.begin_drag([0])
+    for s in np.linspace(0, 1, 12):
+        model.drag_to((2 + 0.5 * s, np.sin(3 * s)))
+        assert model.solve(TIMEOUT)
+    model.end_drag()
+    assert not animation.recording
+    poses, timeline = model.state.poses, model.state.timeline
+    assert 3 <= len(poses) <= 13
+    assert model.state.active == len(poses) - 1
+    assert poses[0].map is before.map
+    assert poses[-1].pose.targets[0].tolist() == [2.5, np.sin(3)]
+    assert timeline.times[0] == 0
+    assert animation.wait(TIMEOUT)
+    assert set(statuses(animation)) == {"proved"}
+    model.undo()
+    assert model.state is before
+    # A drag that is cancelled leaves nothing, and ends the recording.
+    animation.record(True)
+    model.begin_drag([0])
+    model.drag_to((2.4, 0))
+    model.cancel_drag()
+    assert model.state is before
+    assert not animation.recording

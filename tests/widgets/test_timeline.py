@@ -1,0 +1,90 @@
+"""The timeline's kernel side: what the page is given, and what its events do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from glid_nb.geometry import Domain
+from glid_nb.imaging import trace
+from glid_nb.widgets import DeformCanvas, TimelinePanel
+
+pytestmark = pytest.mark.slow
+
+TIMEOUT = 60.0
+Y, X = np.mgrid[:40, :60]
+PICTURE = np.zeros((40, 60, 4), np.uint8)
+PICTURE[(abs(X - 30) < 25) & (abs(Y - 20) < 12)] = 200
+
+
+@pytest.fixture(params=["shader", "kernel"])
+def panel(request: pytest.FixtureRequest) -> Iterator[TimelinePanel]:
+    domain = Domain.from_cage(trace(PICTURE).cage)
+    canvas = DeformCanvas(PICTURE, domain, n_vertices=80, evaluated_in=request.param)
+    canvas.pane.stage.drawn = True  # a page has drawn it
+    panel = TimelinePanel(canvas)
+    yield panel
+    panel.close()
+    canvas.close()
+
+
+def act(panel: TimelinePanel, kind: str, **content: Any) -> str | None:
+    return panel._handle([{"type": kind, **content}])
+
+
+def test_the_page_is_given_what_is_proved_and_its_events_act(panel: TimelinePanel) -> None:
+    canvas, model = panel.canvas, panel.canvas.deformation
+    first = model.add_handle((-6, 0))
+    model.add_handle((6, 0))
+    assert act(panel, "keep", time=0) is None
+    model.drag(first, (-6, 1.5))
+    assert panel.animation.wait(TIMEOUT)
+    panel._worker.wait(TIMEOUT)
+    (span,) = panel.motion["spans"]
+    assert span["status"] == "proved"
+    assert len(span["sigma2"]) == len(span["times"]) - 1
+    assert [key["name"] for key in panel.shown["keyframes"]] == ["Pose 1", "Pose 2"]
+    pictures = [panel.thumbnails[key["thumbnail"]] for key in panel.shown["keyframes"]]
+    assert pictures[0] != pictures[1]
+    scene = canvas.pane.scene
+    if panel.shown["kernel"]:
+        assert span["floats"] == b""
+        middle = panel.animation.at(0.5)
+        act(panel, "frame", time=0.5)
+        assert canvas.pane.scene.map is middle or np.array_equal(scene.map.phi, middle.phi)  # type: ignore[union-attr]
+        assert canvas.pane.stage.marks["targets"] == []
+        act(panel, "frame", time=None)
+        assert scene.map is model.map
+    else:
+        ends = (pose.map for pose in model.state.poses)
+        wires = [scene.shader_map.wire(map) for map in ends]
+        assert span["floats"].startswith(wires[0])
+        assert span["floats"].endswith(wires[1])
+
+    assert act(panel, "rename_pose", index=1, name="up") is None
+    assert "200 characters" in str(act(panel, "rename_pose", index=1, name="x" * 300))
+    act(panel, "move_pose", index=1, time=2.5)
+    act(panel, "set_easing", index=0, easing="in")
+    act(panel, "set_repeat", repeat="loop")
+    assert "repeat is 'often'" in str(act(panel, "set_repeat", repeat="often"))
+    act(panel, "record", on=True)
+    act(panel, "onion", on=True)
+    assert [(k["name"], k["time"], k["easing"]) for k in panel.shown["keyframes"]] == [
+        ("Pose 1", 0, "in"),
+        ("up", 2.5, "linear"),
+    ]
+    assert {k: panel.shown[k] for k in ("repeat", "back", "recording", "onion", "active")} == {
+        **{"repeat": "loop", "back": 1.0, "recording": True, "onion": True, "active": 1}
+    }
+    ((color, (outline,)),) = canvas.pane.stage.onion
+    assert color == "#0072b2"
+    assert len(outline) > 20
+    act(panel, "delete_pose", index=0)
+    assert "cannot be deleted" in str(act(panel, "delete_pose", index=0))
+    for _ in range(5):
+        act(panel, "undo")
+    assert [k["name"] for k in panel.shown["keyframes"]] == ["Pose 1", "Pose 2"]
+    assert "which this canvas cannot do" in str(act(panel, "close"))

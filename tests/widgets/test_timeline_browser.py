@@ -1,0 +1,227 @@
+"""A walk cycle made by hand on the timeline, in a real browser."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+
+from .conftest import OpenNotebook
+from .editor_page import Hand, line
+
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
+
+EDITOR = """
+import numpy as np
+import glid_nb as glid
+glid.enable_compilation_cache()
+editor = glid.Editor(glid.samples.image("gingerbread"), n_vertices=1500)
+canvas, model = editor.canvas, editor.deformation
+editor
+"""
+# Filled at the end by a canvas whose maps the kernel evaluates.
+BOX = """
+import ipywidgets
+box = ipywidgets.VBox(layout={"width": "420px"})
+box
+"""
+OTHER = """
+from glid_nb.widgets import TimelinePanel
+given = {"width": 400, "height": 300, "n_vertices": 400, "evaluated_in": "kernel"}
+other = glid.DeformCanvas(canvas.image, model, **given)
+panel = TimelinePanel(other)
+box.children = [other, panel]
+"""
+PINS = ([0.0, 5.0], [-5.5, 2.0], [5.5, 2.0], [-2.4, -6.5], [2.4, -6.5])
+# Of the hands and the feet, at each of the five poses.
+STEPS = (
+    ([-5.5, 2.0], [5.5, 2.0], [-2.4, -6.5], [2.4, -6.5]),
+    ([-5.0, 4.0], [5.0, -0.5], [-1.2, -6.0], [3.6, -6.0]),
+    ([-5.5, 2.0], [5.5, 2.0], [-2.0, -6.8], [2.0, -6.8]),
+    ([-5.0, -0.5], [5.0, 4.0], [-3.6, -6.0], [1.2, -6.0]),
+    ([-5.5, 2.4], [5.5, 1.6], [-2.5, -6.5], [2.3, -6.7]),
+)
+COUNT_DRAWINGS = """() => {
+  window.drawings = 0;
+  const draw = WebGL2RenderingContext.prototype.drawElements;
+  window.restoreDrawing = () => { WebGL2RenderingContext.prototype.drawElements = draw; };
+  WebGL2RenderingContext.prototype.drawElements = function (...a) {
+    window.drawings += 1;
+    return draw.apply(this, a);
+  };
+}"""
+
+
+class Timeline:
+    """What a hand does on the timeline."""
+
+    def __init__(self, hand: Hand, number: int = 0) -> None:
+        self.hand, self.book, self.page = hand, hand.book, hand.page
+        self.root = self.page.locator(".glid-timeline").nth(number)
+        self.track = self.root.locator(".glid-track")
+        self.keys = self.root.locator(".glid-key:not(.glid-return)")
+
+    def button(self, title: str) -> None:
+        self.root.locator(f'button[title^="{title}"]').click()
+
+    def settle(self) -> None:
+        """Wait until all between the poses is proved, and the page knows."""
+        self.hand.settle()
+        proved = "all(s.status == 'proved' for s in editor.timeline.animation.spans)"
+        self.book.wait_for(f"{proved} and len(editor.timeline.animation.spans) > 0", 60)
+        spans = self.book.value("len(editor.timeline.animation.spans)")
+        done = "n => document.querySelectorAll('.glid-computing').length === 0 && n > 0"
+        self.page.wait_for_function(done, arg=spans)
+
+    @property
+    def time(self) -> float:
+        return float(self.track.get_attribute("data-time") or "nan")
+
+    @property
+    def times(self) -> list[float]:
+        return self.book.value("list(model.state.timeline.times)")
+
+    def x(self, time: float) -> float:
+        box = self.track.bounding_box()
+        assert box is not None
+        span = float(self.track.get_attribute("data-span") or "nan")
+        return box["x"] + 34 + time / span * (box["width"] - 68)
+
+    def scrub(self, times: Sequence[float]) -> None:
+        box = self.track.bounding_box()
+        assert box is not None
+        self.page.mouse.move(self.x(times[0]), box["y"] + 8)
+        self.page.mouse.down()
+        for time in times:
+            self.page.mouse.move(self.x(time), box["y"] + 8)
+        self.page.mouse.up()
+
+    def assert_shows_the_motion(self) -> None:
+        """The shader has the coefficients of ``motion(t)`` to float32."""
+        wanted = self.book.value(
+            "canvas.pane.scene.shader_map.coefficients(editor.motion(t))[0].ravel().tolist()",
+            f"t = {self.time!r}",
+        )
+        np.testing.assert_allclose(self.hand.coefficients(), wanted, atol=3e-6, rtol=3e-7)
+
+
+def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([EDITOR, BOX])
+    hand = Hand(book)
+    timeline, page = Timeline(hand), book.page
+    for i, pin in enumerate(PINS):
+        hand.click(pin)
+        book.wait_for(f"len(model.pose) == {i + 1}")
+    for i, step in enumerate(STEPS):
+        if i:
+            timeline.button("Keep this pose")
+            book.wait_for(f"len(editor.poses) == {i + 1} and model.state.active == {i}")
+        for pin, target in enumerate(step, 1):
+            start = hand.targets[pin]
+            if start != target:
+                hand.drag(line(start, target, 6))
+                hand.wait_for_target(pin, target)
+    timeline.settle()
+    assert timeline.times == [0, 1, 2, 3, 4]
+    assert timeline.keys.count() == 5
+    book.screenshot("timeline-five-poses")
+
+    # A keyframe moves along time, past none; its easing and the repetition change.
+    box = timeline.keys.nth(1).bounding_box()
+    assert box is not None
+    page.mouse.move(box["x"] + 30, box["y"] + 20)
+    page.mouse.down()
+    page.mouse.move(timeline.x(1.2), box["y"] + 20, steps=5)
+    page.mouse.move(timeline.x(1.4), box["y"] + 20, steps=5)
+    page.mouse.up()
+    book.wait_for("abs(model.state.timeline.times[1] - 1.4) < 0.03")
+    timeline.root.locator("select").nth(1).select_option("in-out")
+    timeline.root.locator("select").nth(0).select_option("loop")
+    book.wait_for("model.state.timeline.repeat == 'loop' and len(editor.motion.times) == 6")
+    assert book.value("model.state.timeline.easing[model.state.active]") == "in-out"
+    timeline.settle()
+
+    # Scrubbing shows the motion at that time; the kernel is told nothing.
+    state = book.value("id(model.state)")
+    timeline.scrub([0.3, 0.9, 2.63])
+    assert timeline.time == pytest.approx(2.63, abs=0.02)
+    timeline.assert_shows_the_motion()
+    book.screenshot("timeline-scrubbed")
+    for key in ("ArrowRight", "ArrowRight", "ArrowLeft"):
+        before = timeline.time
+        page.keyboard.press(key)
+        assert abs(timeline.time - before) == pytest.approx(1 / 30)
+    timeline.assert_shows_the_motion()
+    assert book.value("id(model.state)") == state
+
+    # It plays in a loop, without the kernel, and stops where it is.
+    page.evaluate(COUNT_DRAWINGS)
+    page.keyboard.press("Space")
+    page.wait_for_timeout(2000)
+    page.keyboard.press("Space")
+    drawn = page.evaluate("() => { window.restoreDrawing(); return window.drawings; }")
+    print(f"{drawn / 2:.1f} drawings a second")
+    assert drawn > 10
+    timeline.assert_shows_the_motion()
+    assert book.value("id(model.state)") == state
+
+    # The first touch of the canvas goes back to the pose that is edited, and does no more.
+    hand.click([0.0, 0.0])
+    hand.wait_until_drawn()
+    assert len(hand.handles) == 5
+    # What lies between is kept as a pose, and undo takes it back.
+    timeline.scrub([0.5])
+    timeline.button("Keep this pose")
+    book.wait_for("len(editor.poses) == 6 and model.state.active == 1")
+    page.keyboard.press("Control+z")
+    book.wait_for("len(editor.poses) == 5")
+
+    # A recorded drag becomes keyframes, in one step for undo.
+    timeline.settle()
+    timeline.root.locator(".glid-ruler").focus()
+    page.keyboard.press("End")
+    book.wait_for("model.state.active == 4")
+    timeline.button("Record")
+    start = hand.targets[1]
+    path = [[start[0] + np.sin(s / 4), start[1] + 0.15 * s] for s in range(20)]
+    hand.drag(path, pause=50)
+    book.wait_for("not editor.timeline.animation.recording")
+    recorded = book.value("len(editor.poses)")
+    print(recorded, "poses")
+    assert 6 < recorded < 20
+    timeline.settle()
+    book.screenshot("timeline-recorded")
+    page.keyboard.press("Control+z")
+    book.wait_for("len(editor.poses) == 5")
+    assert hand.targets[1] == start
+
+    # Delete removes the pose that is selected.
+    timeline.keys.nth(2).click()
+    book.wait_for("model.state.active == 2")
+    page.keyboard.press("Delete")
+    book.wait_for("len(editor.poses) == 4")
+    page.keyboard.press("Control+z")
+    book.wait_for("len(editor.poses) == 5")
+    timeline.settle()
+    assert book.value("editor.motion.certificate.certified")
+
+    # Where the kernel evaluates, it draws the frames, and the timeline says so.
+    book.value("None", setup=OTHER)
+    second = Timeline(hand, 1)
+    note = second.root.locator(".glid-timeline-note", has_text="Played by the kernel")
+    note.wait_for()
+    book.wait_for("panel.animation.wait(0.1)", 60)
+    page.wait_for_function("() => document.querySelectorAll('.glid-computing').length === 0")
+    second.root.scroll_into_view_if_needed()
+    second.scrub([0.4, 1.1])
+    near = "abs(other.pane.scene.map.phi - panel.animation.at(t).phi).max() < 1e-12"
+    assert second.time == pytest.approx(1.1, abs=0.02)
+    book.wait_for(near.replace("(t)", f"({second.time!r})"))
+    page.keyboard.press("Space")
+    page.wait_for_timeout(600)
+    page.keyboard.press("Space")
+    assert second.time > 1.2
+    book.wait_for(near.replace("(t)", f"({second.time!r})"))
+    page.keyboard.press("Escape")
+    book.wait_for("other.pane.scene.map is model.map")
