@@ -24,7 +24,6 @@ from glid_nb.solvers.result import Iteration, Result
 from glid_nb.solvers.status import Status
 from glid_nb.solvers.unknowns import canonical, unknowns_of
 
-
 # How often free angles and scales of handles are measured anew, and from which change on.
 _MOST_PINS, _SAME_PINS = 12, 1e-5
 
