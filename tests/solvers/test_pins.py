@@ -34,7 +34,7 @@ def held(result: Result, pose: Pose, handle: int, tolerance: float = 1e-3) -> No
 @pytest.mark.parametrize("case", CASES)
 def test_newton_holds(case: str) -> None:
     more, handle = CASES[case]
-    pose = Pose(HANDLES, HANDLES + [0.2, 0.1], **more)
+    pose = Pose(HANDLES, HANDLES + np.array([0.2, 0.1]), **more)
     result = solve(domain("ell"), pose, options=Options(restarts=0))
     assert result.status.ok
     check_certified(result)
@@ -67,7 +67,7 @@ def test_a_batch_holds_what_one_solve_holds() -> None:
 
 
 def test_a_light_handle_gives_way() -> None:
-    targets = HANDLES + [[0, 0], [0, 0], [0, 0], [0.8, 0.8]]
+    targets = HANDLES + np.array([[0, 0], [0, 0], [0, 0], [0.8, 0.8]])
     off = []
     for weight in (1e-4, 1.0):
         pose = Pose(HANDLES, targets, weights=[1, 1, 1, weight])
