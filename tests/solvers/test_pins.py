@@ -40,8 +40,6 @@ def test_newton_holds(case: str) -> None:
     check_certified(result)
     held(result, pose, handle)
     np.testing.assert_allclose(result.map(HANDLES), pose.targets, atol=1e-2)
-    free = ~pose.turned
-    assert (abs(np.angle(result.map.wirtinger(HANDLES)[0][free])) > 1e-6).all()
 
 
 def test_a_solve_that_goes_on_follows_a_turning_handle() -> None:
@@ -78,7 +76,7 @@ def test_a_light_handle_gives_way() -> None:
 
 def test_methods_on_meshes_refuse_by_name() -> None:
     pose = Pose(HANDLES, HANDLES, scales=[None, 2.0, None, None])
-    with pytest.raises(MethodError, match=r"'moving-least-squares' cannot hold .* handle 1"):
+    with pytest.raises(MethodError, match=r"'mls' cannot hold .* handle 1"):
         solve(domain("ell"), pose, method=methods.MovingLeastSquares())
 
 
