@@ -1,7 +1,5 @@
 """Strict checks of arguments, refused by name."""
 
-from __future__ import annotations
-
 import functools
 import math
 from collections.abc import Iterable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Arrays: the alias of their type, arrays of numbers from untrusted values, immutable arrays."""
 
-from __future__ import annotations
-
 from typing import Any, TypeAlias, TypeVar
 
 import numpy as np

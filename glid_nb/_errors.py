@@ -1,7 +1,5 @@
 """Errors for bad input: the base class, the place in front of the message, "did you mean"."""
 
-from __future__ import annotations
-
 import difflib
 import re
 from collections.abc import Iterable, Iterator

@@ -1,7 +1,5 @@
 """Writing files atomically, with errors that name the file."""
 
-from __future__ import annotations
-
 import errno
 import os
 import secrets

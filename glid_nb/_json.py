@@ -1,7 +1,5 @@
 """Reading and checking JSON files; every error names the key."""
 
-from __future__ import annotations
-
 import functools
 import json
 import math

@@ -7,8 +7,6 @@ Whoever waits for one can watch the stages that it goes through, and end them
 (:func:`glid_nb._runtime.watched`).
 """
 
-from __future__ import annotations
-
 import functools
 import hashlib
 import importlib

@@ -4,8 +4,6 @@ Importing the package changes no JAX configuration. Entry points that compute ar
 :func:`double_precision`, which leaves the user's configuration alone.
 """
 
-from __future__ import annotations
-
 import functools
 import os
 import sys

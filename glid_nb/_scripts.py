@@ -1,7 +1,5 @@
 """What runs in the browser: modules joined into one, style sheets, shaders."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Checks of the course's exercises: ``with check("exercise 1"): assert ...``."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager

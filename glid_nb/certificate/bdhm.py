@@ -8,8 +8,6 @@ and the larger of its neighbours is subtracted first. The original is for simply
 here every loop has its own affine function, and a hole's logarithm the constant ``1 / d^2``.
 """
 
-from __future__ import annotations
-
 from typing import Any as Array  # of NumPy or of JAX
 from typing import NamedTuple, Self
 

@@ -1,7 +1,5 @@
 """Proving any harmonic map locally injective (paper Section 8, Theorem 4.2)."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Callable
 from dataclasses import dataclass, field

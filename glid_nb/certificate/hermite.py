@@ -7,8 +7,6 @@ interpolation does not change sign, so the bound holds for complex functions too
 ``|p|^2 - |q|^2`` is a real polynomial of degree 6, whose Bernstein coefficients enclose it.
 """
 
-from __future__ import annotations
-
 import functools
 from typing import Any as Array  # of NumPy or of JAX
 from typing import NamedTuple, Self

@@ -6,8 +6,6 @@ chord, where ``M`` bounds the second derivative along the panel. Panels are spli
 decides. `docs/proof.md` has the lemmas.
 """
 
-from __future__ import annotations
-
 import functools
 from dataclasses import dataclass
 from typing import Literal

@@ -1,7 +1,5 @@
 """Proofs on panels: input, result, and the protocol of a kind of proof."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol, Self, TypeVar
 from typing import Any as Array  # of NumPy or of JAX

@@ -5,8 +5,6 @@ and ``f_zbar`` are Lipschitz continuous with constants ``L_fz`` and ``L_fzbar``.
 holds on all segments and the sum (30) is 0, the map is locally injective.
 """
 
-from __future__ import annotations
-
 import functools
 import math
 import operator

@@ -5,8 +5,6 @@ may be off by is added to each panel's remainder. `docs/proof.md` derives every 
 (Lemmas 4 and 10 to 15).
 """
 
-from __future__ import annotations
-
 import math
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from typing import Any as Array  # of NumPy or of JAX

@@ -6,8 +6,6 @@ SOURCE is a session (.glid), whose poses are the keyframes, as its timeline has 
 a sprite sheet with its JSON, .zip for frames as PNG, none for a folder of them.
 """
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import replace
 from pathlib import Path

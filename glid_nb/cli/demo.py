@@ -6,8 +6,6 @@ name of a bundled sample (see `glid-nb samples`). Without --pose a sample takes 
 for any other picture handles are placed automatically and one or two of them moved.
 """
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import cast

@@ -4,8 +4,6 @@ A flag that is not given is None and leaves its field at the library's default. 
 the values and lists the choices.
 """
 
-from __future__ import annotations
-
 import argparse
 import dataclasses
 from collections.abc import Sequence

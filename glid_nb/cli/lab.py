@@ -4,8 +4,6 @@ The notebook is copied into the folder as editor.ipynb, unless there is one alre
 after `--` are passed to JupyterLab.
 """
 
-from __future__ import annotations
-
 import argparse
 import importlib.util
 import shutil

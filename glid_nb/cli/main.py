@@ -1,7 +1,5 @@
 """The parser of all commands, and the handling of errors."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Sequence

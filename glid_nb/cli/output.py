@@ -1,7 +1,5 @@
 """Where results go, checked before the work starts, and the summary printed at the end."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Iterable, Mapping

@@ -1,7 +1,5 @@
 """Progress on stderr for steps that take over a second."""
 
-from __future__ import annotations
-
 import sys
 import threading
 import time

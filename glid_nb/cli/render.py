@@ -5,8 +5,6 @@ is refused. Its longer side is 20 world units. Maps without image_size_px, from 
 it, do not tell the size: their cage must then lie on the picture.
 """
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

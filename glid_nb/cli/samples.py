@@ -1,7 +1,5 @@
 """List the bundled sample pictures, which `glid-nb demo` takes by name."""
 
-from __future__ import annotations
-
 import argparse
 import json
 from typing import get_args

@@ -6,8 +6,6 @@ go into the map. Without --report only the
 map is written, without --out only the report.
 """
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

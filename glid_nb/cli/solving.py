@@ -1,7 +1,5 @@
 """Solving with progress that can be stopped, and what is written and printed afterwards."""
 
-from __future__ import annotations
-
 import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence

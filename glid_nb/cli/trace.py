@@ -5,8 +5,6 @@ its longer side 20 units long). With the keys handles and targets added it is a 
 `glid-nb solve`. Pixels count from the picture's top left corner, x to the right and y down.
 """
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any

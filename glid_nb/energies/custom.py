@@ -1,7 +1,5 @@
 """A user's own energy, differentiated automatically."""
 
-from __future__ import annotations
-
 import weakref
 from collections.abc import Callable
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """The interface of an isometric energy, and the registry of the energies by name."""
 
-from __future__ import annotations
-
 import math
 from abc import ABC, abstractmethod
 from dataclasses import fields

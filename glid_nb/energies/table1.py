@@ -1,7 +1,5 @@
 """The isometric energies of Section 6 and Table 1, in the order in which menus list them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import ClassVar
 

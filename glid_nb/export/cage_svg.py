@@ -1,7 +1,5 @@
 """The deformed cage as a drawing."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from xml.sax.saxutils import quoteattr
 

@@ -3,8 +3,6 @@
 Frames are (h, w, 4) uint8 arrays of one size with straight alpha, opaque where a format wants it.
 """
 
-from __future__ import annotations
-
 import importlib.util
 import io
 import json

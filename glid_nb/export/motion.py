@@ -1,7 +1,5 @@
 """A motion with a picture as a file of any kind, chosen by its suffix."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """A web page that shows a map or plays a motion: one file, no network, nothing to install."""
 
-from __future__ import annotations
-
 import base64
 import html
 import json

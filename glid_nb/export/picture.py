@@ -1,7 +1,5 @@
 """The warped picture as a PNG file, and a sequence of them as an animated GIF or PNG."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Literal, get_args

@@ -1,7 +1,5 @@
 """Figures of functions: levels of an energy, the curve of f_z, convergence, any line plot."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, Literal
 

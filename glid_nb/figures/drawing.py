@@ -1,7 +1,5 @@
 """What figures of shapes are made of: the figure itself, loops, dots, pictures, colour bars."""
 
-from __future__ import annotations
-
 import io
 import math
 from collections.abc import Iterable

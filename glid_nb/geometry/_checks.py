@@ -4,8 +4,6 @@ A message begins in plain words, for people who draw a cage and see no vertex nu
 and coordinates follow in parentheses.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Loops of vertices: their measures, their names in messages, and the error they raise."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The offset cage P^: the cage's loops moved outward, and one point inside every offset hole."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from numbers import Real
 

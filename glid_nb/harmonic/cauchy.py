@@ -8,8 +8,6 @@ All functions take arrays of NumPy or of JAX and compute with the library that t
 belongs to.
 """
 
-from __future__ import annotations
-
 from typing import Any as Array  # of NumPy or of JAX
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Which holes of a shape stay holes of its cage, and the offset of its outline."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple

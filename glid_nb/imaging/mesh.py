@@ -1,7 +1,5 @@
 """Deformed shapes as triangles and as loops, fine enough to be drawn with straight edges."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -3,8 +3,6 @@
 `Sheets` is the inverse of a map under it: what is drawn at a place, and what lies hidden below.
 """
 
-from __future__ import annotations
-
 import functools
 from typing import Any
 

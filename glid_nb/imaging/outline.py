@@ -1,7 +1,5 @@
 """The connected components of a foreground, and the outline of one with sub-pixel accuracy."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -5,8 +5,6 @@ on the edge's end points, in the order of y, so triangles that share an edge get
 the last bit and every sample belongs to exactly one of them.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Pictures from files and arrays as (h, w, 4) RGBA of 8 or 16 bit."""
 
-from __future__ import annotations
-
 import io
 import os
 import re

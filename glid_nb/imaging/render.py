@@ -1,7 +1,5 @@
 """Warp a picture through a harmonic map."""
 
-from __future__ import annotations
-
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np

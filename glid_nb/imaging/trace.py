@@ -1,7 +1,5 @@
 """From a picture to a cage."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from typing import Any, TypeVar

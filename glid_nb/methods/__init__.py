@@ -4,8 +4,6 @@
 own line search and certificate; those on a mesh may fold.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

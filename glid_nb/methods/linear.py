@@ -1,7 +1,5 @@
 """Linear baselines: one solve, no energy, and nothing that keeps them from folding."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Callable
 from dataclasses import dataclass

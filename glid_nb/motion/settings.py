@@ -1,7 +1,5 @@
 """Settings of a motion, checked; every error names the culprit."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Callable
 from typing import Any, Literal

@@ -1,7 +1,5 @@
 """Maps between keyframes that are solved for: handles follow a motion, the rest finds its place."""
 
-from __future__ import annotations
-
 import bisect
 import itertools
 from collections.abc import Callable, Sequence

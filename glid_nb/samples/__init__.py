@@ -5,8 +5,6 @@ The pictures are RGBA with a transparent background. In a checkout
 function raises SampleError, which lists those that do.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Literal, TypeAlias, get_args
 

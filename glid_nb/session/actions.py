@@ -3,8 +3,6 @@
 An action keeps the certified map or goes back to the identity; moving it is the solver's part.
 """
 
-from __future__ import annotations
-
 import bisect
 import itertools
 import operator

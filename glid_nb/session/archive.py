@@ -1,7 +1,5 @@
 """Zip archives and PNG pictures from untrusted sources: read in memory, sizes checked first."""
 
-from __future__ import annotations
-
 import io
 import weakref
 import zipfile

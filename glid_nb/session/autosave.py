@@ -1,7 +1,5 @@
 """Saving in the background, and which files an editor may replace unasked."""
 
-from __future__ import annotations
-
 import hashlib
 import itertools
 import threading

@@ -1,7 +1,5 @@
 """Documents as files: a zip of JSON and PNG that reads back bit for bit."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
 import math

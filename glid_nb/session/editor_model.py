@@ -1,7 +1,5 @@
 """The model of the whole editor: a picture, its cage, its poses, and their file."""
 
-from __future__ import annotations
-
 import functools
 import warnings
 import weakref

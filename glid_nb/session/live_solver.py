@@ -1,7 +1,5 @@
 """Solving during a drag: each solve continues the one before, and the latest target wins."""
 
-from __future__ import annotations
-
 import functools
 import time
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Edits of a cage's vertices, as functions of loops that need not be a valid cage."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import TypeAlias
 

@@ -1,7 +1,5 @@
 """The report of a solve, as plain JSON values."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 import os

@@ -1,7 +1,5 @@
 """A document as Python code that makes the same map."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """The status line of the deformation editor."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Literal

@@ -1,7 +1,5 @@
 """A first pose for a shape: handles at its ends, one or two of them moved."""
 
-from __future__ import annotations
-
 import numpy as np
 import scipy
 import shapely

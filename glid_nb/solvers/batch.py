@@ -5,8 +5,6 @@ vectorised, in lockstep. After every call those that have ended leave the batch,
 the host, because a panel must be split for one, are set aside and finished one by one.
 """
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor

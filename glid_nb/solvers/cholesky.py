@@ -7,8 +7,6 @@ memory, and of its two ways the faster. On other platforms than the CPU, or shou
 LAPACK otherwise, ``jax.lax.linalg`` does the work.
 """
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Callable
 

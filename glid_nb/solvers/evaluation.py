@@ -3,8 +3,6 @@
 All methods in the harmonic subspace evaluate maps by these functions.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

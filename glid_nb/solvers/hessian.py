@@ -7,8 +7,6 @@ one symmetric 2 x 2 block along them, whose eigenvalues are ``lambda_3,4`` (23).
 eigenvectors (24) need no division by ``|f_zbar|`` and a zero of ``f_zbar`` is no special case.
 """
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Callable
 from typing import Any, NamedTuple

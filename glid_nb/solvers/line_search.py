@@ -4,8 +4,6 @@
 direction cost no further product (G.11) and many candidate steps are tried at once.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from glid_nb._jax import AnyArray, Array, Bool, Float, Int, jnp, lax

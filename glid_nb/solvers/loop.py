@@ -1,7 +1,5 @@
 """The outer loop on the host, the same for every method: record, show, split panels, stop."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Generator

@@ -1,7 +1,5 @@
 """What a method is: a value whose fields are its settings."""
 
-from __future__ import annotations
-
 import importlib
 import importlib.util
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """Our method: Newton's, several iterations a compiled call, on the host (paper Algorithm 1)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

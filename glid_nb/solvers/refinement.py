@@ -1,7 +1,5 @@
 """Finer bases for a solve that has ended, until they gain next to nothing."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -10,8 +10,6 @@ there. An energy that is no barrier (ARAP) can run against the limit of local in
 its targets; it then starts at the symmetric Dirichlet minimum.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any

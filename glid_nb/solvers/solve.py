@@ -1,7 +1,5 @@
 """Solving for a deformation."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from glid_nb._arguments import check_type

@@ -1,7 +1,5 @@
 """How a solve, and one compiled call of it, can end."""
 
-from __future__ import annotations
-
 from enum import Enum
 from typing import Self
 

@@ -1,7 +1,5 @@
 """Newton's method on the device: one compiled call runs several iterations (paper Algorithm 1)."""
 
-from __future__ import annotations
-
 import functools
 from typing import Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """A method at work in the harmonic subspace: its problem, its map, and its panels."""
 
-from __future__ import annotations
-
 import functools
 from typing import Any
 

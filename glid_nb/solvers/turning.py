@@ -11,8 +11,6 @@ round) about its own middle, which moves straight on. Turns are against the larg
 place all stages are.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple

@@ -6,8 +6,6 @@ the Hessian become those of the identity and its gradient 0. The hole coefficien
 ``psi_j = conj(phi_j)``; their ``psi`` parts are folded onto the ``phi`` parts.
 """
 
-from __future__ import annotations
-
 from typing import Any as Array  # of NumPy or of JAX
 from typing import NamedTuple
 

@@ -16,8 +16,6 @@ certificate has to allow for. Directions in which the derivative is small agains
 coefficients along the offset cage have no coordinate.
 """
 
-from __future__ import annotations
-
 from typing import Any as Array  # of NumPy or of JAX
 
 import numpy as np

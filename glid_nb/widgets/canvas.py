@@ -1,7 +1,5 @@
 """The deformation canvas: a picture that follows its handles; and the buttons above it."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Sequence
 from dataclasses import replace

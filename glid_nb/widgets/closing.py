@@ -1,7 +1,5 @@
 """The base of our widgets, and closing them: with all they hold, and when their cell runs again."""
 
-from __future__ import annotations
-
 import inspect
 import sys
 import weakref

@@ -1,7 +1,5 @@
 """Buttons, messages, and the base of boxes of controls over a deformation."""
 
-from __future__ import annotations
-
 import html
 import threading
 from collections.abc import Callable, Sequence

@@ -1,7 +1,5 @@
 """The editor: trace, pin, drag."""
 
-from __future__ import annotations
-
 import base64
 import html
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Exports of an editor, chosen by the file's suffix."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Open, save, export."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path

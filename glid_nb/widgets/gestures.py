@@ -1,7 +1,5 @@
 """What pointers and keys on a canvas mean; without a browser."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar

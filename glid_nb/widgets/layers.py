@@ -3,8 +3,6 @@
 Only this module and `scene` know pythreejs.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any, Literal

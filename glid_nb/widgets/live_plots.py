@@ -1,7 +1,5 @@
 """The plots of a solve as a PNG, redrawn quickly."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from typing import Any
 

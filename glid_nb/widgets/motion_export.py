@@ -1,7 +1,5 @@
 """Exports of the motion through the poses, drawn in the background."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import ipywidgets

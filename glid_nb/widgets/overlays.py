@@ -1,7 +1,5 @@
 """What the canvas can show over the picture: names, ranges, colours."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any

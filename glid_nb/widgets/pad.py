@@ -1,7 +1,5 @@
 """The kernel's end of a pad: receives the page's events and acknowledges them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

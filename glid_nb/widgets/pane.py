@@ -1,7 +1,5 @@
 """One renderer with the pad over it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import ipywidgets

@@ -1,7 +1,5 @@
 """The pins of a deformation as numbers to read and type."""
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Lines along curves of the undeformed shape as triangles, with a width in pixels."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

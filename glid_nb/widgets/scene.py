@@ -1,7 +1,5 @@
 """What is drawn of one domain: the picture on its mesh, and lines along the boundary."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Any, Literal
 

@@ -1,7 +1,5 @@
 """Uniforms and defines of the energies' shader."""
 
-from __future__ import annotations
-
 from glid_nb.energies import ENERGIES, Energy
 
 UNIFORM_VECTORS = 1024

@@ -1,7 +1,5 @@
 """Controls of the solver."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Callable, Mapping
 from typing import Any, Literal, get_args, get_origin

@@ -1,7 +1,5 @@
 """The cage tracer: a picture with its cage, and controls."""
 
-from __future__ import annotations
-
 import functools
 import io
 import math

@@ -1,7 +1,5 @@
 """What pointers and keys on the tracer mean; without a browser."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar

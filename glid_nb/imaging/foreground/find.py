@@ -1,7 +1,5 @@
 """Find the foreground: choose a method and run it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What the methods measure: brightness, distance from a colour, the border's colour, thresholds."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

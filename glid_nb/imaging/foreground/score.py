@@ -1,7 +1,5 @@
 """The foreground score, the result of every method."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -4,8 +4,6 @@ Its direct solver takes 0.27 s for 40,000 pixels on one core. Its conjugate grad
 with our contrasts (weights from 1e-10 to 1) and end far from the solution.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw

@@ -1,7 +1,5 @@
 """Choose how many vertices a cage has, and which."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

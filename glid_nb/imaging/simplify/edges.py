@@ -1,7 +1,5 @@
 """Merge short edges, divide long ones, and move those outwards that cut off a part of the shape."""
 
-from __future__ import annotations
-
 import numpy as np
 import shapely
 from numpy.typing import NDArray

@@ -1,7 +1,5 @@
 """Domain and pose as linear functions of unknowns that make the energy with fixed frames round."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -7,8 +7,6 @@ samples, by a margin, and are then proved everywhere; where the current map itse
 without the margin, exceeds it, the sample's bound gives way to what the map has.
 """
 
-from __future__ import annotations
-
 import functools
 from dataclasses import dataclass, replace
 from typing import NamedTuple

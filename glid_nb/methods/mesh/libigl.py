@@ -1,7 +1,5 @@
 """SLIM and ARAP of libigl, which is an optional package."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
