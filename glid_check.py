@@ -306,11 +306,10 @@ def log2(x: arb) -> float:
 class Piece:
     """Bounds on the modulus of polynomial + error for -1 <= t <= 1: real polynomials."""
 
-    def __init__(self, polynomial: acb_poly, error: arb, along: acb | None = None) -> None:
+    def __init__(self, polynomial: acb_poly, error: arb, along: acb) -> None:
         c = polynomial.coeffs() or [acb(0)]
         self.error, self.middle = acb(arb(0, error), arb(0, error)), abs(c[0])
-        # Turned so that `along`, or its middle, is positive: x <= |x + iy| <= x + y^2 / 2x.
-        along = c[0].mid() if along is None else along
+        # Turned so that `along` is positive: x <= |x + iy| <= x + y^2 / 2x.
         self.c = [a * (along.conjugate() / abs(along)) for a in c] if abs(along) > 0 else c
         x, y = [a.real for a in self.c], sum(abs(a.imag) for a in self.c)
         self.lower = [x[0] - error, *x[1:]]
@@ -419,7 +418,7 @@ class Checker:
                 self.place = panel[0], panel[1] + panel[2] * exact(t), piece, share
                 f_rest, g_rest = at_time(rests, piece, share)
                 seen = Piece(f, f_rest, along)
-                wanted = max(wanted, halved(seen, Piece(g, g_rest), claims))
+                wanted = max(wanted, halved(seen, Piece(g, g_rest, g[0].mid()), claims))
             if not wanted:
                 turning += seen.turning() if begin == 0 else 0
             elif wanted == 3 or min(half, end - begin) < SMALLEST_PIECE:
