@@ -13,6 +13,7 @@ from glid_nb.export.mesh import textured_mesh as textured_mesh
 from glid_nb.export.motion import MOTION_FORMATS as MOTION_FORMATS
 from glid_nb.export.motion import animate as animate
 from glid_nb.export.motion import motion_files as motion_files
+from glid_nb.export.motion import moving_files as moving_files
 from glid_nb.export.motion import suffix_of as suffix_of
 from glid_nb.export.page import page_html as page_html
 from glid_nb.export.picture import animation_bytes as animation_bytes

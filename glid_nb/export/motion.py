@@ -17,7 +17,7 @@ from glid_nb.export.page import page_html
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import check_fits
-from glid_nb.motion import Motion
+from glid_nb.motion import Motion, file
 from glid_nb.solvers import Pose
 
 MOTION_FORMATS = {
@@ -29,10 +29,12 @@ MOTION_FORMATS = {
     ".glb": "Moving mesh (glTF)",
     ".sheet.png": "Sprite sheet (PNG and JSON)",
     ".zip": "Frames (PNG in a zip)",
+    ".motion.json": "Motion and proof for glid-check (JSON)",
 }
 """What each suffix of a moving picture stands for. A name without one is a folder of frames."""
 
 _VIDEO = (".mp4", ".webm")
+_BESIDE = {".sheet.png": ".json", ".motion.json": ".proof.json"}  # for the last of the suffixes
 
 
 def animate(
@@ -71,7 +73,8 @@ def motion_files(
     """A motion as files, by name: that of the given name, and what comes with it.
 
     The suffix says the format: one of `MOTION_FORMATS`, of which .mp4 and .webm need
-    ``glid-nb[video]``; .sheet.png comes with .sheet.json; without a suffix frames are in a folder.
+    ``glid-nb[video]``; .sheet.png comes with .sheet.json, .motion.json with .motion.proof.json, as
+    `Motion.save` writes them; without a suffix frames are in a folder.
     The image, (h, w), (h, w, 3) or (h, w, 4), is the one that the cage was traced from. The depths
     of poses, one per keyframe, say which part is in front where the shape overlaps itself.
 
@@ -95,6 +98,9 @@ def motion_files(
         encode.check_video()
     if suffix == ".html":
         return {name: page_html(image, motion, title=name[:-5], pose=poses, loop=loop).encode()}
+    if suffix == ".motion.json":
+        both = zip(moving_files(Path(name)), file.texts(motion), strict=True)
+        return {path.name: text.encode() for path, text in both}
     if suffix == ".glb":
         return {name: motion_glb(image, motion, poses)}
     fps = frames_per_second
@@ -108,13 +114,19 @@ def motion_files(
             return {name: encode.video(drawn, fps, suffix[1:], background is None)}
         if suffix == ".sheet.png":
             sheet, told = encode.sprite_sheet(drawn, fps, name, png)
-            return {name: sheet, f"{name[:-4]}.json": told}
+            return {name: sheet, moving_files(Path(name))[1].name: told}
         files = dict(zip(encode.names(drawn.count), map(png, drawn.pictures), strict=True))
     except Stopped:
         return {}
     if suffix == ".zip":
         return {name: encode.zipped(files)}
     return {f"{name}/{frame}": data for frame, data in files.items()}
+
+
+def moving_files(path: Path) -> tuple[Path, ...]:
+    """The files of a moving picture of this name: itself, then those that come with it."""
+    beside = (end for suffix, end in _BESIDE.items() if path.name.lower().endswith(suffix))
+    return (path, *map(path.with_suffix, beside))
 
 
 def suffix_of(name: str) -> str:

@@ -64,12 +64,6 @@ def files_of(path: Path) -> tuple[Path, ...]:
     return (path, *(path.with_name(stem + rest) for rest in _BESIDE.get(suffix, ())))
 
 
-def moving_files(path: Path) -> tuple[Path, ...]:
-    """The files of a moving picture of this name; a sprite sheet comes with its JSON."""
-    sheet = path.name.endswith(".sheet.png")
-    return (path, path.with_suffix(".json")) if sheet else (path,)
-
-
 def _suffix(path: Path) -> str:
     """The one of `FORMATS` that the name ends in; ExportError for none."""
     for suffix in FORMATS:

@@ -25,7 +25,6 @@ from glid_nb.widgets.exporting import (
     export,
     export_source,
     files_of,
-    moving_files,
     names_of,
     write_beside,
 )
@@ -278,6 +277,8 @@ class FilePanel(ipywidgets.VBox):
     def _export(self, sure: bool) -> str:
         path, moving = self._chosen
         if not sure:
+            from glid_nb.export.motion import moving_files  # noqa: PLC0415 - as in `exporting`
+
             check_free(self.model, moving_files(path) if moving else files_of(path), path)
         if moving and self.motion is not None:
             return self.motion.start(
