@@ -242,7 +242,8 @@ class Motion:
 
         Raises MotionError for a proof of a motion that is not certified; then nothing is written.
         """
-        for to, text in zip((path, proof), file.texts(self, proof is not None), strict=False):
+        paths = [path] if proof is None else [path, proof]
+        for to, text in zip(paths, file.texts(self, proof is not None), strict=True):
             write_text_atomically(Path(to), text)
 
     @classmethod
