@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from glid_nb._errors import InputError
-from glid_nb._files import write_bytes_atomically
+from glid_nb._files import write_bytes_atomically, zipped
 from glid_nb.export import encode
 from glid_nb.export.encode import Color
 from glid_nb.export.mesh import motion_glb
@@ -34,7 +34,6 @@ MOTION_FORMATS = {
 """What each suffix of a moving picture stands for. A name without one is a folder of frames."""
 
 _VIDEO = (".mp4", ".webm")
-_BESIDE = {".sheet.png": ".json", ".motion.json": ".proof.json"}  # for the last of the suffixes
 
 
 def animate(
@@ -99,8 +98,8 @@ def motion_files(
     if suffix == ".html":
         return {name: page_html(image, motion, title=name[:-5], pose=poses, loop=loop).encode()}
     if suffix == ".motion.json":
-        both = zip(moving_files(Path(name)), file.texts(motion), strict=True)
-        return {path.name: text.encode() for path, text in both}
+        texts = map(str.encode, file.texts(motion))
+        return dict(zip(motion_file_names(name), texts, strict=True))
     if suffix == ".glb":
         return {name: motion_glb(image, motion, poses)}
     fps = frames_per_second
@@ -114,19 +113,19 @@ def motion_files(
             return {name: encode.video(drawn, fps, suffix[1:], background is None)}
         if suffix == ".sheet.png":
             sheet, told = encode.sprite_sheet(drawn, fps, name, png)
-            return {name: sheet, moving_files(Path(name))[1].name: told}
+            return dict(zip(motion_file_names(name), (sheet, told), strict=True))
         files = dict(zip(encode.names(drawn.count), map(png, drawn.pictures), strict=True))
     except Stopped:
         return {}
     if suffix == ".zip":
-        return {name: encode.zipped(files)}
+        return {name: zipped(files, stored=files)}
     return {f"{name}/{frame}": data for frame, data in files.items()}
 
 
-def moving_files(path: Path) -> tuple[Path, ...]:
-    """The files of a moving picture of this name: itself, then those that come with it."""
-    beside = (end for suffix, end in _BESIDE.items() if path.name.lower().endswith(suffix))
-    return (path, *map(path.with_suffix, beside))
+def motion_file_names(name: str) -> tuple[str, ...]:
+    """The name and those of the files that come with it: a sheet's JSON, a motion's proof."""
+    beside = {".sheet.png": ".json", ".motion.json": ".proof.json"}.get(suffix_of(name))
+    return (name,) if beside is None else (name, str(Path(name).with_suffix(beside)))
 
 
 def suffix_of(name: str) -> str:

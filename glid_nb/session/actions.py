@@ -7,7 +7,7 @@ import bisect
 import itertools
 import operator
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -50,9 +50,9 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
     wanted = _places_now(state, points) if targets is None else _points(targets, "to")
     depths = state.order.depths(points).round(2) + 0.0
     added = Pose(points, wanted, depths)
-    fields = ("handles", "targets", "depths")
-    parts = (np.concatenate([getattr(p, name) for p in (pose, added)]) for name in fields)
-    return state.changed(pose=Pose(*parts))
+    names = (known.name for known in fields(Pose))
+    parts = {name: np.concatenate([getattr(p, name) for p in (pose, added)]) for name in names}
+    return state.changed(pose=Pose(**parts))
 
 
 def remove_handles(state: EditState, indices: Iterable[int], keep_shape: bool = False) -> EditState:

@@ -1,12 +1,15 @@
 // The pad over the renderer: sends pointers and keys, draws handles, colour bars and notices.
 
 import { follow, make } from "../pad/dom.js";
-import { help } from "../pad/help.js";
+import { help, shield } from "../pad/help.js";
+import { icon } from "../pad/icons.js";
 import { Link } from "../pad/link.js";
+import { openMenu } from "../pad/menu.js";
 import { Pad, undoAround } from "../pad/pad.js";
 import { clearedContext } from "../pad/pen.js";
 import { View } from "../pad/view.js";
 import { drawMarks, drawOnion, markAt } from "./marks.js";
+import { Room } from "./room.js";
 import { Shapes, drawingTime, uniformVectors } from "./shapes.js";
 
 const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
@@ -17,7 +20,8 @@ const KEYS = new Set([
 const HELP = [
   ["Click the shape", "pin a point"],
   ["Drag a pin, or the shape", "move it there; the shape follows as far as it cannot fold"],
-  ["Right-click, long touch, Delete", "remove a pin"],
+  ["Right-click, long touch, Menu key", "what can be done with a pin, or with the shape there"],
+  ["Delete", "remove the selected pins; with Shift keep the shape"],
   ["Shift-click, A", "select several pins, all pins"],
   ["Page Down, Page Up", "selected pins and what is around them go back, come forward; also [ and ]"],
   ["Arrow keys", "nudge selected pins, with Shift farther; else move a cursor"],
@@ -30,12 +34,14 @@ const HELP = [
   ["Space", "play the motion through the poses, pause; in the timeline too"],
   ["Timeline: arrow keys, Home, End", "step in time, with Shift to the next pose; first, last pose"],
   ["Timeline: Alt and arrow keys", "move the pose in time; Delete removes it"],
+  ["P", "the picture alone, for lectures; Esc brings the rest back"],
+  ["W", "the whole screen"],
   ["Wheel, two fingers", "zoom"],
   ["Middle button, Space and drag", "move the view"],
 ];
 const FIRST = "Click the shape to pin a point, then drag the pin · ? shows all keys";
 const TIPS = [
-  "where it should be. Drag it; a right click removes it; Shift-click selects several",
+  "where it should be. Drag it; a right click shows what else; Shift-click selects several",
   "where the shape has got to. The cyan disk is where it should be",
 ];
 const SAVE_VIEW_AFTER = 250; // ms
@@ -118,11 +124,37 @@ function render({ model, el }) {
   };
   const link = new Link(model, el);
   const marks = () => model.get("marks");
-  const pad = model.get("interactive") ? new Pad(box, view, link, {
+  // Opens the menu of a pin or of the shape; by default that of the pin selected last.
+  const showMenu = (place, found = { mark: marks().selected.at(-1) }) => {
+    const mark = found?.mark, { selected, targets } = marks();
+    const point = mark === undefined ? model.get("cursor") ?? [view.x, view.y] : targets[mark];
+    const by = (shiftKey = false) => ({ shiftKey, timeStamp: performance.now() });
+    const press = (key, shift) => () => pad.press(key, by(shift));
+    place ??= view.toScreen(point);
+    openMenu(box, place, [
+      ...(mark === undefined ? [["Add a pin here", "Click", () => pad.send("pin", place, by())]] : [
+        ["Bring forward", "Page Up", press("PageUp")],
+        ["Send back", "Page Down", press("PageDown")],
+        null,
+        [selected.includes(mark) && selected.length > 1 ? `Remove ${selected.length} pins` : "Remove", "Delete", press("Delete")],
+        ["Remove, keep the shape", "Shift+Delete", press("Delete", true)],
+      ]),
+      null,
+      ["Select all pins", "A", press("a")],
+      ["The undeformed shape", "0", press("0")],
+      ["See everything", "F", press("f")],
+      ["The picture alone", "P", () => room.alone()],
+      ["Full screen", "W", () => room.fullScreen()],
+      ["All keys", "?", keys.toggle],
+    ]);
+  };
+  const room = model.get("interactive") ? new Room(box, (room) => save(model, { room }), (notice) => save(model, { notice })) : null;
+  const alone = () => room.alone(), whole = () => room.fullScreen();
+  const pad = room ? new Pad(box, view, link, {
     reach: REACH,
     keys: KEYS,
-    actions: { "?": keys.toggle },
-    removesByLongPress: true,
+    actions: { "?": keys.toggle, ContextMenu: () => showMenu(), p: alone, P: alone, w: whole, W: whole },
+    menu: showMenu,
     tapped: () => box.dispatchEvent(new CustomEvent("glid:play", { bubbles: true })),
     find: (point, reach) => shapes.motion ? null : markAt(marks(), point, reach),
     held: ({ mark }) => {
@@ -130,12 +162,16 @@ function render({ model, el }) {
       return new Map((selected.includes(mark) ? selected : [mark]).map((i) => [i, targets[i]]));
     },
     cursor: (found) => {
-      box.title = found ? `Pin ${found.mark + 1}: ${TIPS[Number(found.reached)]}` : "";
+      const covered = found && marks().hidden.includes(found.mark) ? ". Another part of the shape covers it" : "";
+      box.title = found ? `Pin ${found.mark + 1}: ${TIPS[Number(found.reached)]}${covered}` : "";
       return found ? "grab" : "crosshair";
     },
     changed: soon,
   }) : null;
-  if (pad) box.append(keys.button, keys.table, resizeGrip(model));
+  const button = (name, title, onclick) =>
+    make("button", { type: "button", className: "glid-help-button", title, "aria-label": title, onclick }, icon(name));
+  const buttons = [keys.button, button("fit", "Full screen (W)", whole), button("rectangle", "The picture alone (P)", alone)];
+  if (pad) box.append(shield(make("div", { className: "glid-corner" }, ...buttons)), keys.table, resizeGrip(model));
   const forget = pad && undoAround(box, (e) => pad.keydown(e));
 
   // While the timeline shows a motion, the first touch goes back to the pose that is edited.
@@ -200,6 +236,7 @@ function render({ model, el }) {
     clearTimeout(saving);
     unfollow();
     forget?.();
+    room?.close();
     pad?.close();
     link.close();
     shapes.close();
