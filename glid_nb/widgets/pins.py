@@ -30,7 +30,7 @@ class PinBar(EditControls):
             options=[("No pin", -1)], tooltip="The selected pin", layout={"width": "92px"}
         )
         look: dict[str, Any] = {
-            "layout": ipywidgets.Layout(width="100px"),
+            "layout": ipywidgets.Layout(width="92px"),
             "style": {"description_width": "initial"},
         }
         self.x = ipywidgets.FloatText(description="x", step=0.1, tooltip="Target", **look)
@@ -49,7 +49,8 @@ class PinBar(EditControls):
                 placeholder="free",
                 continuous_update=False,
                 tooltip=f"{what} at the pin; empty: free ({keys})",
-                **look,
+                layout={"width": "112px"},
+                style=look["style"],
             )
             for name, what, keys in (
                 ("Angle °", "By how much the shape is turned", "< and >, X"),
@@ -57,7 +58,7 @@ class PinBar(EditControls):
             )
         )
         self.weight = ipywidgets.FloatLogSlider(
-            description="Soft",
+            description="Weight",
             tooltip="How firmly the pin is held: soft to the left, firm to the right",
             base=10,
             min=-6,
@@ -66,7 +67,7 @@ class PinBar(EditControls):
             value=1,
             readout_format=".2g",
             continuous_update=False,
-            layout={"width": "190px"},
+            layout={"width": "186px"},
             style={"description_width": "initial"},
         )
 
