@@ -22,7 +22,7 @@ from glid_nb.motion.settings import Easing, Repeat
 from glid_nb.session.document import NamedPose, check_count
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.solvers import Method, Pose
-from glid_nb.solvers.pose import DEEPEST
+from glid_nb.solvers.pose import DEEPEST, PER_HANDLE
 
 # Least distance of two handles, as a share of the cage's size.
 _LEAST_DISTANCE = 1e-6
@@ -50,9 +50,8 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
     wanted = _places_now(state, points) if targets is None else _points(targets, "to")
     depths = state.order.depths(points).round(2) + 0.0
     added = Pose(points, wanted, depths)
-    fields = ("handles", "targets", "depths")
-    parts = (np.concatenate([getattr(p, name) for p in (pose, added)]) for name in fields)
-    return state.changed(pose=Pose(*parts))
+    parts = {n: np.concatenate([getattr(p, n) for p in (pose, added)]) for n in PER_HANDLE}
+    return state.changed(pose=replace(pose, **parts))
 
 
 def remove_handles(state: EditState, indices: Iterable[int], keep_shape: bool = False) -> EditState:
@@ -68,7 +67,7 @@ def remove_handles(state: EditState, indices: Iterable[int], keep_shape: bool = 
 
 def clear_handles(state: EditState) -> EditState:
     """Remove all handles; the shape relaxes."""
-    return state.changed(pose=Pose([], []))
+    return state.changed(pose=state.pose.only([]))
 
 
 def move_targets(state: EditState, indices: Iterable[int], targets: ArrayLike) -> EditState:

@@ -19,6 +19,7 @@ from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.unknowns import Unknowns
 
 _HANDLE_BUCKET = 8
+_TURN = 10.0  # weight of f_z at a handle, beside that of its image
 
 
 class Problem(NamedTuple):
@@ -55,14 +56,44 @@ class Positional(NamedTuple):
         return self.matrix.T @ (self.weights * self.residual(y))
 
 
-def positional_energy(domain: Domain, pose: Pose, weight: float) -> Positional:
-    """The positional energy of a pose, its handles padded to a bucket."""
-    count = len(pose)
-    size = _HANDLE_BUCKET * max(1, -(-count // _HANDLE_BUCKET))
-    targets, weights = np.zeros((size, 2)), np.zeros(size)
-    targets[:count], weights[:count] = pose.targets, weight
+def positional_energy(
+    domain: Domain, pose: Pose, weight: float, map: HarmonicMap | None = None
+) -> Positional:
+    """The positional energy of a pose, its rows padded to a bucket.
+
+    Angles and scales are rows for ``f_z`` at their handles. Of one that is free the map decides:
+    the direction in which a scale is measured, and the scale with which an angle is reached that
+    is over a right angle away; else a free scale has no row.
+    """
+    count, turned = len(pose), np.flatnonzero(pose.turned) if map is not None else []
+    size = _HANDLE_BUCKET * max(1, -(-(count + len(turned)) // _HANDLE_BUCKET))
+    aims, weights = np.zeros((2, size)), np.zeros((2, size))
+    aims[:, :count], weights[:, :count] = pose.targets.T, weight * pose.weights
     matrix = _matrix_at(domain, pose.handles.tobytes(), size)
-    return Positional(matrix, targets.T.ravel(), np.concatenate([weights, weights]))
+    if map is not None and len(turned):
+        basis, last = basis_of(domain), count + len(turned)
+        d = _derivatives_at(domain, pose.handles[turned].tobytes())
+        fz, angles, scales = d @ basis.pad(map.phi), pose.angles[turned], pose.scales[turned]
+        along = np.where(np.isnan(angles), fz / np.abs(fz), np.exp(1j * np.nan_to_num(angles)))
+        ahead = np.real(fz * along.conj()) > 0
+        aims[0, count:last] = np.where(np.isnan(scales), np.abs(fz), scales)
+        held = np.stack([~(np.isnan(scales) & ahead), ~np.isnan(angles)])
+        weights[:, count:last] = _TURN * weight * pose.weights[turned] * held
+        d = d * along.conj()[:, None]
+        matrix = matrix.reshape(2, size, -1).copy()
+        matrix[:, count:last, : 2 * basis.n_columns] = [
+            np.hstack([d.real, -d.imag]),
+            np.hstack([d.imag, d.real]),
+        ]
+        matrix = matrix.reshape(2 * size, -1)
+    return Positional(matrix, aims.ravel(), weights.ravel())
+
+
+@functools.lru_cache(maxsize=32)
+def _derivatives_at(domain: Domain, points: bytes) -> NDArray[Any]:
+    """(k, c) complex ``D`` at points, kept likewise."""
+    basis, z = basis_of(domain), np.frombuffer(points).reshape(-1, 2) @ np.array([1, 1j])
+    return complex_basis(cauchy.first_derivatives, z, basis)
 
 
 @functools.lru_cache(maxsize=32)

@@ -70,7 +70,7 @@ def _inside(domain: Domain, stiffness: Stiffness) -> tuple[Array, Array]:
     left, bottom, right, top = whole.bounds
     step = np.sqrt(whole.area / NODES)
     while True:
-        x, y = np.meshgrid(np.arange(left, right, step), np.arange(bottom, top, step) )
+        x, y = np.meshgrid(np.arange(left, right, step), np.arange(bottom, top, step))
         x, y = x.ravel() + step / 2, y.ravel() + step / 2
         inside = shapely.contains_xy(whole, x, y)
         if np.count_nonzero(inside) <= NODES:

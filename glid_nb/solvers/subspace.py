@@ -23,6 +23,9 @@ from glid_nb.solvers.status import Status
 from glid_nb.solvers.stiff_matrices import stiff_matrices
 from glid_nb.solvers.unknowns import canonical, unknowns_of
 
+# How often free angles and scales of handles are measured anew, and from which change on.
+_MOST_PINS, _SAME_PINS = 12, 1e-5
+
 
 class StartError(InputError):
     """The map to start from cannot be used."""
@@ -50,6 +53,7 @@ class SubspaceDescent(Descent):
     """What the last step was proved by: panels, bounds on sigma_2 and turnings."""
     just_split = 0
     """Panels split since the last iteration."""
+    _pins = 0
 
     def __init__(self, method: Method, inputs: Inputs, reduced: bool) -> None:
         super().__init__(method, inputs)
@@ -71,6 +75,7 @@ class SubspaceDescent(Descent):
             images = problem.handle_images(self.problem.positional, basis, map_)[: len(pose)]
             map_ = aligned(map_, pose, images)
         self.start = map_
+        self.pin(map_)
         self.coefficients: Any = problem.real_coefficients(basis, map_)
         self.problem = self.problem._replace(anchor=problem.anchor_of(basis, self.coefficients))
 
@@ -79,6 +84,21 @@ class SubspaceDescent(Descent):
         """Those of the panels, with the weights of the pose's stiffness."""
         disc, stiffness = self.discretisation, self.inputs.pose.stiffness
         return stiff_matrices(disc, stiffness) if stiffness else disc.matrices
+
+    def pin(self, map: HarmonicMap) -> bool:
+        """Measure angles and scales from this map; whether that changes what is minimised."""
+        inputs, before = self.inputs, self.problem.positional
+        if not inputs.pose.turned.any() or self._pins > _MOST_PINS:
+            return False
+        weight = inputs.options.p2p_weight
+        now = problem.positional_energy(inputs.domain, inputs.pose, weight, map)
+        self._pins += 1
+        self.problem = self.problem._replace(positional=now)
+        if before.weights.shape != now.weights.shape or np.any(before.weights != now.weights):
+            return True
+        y = problem.real_coefficients(self.discretisation.basis, map)
+        gaps = (now.weights > 0) * (before.residual(y) - now.residual(y))
+        return bool(np.abs(gaps).max() > _SAME_PINS)
 
     def reached(self) -> Reached:
         point, domain = self.point, self.inputs.domain

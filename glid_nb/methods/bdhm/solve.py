@@ -62,6 +62,7 @@ class BDHM(DistortionBounds, Method):
     family = "harmonic"
     energies = ("arap",)
     package = "clarabel"
+    stiffens = False
 
     tolerance: float = TOLERANCE
 
@@ -88,7 +89,8 @@ class _Descent:
     def __init__(self, method: BDHM, inputs: Inputs) -> None:
         self.method, self.inputs = method, inputs
         with single_blas_thread():
-            self.problem = BoundedProblem(inputs.domain, inputs.pose, inputs.options.p2p_weight)
+            weight, start = inputs.options.p2p_weight, method.harmonic_start(inputs)
+            self.problem = BoundedProblem(inputs.domain, inputs.pose, weight, start)
         samples = self.problem.samples
         none = np.zeros((3, len(samples.a)), dtype=bool)
         self.active = ActiveSet(self.problem, method, samples, none)
