@@ -140,7 +140,7 @@ class Method:
         self.check_energy(energy)
 
     def check_pose(self, pose: Pose) -> None:
-        """Raise :class:`MethodError` if it cannot hold what is wanted of a handle or a stiff area."""
+        """Raise :class:`MethodError` if it cannot hold an angle, a scale or a stiff area."""
         if pose.stiffness and not self.stiffens:
             raise MethodError(
                 f"the method {self.name!r} knows no stiff areas; clear them, or choose Newton's "

@@ -9,6 +9,7 @@ import numpy as np
 from glid_nb._arrays import Array
 from glid_nb._jax import jit, jnp
 from glid_nb._runtime import double_precision
+from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import evaluation, status, step
 from glid_nb.solvers.loop import Advance, Ending, Stopwatch, follow
 from glid_nb.solvers.method import Inputs, Method

@@ -58,7 +58,7 @@ class Stiffness:
 
     @classmethod
     def of(cls, strokes: Any) -> Stiffness:
-        """From what `to_list` writes, or None; a StiffnessError names a stroke that is not valid."""
+        """From what `to_list` writes, or None; a StiffnessError names the stroke at fault."""
         if strokes is None or isinstance(strokes, Stiffness):
             return strokes or cls()
         if not isinstance(strokes, list | tuple):
