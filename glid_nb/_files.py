@@ -1,9 +1,12 @@
 """Writing files atomically, with errors that name the file."""
 
 import errno
+import io
 import os
 import secrets
 import stat
+import zipfile
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import BinaryIO, Literal
 
@@ -74,6 +77,16 @@ def _write(file: BinaryIO, data: bytes) -> None:
 def write_text_atomically(path: Path, text: str) -> None:
     """:func:`write_bytes_atomically` for UTF-8 text."""
     write_bytes_atomically(path, text.encode("utf-8"))
+
+
+def zipped(files: Mapping[str, bytes], stored: Collection[str] = ()) -> bytes:
+    """Files as a zip; those named in ``stored`` are not compressed. Equal files, equal bytes."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        for name, data in files.items():
+            method = zipfile.ZIP_STORED if name in stored else zipfile.ZIP_DEFLATED
+            archive.writestr(zipfile.ZipInfo(name), data, method)  # dated 1980
+    return buffer.getvalue()
 
 
 def in_words(error: OSError, path: Path, done: Literal["read", "written"]) -> OSError:

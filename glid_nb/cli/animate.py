@@ -40,12 +40,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(chosen: argparse.Namespace) -> None:
     out: Path = chosen.out
-    glid_nb.export.suffix_of(out.name)
-    if not out.suffix:
+    if not glid_nb.export.suffix_of(out.name):
         check_folder(out)
     else:
-        sheet = [out.with_suffix(".json")] if out.name.lower().endswith(".sheet.png") else []
-        check_files([out, *sheet], [chosen.source, chosen.picture])
+        files = map(out.with_name, glid_nb.export.motion_file_names(out.name))
+        check_files(list(files), [chosen.source, chosen.picture])
     glid_nb.enable_compilation_cache()
     image, motion, poses = _read(chosen)
     with step("proving the motion"):

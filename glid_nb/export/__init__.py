@@ -12,6 +12,7 @@ from glid_nb.export.mesh import motion_glb as motion_glb
 from glid_nb.export.mesh import textured_mesh as textured_mesh
 from glid_nb.export.motion import MOTION_FORMATS as MOTION_FORMATS
 from glid_nb.export.motion import animate as animate
+from glid_nb.export.motion import motion_file_names as motion_file_names
 from glid_nb.export.motion import motion_files as motion_files
 from glid_nb.export.motion import suffix_of as suffix_of
 from glid_nb.export.page import page_html as page_html

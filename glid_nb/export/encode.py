@@ -9,7 +9,6 @@ import json
 import math
 import subprocess
 import tempfile
-import zipfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -60,9 +59,7 @@ def check_settings(size: int, fps: float, background: Sequence[int] | None) -> N
 
 def gif(frames: Frames, fps: float, background: Color, loop: bool = True) -> bytes:
     """An animated GIF of 256 colours; it counts in hundredths of a second, on average exactly."""
-    pictures = _with_palette(
-        [Image.fromarray(frame[..., :3]) for frame in frames], background or (255, 255, 255)
-    )
+    pictures = _with_palette([Image.fromarray(frame[..., :3]) for frame in frames], background)
     ends = np.round(np.arange(len(pictures) + 1) * 100 / fps)
     return _saved(pictures, "GIF", (10 * np.diff(ends)).astype(int).tolist(), loop)
 
@@ -159,15 +156,6 @@ def sprite_sheet(drawn: Drawn, fps: float, name: str, png: Callable[..., bytes])
 def names(count: int) -> list[str]:
     """Names of the frames' files: frame-000.png and so on."""
     return [f"frame-{i:0{max(3, len(str(count - 1)))}}.png" for i in range(count)]
-
-
-def zipped(files: dict[str, bytes]) -> bytes:
-    """Files as a zip."""
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w") as archive:  # stored: PNG is compressed
-        for name, data in files.items():
-            archive.writestr(zipfile.ZipInfo(name), data)
-    return buffer.getvalue()
 
 
 def _with_palette(pictures: list[Image.Image], background: Color) -> list[Image.Image]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from glid_nb._errors import InputError
-from glid_nb._files import write_bytes_atomically
+from glid_nb._files import write_bytes_atomically, zipped
 from glid_nb.export import encode
 from glid_nb.export.encode import Color
 from glid_nb.export.mesh import motion_glb
@@ -108,13 +108,18 @@ def motion_files(
             return {name: encode.video(drawn, fps, suffix[1:], background is None)}
         if suffix == ".sheet.png":
             sheet, told = encode.sprite_sheet(drawn, fps, name, png)
-            return {name: sheet, f"{name[:-4]}.json": told}
+            return dict(zip(motion_file_names(name), (sheet, told), strict=True))
         files = dict(zip(encode.names(drawn.count), map(png, drawn.pictures), strict=True))
     except Stopped:
         return {}
     if suffix == ".zip":
-        return {name: encode.zipped(files)}
+        return {name: zipped(files, stored=files)}
     return {f"{name}/{frame}": data for frame, data in files.items()}
+
+
+def motion_file_names(name: str) -> tuple[str, ...]:
+    """The name and those of the files that come with it: a sprite sheet has its JSON."""
+    return (name, f"{name[:-4]}.json") if suffix_of(name) == ".sheet.png" else (name,)
 
 
 def suffix_of(name: str) -> str:

@@ -26,18 +26,6 @@ _DAMAGE = (
 )
 
 
-def archive_bytes(members: Mapping[str, bytes], stored: frozenset[str] = frozenset()) -> bytes:
-    """Members as a zip file; those named in ``stored`` are not compressed."""
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, data in members.items():
-            # A fixed date, so that equal documents are equal files.
-            info = zipfile.ZipInfo(name, date_time=(1980, 1, 1, 0, 0, 0))
-            info.compress_type = zipfile.ZIP_STORED if name in stored else zipfile.ZIP_DEFLATED
-            archive.writestr(info, data)
-    return buffer.getvalue()
-
-
 def read_archive(path: Path, most_bytes: Mapping[str, int]) -> dict[str, bytes]:
     """The members of a zip file, each no larger than allowed. Nothing is extracted to disk.
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from glid_nb import _json, methods
 from glid_nb._errors import InputFileError, about
-from glid_nb._files import write_bytes_atomically
+from glid_nb._files import write_bytes_atomically, zipped
 from glid_nb.certificate import certificate_of
 from glid_nb.energies import CustomEnergy, energy_by_name
 from glid_nb.geometry import Domain, as_points
@@ -19,7 +19,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.map import complex_from_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE, png
-from glid_nb.session.archive import archive_bytes, image_png, read_archive, read_png
+from glid_nb.session.archive import image_png, read_archive, read_png
 from glid_nb.session.document import Document, DocumentError, NamedPose, check_count
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Newton, Options, Pose
@@ -82,7 +82,7 @@ def document_bytes(document: Document) -> bytes:
     }
     text = json.dumps(data, allow_nan=False, default=np.generic.item).encode("utf-8")
     pixels = {_IMAGE: image_png(document.image), **masks}
-    return archive_bytes({_JSON: text, **pixels}, stored=frozenset(pixels))
+    return zipped({_JSON: text, **pixels}, stored=pixels)
 
 
 def load_document(path: str | Path) -> Document:

@@ -190,14 +190,28 @@ class NewtonDescent(SubspaceDescent):
         return Ending(Status.BLOCKED) if self.ridge > _LARGEST_RIDGE else None
 
 
-def _p2p_hessian(problem: Problem) -> Array:
-    """The Hessian of the positional energy, the identity where there is no unknown."""
+_latest: tuple[list[Any], Any] | None = None
+
+
+def _p2p_hessian(problem: Problem) -> Any:
+    """The Hessian of the positional energy, the identity where there is no unknown.
+
+    The latest is kept on the device, for the next targets of the same handles.
+    """
+    global _latest
     positional, unknowns = problem.positional, problem.unknowns
-    rows = pulled_back(positional.matrix, np.asarray(problem.matrices.whitening))
-    rows = restrict_rows(rows, unknowns)
-    h = rows.T @ (positional.weights[:, None] * rows)
-    h[np.diag_indices_from(h)] += 1 - unknowns.free
-    return h
+    inputs = [positional.matrix, positional.weights, unknowns.free, problem.matrices.whitening]
+    known = _latest
+    if known is None or not all(
+        a is b or (isinstance(a, np.ndarray) and np.array_equal(a, b))
+        for a, b in zip(known[0], inputs, strict=True)
+    ):
+        rows = pulled_back(positional.matrix, np.asarray(problem.matrices.whitening))
+        rows = restrict_rows(rows, unknowns)
+        h = rows.T @ (positional.weights[:, None] * rows)
+        h[np.diag_indices_from(h)] += 1 - unknowns.free
+        _latest = known = inputs, jnp.asarray(h)
+    return known[1]
 
 
 def _is_slow(history: Sequence[Iteration]) -> bool:

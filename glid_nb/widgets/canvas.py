@@ -41,7 +41,8 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     """A picture that follows its handles.
 
     A click on the shape adds a handle, a drag moves its target (cyan); the handle (black) follows
-    as far as a certified map allows. Right click or Delete removes it. Shift-click selects several.
+    as far as a certified map allows. Right click, long touch and the Menu key show what else can
+    be done. Delete removes it, with Shift the shape stays. Shift-click selects several.
     Page Down and Page Up, or ``[`` and ``]``, send selected handles, and what is around them, back
     and forward. Arrow keys nudge, Ctrl+Z and Ctrl+Shift+Z undo and redo, Esc cancels a drag, 0
     resets the shape, F makes everything visible. The wheel zooms about the pointer; the middle

@@ -4,12 +4,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from glid_nb._errors import InputError
-from glid_nb._files import write_bytes_atomically
+from glid_nb._files import write_bytes_atomically, zipped
 from glid_nb._json import json_text
 from glid_nb.certificate.proof import proof_text
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View
-from glid_nb.session.archive import archive_bytes
 from glid_nb.session.document_file import document_bytes
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
@@ -62,12 +61,6 @@ def files_of(path: Path) -> tuple[Path, ...]:
     suffix = _suffix(path)
     stem = path.name[: -len(suffix)]
     return (path, *(path.with_name(stem + rest) for rest in _BESIDE.get(suffix, ())))
-
-
-def moving_files(path: Path) -> tuple[Path, ...]:
-    """The files of a moving picture of this name; a sprite sheet comes with its JSON."""
-    sheet = path.name.endswith(".sheet.png")
-    return (path, path.with_suffix(".json")) if sheet else (path,)
 
 
 def _suffix(path: Path) -> str:
@@ -130,7 +123,7 @@ def as_one(files: Mapping[str, bytes], stem: str) -> tuple[str, bytes]:
     """The name and content of a file, or a zip of several."""
     if len(files) == 1:
         return next(iter(files.items()))
-    return f"{stem}.zip", archive_bytes(files)
+    return f"{stem}.zip", zipped(files)
 
 
 def write_beside(model: EditorModel, path: Path, files: Mapping[str, bytes]) -> list[Path]:

@@ -25,7 +25,6 @@ from glid_nb.widgets.exporting import (
     export,
     export_source,
     files_of,
-    moving_files,
     names_of,
     write_beside,
 )
@@ -175,19 +174,7 @@ class FilePanel(ipywidgets.VBox):
         """What was done, or why it was not."""
         self._asked: tuple[ipywidgets.Button | None, float] = (None, 0.0)
         self._labels: dict[ipywidgets.Button, str] = {}
-        self.save_button = self._button("Save", "save", "Write the session file", self._save)
-        self.open_button = self._button(
-            "Open", "folder-open", "Go on with the session file", self._open, "Discard?"
-        )
-        self.export_button = self._button(
-            "Export", "file-export", "Write it beside the session file", self._export
-        )
-        self.download_button = self._button(
-            "Download", "download", "Save it through the browser", self._download
-        )
-        self.code_button = self._button(
-            "Copy as Python", "code", "Copy the lines that make this map", self._copy
-        )
+        self._add_buttons()
         self._moving = _row("Motion", *([] if self.motion is None else [self.motion]))
         super().__init__(
             [
@@ -205,6 +192,18 @@ class FilePanel(ipywidgets.VBox):
         for control in (self.path, self.format, self.width):
             control.observe(self._show, ["value"])
         self._show()
+
+    def _add_buttons(self) -> None:
+        made = self._button
+        self.save_button = made("Save", "save", "Write the session file", self._save)
+        tooltip = "Go on with the session file"
+        self.open_button = made("Open", "folder-open", tooltip, self._open, "Discard?")
+        tooltip = "Write it beside the session file"
+        self.export_button = made("Export", "file-export", tooltip, self._export)
+        tooltip = "Save it through the browser"
+        self.download_button = made("Download", "download", tooltip, self._download)
+        tooltip = "Copy the lines that make this map"
+        self.code_button = made("Copy as Python", "code", tooltip, self._copy)
 
     def _button(
         self,
@@ -278,7 +277,10 @@ class FilePanel(ipywidgets.VBox):
     def _export(self, sure: bool) -> str:
         path, moving = self._chosen
         if not sure:
-            check_free(self.model, moving_files(path) if moving else files_of(path), path)
+            from glid_nb.export.motion import motion_file_names  # noqa: PLC0415 - as above
+
+            files = map(path.with_name, motion_file_names(path.name)) if moving else files_of(path)
+            check_free(self.model, tuple(files), path)
         if moving and self.motion is not None:
             return self.motion.start(
                 path.name, lambda files: self._wrote(write_beside(self.model, path, files))

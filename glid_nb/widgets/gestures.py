@@ -77,7 +77,7 @@ class PinGestures(Gestures):
     Where the picture (h, w, 4) is transparent, what lies below is pinned.
     """
 
-    takes = Gestures.takes | {"remove"}
+    takes = Gestures.takes | {"pin"}
 
     def __init__(
         self, deformation: Deformation, fit: Callable[[], None], image: Array | None = None
@@ -115,10 +115,8 @@ class PinGestures(Gestures):
             model.end_drag()
         self._press, self.cursor = None, None
         hit = self.hit(point, event["reach"])
-        if event["button"] == RIGHT:
-            if hit is not None:
-                model.remove_handles(hit)
-            return
+        if event["button"] == RIGHT and hit is not None and hit not in model.selection:
+            model.select([hit])  # what the menu is about
         if event["button"] != LEFT:
             return
         if hit is None:
@@ -141,8 +139,7 @@ class PinGestures(Gestures):
             if press.source is None or moved <= _SLOP_ON_SHAPE * event["unit"]:
                 return
             # Dragging the shape itself pins the point below the pointer.
-            self._pin(press)
-        assert press.targets is not None
+            press.targets = self._pin_at(press.source)
         if not press.dragging:
             if moved <= _SLOP * event["unit"]:
                 return
@@ -164,7 +161,7 @@ class PinGestures(Gestures):
             self.deformation.end_drag()
         elif press.targets is None:
             if press.source is not None:
-                self._pin(press)
+                self._pin_at(press.source)
             elif not event["shift"]:
                 self.deformation.select([])
 
@@ -172,17 +169,17 @@ class PinGestures(Gestures):
         self._press = None
         self.deformation.cancel_drag()
 
-    def _remove(self, event: Event) -> None:
-        hit = self.hit(place(event), event["reach"])
-        if hit is not None:
-            self.deformation.remove_handles(hit)
+    def _pin(self, event: Event) -> None:
+        self._pin_at(self._source(place(event)))
 
-    def _pin(self, press: _Press) -> None:
+    def _pin_at(self, source: Array | None) -> Array:
+        """Pin and select a point of the undeformed shape; returns its target, (1, 2)."""
+        if source is None:
+            raise EditError("there is no shape here; choose a place on the shape")
         model = self.deformation
-        assert press.source is not None
-        index = model.add_handle(press.source)
+        index = model.add_handle(source)
         model.select([index])
-        press.targets = model.pose.targets[[index]]
+        return model.pose.targets[[index]]
 
     def _key(self, event: Event) -> None:
         key, model = event["key"], self.deformation
@@ -192,7 +189,7 @@ class PinGestures(Gestures):
             self._enter(event)
         elif key in ("Delete", "Backspace"):
             if model.selection:
-                model.remove_handles(*model.selection)
+                model.remove_handles(*model.selection, keep_shape=event["shift"])
         elif key == "Escape":
             if model.dragged:
                 self._cancel(event)
@@ -227,11 +224,9 @@ class PinGestures(Gestures):
         model, point = self.deformation, np.array(self.cursor)
         hit = self.hit(point, event["reach"])
         if hit is None:
-            source = self._source(point)
-            if source is None:
-                raise EditError("the cursor is beside the shape; move it onto the shape")
-            hit = model.add_handle(source)
-        model.select([hit])
+            self._pin_at(self._source(point))
+        else:
+            model.select([hit])
         self.cursor = None
 
     def _next(self, step: int) -> None:

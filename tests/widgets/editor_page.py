@@ -6,6 +6,8 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from playwright.sync_api import Locator
+
 from ..browser import NotebookPage
 
 # A bar of 16 x 4 units in a picture of 200 x 100 pixels, checked so that one sees where it goes.
@@ -210,3 +212,10 @@ def line(start: Sequence[float], end: Sequence[float], count: int) -> list[list[
     return [
         [s + (e - s) * i / count for s, e in zip(start, end, strict=True)] for i in range(count + 1)
     ]
+
+
+def center(of: Locator) -> tuple[float, float]:
+    """The middle of an element on the page."""
+    box = of.bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from .conftest import OpenNotebook
-from .editor_page import EDITOR, SETUP, Hand, line
+from .editor_page import EDITOR, SETUP, Hand, center, line
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -52,10 +52,33 @@ def test_click_drag_undo_and_redo(open_notebook: OpenNotebook) -> None:
     hand.page.mouse.up()
     assert hand.targets == after
     assert book.value("len(model.history.past)") == steps
-    # The right button removes, F fits, and what is drawn is where it should be.
+    # The right button opens a menu: of the shape, of a pin. A click elsewhere only closes it.
+    menu = hand.pad.get_by_role("menu")
+    hand.click([-3.0, 1.0], button="right")
+    book.screenshot("editor-menu-of-the-shape")
+    menu.get_by_role("menuitem", name="Add a pin here").click()
+    book.wait_for("len(model.pose) == 4 and abs(model.pose.targets[3] - [-3, 1]).max() < 0.1")
+    hand.settle()
+    hand.click(hand.targets[3], button="right")
+    book.wait_for("model.selection == (3,)")
+    menu.get_by_role("menuitem", name="Bring forward").click()
+    book.wait_for("model.pose.depths.tolist() == [0, 0, 0, 1]")
+    hand.settle()
+    before = book.value("model.map.phi.real.tolist()")
+    hand.click(hand.targets[3], button="right")
+    book.screenshot("editor-menu-of-a-pin")
+    menu.get_by_role("menuitem", name="Remove, keep the shape").click()
+    book.wait_for("len(model.pose) == 3")
+    assert book.value("model.map.phi.real.tolist()") == before
+    hand.click([-3.0, 0.0], button="right")
+    hand.click([-5.0, 1.0])
+    menu.wait_for(state="hidden")
+    assert book.value("len(model.pose)") == 3
     hand.click(after[2], button="right")
+    menu.get_by_role("menuitem", name="Remove", exact=False).first.click()
     book.wait_for("len(model.pose) == 2")
     hand.settle()
+    # F fits, and what is drawn is where it should be.
     view = book.value("list(canvas.pane.stage.view)")
     hand.page.keyboard.press("f")
     book.wait_for(f"list(canvas.pane.stage.view) != {view}")
@@ -188,8 +211,12 @@ def test_by_keyboard_alone(open_notebook: OpenNotebook) -> None:
     assert hand.certified()
     keys.press(",")
     book.wait_for("model.selection == (0,)")
-    keys.press("Delete")
+    keys.press("ContextMenu")
+    for _ in range(2):
+        keys.press("ArrowDown")
+    keys.press("Enter")  # on "Remove"
     book.wait_for("len(model.pose) == 1")
+    assert hand.pad.evaluate("pad => pad === document.activeElement")
     keys.press("0")
     book.wait_for("abs(model.pose.targets - model.pose.handles).max() == 0")
     # The notebook did not take the keys for its own.
@@ -221,6 +248,14 @@ def test_touch_drags_and_pinches(open_notebook: OpenNotebook) -> None:
     touch("touchEnd")
     hand.wait_for_target(1, [6.5, 2.0])
     assert hand.certified()
+    # A long touch opens the menu of the pin, and moves nothing.
+    touch("touchStart", hand.place([6.5, 2.0]))
+    item = hand.pad.get_by_role("menuitem", name="Bring forward")
+    item.wait_for()
+    touch("touchEnd")
+    touch("touchStart", center(item))
+    touch("touchEnd")
+    book.wait_for("model.pose.depths.tolist() == [0, 1]")
     unit = book.value("canvas.pane.stage.view[2]")
     count = book.value("len(model.history.past)")
     centre = hand.place([0.0, 0.0])

@@ -3,19 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from playwright.sync_api import Locator
 
 from .conftest import OpenNotebook
-from .editor_page import EDITOR, SETUP, Hand, line
+from .editor_page import EDITOR, SETUP, Hand, center, line
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
-
-
-def center(of: Locator) -> tuple[float, float]:
-    """The middle of an element on the page."""
-    box = of.bounding_box()
-    assert box is not None
-    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 
 NAMED = "{name} = glid.Editor(picture, n_vertices=500, width=480, height=300)\n{name}"

@@ -126,18 +126,33 @@ def test_escape_and_undo_take_a_drag_back(hand: Hand) -> None:
         assert hand.model.state is before
 
 
-def test_removing_by_button_and_key(hand: Hand) -> None:
+def test_the_right_button_selects_what_its_menu_is_about(hand: Hand) -> None:
     for place in ((2, 0), (-2, 0), (0, 2)):
         hand.click(*place)
     hand.click(-2, 0, button=2)
-    np.testing.assert_allclose(hand.model.pose.handles, [[2, 0], [0, 2]], atol=1e-9)
+    assert hand.model.selection == (1,)
+    hand.click(0, 2, shift=True)
+    hand.click(-2, 0, button=2)  # all that are selected stay so
+    assert hand.model.selection == (1, 2)
+    hand.click(0, -2, button=2)
+    assert hand.model.selection == (1, 2)
+    hand.send("pin", 0, -2)
+    np.testing.assert_allclose(hand.model.pose.handles[3], [0, -2], atol=1e-9)
+    assert hand.model.selection == (3,)
+    assert "no shape here" in (hand.send("pin", 9, 9) or "")
+
+
+def test_removing_by_key(hand: Hand) -> None:
+    for place in ((2, 0), (-2, 0), (0, 2)):
+        hand.click(*place)
+    # With Shift the shape is kept, which it can be at rest only.
+    assert "still moving" in hand.key("Delete", shift=True)
+    assert len(hand.model.pose) == 3
     hand.key("a")
     hand.key("Delete")
     assert len(hand.model.pose) == 0
     hand.key("undo")
-    assert len(hand.model.pose) == 2
-    hand.send("remove", 0, 2)
-    assert len(hand.model.pose) == 1
+    assert len(hand.model.pose) == 3
 
 
 def test_arrows_nudge_or_move_the_cursor(hand: Hand) -> None:
@@ -162,7 +177,7 @@ def test_arrows_nudge_or_move_the_cursor(hand: Hand) -> None:
 
 def test_a_refusal_is_told_and_changes_nothing(hand: Hand) -> None:
     hand.key("Enter", x=0.0, y=0.0)
-    assert "beside the shape" in hand.key("Enter")
+    assert "no shape here" in hand.key("Enter")
     assert len(hand.model.pose) == 0
     assert hand.key("Escape") == ""
 

@@ -3,6 +3,7 @@
 import { follow, make } from "../pad/dom.js";
 import { help } from "../pad/help.js";
 import { Link } from "../pad/link.js";
+import { openMenu } from "../pad/menu.js";
 import { Pad, undoAround } from "../pad/pad.js";
 import { clearedContext } from "../pad/pen.js";
 import { View } from "../pad/view.js";
@@ -17,7 +18,8 @@ const KEYS = new Set([
 const HELP = [
   ["Click the shape", "pin a point"],
   ["Drag a pin, or the shape", "move it there; the shape follows as far as it cannot fold"],
-  ["Right-click, long touch, Delete", "remove a pin"],
+  ["Right-click, long touch, Menu key", "what can be done with a pin, or with the shape there"],
+  ["Delete", "remove the selected pins; with Shift keep the shape"],
   ["Shift-click, A", "select several pins, all pins"],
   ["Page Down, Page Up", "selected pins and what is around them go back, come forward; also [ and ]"],
   ["Arrow keys", "nudge selected pins, with Shift farther; else move a cursor"],
@@ -35,7 +37,7 @@ const HELP = [
 ];
 const FIRST = "Click the shape to pin a point, then drag the pin · ? shows all keys";
 const TIPS = [
-  "where it should be. Drag it; a right click removes it; Shift-click selects several",
+  "where it should be. Drag it; a right click shows what else; Shift-click selects several",
   "where the shape has got to. The cyan disk is where it should be",
 ];
 const SAVE_VIEW_AFTER = 250; // ms
@@ -118,11 +120,33 @@ function render({ model, el }) {
   };
   const link = new Link(model, el);
   const marks = () => model.get("marks");
+  // Opens the menu of a pin or of the shape; by default that of the pin selected last.
+  const showMenu = (place, found = { mark: marks().selected.at(-1) }) => {
+    const mark = found?.mark, { selected, targets } = marks();
+    const point = mark === undefined ? model.get("cursor") ?? [view.x, view.y] : targets[mark];
+    const by = (shiftKey = false) => ({ shiftKey, timeStamp: performance.now() });
+    const press = (key, shift) => () => pad.press(key, by(shift));
+    place ??= view.toScreen(point);
+    openMenu(box, place, [
+      ...(mark === undefined ? [["Add a pin here", "Click", () => pad.send("pin", place, by())]] : [
+        ["Bring forward", "Page Up", press("PageUp")],
+        ["Send back", "Page Down", press("PageDown")],
+        null,
+        [selected.includes(mark) && selected.length > 1 ? `Remove ${selected.length} pins` : "Remove", "Delete", press("Delete")],
+        ["Remove, keep the shape", "Shift+Delete", press("Delete", true)],
+      ]),
+      null,
+      ["Select all pins", "A", press("a")],
+      ["The undeformed shape", "0", press("0")],
+      ["See everything", "F", press("f")],
+      ["All keys", "?", keys.toggle],
+    ]);
+  };
   const pad = model.get("interactive") ? new Pad(box, view, link, {
     reach: REACH,
     keys: KEYS,
-    actions: { "?": keys.toggle },
-    removesByLongPress: true,
+    actions: { "?": keys.toggle, ContextMenu: () => showMenu() },
+    menu: showMenu,
     tapped: () => box.dispatchEvent(new CustomEvent("glid:play", { bubbles: true })),
     find: (point, reach) => shapes.motion ? null : markAt(marks(), point, reach),
     held: ({ mark }) => {
@@ -130,7 +154,8 @@ function render({ model, el }) {
       return new Map((selected.includes(mark) ? selected : [mark]).map((i) => [i, targets[i]]));
     },
     cursor: (found) => {
-      box.title = found ? `Pin ${found.mark + 1}: ${TIPS[Number(found.reached)]}` : "";
+      const covered = found && marks().hidden.includes(found.mark) ? ". Another part of the shape covers it" : "";
+      box.title = found ? `Pin ${found.mark + 1}: ${TIPS[Number(found.reached)]}${covered}` : "";
       return found ? "grab" : "crosshair";
     },
     changed: soon,

@@ -43,7 +43,7 @@ export class Pad {
   //   pans(found), painting: whether the left button moves the view, or paints a path
   //   tapped(): the space bar was pressed and let go, and nothing was dragged
   //   cursor(found): the pointer's shape
-  //   removesByLongPress: whether a long touch removes what it is on
+  //   menu(place, found): opens the menu of what is there, by the right button or a long touch
   //   wheelNeedsFocus: whether the wheel zooms only while the element has the focus
   //   changed(): called when something is to be drawn again
   constructor(element, view, link, canvas) {
@@ -63,10 +63,11 @@ export class Pad {
     this.on("lostpointercapture", (e) => this.up(e, "cancel"));
     this.on("pointerleave", () => this.hover(null));
     this.on("wheel", (e) => this.wheel(e), { passive: false });
-    // The right button removes; neither the browser's nor JupyterLab's menu may open.
+    // Neither the browser's nor JupyterLab's menu may open.
     this.on("contextmenu", (e) => {
       e.preventDefault();
       e.stopPropagation();
+      if (e.button === 2 && e.pointerType !== "touch") this.menu(this.place(e), "mouse");
     });
     this.on("keydown", (e) => this.keydown(e));
     this.on("keyup", (e) => {
@@ -136,9 +137,7 @@ export class Pad {
     this.pans = left && this.canvas.pans?.(found);
     this.path = left && this.canvas.painting ? [this.view.toWorld(place)] : [];
     this.send("down", place, e);
-    if (this.canvas.removesByLongPress && e.pointerType === "touch" && mark !== undefined) {
-      this.longPress = setTimeout(() => this.pressedLong(e, place), LONG_PRESS);
-    }
+    if (e.pointerType === "touch") this.longPress = setTimeout(() => this.pressedLong(e, place), LONG_PRESS);
     this.shape();
     this.canvas.changed();
   }
@@ -148,8 +147,12 @@ export class Pad {
     this.longPress = setTimeout(() => {
       this.takeBack(e);
       this.mode = null;
-      this.send("remove", place, e);
+      this.menu(place, "touch");
     }, LONG_PRESS_GRACE);
+  }
+
+  menu(place, type) {
+    this.canvas.menu?.(place, this.find(place, type));
   }
 
   // Cancels the gesture that the kernel knows of.
@@ -257,8 +260,12 @@ export class Pad {
       this.held.clear();
       this.path = [];
     }
-    const middle = [this.view.width / 2, this.view.height / 2];
-    this.send("key", middle, e, { key: isUndo(e) ? undoOrRedo(e) : e.key });
+    this.press(isUndo(e) ? undoOrRedo(e) : e.key, e);
+  }
+
+  // Has the kernel do what a key does.
+  press(key, e) {
+    this.send("key", [this.view.width / 2, this.view.height / 2], e, { key });
   }
 
   // Updates what is below the pointer.
