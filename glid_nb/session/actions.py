@@ -23,6 +23,7 @@ from glid_nb.session.document import NamedPose, check_count
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.solvers import Method, Pose
 from glid_nb.solvers.pose import DEEPEST, PER_HANDLE
+from glid_nb.solvers.stiffness import Stiffness
 
 # Least distance of two handles, as a share of the cage's size.
 _LEAST_DISTANCE = 1e-6
@@ -111,6 +112,29 @@ def bring_forward(state: EditState, indices: Iterable[int], steps: float = 1) ->
     return set_depths(state, chosen, depths)
 
 
+def paint(
+    state: EditState, lines: Sequence[ArrayLike], radius: float, strength: float = 1.0
+) -> EditState:
+    """Make the undeformed shape stiff along lines (n, 2) by a round brush; strength 0 erases."""
+    stiffness = state.pose.stiffness
+    for line in lines:
+        stiffness = stiffness.painted(line, radius, strength)
+    return _with_stiffness(state, stiffness)
+
+
+def clear_stiffness(state: EditState) -> EditState:
+    """Erase all stiff areas."""
+    return _with_stiffness(state, Stiffness())
+
+
+def _with_stiffness(state: EditState, stiffness: Stiffness) -> EditState:
+    if stiffness == state.pose.stiffness:
+        return state
+    pose = replace(state.pose, stiffness=stiffness)
+    state.current.method.check_pose(pose)
+    return state.changed(pose=pose)
+
+
 def reset(state: EditState) -> EditState:
     """The undeformed shape: the identity map, and every target on its handle."""
     pose = state.pose.with_targets(state.pose.handles)
@@ -133,6 +157,7 @@ def set_method(state: EditState, method: Method | str, **settings: Any) -> EditS
     """Solve by another of :mod:`glid_nb.methods`, or its name; refused when it cannot run."""
     method = methods.by_name(method, **settings) if isinstance(method, str) else method
     method.check(state.current.energy)
+    method.check_pose(state.pose)
     return state.changed(method=method)
 
 

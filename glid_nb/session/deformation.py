@@ -179,6 +179,8 @@ class Deformation(Observed):
     nudge = _step(actions.nudge)
     set_depths = _step(actions.set_depths)
     bring_forward = _step(actions.bring_forward)
+    paint = _step(actions.paint)
+    clear_stiffness = _step(actions.clear_stiffness)
     reset = _step(actions.reset)
     set_energy = _step(actions.set_energy)
     set_options = _step(actions.set_options)
