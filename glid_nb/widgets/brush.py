@@ -73,8 +73,9 @@ class BrushGestures(PinGestures):
 
         Where it leaves the shape, or goes on to another limb, a line ends.
         """
-        brush, line = self.brush, shapely.LineString(path if len(path) > 1 else [*path, *path])
-        places = shapely.get_coordinates(line.simplify(unit).segmentize(brush.radius / 2))
+        brush, places = self.brush, path[:1]
+        if len(path) > 1 and (line := shapely.LineString(path)).length > unit:
+            places = shapely.get_coordinates(line.simplify(unit).segmentize(brush.radius / 2))
         sources = self.deformation.sheets(self._image).sources(places)
         far = np.linalg.norm(np.diff(sources, axis=0), axis=1) > 2 * brush.radius
         outside = np.isnan(sources[:, 0])

@@ -408,8 +408,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.timeline = TimelinePanel(self.canvas, self._open_files)
         # Boxes to be filled: if the children changed, the page would select another tab.
         self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}
-        for name in ("brush", "pins"):
-            self._boxes[name] = ipywidgets.VBox(layout={"min_height": _PINS_HEIGHT})
+        bars = [ipywidgets.VBox(layout={"min_height": _PINS_HEIGHT}) for _ in range(2)]
+        self._boxes |= dict(zip(("pins", "brush"), bars, strict=True))
         self.canvas.brush.observe(self._show_bar, ["tool"])
         self._show_bar()
         self._side = ipywidgets.Tab(
