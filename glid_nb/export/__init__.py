@@ -5,7 +5,6 @@ caller's job, but for `animate`.
 """
 
 from glid_nb.export.cage_svg import cage_svg as cage_svg
-from glid_nb.export.mesh import TexturedMesh as TexturedMesh
 from glid_nb.export.mesh import mesh_glb as mesh_glb
 from glid_nb.export.mesh import mesh_obj as mesh_obj
 from glid_nb.export.mesh import motion_glb as motion_glb

@@ -23,8 +23,11 @@ from glid_nb.solvers.status import Status
 from glid_nb.solvers.stiff_matrices import stiff_matrices
 from glid_nb.solvers.unknowns import canonical, unknowns_of
 
-# How often free angles and scales of handles are measured anew, and from which change on.
-_MOST_PINS, _SAME_PINS = 12, 1e-5
+# Measurements of angles and scales, after which the directions found are kept.
+MOST_PINS = 16
+KEPT = 1e9
+"""A damping that keeps them."""
+_FAR, _DAMPING = 0.2, 3.0  # a measurement that far from the last one, radians, overshot
 
 
 class StartError(InputError):
@@ -53,7 +56,7 @@ class SubspaceDescent(Descent):
     """What the last step was proved by: panels, bounds on sigma_2 and turnings."""
     just_split = 0
     """Panels split since the last iteration."""
-    _pins = 0
+    _pins, _damping = 0, 1.0
 
     def __init__(self, method: Method, inputs: Inputs, reduced: bool) -> None:
         super().__init__(method, inputs)
@@ -88,17 +91,16 @@ class SubspaceDescent(Descent):
     def pin(self, map: HarmonicMap) -> bool:
         """Measure angles and scales from this map; whether that changes what is minimised."""
         inputs, before = self.inputs, self.problem.positional
-        if not inputs.pose.turned.any() or self._pins > _MOST_PINS:
+        if not inputs.pose.turned.any() or self._damping == KEPT:
             return False
-        weight = inputs.options.p2p_weight
-        now = problem.positional_energy(inputs.domain, inputs.pose, weight, map)
+        self._damping = KEPT if self._pins == MOST_PINS else self._damping
+        weight, damping = inputs.options.p2p_weight, self._damping
+        now = problem.positional_energy(inputs.domain, inputs.pose, weight, map, damping)
+        apart = problem.measured_apart(before, now)
+        self._damping *= _DAMPING if self._pins and apart > _FAR and damping != KEPT else 1
         self._pins += 1
         self.problem = self.problem._replace(positional=now)
-        if before.weights.shape != now.weights.shape or np.any(before.weights != now.weights):
-            return True
-        y = problem.real_coefficients(self.discretisation.basis, map)
-        gaps = (now.weights > 0) * (before.residual(y) - now.residual(y))
-        return bool(np.abs(gaps).max() > _SAME_PINS)
+        return apart > 0
 
     def reached(self) -> Reached:
         point, domain = self.point, self.inputs.domain

@@ -18,6 +18,7 @@ HANDLES = np.array([[-2.5, 2.5], [2.5, -2.5], [-2.0, -2.0], [-0.5, -0.5]])
 CASES = {
     "an angle": ({"angles": [None, None, 0.6, None]}, 2),
     "a scale": ({"scales": [None, None, 1.3, None]}, 2),
+    "a scale that the shape turns away from": ({"scales": [None, None, 0.5, None]}, 2),
     "both": ({"angles": [None, None, -0.4, None], "scales": [None, None, 0.8, None]}, 2),
     "over a right angle away": ({"angles": [None, -2.2, None, None]}, 1),
 }
@@ -51,10 +52,11 @@ def test_a_solve_that_goes_on_follows_a_turning_handle() -> None:
 
 
 @pytest.mark.parametrize("method", [methods.LBFGS(), methods.NewtonEigen(), methods.BDHM()])
-def test_other_methods_of_the_subspace_hold_an_angle(method: methods.Method) -> None:
-    pose = Pose(HANDLES, HANDLES, angles=[None, None, 0.3, None])
+def test_other_methods_of_the_subspace_hold_them_too(method: methods.Method) -> None:
+    pose = Pose(HANDLES, HANDLES, angles=[None, None, 0.3, None], scales=[None, 0.7, None, None])
     result = solve(domain("ell"), pose, method=method)
     check_certified(result)
+    held(result, pose, 1)
     held(result, pose, 2)
 
 

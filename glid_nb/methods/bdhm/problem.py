@@ -38,7 +38,12 @@ class BoundedProblem:
 
     @double_precision
     def __init__(
-        self, domain: Domain, pose: Pose, p2p_weight: float, start: HarmonicMap | None = None
+        self,
+        domain: Domain,
+        pose: Pose,
+        p2p_weight: float,
+        map: HarmonicMap | None = None,
+        damping: float = 1.0,
     ) -> None:
         self.domain, self.pose = domain, pose
         self._basis = basis_of(domain)
@@ -50,9 +55,7 @@ class BoundedProblem:
         self._panels = graded_panels(domain, _RATIO)
         self._shares = self._panels.length / self._panels.length.sum()
         self.samples = self.samples_at(self._panels.middle)
-        # A free angle or scale is measured where the method starts.
-        start = HarmonicMap.identity(domain) if start is None else start
-        positional = positional_energy(domain, pose, p2p_weight, start)
+        self.positional = positional = positional_energy(domain, pose, p2p_weight, map, damping)
         root = np.sqrt(np.asarray(positional.weights))
         rows = root[:, None] * (np.asarray(positional.matrix) @ self._expansion)
         self._aims = root * np.asarray(positional.aims)
