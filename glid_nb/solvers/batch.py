@@ -93,8 +93,8 @@ def solve_batch(
     check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
     check_type("options", options, Options | None, "write Options(p2p_weight=...)")
     energy, options = as_energy(energy), Options() if options is None else options
-    more = {"depths": depths, "angles": angles, "scales": scales, "weights": weights}
-    more["stiffness"] = Stiffness.of(stiffness)
+    more: dict[str, Any] = {"depths": depths, "angles": angles, "scales": scales}
+    more |= {"weights": weights, "stiffness": Stiffness.of(stiffness)}
     poses = _poses(handles, targets, more)
     if not poses:
         return ()

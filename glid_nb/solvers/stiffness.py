@@ -40,7 +40,7 @@ class Stroke(NamedTuple):
         """The areas when this is painted over them."""
         line = shapely.LineString if len(self.points) > 1 else shapely.Point
         new = line(self.points).buffer(self.radius, quad_segs=_ROUND)
-        left = {s: area.difference(new) for s, area in areas.items()}
+        left = {s: shapely.difference(area, new) for s, area in areas.items()}
         left[self.strength] = left.get(self.strength, shapely.Point()).union(new)
         return {s: area for s, area in left.items() if s and not area.is_empty}
 
@@ -102,7 +102,7 @@ class Stiffness:
 
     def within(self, cage: Cage) -> Areas:
         """What is painted inside a cage."""
-        parts = {s: area.intersection(cage.polygon) for s, area in self.areas.items()}
+        parts = {s: shapely.intersection(area, cage.polygon) for s, area in self.areas.items()}
         return {s: part for s, part in parts.items() if part.area > 0}
 
     def __bool__(self) -> bool:

@@ -42,6 +42,9 @@ class Stage(Pad):
     """Width in CSS pixels; the page changes it when the corner is dragged."""
     height = traitlets.Int(500).tag(sync=True)
     """Height in CSS pixels."""
+    room = traitlets.List(traitlets.Int(), []).tag(sync=True)
+    """Width and height that the editor around it has for the canvas, in CSS pixels, and 1 where it
+    shows nothing else; empty without an editor."""
     view = traitlets.List(traitlets.Float(), [0.0, 0.0, 0.04]).tag(sync=True)
     """Centre (x, y) in world units, and the world units of one CSS pixel."""
     coefficients = traitlets.Bytes(b"").tag(sync=True)
@@ -127,6 +130,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self.layout.flex = "0 0 auto"
         self._resize()
         self.stage.observe(self._resize, ["width", "height"])
+        self._unit, self._seen = 0.0, (0.0, 0.0)  # of the view that `resize` set, and what is in it
         self.fit(map, ())
         self._endings = (lambda: self.scene.close(),)
 
@@ -195,6 +199,16 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         width, height = self.stage.width, self.stage.height
         unit = _ROOM * max((high[0] - low[0]) / width, (high[1] - low[1]) / height, 1e-6)
         self.stage.view = [float(x), float(y), float(unit)]
+
+    def resize(self, width: int, height: int) -> None:
+        """Change the size in CSS pixels; what was seen is still seen."""
+        stage = self.stage
+        x, y, unit = stage.view
+        if unit != self._unit:  # the view was changed since
+            self._seen = stage.width * unit, stage.height * unit
+        self._unit = max(self._seen[0] / width, self._seen[1] / height)
+        with stage.hold_sync(), stage.hold_trait_notifications():
+            stage.width, stage.height, stage.view = width, height, [x, y, self._unit]
 
     def _new_scene(self, uniform_vectors: int) -> Scene:
         vectors = uniform_vectors or UNIFORM_VECTORS  # 0 while no page has said

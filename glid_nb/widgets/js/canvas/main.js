@@ -1,13 +1,15 @@
 // The pad over the renderer: sends pointers and keys, draws handles, colour bars and notices.
 
 import { follow, make } from "../pad/dom.js";
-import { help } from "../pad/help.js";
+import { help, shield } from "../pad/help.js";
+import { icon } from "../pad/icons.js";
 import { Link } from "../pad/link.js";
 import { openMenu } from "../pad/menu.js";
 import { Pad, undoAround } from "../pad/pad.js";
 import { clearedContext } from "../pad/pen.js";
 import { View } from "../pad/view.js";
 import { drawBrush, drawMarks, drawOnion, drawStiff, markAt } from "./marks.js";
+import { Room } from "./room.js";
 import { Shapes, drawingTime, uniformVectors } from "./shapes.js";
 
 const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
@@ -34,6 +36,8 @@ const HELP = [
   ["Space", "play the motion through the poses, pause; in the timeline too"],
   ["Timeline: arrow keys, Home, End", "step in time, with Shift to the next pose; first, last pose"],
   ["Timeline: Alt and arrow keys", "move the pose in time; Delete removes it"],
+  ["P", "the picture alone, for lectures; Esc brings the rest back"],
+  ["W", "the whole screen"],
   ["Wheel, two fingers", "zoom"],
   ["Middle button, Space and drag", "move the view"],
 ];
@@ -146,13 +150,17 @@ function render({ model, el }) {
       ["The undeformed shape", "0", press("0")],
       ["See everything", "F", press("f")],
       ["Paint stiff areas", "B", press("b")],
+      ["The picture alone", "P", () => room.alone()],
+      ["Full screen", "W", () => room.fullScreen()],
       ["All keys", "?", keys.toggle],
     ]);
   };
-  const pad = model.get("interactive") ? new Pad(box, view, link, {
+  const room = model.get("interactive") ? new Room(box, (room) => save(model, { room }), (notice) => save(model, { notice })) : null;
+  const alone = () => room.alone(), whole = () => room.fullScreen();
+  const pad = room ? new Pad(box, view, link, {
     reach: REACH,
     keys: KEYS,
-    actions: { "?": keys.toggle, ContextMenu: () => showMenu() },
+    actions: { "?": keys.toggle, ContextMenu: () => showMenu(), p: alone, P: alone, w: whole, W: whole },
     menu: showMenu,
     tapped: () => box.dispatchEvent(new CustomEvent("glid:play", { bubbles: true })),
     get painting() { return paints(); },
@@ -168,7 +176,10 @@ function render({ model, el }) {
     },
     changed: soon,
   }) : null;
-  if (pad) box.append(keys.button, keys.table, resizeGrip(model));
+  const button = (name, title, onclick) =>
+    make("button", { type: "button", className: "glid-help-button", title, "aria-label": title, onclick }, icon(name));
+  const buttons = [keys.button, button("fit", "Full screen (W)", whole), button("rectangle", "The picture alone (P)", alone)];
+  if (pad) box.append(shield(make("div", { className: "glid-corner" }, ...buttons)), keys.table, resizeGrip(model));
   const forget = pad && undoAround(box, (e) => pad.keydown(e));
 
   // While the timeline shows a motion, the first touch goes back to the pose that is edited.
@@ -233,6 +244,7 @@ function render({ model, el }) {
     clearTimeout(saving);
     unfollow();
     forget?.();
+    room?.close();
     pad?.close();
     link.close();
     shapes.close();
