@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -93,6 +93,13 @@ class Stiffness:
         areas = stroke.over(self.areas)
         new = Stiffness((*self.strokes, stroke) if areas else ())
         vars(new)["areas"] = areas
+        return new
+
+    def moved(self, place: Callable[[Array], Array], scale: float) -> Stiffness:
+        """With its points (n, 2) in other places, its brushes larger."""
+        new = Stiffness()
+        for points, radius, strength in self.strokes:
+            new = new.painted(place(np.array(points)), scale * radius, strength)
         return new
 
     @functools.cached_property

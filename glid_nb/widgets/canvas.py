@@ -16,6 +16,7 @@ from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.mesh import deformed_loops
 from glid_nb.imaging.read import ImageSource, read_image
+from glid_nb.session.actions import turned_now
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditState, Moment
 from glid_nb.widgets.brush import BrushGestures, painted_areas, stiff_toggle
@@ -109,6 +110,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self.pane = self._pane(size, interactive=True)
         self.source: Pane | None = None
         self.gestures = BrushGestures(model, self.fit, self.image)
+        self.gestures.copy = lambda text: self.pane.stage.send({"copy": text})
         self.brush = self.gestures.brush
         """What the hand paints stiff areas with."""
         self._closed = False  # a frame may arrive while the canvas closes
@@ -204,6 +206,8 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     def _on_model(self, what: str) -> None:
         if what in ("state", "frame", "selection"):
             self._draw(what)
+        if what == "selection":
+            self._reveal()
         if what in ("frame", "status"):
             self.pane.stage.prepared = self.deformation.moment.prepared
             self.pane.stage.acknowledge()
@@ -235,6 +239,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 pose.targets,
                 moment.shown(pose.handles) if len(pose) else (),
                 moment.selection,
+                _ring(moment),
                 self._hidden,
                 state.order,
                 self.overlay,
@@ -251,6 +256,15 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 self.source.show(Drawing(state.identity, images=pose.handles, **cages))
             if (what == "legend" or (what == "frame" and moment.solved)) and not moment.dragged:
                 self.pane.place_legend()
+
+    def _reveal(self) -> None:
+        """Bring a handle that was selected alone into view."""
+        moment, stage = self.deformation.moment, self.pane.stage
+        if len(moment.selection) == 1:
+            target, (x, y, unit) = moment.state.pose.targets[moment.selection[0]], stage.view
+            away = np.abs(target - [x, y]) / unit
+            if (away > [stage.width / 2, stage.height / 2]).any():
+                stage.view = [*target.tolist(), unit]
 
     def show_between(self, map: HarmonicMap | None) -> None:
         """Draw a map of the motion in place of the pose that is edited; None ends that."""
@@ -327,6 +341,15 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             self.children = [pane for pane in (self.source, self.pane) if pane is not None]
             self._draw("state")
             self.fit()
+
+
+def _ring(moment: Moment) -> tuple[float, ...]:
+    if not moment.selection or moment.comparison is not None:
+        return ()
+    last, pose = moment.selection[-1], moment.state.pose
+    angle, scale = (float(values[0]) for values in turned_now(moment.state, [last]))
+    wanted = (float(not np.isnan(values[last])) for values in (pose.angles, pose.scales))
+    return round(angle, 4), round(scale, 4), *wanted
 
 
 class Toolbar(ClosingWidget, ipywidgets.HBox):
