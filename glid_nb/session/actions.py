@@ -7,7 +7,7 @@ import bisect
 import itertools
 import operator
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -22,7 +22,8 @@ from glid_nb.motion.settings import Easing, Repeat
 from glid_nb.session.document import NamedPose, check_count
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.solvers import Method, Pose
-from glid_nb.solvers.pose import DEEPEST
+from glid_nb.solvers.pose import DEEPEST, PER_HANDLE
+from glid_nb.solvers.stiffness import Stiffness
 
 # Least distance of two handles, as a share of the cage's size.
 _LEAST_DISTANCE = 1e-6
@@ -50,9 +51,8 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
     wanted = _places_now(state, points) if targets is None else _points(targets, "to")
     depths = state.order.depths(points).round(2) + 0.0
     added = Pose(points, wanted, depths)
-    names = (known.name for known in fields(Pose))
-    parts = {name: np.concatenate([getattr(p, name) for p in (pose, added)]) for name in names}
-    return state.changed(pose=Pose(**parts))
+    parts = {n: np.concatenate([getattr(p, n) for p in (pose, added)]) for n in PER_HANDLE}
+    return state.changed(pose=replace(pose, **parts))
 
 
 def remove_handles(state: EditState, indices: Iterable[int], keep_shape: bool = False) -> EditState:
@@ -68,7 +68,7 @@ def remove_handles(state: EditState, indices: Iterable[int], keep_shape: bool = 
 
 def clear_handles(state: EditState) -> EditState:
     """Remove all handles; the shape relaxes."""
-    return state.changed(pose=Pose([], []))
+    return state.changed(pose=state.pose.only([]))
 
 
 def move_targets(state: EditState, indices: Iterable[int], targets: ArrayLike) -> EditState:
@@ -149,6 +149,29 @@ def bring_forward(state: EditState, indices: Iterable[int], steps: float = 1) ->
     chosen = _checked_indices(state, indices)
     depths = (state.pose.depths[chosen] + steps).clip(-DEEPEST, DEEPEST)
     return set_depths(state, chosen, depths)
+
+
+def paint(
+    state: EditState, lines: Sequence[ArrayLike], radius: float, strength: float = 1.0
+) -> EditState:
+    """Make the undeformed shape stiff along lines (n, 2) by a round brush; strength 0 erases."""
+    stiffness = state.pose.stiffness
+    for line in lines:
+        stiffness = stiffness.painted(line, radius, strength)
+    return _with_stiffness(state, stiffness)
+
+
+def clear_stiffness(state: EditState) -> EditState:
+    """Erase all stiff areas."""
+    return _with_stiffness(state, Stiffness())
+
+
+def _with_stiffness(state: EditState, stiffness: Stiffness) -> EditState:
+    if stiffness == state.pose.stiffness:
+        return state
+    pose = replace(state.pose, stiffness=stiffness)
+    state.current.method.check_pose(pose)
+    return state.changed(pose=pose)
 
 
 def reset(state: EditState) -> EditState:

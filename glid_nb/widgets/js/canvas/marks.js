@@ -1,6 +1,7 @@
 // Handles and targets, drawn over the shape: cyan disks where handles should go, black dots where
 // they are, and a line between the two. Those that another part of the shape covers are faint rings.
 
+import { make } from "../pad/dom.js";
 import { disk, strokePath, tracePath } from "../pad/pen.js";
 
 const TARGET = 7.5, IMAGE = 3.5, RING = 12; // radii, CSS pixels
@@ -33,6 +34,40 @@ export function drawOnion(pen, view, outlines) {
     strokePath(pen, [[1.4, color]]);
   }
   pen.globalAlpha = 1;
+}
+
+const STIFF = "#4b0f7a"; // told by its hatching, whatever the colours
+
+function hatching(pen, strength) {
+  const size = Math.round(16 - 9 * strength); // the stiffer, the closer
+  const tile = make("canvas", { width: size, height: size }), ink = tile.getContext("2d");
+  tracePath(ink, [[[0, size], [size, 0]], [[-1, 1], [1, -1]], [[size - 1, size + 1], [size + 1, size - 1]]], false);
+  strokePath(ink, [[3, "rgba(255,255,255,0.75)"], [1.5, STIFF]]);
+  return pen.createPattern(tile, "repeat");
+}
+
+// Painted areas: strength, and loops of points.
+export function drawStiff(pen, view, areas) {
+  for (const [strength, loops] of areas) {
+    tracePath(pen, loops.map((loop) => loop.map((p) => view.toScreen(p))));
+    pen.fillStyle = hatching(pen, strength);
+    pen.fill();
+    strokePath(pen, [[3.4, "rgba(255,255,255,0.85)"], [1.5, STIFF]]);
+  }
+}
+
+// The brush below the pointer, and what it has painted since it was pressed.
+export function drawBrush(pen, view, { radius, strength }, { path, rests }) {
+  const wide = radius / view.unit, color = strength ? STIFF : "#ffffff";
+  if (path.length) {
+    tracePath(pen, [[...path, path.at(-1)].map((p) => view.toScreen(p))], false);
+    Object.assign(pen, { lineCap: "round", lineJoin: "round", globalAlpha: 0.45 });
+    strokePath(pen, [[2 * wide, color]]);
+    pen.globalAlpha = 1;
+  }
+  if (!rests) return;
+  disk(pen, rests, wide, null, "rgba(255,255,255,0.85)", 3.4);
+  disk(pen, rests, wide, null, STIFF, 1.4);
 }
 
 // The ring around the pin that was selected last: where it is, and its knob, on the screen.
