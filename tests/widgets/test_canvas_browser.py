@@ -101,7 +101,26 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     hand.drag(line(THREE[1], [5.0, 2.5], 10))
     hand.wait_for_target(1, [5.0, 2.5])
     page = book.page
+    # Each plot has a name and says what it shows, on hover and by its "?".
+    for name, place in (("Energy", "Section 6"), ("Steps", "Section 9.2"), ("Time", "Section 10")):
+        about = page.get_by_label(f"About the plot: {name}")
+        assert place in (about.get_attribute("title") or "")
+        about.click()
+        page.locator(".glid-guide p", has_text=place).wait_for()
+        book.screenshot(f"editor-about-{name}")
+    about.click()
     page.locator(".lm-TabBar-tabLabel", has_text="Solver").click()
+    # Single steps say what each did.
+    page.get_by_role("button", name="Pause").click()
+    book.value("None", setup="model.drag(1, to=(5.5, 2.0))")
+    page.get_by_role("button", name="Step").click()
+    told = page.locator(".glid-solver-panel").get_by_text("panels split").first
+    told.wait_for()
+    assert "Hessian projected · step length" in told.inner_text()
+    book.screenshot("editor-single-step")
+    page.get_by_role("button", name="Pause").click()
+    told.wait_for(state="hidden")
+    hand.settle()
     energy = page.locator(".glid-energy select")
     energy.select_option(label="AMIPS")
     book.wait_for("model.state.current.energy.name == 'amips'")
