@@ -190,7 +190,7 @@ _GUIDE = """<style>
 .glid-guide summary { width: 16px; border-radius: 8px; list-style: none; text-align: center;
   cursor: pointer; color: var(--jp-ui-font-color2, #616161); font-weight: 600; }
 .glid-guide summary:is(:hover, :focus-visible) { color: #fff; background: #0072b2; outline: none; }
-.glid-guide p { position: absolute; right: 0; top: 18px; width: 250px; margin: 0; padding: 8px 10px;
+.glid-guide p { position: absolute; top: 18px; width: 250px; margin: 0; padding: 8px 10px;
   border-radius: 6px; color: var(--jp-ui-font-color1, #222);
   background: var(--jp-layout-color1, #fff); box-shadow: 0 2px 12px rgba(0, 0, 0, 0.3); }
 </style>"""
@@ -198,14 +198,19 @@ _GUIDE = """<style>
 
 def _guide(width: int, height: int) -> ipywidgets.HTML:
     """Lies over the plots, of this size in CSS pixels, and explains each on hover and by a "?"."""
-    parts = (
-        f'<div title="{text}" style="left:{left}%;top:{top * height / 100:.0f}px;width:{wide}%;'
-        f'height:{high * height / 100:.0f}px"></div>'
-        f'<details name="glid-guide" style="right:{100 - left - wide}%;'
-        f'top:{top * height / 100 - 31 * (name != "Time") - 17 * (name == "Time"):.0f}px">'
-        f'<summary title="{text}" aria-label="About the plot: {name}">?</summary>'
-        f"<p><b>{name}.</b> {text}</p></details>"
-        for name, ((left, top, wide, high), text) in PLOTS.items()
-    )
-    value = f'{_GUIDE}<div class="glid-guide" style="width:{width}px">{"".join(parts)}</div>'
+
+    def about(name: str) -> str:
+        (left, top, wide, high), text = PLOTS[name]
+        y, above = top * height / 100, 18 if name == "Time" else 32
+        beside, side = 10 + 5.4 * len(name), "left" if left < 50 else "right"
+        return (
+            f'<div title="{text}" style="left:{left}%;top:{y:.0f}px;width:{wide}%;'
+            f'height:{high * height / 100:.0f}px"></div>'
+            f'<details name="glid-guide" style="left:calc({left}% + {beside:.0f}px);'
+            f'top:{y - above:.0f}px"><summary title="{text}" aria-label="About the plot: {name}">'
+            f'?</summary><p style="{side}:0"><b>{name}.</b> {text}</p></details>'
+        )
+
+    parts = "".join(map(about, PLOTS))
+    value = f'{_GUIDE}<div class="glid-guide" style="width:{width}px">{parts}</div>'
     return ipywidgets.HTML(value, layout={"height": "0", "margin": "0", "overflow": "visible"})
