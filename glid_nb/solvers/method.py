@@ -118,6 +118,11 @@ class Method:
         """Whether its maps are proved locally injective."""
         return self.family == "harmonic"
 
+    @property
+    def stiffens(self) -> bool:
+        """Whether it keeps stiff areas."""
+        return self.certified
+
     @classmethod
     def available(cls) -> bool:
         """Whether its package is installed."""
@@ -135,7 +140,12 @@ class Method:
         self.check_energy(energy)
 
     def check_pose(self, pose: Pose) -> None:
-        """Raise :class:`MethodError` if it cannot hold what is wanted of a handle."""
+        """Raise :class:`MethodError` if it cannot hold an angle, a scale or a stiff area."""
+        if pose.stiffness and not self.stiffens:
+            raise MethodError(
+                f"the method {self.name!r} knows no stiff areas; clear them, or choose Newton's "
+                "method, L-BFGS or another descent that moves the certified map"
+            )
         if pose.turned.any() and not self.certified:
             raise MethodError(
                 f"the method {self.name!r} cannot hold the angle or the scale of handle "

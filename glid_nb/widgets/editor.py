@@ -26,6 +26,7 @@ from glid_nb.session.edit_state import EditError
 from glid_nb.session.editor_model import EditorModel, find_document
 from glid_nb.session.status_line import StatusLine
 from glid_nb.solvers import Method, Pose
+from glid_nb.widgets.brush import BrushBar
 from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
 from glid_nb.widgets.closing import ClosingWidget, close_on_rerun, close_with_parts
 from glid_nb.widgets.controls import REFUSED, button, paragraph
@@ -381,6 +382,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         makers: dict[str, Callable[[], ipywidgets.Widget]] = {
             "tracer": lambda: CageTracer(model=self.model.tracing, height=self._size[1]),
             "pins": lambda: PinBar(self.deformation),
+            "brush": self._brush_bar,
             "solver": lambda: SolverPanel(self.deformation),
             "files": lambda: FilePanel(self.model, self.timeline.animation),
         }
@@ -392,16 +394,23 @@ class Editor(ClosingWidget, ipywidgets.VBox):
                 self._boxes[name].children = [part]
             return self._parts[name]
 
+    def _brush_bar(self) -> BrushBar:
+        assert self.canvas is not None
+        return BrushBar(self.deformation, self.canvas.brush)
+
     def _deform_tab(self) -> ipywidgets.Widget:
         model, image = self.model.deformation, self.model.image
         assert image is not None
-        self.canvas = DeformCanvas(image, model, **self._asked)
+        self.canvas = canvas = DeformCanvas(image, model, **self._asked)
         self.toolbar = Toolbar(self.canvas)
         self.monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
         self.timeline = TimelinePanel(self.canvas, self._open_files)
         # Boxes to be filled: if the children changed, the page would select another tab.
         self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}
-        self._boxes["pins"] = ipywidgets.VBox(layout={"min_height": _PINS_HEIGHT})
+        bars = [ipywidgets.VBox(layout={"min_height": _PINS_HEIGHT}) for _ in range(2)]
+        self._boxes |= dict(zip(("pins", "brush"), bars, strict=True))
+        canvas.brush.observe(self._show_bar, ["tool"])
+        self._show_bar()
         self._side = ipywidgets.Tab(
             [self.monitor.plots, self._boxes["solver"], self._boxes["files"]],
             titles=("Monitor", "Solver", "Files"),
@@ -412,12 +421,17 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         line.layout.height, line.layout.overflow = "44px", "hidden auto"  # however long it is
         side = ipywidgets.VBox([self._side], layout={"width": f"{_SIDE_WIDTH + 34}px"})
         side.add_class("glid-side")
-        left = ipywidgets.VBox(
-            [self.toolbar, self._boxes["pins"], self.canvas, self.timeline, line]
-        )
+        left = ipywidgets.VBox([self.toolbar, *bars, self.canvas, self.timeline, line])
         left.add_class("glid-column")
         wrapped = {"align_items": "flex-start", "flex_flow": "row wrap", "overflow": "visible"}
         return ipywidgets.HBox([left, side], layout=wrapped)
+
+    def _show_bar(self, _: Any = None) -> None:
+        """Show the numbers of the pins, or the brush."""
+        assert self.canvas is not None
+        paints = bool(self.canvas.brush.tool)
+        for name, shown in (("brush", paints), ("pins", not paints)):
+            self._boxes[name].layout.display = None if shown else "none"
 
     def _open_files(self) -> None:
         """Show where the motion is exported."""

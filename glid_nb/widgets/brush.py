@@ -1,0 +1,164 @@
+"""Painting what should stay as it is: the brush, its strokes, its controls, the painted areas."""
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+import ipywidgets
+import numpy as np
+import shapely
+import traitlets
+
+from glid_nb._arrays import Array
+from glid_nb.geometry import Cage
+from glid_nb.session.deformation import Deformation
+from glid_nb.session.edit_state import EditError, Moment
+from glid_nb.solvers.stiffness import Stiffness
+from glid_nb.widgets.controls import EditControls, button
+from glid_nb.widgets.gestures import LEFT, Event, PinGestures
+
+_KEYS = {"b": "stiff", "e": "erase"}
+_USUAL_RADIUS, _LARGEST_RADIUS = 0.05, 0.25  # of the shape's longer side
+_EDGES = 60  # along the longer side, so that edges bend with the shape
+
+
+class Brush(traitlets.HasTraits):
+    """What the left button paints with."""
+
+    tool = traitlets.Enum(("", "stiff", "erase"), "")
+    """Empty while the left button pins and drags."""
+    radius = traitlets.Float()
+    """In world units."""
+    strength = traitlets.Float(1.0)
+    """How stiff, from 0 to 1."""
+
+    @property
+    def shown(self) -> dict[str, float]:
+        """What the page draws: the radius, and the strength or 0 for the eraser; empty if none."""
+        strength = self.strength if self.tool == "stiff" else 0.0
+        return {"radius": self.radius, "strength": strength} if self.tool else {}
+
+
+class BrushGestures(PinGestures):
+    """Pins and drags, or paints with a brush."""
+
+    def __init__(
+        self, deformation: Deformation, fit: Callable[[], None], image: Array | None = None
+    ) -> None:
+        super().__init__(deformation, fit, image)
+        side = deformation.state.domain.cage.longer_side
+        self.brush = Brush(radius=_USUAL_RADIUS * side)
+
+    def _down(self, event: Event) -> None:
+        if not self.brush.tool or event["button"] != LEFT:
+            super()._down(event)
+
+    def _up(self, event: Event) -> None:
+        if self.brush.tool and event.get("path"):
+            self._paint(np.array(event["path"], dtype=float), event["unit"])
+        else:
+            super()._up(event)
+
+    def _key(self, event: Event) -> None:
+        tool, brush = _KEYS.get(event["key"].lower()), self.brush
+        if tool is not None:
+            brush.tool = "" if brush.tool == tool else tool
+        elif event["key"] == "Escape" and brush.tool:
+            brush.tool = ""
+        else:
+            super()._key(event)
+
+    def _paint(self, path: Array, unit: float) -> None:
+        """One step for undo: the lines of the undeformed shape that a path over the canvas shows.
+
+        Where it leaves the shape, or goes on to another limb, a line ends.
+        """
+        brush, places = self.brush, path[:1]
+        if len(path) > 1 and (line := shapely.LineString(path)).length > unit:
+            places = shapely.get_coordinates(line.simplify(unit).segmentize(brush.radius / 2))
+        sources = self.deformation.sheets(self._image).sources(places)
+        far = np.linalg.norm(np.diff(sources, axis=0), axis=1) > 2 * brush.radius
+        outside = np.isnan(sources[:, 0])
+        ends = np.flatnonzero(far | outside[1:] | outside[:-1]) + 1
+        lines = [part for part in np.split(sources, ends) if not np.isnan(part).any()]
+        if not lines:
+            raise EditError("there is no shape here; paint over the shape")
+        self.deformation.paint(lines, brush.radius, brush.shown["strength"])
+
+
+class BrushBar(EditControls):
+    """Eraser, size and strength of a brush, and a button that clears what is painted.
+
+    Parameters
+    ----------
+    deformation : Deformation
+        The model that is painted.
+    brush : Brush
+    """
+
+    def __init__(self, deformation: Deformation, brush: Brush, **kwargs: Any) -> None:
+        look: dict[str, Any] = {
+            "layout": {"width": "210px"},
+            "style": {"description_width": "56px"},
+        }
+        most = _LARGEST_RADIUS * deformation.state.domain.cage.longer_side
+        self.size = ipywidgets.FloatSlider(
+            description="Size", min=most / 50, max=most, step=most / 50, readout=False, **look
+        )
+        self.strength = ipywidgets.FloatSlider(
+            description="Strength", min=0.1, max=1.0, step=0.1, readout_format=".1f", **look
+        )
+        for control, name in ((self.size, "radius"), (self.strength, "strength")):
+            ipywidgets.link((brush, name), (control, "value"))
+        self.erase = ipywidgets.ToggleButton(
+            icon="eraser", tooltip="Erase stiff areas (E)", layout={"width": "38px"}
+        )
+        ipywidgets.dlink((brush, "tool"), (self.erase, "value"), lambda tool: tool == "erase")
+        self.erase.observe(functools.partial(_choose, brush, "erase", "stiff"), ["value"])
+        clear = functools.partial(self._act, deformation.clear_stiffness)
+        self.clear = button("Clear", "trash", "Erase all stiff areas", clear)
+        shown = [self.size, self.strength, self.erase, self.clear]
+        super().__init__(deformation, [ipywidgets.HBox(shown)], **kwargs)
+
+    def _show(self) -> None:
+        self.clear.disabled = not self.deformation.pose.stiffness
+
+
+def stiff_toggle(brush: Brush) -> ipywidgets.ToggleButton:
+    """A button that takes the brush, and lays it down."""
+    toggle = ipywidgets.ToggleButton(
+        description="Stiff",
+        icon="paint-brush",
+        tooltip="Paint what should stay as it is (B)",
+        layout={"width": "auto"},
+    )
+    ipywidgets.dlink((brush, "tool"), (toggle, "value"), bool)
+    toggle.observe(functools.partial(_choose, brush, "stiff", ""), ["value"])
+    return toggle
+
+
+def _choose(brush: Brush, on: str, off: str, change: Any) -> None:
+    """Follow a toggle, which may follow the brush."""
+    if change["new"] != (brush.tool == on if off else bool(brush.tool)):
+        brush.tool = on if change["new"] else off
+
+
+def painted_areas(moment: Moment) -> list[Any]:
+    """What is stiff where the shape is now: strengths, and loops of [x, y], each."""
+    state = moment.state
+    return [
+        [strength, [np.round(moment.shown(loop), 3).tolist() for loop in loops]]
+        for strength, loops in _outlines(state.pose.stiffness, state.domain.cage)
+    ]
+
+
+@functools.lru_cache(maxsize=2)
+def _outlines(stiffness: Stiffness, cage: Cage) -> list[tuple[float, list[Array]]]:
+    """The loops (n, 2) of the areas at rest, all around in one sense, their holes in the other."""
+    outlines = []
+    for strength, part in stiffness.within(cage).items():
+        fine = shapely.segmentize(shapely.normalize(part), cage.longer_side / _EDGES)
+        areas = [area for area in shapely.get_parts(fine) if area.geom_type == "Polygon"]
+        rings = [ring for area in areas for ring in (area.exterior, *area.interiors)]
+        outlines.append((strength, [shapely.get_coordinates(ring)[:-1] for ring in rings]))
+    return outlines
