@@ -355,7 +355,7 @@ def test_the_last_export_is_chosen_again_in_the_next_session(model: EditorModel)
     first.format.value, first.view.value = ".svg", "source"
     assert FilePanel(model).format.value == ".png"  # chosen, but not exported
     first.export_button.click()
-    assert Path("picture.svg").is_file()
+    assert Path("session.svg").is_file()
     again = FilePanel(model)
     assert (again.format.value, again.view.value) == (".svg", "source")
     again.format.value = ".obj"
