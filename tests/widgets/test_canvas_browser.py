@@ -154,6 +154,9 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     for label in ("Stretch σ₁", "Dilatation k", "Energy density", "Stretch σ₂"):
         overlay.select_option(label=label)
         page.locator(".glid-legend-title", has_text=label).wait_for()
+        assert "Colours of the shape" in (
+            page.locator(".glid-legend-part").get_attribute("title") or ""
+        )
         hand.wait_until_drawn()
     colored = hand.color_at([0.0, -0.5])
     assert max(abs(a - b) for a, b in zip(colored, plain, strict=True)) > 20
@@ -359,6 +362,8 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
         book.value(
             "None", setup="stage.notice = 'So it is. ' * 9; stage.legend_corner = 'top left'"
         )
+        book.value("None", setup="editor._parts['pins'].refusal.value = '<div>Refused. </div>' * 9")
+        page.locator(".glid-column .glid-refusal").get_by_text("Refused.").first.wait_for()
         notice = page.locator(".glid-notice", has_text="So it is.")
         notice.wait_for()
         bar = page.locator(".glid-legend[data-corner='top left']")
