@@ -202,17 +202,19 @@ class EnergyPlot(_OverIterations):
         above[1:] = np.maximum(above[1:] - minimum, least)
         # Only the lines count for the limits: the peaks after moved targets would flatten them.
         _, isometric, total = self._join(rows[0], above, starts, solving)
-        seen = np.concatenate([isometric, total])
-        seen = seen[np.isfinite(seen)] if len(total) else np.array([0.1, 1.0])
-        low = max(float(seen.min()), least, *(_BELOW_LAST * total[-1:]))
-        high = min(1.03 * max(float(seen.max()), low), 1e298)
-        low, high = _LOG_ENDS[0.97 * low > _LOG_ENDS][-1], _LOG_ENDS[high < _LOG_ENDS][0]
-        self.axes.yaxis.set_major_locator(
-            LogLocator(subs=(1.0, 2.0, 5.0) if high < 40 * low else (1.0,), numticks=6)
-        )
+        finite, total = (v[v < _LOG_ENDS[-9]] for v in (np.append(isometric, total), total))
+        low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.11, 0.9)
+        low = max(low, least, *(_BELOW_LAST * total[-1:]))
+        high = max(high, low)
+        low, high = _LOG_ENDS[0.97 * low > _LOG_ENDS][-1], _LOG_ENDS[1.03 * high < _LOG_ENDS][0]
+        subs = (1.0, 2.0, 5.0) if high < 40 * low else (1.0,)
+        self.axes.yaxis.set_major_locator(LogLocator(subs=subs, numticks=6))
         self.axes.set_ylim(low, high)
-        text = f"E = {minimum:.4g} + {above[-1, -1]:.3g}" if len(history) else "no iterations"
-        self._text.set_text(text if minimum else text.replace("0 + ", ""))
+        text = "no iterations"
+        if len(history):
+            text = f"E = {minimum:.4g} + " if minimum else "E = "
+            text += f"{above[-1, -1]:.3g}"
+        self._text.set_text(text)
 
 
 class StepPlot(_OverIterations):

@@ -230,6 +230,17 @@ def test_the_energy_is_drawn_above_its_minimum_on_a_logarithmic_axis():
     assert text.get_text() == "E = 2.2"  # type: ignore[attr-defined]
 
 
+@pytest.mark.parametrize("energy", [np.nan, np.inf, 1e300, 2.0, 1.9, 0.0])
+def test_any_energy_is_drawn(energy: float):
+    """Also those of maps that fold, and of shapes that are not deformed."""
+    for records in ([Record(1, energy, 0.0)], [*HISTORY, Record(7, energy, 0.0)]):
+        plot = EnergyPlot(new_axes())
+        plot.update(records, minimum=2.0)
+        low, high = plot.axes.get_ylim()
+        assert 0 < low < high < np.inf
+        plot.axes.figure.canvas.draw()
+
+
 @pytest.mark.parametrize("minimum", [0.0, 2.0, np.exp(2)])
 def test_a_small_drag_is_seen_in_the_energy(minimum: float):
     """From 0.105 to 0.134 above the minimum, each target solved in three iterations."""
