@@ -350,7 +350,7 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
     def __init__(self, canvas: DeformCanvas, **kwargs: Any) -> None:
         self.deformation = model = canvas.deformation
         # Shared: every widget delays the first canvas.
-        narrow, fitting = ipywidgets.Layout(width="38px"), ipywidgets.Layout(width="auto")
+        narrow, fitting = ipywidgets.Layout(width="34px"), ipywidgets.Layout(width="auto")
         self.undo = button("", "undo", "Undo (Ctrl+Z)", model.undo, narrow)
         self.redo = button("", "repeat", "Redo (Ctrl+Shift+Z)", model.redo, narrow)
         self.reset = button("", "home", "The undeformed shape (0)", model.reset, narrow)

@@ -201,8 +201,8 @@ def _guide(width: int, height: int) -> ipywidgets.HTML:
 
     def about(name: str) -> str:
         (left, top, wide, high), text = PLOTS[name]
-        y, above = top * height / 100, 18 if name == "Time" else 32
-        beside, side = 10 + 5.4 * len(name), "left" if left < 50 else "right"
+        y, above = top * height / 100, 14 if name == "Time" else 28
+        beside, side = 9 + 5.2 * len(name), "left" if left < 50 else "right"
         return (
             f'<div title="{text}" style="left:{left}%;top:{y:.0f}px;width:{wide}%;'
             f'height:{high * height / 100:.0f}px"></div>'
