@@ -187,6 +187,7 @@ def _placeholder(width: int, height: int) -> bytes:
 _GUIDE = """<style>
 .glid-guide { position: relative; height: 0; z-index: 1; font: 12px/1.4 system-ui, sans-serif; }
 .glid-guide > * { position: absolute; }
+.glid-guide > [open] { z-index: 1; }
 .glid-guide summary { width: 16px; border-radius: 8px; list-style: none; text-align: center;
   cursor: pointer; color: var(--jp-ui-font-color2, #616161); font-weight: 600; }
 .glid-guide summary:is(:hover, :focus-visible) { color: #fff; background: #0072b2; outline: none; }
