@@ -29,9 +29,8 @@ PLOTS = {
     "Energy": (
         (9.6, 8.1, 39.3, 37.4),
         "How far the shape is from undeformed, on a logarithmic axis: the energy's mean along the "
-        "boundary above the least one there is, 2 for the symmetric Dirichlet energy (blue, "
-        "Section 6), what the pins miss (orange), and both together, (20). Lines join the ends of "
-        "solves, dots are iterations within them.",
+        "boundary above its least value, 2 for the symmetric Dirichlet energy (blue, Section 6), "
+        "what the pins miss (orange), and the sum (20). Lines join the ends of solves.",
     ),
     "Steps": (
         (58.9, 8.1, 39.3, 22.4),
