@@ -151,22 +151,8 @@ def bring_forward(state: EditState, indices: Iterable[int], steps: float = 1) ->
     return set_depths(state, chosen, depths)
 
 
-def paint(
-    state: EditState, lines: Sequence[ArrayLike], radius: float, strength: float = 1.0
-) -> EditState:
-    """Make the undeformed shape stiff along lines (n, 2) by a round brush; strength 0 erases."""
-    stiffness = state.pose.stiffness
-    for line in lines:
-        stiffness = stiffness.painted(line, radius, strength)
-    return _with_stiffness(state, stiffness)
-
-
-def clear_stiffness(state: EditState) -> EditState:
-    """Erase all stiff areas."""
-    return _with_stiffness(state, Stiffness())
-
-
-def _with_stiffness(state: EditState, stiffness: Stiffness) -> EditState:
+def set_stiffness(state: EditState, stiffness: Stiffness) -> EditState:
+    """Make other areas stiff, as by ``state.pose.stiffness.painted(points, radius)``."""
     if stiffness == state.pose.stiffness:
         return state
     pose = replace(state.pose, stiffness=stiffness)
