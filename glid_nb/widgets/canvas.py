@@ -19,7 +19,7 @@ from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session.actions import turned_now
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditState, Moment
-from glid_nb.widgets.brush import BrushGestures, painted_areas
+from glid_nb.widgets.brush import BrushGestures, brush_toggle, painted_areas
 from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.controls import button
 from glid_nb.widgets.gestures import Event
