@@ -44,7 +44,10 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
 
     A click on the shape adds a handle, a drag moves its target (cyan); the handle (black) follows
     as far as a certified map allows. Right click, long touch and the Menu key show what else can
-    be done. Delete removes it, with Shift the shape stays. Shift-click selects several.
+    be done. Delete removes it, with Shift the shape stays. Shift-click, a box (Shift and drag) and
+    a lasso (Ctrl and drag) select several. The ring around a handle turns and scales the shape
+    there, as do ``<`` and ``>``, ``+`` and ``-``; X sets both free. Ctrl+C and Ctrl+V copy a pose
+    to this or a similar shape, M swaps its left and right.
     Page Down and Page Up, or ``[`` and ``]``, send selected handles, and what is around them, back
     and forward. Arrow keys nudge, Ctrl+Z and Ctrl+Shift+Z undo and redo, Esc cancels a drag, 0
     resets the shape, F makes everything visible. B takes a brush that paints what should stay as it
@@ -206,8 +209,6 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     def _on_model(self, what: str) -> None:
         if what in ("state", "frame", "selection"):
             self._draw(what)
-        if what == "selection":
-            self._reveal()
         if what in ("frame", "status"):
             self.pane.stage.prepared = self.deformation.moment.prepared
             self.pane.stage.acknowledge()
@@ -256,15 +257,6 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 self.source.show(Drawing(state.identity, images=pose.handles, **cages))
             if (what == "legend" or (what == "frame" and moment.solved)) and not moment.dragged:
                 self.pane.place_legend()
-
-    def _reveal(self) -> None:
-        """Bring a handle that was selected alone into view."""
-        moment, stage = self.deformation.moment, self.pane.stage
-        if len(moment.selection) == 1:
-            target, (x, y, unit) = moment.state.pose.targets[moment.selection[0]], stage.view
-            away = np.abs(target - [x, y]) / unit
-            if (away > [stage.width / 2, stage.height / 2]).any():
-                stage.view = [*target.tolist(), unit]
 
     def show_between(self, map: HarmonicMap | None) -> None:
         """Draw a map of the motion in place of the pose that is edited; None ends that."""

@@ -204,6 +204,14 @@ def test_the_ring_turns_and_scales_in_one_step_each(hand: Hand) -> None:
     assert not len(model.pose)
 
 
+def test_a_method_on_a_mesh_refuses_the_ring(hand: Hand) -> None:
+    hand.click(2, 0)
+    hand.model.set_method("mls")
+    hand.send("down", 3, 0, part="turn")
+    assert "cannot hold the angle" in hand.send("move", 2, 1, part="turn")
+    assert hand.model.dragged == ()
+
+
 def test_keys_turn_scale_and_set_free(hand: Hand) -> None:
     hand.click(2, 0)
     for key in "<<+-":

@@ -63,12 +63,12 @@ const NOT_COPIED = "The browser does not give access to the clipboard; use Ctrl+
 const SAVE_VIEW_AFTER = 250; // ms
 const LEAST_SIZE = 240; // CSS pixels
 
-function colorBar({ title, colors, ticks }) {
+function colorBar({ title, colors, ticks, about }) {
   const gradient = `background: linear-gradient(to right, ${colors.join(", ")})`;
   const labels = ticks.map((tick) => make("span", {}, tick));
   return make(
     "div",
-    { className: "glid-legend-part" },
+    { className: "glid-legend-part", title: about },
     make("div", { className: "glid-legend-title" }, title),
     make("div", { className: "glid-legend-bar", style: gradient }),
     make("div", { className: "glid-legend-ticks" }, ...labels),
@@ -183,7 +183,7 @@ function render({ model, el }) {
     tapped: () => box.dispatchEvent(new CustomEvent("glid:play", { bubbles: true })),
     get painting() { return paints(); },
     find: (point, reach) => shapes.motion || paints() ? null
-      : markAt(marks(), point, reach) ?? ringAt(view, marks(), view.toScreen(point)),
+      : markAt(marks(), point, reach) ?? ringAt(view, marks(), view.toScreen(point), reach / view.unit / 2),
     encloses: (found, e) => found ? null : e.shiftKey ? "box" : e.ctrlKey || e.metaKey ? "lasso" : null,
     held: ({ mark }) => {
       const { selected, targets } = marks();
@@ -247,6 +247,18 @@ function render({ model, el }) {
     }, true);
   }
 
+  // A pin that was selected alone, though not by the pointer, comes into view.
+  let chosen;
+  const reveal = () => {
+    const { selected: [first, ...others], targets, images } = marks();
+    const now = others.length ? undefined : first;
+    if (now === chosen) return;
+    chosen = now;
+    if (now === undefined || pad?.mode || lostMarks(view, { targets: [targets[now], images[now]] }).length < 2) return;
+    [view.x, view.y] = targets[now];
+    view.changed();
+  };
+
   const fit = () => {
     Object.assign(view, { width: model.get("width"), height: model.get("height") });
     [view.x, view.y, view.unit] = model.get("view");
@@ -278,6 +290,7 @@ function render({ model, el }) {
     "glid:motion": showMotion,
     "change:legend change:panel_legend change:legend_corner": showLegend,
     "change:notice change:marks change:brush": tell,
+    "change:marks": reveal,
     "change:prepared": prepare,
   });
   let gone = false;

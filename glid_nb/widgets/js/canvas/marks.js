@@ -5,7 +5,7 @@ import { make } from "../pad/dom.js";
 import { disk, strokePath, tracePath } from "../pad/pen.js";
 
 const TARGET = 7.5, IMAGE = 3.5, RING = 12; // radii, CSS pixels
-const DIAL = 42, GRASP = 7, KNOB = 6, EDGE = 14; // of a scale of 1; CSS pixels
+const DIAL = 42, KNOB = 6, EDGE = 14; // of a scale of 1; CSS pixels
 const WANTED = "#d55e00", FREE = "rgba(40,40,40,0.75)", BORDER = "rgba(255,255,255,0.85)";
 
 // Lines between pairs of points, with a border.
@@ -80,11 +80,11 @@ function dial(view, marks, held) {
 }
 
 // The part of the ring at a place on the screen, as `part`; null for none.
-export function ringAt(view, marks, [px, py]) {
+export function ringAt(view, marks, [px, py], reach) {
   const ring = dial(view, marks);
   if (!ring) return null;
-  if (Math.hypot(px - ring.knob[0], py - ring.knob[1]) <= KNOB + 4) return { part: "scale" };
-  return Math.abs(Math.hypot(px - ring.x, py - ring.y) - ring.radius) <= GRASP ? { part: "turn" } : null;
+  if (Math.hypot(px - ring.knob[0], py - ring.knob[1]) <= Math.max(KNOB + 4, reach)) return { part: "scale" };
+  return Math.abs(Math.hypot(px - ring.x, py - ring.y) - ring.radius) <= reach ? { part: "turn" } : null;
 }
 
 // Orange and full what is wanted, grey and dashed what is free.
