@@ -42,7 +42,7 @@ _TRACE, _DEFORM = 0, 1
 _FILES = 2  # of the tabs beside the canvas
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
 _PINS_HEIGHT = "68px"  # kept free until the pins' numbers are made; two rows of them
-_SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
+_SIDE_WIDTH, _PLOTS_HEIGHT = 460, 382  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
 
 _LEFT = (
@@ -412,7 +412,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         canvas.brush.observe(self._show_bar, ["tool"])
         self._show_bar()
         self._side = ipywidgets.Tab(
-            [self.monitor.image, self._boxes["solver"], self._boxes["files"]],
+            [self.monitor.plots, self._boxes["solver"], self._boxes["files"]],
             titles=("Monitor", "Solver", "Files"),
             layout={"min_height": f"{_PLOTS_HEIGHT + 64}px"},
         )

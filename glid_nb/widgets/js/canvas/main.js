@@ -63,12 +63,12 @@ const NOT_COPIED = "The browser does not give access to the clipboard; use Ctrl+
 const SAVE_VIEW_AFTER = 250; // ms
 const LEAST_SIZE = 240; // CSS pixels
 
-function colorBar({ title, colors, ticks }) {
+function colorBar({ title, colors, ticks, about }) {
   const gradient = `background: linear-gradient(to right, ${colors.join(", ")})`;
   const labels = ticks.map((tick) => make("span", {}, tick));
   return make(
     "div",
-    { className: "glid-legend-part" },
+    { className: "glid-legend-part", title: about },
     make("div", { className: "glid-legend-title" }, title),
     make("div", { className: "glid-legend-bar", style: gradient }),
     make("div", { className: "glid-legend-ticks" }, ...labels),
