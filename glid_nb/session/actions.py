@@ -121,10 +121,10 @@ def set_pins(state: EditState, indices: Iterable[int], **numbers: ArrayLike | No
 def turned_now(state: EditState, indices: Iterable[int]) -> tuple[Array, Array]:
     """Angles and scales (h,) of handles: those that are wanted, else those of the shape there."""
     pose = state.pose.only(_checked_indices(state, indices))
-    fz = state.map.wirtinger(pose.handles)[0]
+    fz, wanted = state.map.wirtinger(pose.handles)[0], (pose.angles, pose.scales)
     free = np.angle(fz), np.abs(fz)
-    wanted = pose.angles, pose.scales
-    return tuple(np.where(np.isnan(w), f, w) for w, f in zip(wanted, free, strict=True))
+    angles, scales = (np.where(np.isnan(w), f, w) for w, f in zip(wanted, free, strict=True))
+    return angles, scales
 
 
 def turn(

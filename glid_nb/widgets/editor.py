@@ -41,7 +41,7 @@ from glid_nb.widgets.tracer import CageTracer
 _TRACE, _DEFORM = 0, 1
 _FILES = 2  # of the tabs beside the canvas
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
-_PINS_HEIGHT = "36px"  # kept free until the pins' numbers are made
+_PINS_HEIGHT = "68px"  # kept free until the pins' numbers are made; two rows of them
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 382  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
 
