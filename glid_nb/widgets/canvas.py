@@ -19,7 +19,7 @@ from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session.actions import turned_now
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditState, Moment
-from glid_nb.widgets.brush import BrushGestures, painted_areas, stiff_toggle
+from glid_nb.widgets.brush import BrushGestures, brush_toggle, painted_areas
 from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.controls import button
 from glid_nb.widgets.gestures import Event
@@ -360,7 +360,9 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
             )
             ipywidgets.link((canvas, name), (toggle, "value"))
         buttons = self.undo, self.redo, self.reset, self.fit
-        self.stiff = stiff_toggle(canvas.brush)
+        tip = "Paint what should stay as it is (B)"
+        look = {"description": "Stiff", "icon": "paint-brush", "tooltip": tip}
+        self.stiff = brush_toggle(canvas.brush, "stiff", "", **look)
         kwargs = {"layout": {"flex_flow": "row wrap"}, **kwargs}
         shown = [*buttons, self.overlay, *self.toggles.values(), self.stiff]
         super().__init__(shown, **kwargs)
