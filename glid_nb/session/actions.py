@@ -121,10 +121,10 @@ def set_pins(state: EditState, indices: Iterable[int], **numbers: ArrayLike | No
 def turned_now(state: EditState, indices: Iterable[int]) -> tuple[Array, Array]:
     """Angles and scales (h,) of handles: those that are wanted, else those of the shape there."""
     pose = state.pose.only(_checked_indices(state, indices))
-    fz = state.map.wirtinger(pose.handles)[0]
+    fz, wanted = state.map.wirtinger(pose.handles)[0], (pose.angles, pose.scales)
     free = np.angle(fz), np.abs(fz)
-    wanted = pose.angles, pose.scales
-    return tuple(np.where(np.isnan(w), f, w) for w, f in zip(wanted, free, strict=True))
+    angles, scales = (np.where(np.isnan(w), f, w) for w, f in zip(wanted, free, strict=True))
+    return angles, scales
 
 
 def turn(
@@ -151,22 +151,8 @@ def bring_forward(state: EditState, indices: Iterable[int], steps: float = 1) ->
     return set_depths(state, chosen, depths)
 
 
-def paint(
-    state: EditState, lines: Sequence[ArrayLike], radius: float, strength: float = 1.0
-) -> EditState:
-    """Make the undeformed shape stiff along lines (n, 2) by a round brush; strength 0 erases."""
-    stiffness = state.pose.stiffness
-    for line in lines:
-        stiffness = stiffness.painted(line, radius, strength)
-    return _with_stiffness(state, stiffness)
-
-
-def clear_stiffness(state: EditState) -> EditState:
-    """Erase all stiff areas."""
-    return _with_stiffness(state, Stiffness())
-
-
-def _with_stiffness(state: EditState, stiffness: Stiffness) -> EditState:
+def set_stiffness(state: EditState, stiffness: Stiffness) -> EditState:
+    """Make other areas stiff, as by ``state.pose.stiffness.painted(points, radius)``."""
     if stiffness == state.pose.stiffness:
         return state
     pose = replace(state.pose, stiffness=stiffness)

@@ -71,6 +71,8 @@ class Method:
     tolerance: ClassVar[float] = 0.0
     energies: ClassVar[tuple[str, ...] | None] = None
     """Names of the energies that it can minimise; None for any."""
+    stiffens: ClassVar[bool] = True
+    """Whether it keeps stiff areas, where its maps are certified."""
     package: ClassVar[str | None] = None
     """The optional package that it needs."""
     options: ClassVar[tuple[str, ...]] = ("p2p_weight", "align", "max_iterations")
@@ -118,11 +120,6 @@ class Method:
         """Whether its maps are proved locally injective."""
         return self.family == "harmonic"
 
-    @property
-    def stiffens(self) -> bool:
-        """Whether it keeps stiff areas."""
-        return self.certified
-
     @classmethod
     def available(cls) -> bool:
         """Whether its package is installed."""
@@ -141,7 +138,7 @@ class Method:
 
     def check_pose(self, pose: Pose) -> None:
         """Raise :class:`MethodError` if it cannot hold an angle, a scale or a stiff area."""
-        if pose.stiffness and not self.stiffens:
+        if pose.stiffness and not (self.stiffens and self.certified):
             raise MethodError(
                 f"the method {self.name!r} knows no stiff areas; clear them, or choose Newton's "
                 "method, L-BFGS or another descent that moves the certified map"

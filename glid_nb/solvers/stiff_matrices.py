@@ -22,7 +22,7 @@ from glid_nb.solvers.whitening import whitened
 
 NODES = 128
 """Inside the areas; always as many, so that painting more compiles nothing."""
-_COARSER = 1.03
+_COARSER, _MOST_LINES = 1.03, 400  # of the grid
 
 
 @functools.lru_cache(maxsize=4)
@@ -68,7 +68,7 @@ def _inside(domain: Domain, stiffness: Stiffness) -> tuple[Array, Array]:
     whole = shapely.union_all(list(stiffness.within(domain.cage).values()))
     shapely.prepare(whole)
     left, bottom, right, top = whole.bounds
-    step = np.sqrt(whole.area / NODES)
+    step = max(np.sqrt(whole.area / NODES), max(right - left, top - bottom) / _MOST_LINES)
     while True:
         x, y = np.meshgrid(np.arange(left, right, step), np.arange(bottom, top, step))
         x, y = x.ravel() + step / 2, y.ravel() + step / 2

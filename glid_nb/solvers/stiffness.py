@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike
 
-from glid_nb._arguments import unmet
+from glid_nb._arguments import check_type, unmet
 from glid_nb._arrays import Array, number_pairs
 from glid_nb._errors import InputError, about
 from glid_nb.geometry import Cage
@@ -61,8 +61,7 @@ class Stiffness:
         """From what `to_list` writes, or None; a StiffnessError names the stroke at fault."""
         if strokes is None or isinstance(strokes, Stiffness):
             return strokes or cls()
-        if not isinstance(strokes, list | tuple):
-            raise StiffnessError("stiffness must be a list of strokes")
+        check_type("stiffness", strokes, list | tuple, "a list of strokes", StiffnessError)
         new = cls()
         for i, stroke in enumerate(strokes):
             with about(f"stiffness[{i}]", StiffnessError):
@@ -80,16 +79,13 @@ class Stiffness:
         line = number_pairs(points, "points must be a list of [x, y] pairs", StiffnessError)
         if not 0 < len(line) <= _MOST_POINTS or not (np.abs(line) <= _FARTHEST).all():
             raise StiffnessError(f"points must be 1 to {_MOST_POINTS:,} within {_FARTHEST:g} units")
-        for name, value, limits in (
-            ("radius", radius, {"above": 0, "most": _FARTHEST}),
-            ("strength", strength, {"least": 0, "most": 1}),
-        ):
-            if expected := unmet(float, value, limits):
-                raise StiffnessError(f"{name} must be {expected}, got {value!r:.40}")
+        if expected := unmet(float, radius, {"above": 0, "most": _FARTHEST}):
+            raise StiffnessError(f"radius must be {expected}, got {radius!r:.40}")
+        if expected := unmet(float, strength, {"least": 0, "most": 1}):
+            raise StiffnessError(f"strength must be {expected}, got {strength!r:.40}")
         if len(self.strokes) >= _MOST_STROKES:
             raise StiffnessError(f"there are {_MOST_STROKES:,} strokes; clear some stiff areas")
-        path = tuple((float(x), float(y)) for x, y in line)
-        stroke = Stroke(path, float(radius), float(strength))
+        stroke = Stroke(tuple(map(tuple, line.tolist())), float(radius), float(strength))
         areas = stroke.over(self.areas)
         new = Stiffness((*self.strokes, stroke) if areas else ())
         vars(new)["areas"] = areas

@@ -23,10 +23,9 @@ _EDGES = 60  # along the longer side, so that edges bend with the shape
 
 
 class Brush(traitlets.HasTraits):
-    """What the left button paints with."""
+    """What the left button paints with; nothing while it has no tool."""
 
     tool = traitlets.Enum(("", "stiff", "erase"), "")
-    """Empty while the left button pins and drags."""
     radius = traitlets.Float()
     """In world units."""
     strength = traitlets.Float(1.0)
@@ -34,7 +33,7 @@ class Brush(traitlets.HasTraits):
 
     @property
     def shown(self) -> dict[str, float]:
-        """What the page draws: the radius, and the strength or 0 for the eraser; empty if none."""
+        """What the page draws: radius and strength, 0 for the eraser; empty without a tool."""
         strength = self.strength if self.tool == "stiff" else 0.0
         return {"radius": self.radius, "strength": strength} if self.tool else {}
 
@@ -46,8 +45,7 @@ class BrushGestures(PinGestures):
         self, deformation: Deformation, fit: Callable[[], None], image: Array | None = None
     ) -> None:
         super().__init__(deformation, fit, image)
-        side = deformation.state.domain.cage.longer_side
-        self.brush = Brush(radius=_USUAL_RADIUS * side)
+        self.brush = Brush(radius=_USUAL_RADIUS * deformation.state.domain.cage.longer_side)
 
     def _down(self, event: Event) -> None:
         if not self.brush.tool or event["button"] != LEFT:
@@ -73,74 +71,69 @@ class BrushGestures(PinGestures):
 
         Where it leaves the shape, or goes on to another limb, a line ends.
         """
-        brush, places = self.brush, path[:1]
+        brush, places, model = self.brush, path[:1], self.deformation
         if len(path) > 1 and (line := shapely.LineString(path)).length > unit:
             places = shapely.get_coordinates(line.simplify(unit).segmentize(brush.radius / 2))
-        sources = self.deformation.sheets(self._image).sources(places)
+        sources = model.sheets(self._image).sources(places)
         far = np.linalg.norm(np.diff(sources, axis=0), axis=1) > 2 * brush.radius
         outside = np.isnan(sources[:, 0])
-        ends = np.flatnonzero(far | outside[1:] | outside[:-1]) + 1
-        lines = [part for part in np.split(sources, ends) if not np.isnan(part).any()]
-        if not lines:
+        if outside.all():
             raise EditError("there is no shape here; paint over the shape")
-        self.deformation.paint(lines, brush.radius, brush.shown["strength"])
+        stiffness = model.pose.stiffness
+        for line in np.split(sources, np.flatnonzero(far | outside[1:] | outside[:-1]) + 1):
+            if not np.isnan(line).any():
+                stiffness = stiffness.painted(line, brush.radius, brush.shown["strength"])
+        model.set_stiffness(stiffness)
 
 
 class BrushBar(EditControls):
     """Eraser, size and strength of a brush, and a button that clears what is painted.
 
-    Parameters
-    ----------
-    deformation : Deformation
-        The model that is painted.
-    brush : Brush
+    While the brush has a tool it is shown in place of ``other``.
     """
 
-    def __init__(self, deformation: Deformation, brush: Brush, **kwargs: Any) -> None:
-        look: dict[str, Any] = {
-            "layout": {"width": "210px"},
-            "style": {"description_width": "56px"},
-        }
+    def __init__(self, deformation: Deformation, brush: Brush, other: ipywidgets.Widget) -> None:
+        style = {"description_width": "56px"}
+        look: dict[str, Any] = {"layout": {"width": "210px"}, "style": style}
         most = _LARGEST_RADIUS * deformation.state.domain.cage.longer_side
-        self.size = ipywidgets.FloatSlider(
-            description="Size", min=most / 50, max=most, step=most / 50, readout=False, **look
-        )
+        size = {"min": most / 50, "max": most, "step": most / 50, "readout": False}
+        self.size = ipywidgets.FloatSlider(description="Size", **size, **look)
         self.strength = ipywidgets.FloatSlider(
             description="Strength", min=0.1, max=1.0, step=0.1, readout_format=".1f", **look
         )
-        for control, name in ((self.size, "radius"), (self.strength, "strength")):
-            ipywidgets.link((brush, name), (control, "value"))
-        self.erase = ipywidgets.ToggleButton(
-            icon="eraser", tooltip="Erase stiff areas (E)", layout={"width": "38px"}
-        )
-        ipywidgets.dlink((brush, "tool"), (self.erase, "value"), lambda tool: tool == "erase")
-        self.erase.observe(functools.partial(_choose, brush, "erase", "stiff"), ["value"])
-        clear = functools.partial(self._act, deformation.clear_stiffness)
+        ipywidgets.link((brush, "radius"), (self.size, "value"))
+        ipywidgets.link((brush, "strength"), (self.strength, "value"))
+        self.erase = brush_toggle(brush, "erase", "stiff", icon="eraser", tooltip="Erase (E)")
+        clear = functools.partial(self._act, lambda: deformation.set_stiffness(Stiffness()))
         self.clear = button("Clear", "trash", "Erase all stiff areas", clear)
         shown = [self.size, self.strength, self.erase, self.clear]
-        super().__init__(deformation, [ipywidgets.HBox(shown)], **kwargs)
+        super().__init__(deformation, [ipywidgets.HBox(shown)])
+
+        def swap(_: Any = None) -> None:
+            self.layout.display = None if brush.tool else "none"
+            other.layout.display = "none" if brush.tool else None
+
+        brush.observe(swap, ["tool"])
+        swap()
 
     def _show(self) -> None:
         self.clear.disabled = not self.deformation.pose.stiffness
 
 
-def stiff_toggle(brush: Brush) -> ipywidgets.ToggleButton:
-    """A button that takes the brush, and lays it down."""
-    toggle = ipywidgets.ToggleButton(
-        description="Stiff",
-        icon="paint-brush",
-        tooltip="Paint what should stay as it is (B)",
-        layout={"width": "auto"},
-    )
-    ipywidgets.dlink((brush, "tool"), (toggle, "value"), bool)
-    toggle.observe(functools.partial(_choose, brush, "stiff", ""), ["value"])
-    return toggle
+def brush_toggle(brush: Brush, on: str, off: str, **look: Any) -> ipywidgets.ToggleButton:
+    """A button that gives the brush one tool, and another one, or none, when it is let go."""
+    made = ipywidgets.ToggleButton(layout={"width": "auto"}, **look)
 
+    def pressed() -> bool:
+        return brush.tool == on if off else bool(brush.tool)
 
-def _choose(brush: Brush, on: str, off: str, change: Any) -> None:
-    """Follow a toggle, which may follow the brush."""
-    if change["new"] != (brush.tool == on if off else bool(brush.tool)):
-        brush.tool = on if change["new"] else off
+    def choose(change: Any) -> None:
+        if change["new"] != pressed():  # else it follows the brush
+            brush.tool = on if change["new"] else off
+
+    brush.observe(lambda _: made.set_trait("value", pressed()), ["tool"])
+    made.observe(choose, ["value"])
+    return made
 
 
 def painted_areas(moment: Moment) -> list[Any]:

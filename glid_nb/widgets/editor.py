@@ -41,7 +41,7 @@ from glid_nb.widgets.tracer import CageTracer
 _TRACE, _DEFORM = 0, 1
 _FILES = 2  # of the tabs beside the canvas
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
-_PINS_HEIGHT = "36px"  # kept free until the pins' numbers are made
+_PINS_HEIGHT = "68px"  # kept free until the pins' numbers are made; two rows of them
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 382  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
 
@@ -381,8 +381,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         """One of these parts, in its box."""
         makers: dict[str, Callable[[], ipywidgets.Widget]] = {
             "tracer": lambda: CageTracer(model=self.model.tracing, height=self._size[1]),
-            "pins": lambda: PinBar(self.deformation),
-            "brush": self._brush_bar,
+            "pins": self._bars,
             "solver": lambda: SolverPanel(self.deformation),
             "files": lambda: FilePanel(self.model, self.timeline.animation),
         }
@@ -394,23 +393,22 @@ class Editor(ClosingWidget, ipywidgets.VBox):
                 self._boxes[name].children = [part]
             return self._parts[name]
 
-    def _brush_bar(self) -> BrushBar:
+    def _bars(self) -> ipywidgets.VBox:
+        """The numbers of the pins, and in their place the brush's while there is one."""
         assert self.canvas is not None
-        return BrushBar(self.deformation, self.canvas.brush)
+        pins = PinBar(self.deformation)
+        return ipywidgets.VBox([pins, BrushBar(self.deformation, self.canvas.brush, pins)])
 
     def _deform_tab(self) -> ipywidgets.Widget:
         model, image = self.model.deformation, self.model.image
         assert image is not None
-        self.canvas = canvas = DeformCanvas(image, model, **self._asked)
+        self.canvas = DeformCanvas(image, model, **self._asked)
         self.toolbar = Toolbar(self.canvas)
         self.monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
         self.timeline = TimelinePanel(self.canvas, self._open_files)
         # Boxes to be filled: if the children changed, the page would select another tab.
         self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}
-        bars = [ipywidgets.VBox(layout={"min_height": _PINS_HEIGHT}) for _ in range(2)]
-        self._boxes |= dict(zip(("pins", "brush"), bars, strict=True))
-        canvas.brush.observe(self._show_bar, ["tool"])
-        self._show_bar()
+        bars = self._boxes["pins"] = ipywidgets.VBox(layout={"min_height": _PINS_HEIGHT})
         self._side = ipywidgets.Tab(
             [self.monitor.plots, self._boxes["solver"], self._boxes["files"]],
             titles=("Monitor", "Solver", "Files"),
@@ -419,19 +417,12 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self._side.observe(self._fill, ["selected_index"])
         line = self.monitor.line
         line.layout.height, line.layout.overflow = "44px", "hidden auto"  # however long it is
-        side = ipywidgets.VBox([self._side], layout={"width": f"{_SIDE_WIDTH + 34}px"})
+        side = ipywidgets.VBox([self._side], layout={"width": f"{_SIDE_WIDTH + 38}px"})
         side.add_class("glid-side")
-        left = ipywidgets.VBox([self.toolbar, *bars, self.canvas, self.timeline, line])
+        left = ipywidgets.VBox([self.toolbar, bars, self.canvas, self.timeline, line])
         left.add_class("glid-column")
         wrapped = {"align_items": "flex-start", "flex_flow": "row wrap", "overflow": "visible"}
         return ipywidgets.HBox([left, side], layout=wrapped)
-
-    def _show_bar(self, _: Any = None) -> None:
-        """Show the numbers of the pins, or the brush."""
-        assert self.canvas is not None
-        paints = bool(self.canvas.brush.tool)
-        for name, shown in (("brush", paints), ("pins", not paints)):
-            self._boxes[name].layout.display = None if shown else "none"
 
     def _open_files(self) -> None:
         """Show where the motion is exported."""

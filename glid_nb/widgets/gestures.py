@@ -202,7 +202,7 @@ class PinGestures(Gestures):
         if len(path) > 2:  # a box or a lasso
             inside = shapely.make_valid(shapely.Polygon(path))
             chosen = np.flatnonzero(shapely.contains_xy(inside, *self.deformation.pose.targets.T))
-            self.deformation.select([*self.deformation.selection, *chosen])
+            self.deformation.select([*self.deformation.selection, *chosen.tolist()])
             return
         if press is None or (press.part and not press.dragging):
             return

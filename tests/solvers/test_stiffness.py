@@ -87,7 +87,7 @@ def distance_to_line(point: np.ndarray, line: np.ndarray) -> float:
 @pytest.mark.parametrize(
     ("strokes", "message"),
     [
-        ("head", "stiffness must be a list of strokes"),
+        ("head", "stiffness must be list or tuple, not str; a list of strokes"),
         ([{"points": [[0, 0]]}], r"stiffness\[0\]: a stroke has points, radius, strength"),
         ([{"points": [], "radius": 1, "strength": 1}], r"stiffness\[0\]: points must be 1 to"),
         ([{"points": [[0, math.nan]], "radius": 1, "strength": 1}], "within 1e"),
@@ -113,6 +113,9 @@ def test_nothing_painted_changes_nothing() -> None:
     beside = Stiffness().painted([[20, 20]], 1)
     assert stiff_matrices(disc, beside) is disc.matrices
     assert disc.matrices.stiff is None
+    # Dabs far apart, smaller than any grid, have a node, too.
+    dabs = Stiffness().painted([[-2.9, 2.9]], 1e-5).painted([[2.9, -2.9]], 1e-5)
+    assert np.count_nonzero(np.asarray(stiff_matrices(disc, dabs).weights)[-NODES:]) == 1
 
 
 @double_precision

@@ -13,6 +13,7 @@ from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.deformation import Deformation
 from glid_nb.solvers import MethodError
+from glid_nb.solvers.stiffness import Stiffness
 from glid_nb.widgets.brush import BrushGestures, painted_areas
 
 from ..domains import domain
@@ -105,7 +106,7 @@ def test_a_brush_paints_and_erases_in_steps_for_undo(hand: Hand) -> None:
     hand.key("undo")
     assert not model.pose.stiffness
     hand.key("redo")
-    model.clear_stiffness()
+    model.set_stiffness(Stiffness())
     assert not model.pose.stiffness
     hand.key("Escape")
     assert brush.tool == ""
@@ -132,11 +133,11 @@ def test_painting_follows_the_deformed_shape(hand: Hand) -> None:
 def test_stiff_areas_stay_with_another_outline_and_other_pins(hand: Hand) -> None:
     model = hand.model
     model.add_handle((2, 0))
-    model.paint([[[2, 0]]], 0.5)
+    model.set_stiffness(Stiffness().painted([[2, 0]], 0.5))
     model.mirror_pose()
     assert model.pose.stiffness([[-2, 0.2], [2, 0.2]]).tolist() == [1, 0]
     model.undo()
-    model.paint([[[-2, 0]]], 0.5)
+    model.set_stiffness(model.pose.stiffness.painted([[-2, 0]], 0.5))
     model.clear_handles()
     model.save_pose()
     cage = model.state.domain.cage

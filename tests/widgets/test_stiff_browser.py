@@ -26,8 +26,8 @@ def test_a_hand_paints_a_stiff_head_erases_undoes_and_clears(open_notebook: Open
     for point in [(-6.0, 0.0), (0.0, 0.0), (6.5, 0.0)]:
         hand.click(point)
     book.wait_for("len(model.pose) == 3")
-    hand.drag(line([6.5, 0.0], [5.5, 3.0], 10))
-    hand.wait_for_target(2, [5.5, 3.0])
+    hand.drag(line([6.5, 0.0], [3.5, 5.0], 10))
+    hand.wait_for_target(2, [3.5, 5.0])
     free = book.value("ratio()")
     before = hand.targets
 
