@@ -93,11 +93,13 @@ def close_on_rerun(made: Any) -> bool:
 
 
 def _forget(closed: Any) -> None:
-    """Take what is closed out of the notebook's ``Out`` and ``_12``, which would keep it alive."""
-    names = getattr(sys.modules["IPython"].get_ipython(), "user_ns", {})
-    for number in [n for n, value in names.get("_oh", {}).items() if value is closed]:
-        del names["_oh"][number]
-        names.pop(f"_{number}", None)
+    """Take what is closed out of ``Out`` and ``_12``, which would keep it alive."""
+    shell = sys.modules["IPython"].get_ipython()
+    spaces = [getattr(shell, name, {}) for name in ("user_ns", "user_ns_hidden")]
+    for names in (spaces[0].get("_oh", {}), *spaces):
+        for name in [n for n, value in names.items() if value is closed]:
+            if str(name).removeprefix("_").isdigit():  # not a name of the user's own
+                del names[name]
 
 
 def _running_cell() -> tuple[str, str] | None:
