@@ -61,12 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     with step("measuring") as detail:
         plan = Plan(cases, chosen.repeats, chosen.quick, detail)
         page = run_studies(
-            studies,
-            out,
-            plan,
-            only=chosen.only,
-            fresh=chosen.fresh,
-            measuring=not chosen.render,
+            studies, out, plan, only=chosen.only, fresh=chosen.fresh, measuring=not chosen.render
         )
     print(page)
 

@@ -61,10 +61,8 @@ class Hermite(NamedTuple):
         if direction is not None:
             e_f = e_f + rounding.BERNSTEIN * p_most  # of u itself and the products
         halves = [
-            _piece_bounds(p_half, q_half, e_f, e_g)
-            for p_half, q_half in zip(
-                _halves(p if direction is None else along), _halves(q), strict=True
-            )
+            _piece_bounds(a, b, e_f, e_g)
+            for a, b in zip(_halves(p if direction is None else along), _halves(q), strict=True)
         ]
         sigma2, sigma1, k = zip(*halves, strict=True)
         if direction is not None:
@@ -73,11 +71,7 @@ class Hermite(NamedTuple):
         # If the control points lie in a half plane further than e_f from 0, f_z avoids 0 there.
         offset = _least(along)
         return PanelBounds(
-            _least(sigma2),
-            _greatest(sigma1),
-            _greatest(k),
-            offset > e_f,
-            turning(fz.start, fz.end),
+            _least(sigma2), _greatest(sigma1), _greatest(k), offset > e_f, turning(fz.start, fz.end)
         )
 
 

@@ -8,7 +8,7 @@ decides. `docs/proof.md` has the lemmas.
 
 import functools
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 import shapely
@@ -139,10 +139,8 @@ def _corner_simple(arcs: Arcs, following: Array) -> Array:
     return back_clear & ahead_clear
 
 
-def _proved_crossing(
-    map: HarmonicMap, panels: Panels, arcs: Arcs, pairs: Array
-) -> tuple[complex, Array] | None:
-    """A double point of the image of the boundary, and the two boundary points mapped to it.
+def _proved_crossing(map: HarmonicMap, panels: Panels, arcs: Arcs, pairs: Array) -> Any:
+    """A double point of the boundary's image and the two points mapped to it, or None.
 
     Newton's method finds candidates, starting from pairs of panels whose chords cross. A candidate
     is proved on windows around it on the two edges, which may extend over several panels.

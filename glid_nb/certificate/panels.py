@@ -95,9 +95,7 @@ def check_tiling(panels: Panels, cage: Cage) -> None:
         start, end = panels.start[own], panels.end[own]
         is_corner = np.isin(start, corners)
         if not np.array_equal(start[is_corner], corners) or not is_corner[0]:
-            raise _not_tiled(
-                f"vertices of the {loop_name(i)} are no ends of panels, or not in order"
-            )
+            raise _not_tiled(f"vertices of the {loop_name(i)} are no ends, or not in order")
         edge = np.cumsum(is_corner) - 1
         origin, along = corners[edge], (np.roll(corners, -1) - corners)[edge]
         direction = along / np.abs(along)
@@ -115,9 +113,7 @@ def _not_tiled(what: str) -> GeometryError:
     )
 
 
-def split(
-    panels: Panels, known: T, chosen: NDArray[Any], evaluate: Callable[..., T]
-) -> tuple[Panels, T]:
+def split(panels: Panels, known: T, chosen: Array, evaluate: Callable[..., T]) -> tuple[Panels, T]:
     """Panels with the chosen, divisible ones halved, and what is known of each panel.
 
     ``known`` is a pytree of NumPy arrays over the panels; ``evaluate(start, end)`` makes it for the

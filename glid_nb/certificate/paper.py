@@ -87,10 +87,7 @@ def jumps(coefficients: Rows, singularities: Singularities) -> Float[Array, "k n
 
 
 def derivative_bound_weights(
-    start: Ends,
-    end: Ends,
-    singularities: Singularities,
-    order: int,
+    start: Ends, end: Ends, singularities: Singularities, order: int
 ) -> Float[Array, "p n"]:
     """Weights ``w`` with ``l^order |d^order f_z / dz^order| <= w @ jumps`` on each segment.
 

@@ -68,9 +68,7 @@ class _Values(NamedTuple):
 
 
 @np.errstate(all="ignore")
-def certify_pieces(
-    maps: Sequence[HarmonicMap], tightness: float = 0.05
-) -> tuple[PieceCertificate, ...]:
+def certify_pieces(maps: Sequence[HarmonicMap], tightness: float = 0.05) -> list[PieceCertificate]:
     """Prove the linear motion from each map of one domain to the next, or say how far that goes.
 
     Panels are halved where the proof fails or bounds are further than the relative ``tightness``
@@ -84,7 +82,7 @@ def certify_pieces(
         values = _evaluated(group, size)(panels.start, panels.end)
         for i, pair in enumerate(itertools.pairwise(group)):
             proofs.append(_prove(*pair, values.pair(i), size, tightness))
-    return tuple(proofs)
+    return proofs
 
 
 def _prove(
@@ -142,16 +140,14 @@ def _evaluated(maps: Sequence[HarmonicMap], size: Array) -> Any:
     return evaluate
 
 
-def _values(
-    start: Any, end: Any, coefficients: Any, size: Any, singularities: Singularities
-) -> _Values:
-    ends, slack = end_values(start, end, coefficients, singularities)
+def _values(start: Any, end: Any, rows: Any, size: Any, singularities: Singularities) -> _Values:
+    ends, slack = end_values(start, end, rows, singularities)
     slack = slack + _coefficient_rounding(start, end, size, singularities)
-    remainder = Hermite.on(start, end, singularities).remainder(coefficients, singularities)
-    shift = jumps(coefficients, singularities) @ beside(start, end, singularities).T
+    remainder = Hermite.on(start, end, singularities).remainder(rows, singularities)
+    shift = jumps(rows, singularities) @ beside(start, end, singularities).T
     by_map = [
-        np.stack(rows, axis=-1).reshape(len(coefficients) // 2, 2, len(start), -1)
-        for rows in (ends, [remainder + slack, slack + shift])
+        np.stack(values, axis=-1).reshape(len(rows) // 2, 2, len(start), -1)
+        for values in (ends, [remainder + slack, slack + shift])
     ]
     return _Values(*(np.moveaxis(values, 2, 0) for values in by_map))
 

@@ -78,7 +78,4 @@ def _bisected(middles: Array, k: int, d: int) -> list[list[int]]:
     if len(middles) <= 1 or d == _MOST_BISECTIONS:
         return [[k, d]]
     left = int(np.searchsorted(middles, (2 * k + 1) / 2 ** (d + 1)))
-    return [
-        *_bisected(middles[:left], 2 * k, d + 1),
-        *_bisected(middles[left:], 2 * k + 1, d + 1),
-    ]
+    return [*_bisected(middles[:left], 2 * k, d + 1), *_bisected(middles[left:], 2 * k + 1, d + 1)]

@@ -72,9 +72,8 @@ def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb
     if chosen.source.suffix.lower() != ".json":
         document = glid_nb.load_document(chosen.source)
         if len(document.poses) < 2:
-            raise InputFileError(
-                f"{chosen.source} holds {len(document.poses)} poses; a motion needs at least 2"
-            )
+            held = f"{chosen.source} holds {len(document.poses)} poses"
+            raise InputFileError(f"{held}; a motion needs at least 2")
         if chosen.picture is not None:
             raise InputError("--picture is for saved motions; a session holds its picture")
         timeline = document.timeline or replace(Timeline.even(len(document.poses)), repeat="loop")

@@ -90,15 +90,11 @@ def _source(image: str) -> tuple[Path, str | None]:
         return Path(image), None
     names = glid_nb.samples.names()
     if image not in names:
-        raise InputFileError(
-            f"{image}: there is no such file, and no sample of that name ({', '.join(names)})"
-        )
+        raise InputFileError(f"{image}: no such file, and no such sample ({', '.join(names)})")
     return glid_nb.samples.path(image), image
 
 
-def _pose(
-    wanted: str | None, sample: str | None, domain: glid_nb.Domain
-) -> tuple[glid_nb.Pose, str]:
+def _pose(wanted: str | None, sample: str | None, domain: Domain) -> tuple[Pose, str]:
     """The pose, and where it comes from, in words."""
     if wanted is None and sample is None:
         return glid_nb.suggest_pose(domain), "chosen automatically (give your own with --pose)"

@@ -46,9 +46,8 @@ def build_parser() -> argparse.ArgumentParser:
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
         module.add_arguments(command)
-        command.add_argument(
-            "--debug", action="store_true", help="show the traceback when the input is refused"
-        )
+        debug = "show the traceback when the input is refused"
+        command.add_argument("--debug", action="store_true", help=debug)
         command.set_defaults(run=module.run)
     return parser
 

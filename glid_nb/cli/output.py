@@ -59,9 +59,7 @@ def summary_json(report: Mapping[str, Any], files: Iterable[Path], **extra: Any)
     return json.dumps({**extra, **short, "files": {path.name: str(path) for path in files}})
 
 
-def summary_text(
-    report: Mapping[str, Any], files: Iterable[Path], rows: Iterable[tuple[str, str]] = ()
-) -> str:
+def summary_text(report: Any, files: Iterable[Path], rows: Iterable[tuple[str, str]] = ()) -> str:
     """The report on one screen: ``rows`` of (name, text) and ``files`` too."""
     folders = groupby(files, key=lambda path: path.parent)
     written = [f"{folder}: {', '.join(path.name for path in f)}" for folder, f in folders]

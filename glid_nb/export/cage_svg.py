@@ -20,11 +20,7 @@ _PIECE = 0.0025  # of the cage's size: how finely its covered parts are found
 
 
 def cage_svg(
-    map: HarmonicMap,
-    image_size: tuple[int, int],
-    *,
-    source: bool = False,
-    pose: Pose | None = None,
+    map: HarmonicMap, image_size: tuple[int, int], *, source: bool = False, pose: Pose | None = None
 ) -> str:
     """Draw the image of a map's cage: curves, as polylines within 0.002 world units of them.
 

@@ -51,9 +51,7 @@ class Cage:
     def from_dict(cls, data: Mapping[str, Any]) -> Cage:
         """The cage of a mapping with the keys ``cage`` and, optionally, ``holes``."""
         if "cage" not in data:
-            raise GeometryError(
-                "the key 'cage' is missing: give the exterior loop's vertices there"
-            )
+            raise GeometryError("the key 'cage' is missing: give the exterior loop there")
         return cls(data["cage"], loop_list(data.get("holes"), "holes"))
 
     def to_dict(self) -> dict[str, Any]:

@@ -100,9 +100,7 @@ class Domain:
                 outer = Cage(data["offset_cage"], holes)
             return cls(cage, outer, points, notes)
         if holes:
-            raise GeometryError(
-                "'offset_holes' is given without 'offset_cage'; give both or neither"
-            )
+            raise GeometryError("'offset_holes' is given without 'offset_cage'; give both or none")
         result = _offset_of(cage, data.get("offset"))
         return cls(cage, _divided(result.cage, cage), points, notes + result.notes)
 
@@ -192,9 +190,7 @@ def _checked_hole_points(points: ArrayLike, offset_cage: Cage) -> NDArray[np.flo
         )
     for i, ((x, y), hole) in enumerate(zip(checked, offset_cage.holes, strict=True), start=1):
         if not np.isfinite([x, y]).all():
-            raise GeometryError(
-                f"the point of hole {i} is ({x}, {y}); replace the NaN or infinite coordinate"
-            )
+            raise GeometryError(f"the point of hole {i} is ({x}, {y}); give finite coordinates")
         if not shapely.contains_xy(shapely.Polygon(hole), x, y):
             raise GeometryError(
                 f"the point of hole {i} at {place([x, y])} does not lie strictly inside offset "
@@ -210,9 +206,8 @@ def _divided(offset_cage: Cage, cage: Cage) -> Cage:
     two vertices, as a bar of four is, that is too stiff to bend.
     """
     least = _LEAST_PIECE * cage.longer_side
-    start, end = (
-        np.concatenate([np.roll(loop, shift) for loop in cage.loops_complex]) for shift in (0, -1)
-    )
+    start = np.concatenate(cage.loops_complex)
+    end = np.concatenate([np.roll(loop, -1) for loop in cage.loops_complex])
     length = np.abs(end - start)
     shares = [np.zeros(1)] * len(start)
     for i in np.flatnonzero(length > 2 * least):

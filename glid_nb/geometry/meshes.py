@@ -200,10 +200,8 @@ def _parts(lengths: Array, spacing: float) -> Array:
 def _spacing(cage: Cage, n_vertices: int) -> float:
     # n = (area - margin * perimeter) / cell + perimeter / spacing with cell = row * spacing^2.
     linear = cage.perimeter * (1.0 - _MARGIN / _ROW)
-    inverse = (np.sqrt(linear**2 + 4.0 * n_vertices * cage.area / _ROW) - linear) / (
-        2.0 * cage.area / _ROW
-    )
-    spacing = 1.0 / float(inverse)
+    root = np.sqrt(linear**2 + 4.0 * n_vertices * cage.area / _ROW)
+    spacing = 1.0 / float((root - linear) / (2.0 * cage.area / _ROW))
     lengths = np.concatenate([edge_lengths(loop) for loop in cage.loops])
     # The formula is inaccurate for many short edges and for slender limbs.
     for _ in range(6):
@@ -222,27 +220,20 @@ def _lattice(cage: Cage, spacing: float) -> Array:
         return np.empty((0, 2))
     shapely.prepare(inner)
     xmin, ymin, xmax, ymax = cage.bounds
-    row, k = np.indices(
-        (int((ymax - ymin) / (_ROW * spacing)) + 1, int((xmax - xmin) / spacing) + 1)
-    )
-    points = np.stack(
-        [xmin + (0.5 * (row % 2) + k) * spacing, ymin + row * _ROW * spacing], axis=-1
-    )
+    rows, columns = (ymax - ymin) / (_ROW * spacing), (xmax - xmin) / spacing
+    row, k = np.indices((int(rows) + 1, int(columns) + 1))
+    points = np.stack((xmin + (0.5 * (row % 2) + k) * spacing, ymin + row * _ROW * spacing), -1)
     return points[shapely.intersects_xy(inner, points[..., 0], points[..., 1])]
 
 
-def _constrained_delaunay(
-    vertices: NDArray[np.float64], loops: list[NDArray[np.complex128]]
-) -> Array:
+def _constrained_delaunay(vertices: Array, loops: list[Array]) -> Array:
     """Triangles of the region bounded by the loops, whose points are the first vertices."""
     following = next_index(np.repeat(np.arange(len(loops)), [len(loop) for loop in loops]))
     # Any: numpy's stubs call an array a buffer from Python 3.12 on only.
     points: Any = np.ascontiguousarray(vertices)
     edges: Any = np.stack([np.arange(len(following)), following], axis=1).astype(np.uintc)
     delaunay = pythoncdt.Triangulation(
-        pythoncdt.VertexInsertionOrder.AUTO,
-        pythoncdt.IntersectingConstraintEdges.NOT_ALLOWED,
-        0.0,
+        pythoncdt.VertexInsertionOrder.AUTO, pythoncdt.IntersectingConstraintEdges.NOT_ALLOWED, 0.0
     )
     delaunay.insert_vertices(points)
     delaunay.insert_edges(edges)

@@ -63,9 +63,7 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
     A GeometryError for a distance that is not positive, and for a passage too narrow for float64.
     """
     if not (isinstance(distance, Real) and 0 < distance <= 1e100):
-        raise GeometryError(
-            f"the offset must be a positive number, not {distance!r:.60}; 1e100 is the most"
-        )
+        raise GeometryError(f"the offset must be a positive number, not {distance!r:.60} (≤ 1e100)")
     corners = _Corners(cage, distance)
     local = corners.smoothed(np.minimum(distance, corners.passage_limits(_PASSAGE_LENGTH)))
     for _ in range(1 + _GLOBAL_ROUNDS):
@@ -283,9 +281,7 @@ class _Corners:
         """Whether the offset loops, known not to meet the cage, lie outside the domain."""
         pairs = zip(self.split(self.points), self.split(self.moved(local)), strict=True)
         around = [(b, a) if i == 0 else (a, b) for i, (a, b) in enumerate(pairs)]
-        return all(
-            shapely.contains_xy(shapely.Polygon(large), *small[0]) for large, small in around
-        )
+        return all(shapely.contains_xy(shapely.Polygon(a), *b[0]) for a, b in around)
 
 
 def _notes(corners: _Corners, local: Array, distance: float) -> tuple[str, ...]:

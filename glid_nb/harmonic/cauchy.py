@@ -106,10 +106,7 @@ def slope_jumps(coefficients: Rows, singularities: Singularities) -> Rows:
 
 
 def higher_derivative(
-    z: Points,
-    coefficients: Complex[Array, " n"],
-    singularities: Singularities,
-    order: int,
+    z: Points, coefficients: Complex[Array, " n"], singularities: Singularities, order: int
 ) -> Points:
     """The ``order``-th derivative (``order >= 1``) of ``sum_j D_j(z) coefficients_j``.
 

@@ -9,7 +9,7 @@ import shapely
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
-from glid_nb._arrays import read_only
+from glid_nb._arrays import Array, read_only
 from glid_nb.imaging.options import Point
 from glid_nb.imaging.outline import Outline, ring_loop, thinned
 
@@ -180,9 +180,7 @@ def _moved(region: shapely.Polygon, offset: float, sign: int) -> list[shapely.Po
     return sorted(parts, key=lambda part: -part.area)
 
 
-def _shrunk(
-    loop: NDArray[np.float64], offset: float, min_area: float
-) -> tuple[list[NDArray[np.float64]], float]:
+def _shrunk(loop: Array, offset: float, min_area: float) -> tuple[list[Array], float]:
     """The parts that a hole shrinks to, and the offset used: less for a hole that would vanish."""
     region = shapely.Polygon(loop)
     for used in (offset, 0.5 * offset, 0.25 * offset):

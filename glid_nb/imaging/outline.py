@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import find_objects, label
 from skimage.measure import block_reduce, find_contours
 
-from glid_nb._arrays import read_only
+from glid_nb._arrays import Array, read_only
 from glid_nb.geometry._loops import signed_area
 from glid_nb.imaging.errors import TraceError
 from glid_nb.imaging.foreground import Foreground
@@ -180,9 +180,7 @@ def _fill_specks(inside: NDArray[np.bool_], least: float) -> int:
     return int(np.count_nonzero(fill))
 
 
-def _field(
-    score: NDArray[np.float32], level: float, inside: NDArray[np.bool_]
-) -> NDArray[np.float32]:
+def _field(score: NDArray[np.float32], level: float, inside: Array) -> NDArray[np.float32]:
     """Score minus level, positive exactly in the component, with a frame of one pixel.
 
     Values near 0 are moved away from it: a level set through the centre of a pixel could touch

@@ -222,9 +222,7 @@ def _from_array(array: NDArray[Any], name: str) -> RGBA:
     if array.dtype in (np.int32, np.uint16):
         low, high = int(array.min()), int(array.max())
         if low < 0 or high > 65535:
-            raise TraceError(
-                f"{name}: the grey values run from {low} to {high}; only 8 and 16 bit are supported"
-            )
+            raise TraceError(f"{name}: values run from {low} to {high}; only 8 and 16 bit are read")
         array = array.astype(np.uint16)
     with about(name, TraceError):
         return as_rgba(array)

@@ -96,9 +96,7 @@ def rendering(
         exterior = deformed_loops(map)[0]
         shown, margin = np.stack([exterior.min(axis=0), exterior.max(axis=0)]), _MARGIN
     if np.ptp(shown, axis=0).min() <= 0:
-        raise RenderError(
-            "the map collapses the shape to a point or a line; there is nothing to show"
-        )
+        raise RenderError("the map collapses the shape to a point or a line; nothing is to be seen")
     frame = PixelFrame(width, height).showing(shown, margin)
     if n_vertices is None:
         even = int(np.clip(width * height / _PIXELS_PER_VERTEX, *_EVEN_VERTICES))

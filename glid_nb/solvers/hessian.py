@@ -184,10 +184,7 @@ def _symmetric_product(u: Columns, v: Columns, weights: Samples) -> tuple[Square
 
 
 def _embedded(
-    hermitian_re: Square,
-    hermitian_im: Square,
-    symmetric_re: Square,
-    symmetric_im: Square,
+    hermitian_re: Square, hermitian_im: Square, symmetric_re: Square, symmetric_im: Square
 ) -> Float[Array, "2u 2u"]:
     """The real quadratic form ``Re(z^H A z + z^T S z)`` over ``[Re z, Im z]``."""
     return jnp.block(

@@ -87,10 +87,7 @@ class State(NamedTuple):
 
 
 def iterations(
-    problem: Problem,
-    coefficients: Coefficients,
-    factor: Factor,
-    settings: Settings,
+    problem: Problem, coefficients: Coefficients, factor: Factor, settings: Settings
 ) -> State:
     """Up to ``settings.iterations`` (at most `MOST_PER_CALL`) Newton iterations, to be compiled.
 

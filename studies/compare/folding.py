@@ -43,11 +43,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
     rest = MeshMap(mesh, mesh.vertices).areas
     known = available()
     measured: dict[str, Any] = {}
-    arrays = {
-        "mesh": mesh.vertices,
-        "triangles": mesh.triangles,
-        "targets": problem.pose.targets,
-    }
+    arrays = {"mesh": mesh.vertices, "triangles": mesh.triangles, "targets": problem.pose.targets}
     for name, (title, method, settings) in METHODS.items():
         if method not in known:
             continue
@@ -62,11 +58,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
             "proved": result.certificate.certified if result.certificate else None,
         }
         arrays[f"images_{name}"] = map_.images
-    return {
-        "triangles": len(mesh.triangles),
-        "methods": measured,
-        "arrays": arrays,
-    }
+    return {"triangles": len(mesh.triangles), "methods": measured, "arrays": arrays}
 
 
 def draw(cases: list[Measurement], folder: Path) -> None:

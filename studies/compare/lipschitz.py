@@ -102,8 +102,4 @@ def tables(found: list[Measurement]) -> dict[str, list[Row]]:
     return {"lipschitz": rows}
 
 
-STUDY = Study(
-    "lipschitz",
-    on_cases(some(("raptor", "giraffe"), "gecko-extreme"), measure),
-    tables,
-)
+STUDY = Study("lipschitz", on_cases(some(("raptor", "giraffe"), "gecko-extreme"), measure), tables)

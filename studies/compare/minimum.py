@@ -45,11 +45,7 @@ class Minimum(NamedTuple):
 
 @double_precision
 def mesh_minimum(
-    start: MeshMap,
-    pose: Pose,
-    energy: Energy,
-    constraints: Constraints,
-    p2p_weight: float = 1e5,
+    start: MeshMap, pose: Pose, energy: Energy, constraints: Constraints, p2p_weight: float = 1e5
 ) -> Minimum:
     """The minimum of a mesh method's own energy below one of its maps.
 

@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb.geometry._loops import next_index
 
 Points = NDArray[np.float64]
@@ -75,9 +76,7 @@ def passed_over(loops: Loops, kept: NDArray[np.bool_]) -> list[NDArray[np.intp]]
     ]
 
 
-def repair(
-    loops: Loops, importance: NDArray[np.float64], kept: NDArray[np.bool_], gap: float
-) -> list[str]:
+def repair(loops: Loops, importance: Array, kept: Array, gap: float) -> list[str]:
     """Put vertices back into `kept` where simplified loops meet or nearly meet; notes."""
     before = np.count_nonzero(kept)
     place = loops.points[0]

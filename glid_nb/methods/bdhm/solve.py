@@ -114,10 +114,7 @@ class _Descent:
     def reached(self, now: Iterate) -> Reached:
         iso, p2p = self.problem.energies(now.v)
         entry = Iteration(
-            energy_iso=iso,
-            energy_p2p=p2p,
-            step=now.step,
-            sigma2_lower=now.certificate.sigma2_lower,
+            energy_iso=iso, energy_p2p=p2p, step=now.step, sigma2_lower=now.certificate.sigma2_lower
         )
         return Reached(entry, lambda: now.certificate)
 

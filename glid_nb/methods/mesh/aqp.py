@@ -67,8 +67,7 @@ class AQP(MeshMethod):
     )
 
     def steps(self, problem: MeshProblem) -> Steps:
-        # Hard constraints: a positional part that is 0 but for rounding would be noise times
-        # lambda.
+        # Hard constraints: a positional part of rounding alone would be noise times lambda.
         problem = replace(problem, p2p_weight=1.0)
         theta = (1 - np.sqrt(1 / self.kappa)) / (1 + np.sqrt(1 / self.kappa))
         pinned = Pinned(problem.operators, problem.handles)
@@ -77,11 +76,9 @@ class AQP(MeshMethod):
         yield problem.at(start.w)
         if not np.isfinite(start.energy):
             left = flips(start.fz, start.fzb)
-            return Ending(
-                Status.BLOCKED,
-                f"No start was found: the projection left {left} triangles turned over or nearly "
-                "flat, where the energy is not finite.",
-            )
+            what = f"the projection left {left} triangles turned over or nearly flat"
+            why = f"No start was found: {what}, where the energy is not finite."
+            return Ending(Status.BLOCKED, why)
         for now, step in proxy.path(start):
             yield problem.at(now.w, step)
         return proxy.without_decrease(now)

@@ -226,10 +226,8 @@ def _evaluate(problem: Problem, coefficients: Coefficients) -> tuple[Point, Coef
 
 
 @functools.partial(jit, static_argnames="curvature", compiler_options=COMPILER_OPTIONS)
-def _hessian(
-    problem: Problem, point: Point, *, curvature: Curvature
-) -> Float[DeviceArray, "4c 4c"]:
-    """Hessian of the isometric energy alone with respect to the unknowns (33).
+def _hessian(problem: Problem, point: Point, *, curvature: Curvature) -> DeviceArray:
+    """(4c, 4c) Hessian of the isometric energy with respect to the unknowns (33).
 
     ``gauss-newton`` is for ARAP, whose density is ``2 (|f_z| - 1)^2 + 2 |f_zbar|^2``, a sum of
     squares: second derivatives of the residuals are left out. ``dirichlet`` is the Hessian of the
