@@ -84,18 +84,14 @@ def global_injectivity(
         unresolved = ~_simple(arcs) | corners
         unresolved[panels.next[corners]] = True
         if not unresolved.any() and not pairs.size:
-            reason = (
-                f"Proved globally injective: the images of the {len(panels)} pieces of the "
-                "boundary meet only where neighbours join."
-            )
+            images = f"the images of the {len(panels)} pieces of the boundary"
+            reason = f"Proved globally injective: {images} meet only where neighbours join."
             return GlobalInjectivity("yes", reason, len(panels))
         double_point = _proved_crossing(map, panels, arcs, pairs)
         if double_point is not None:
             image, points = double_point
-            reason = (
-                f"The map overlaps itself: the boundary points {places(points)} are both mapped to "
-                f"{place(image)}."
-            )
+            both = f"the boundary points {places(points)} are both mapped to {place(image)}"
+            reason = f"The map overlaps itself: {both}."
             return GlobalInjectivity("no", reason, len(panels), as_points(image), as_points(points))
         # Split the larger arc of a pair, or both if they are about equal.
         first, second = pairs
@@ -112,9 +108,8 @@ def global_injectivity(
 
 def _pairs_not_apart(arcs: Arcs, panels: Panels) -> Array:
     """(2, q) pairs of panels without a common end whose images are not proved disjoint."""
-    x = np.real([arcs.start, arcs.end])
-    y = np.imag([arcs.start, arcs.end])
-    r = arcs.radius
+    ends, r = np.array([arcs.start, arcs.end]), arcs.radius
+    x, y = ends.real, ends.imag
     boxes = shapely.box(x.min(0) - r, y.min(0) - r, x.max(0) + r, y.max(0) + r)
     first, second = shapely.STRtree(boxes).query(boxes)
     wanted = (first < second) & (panels.next[first] != second) & (panels.next[second] != first)

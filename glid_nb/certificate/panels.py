@@ -50,8 +50,7 @@ class PanelBounds(NamedTuple):
 class PanelProof(Protocol):
     """A kind of proof; an instance holds the constants that depend on the panels only.
 
-    Instances are JAX pytrees of arrays whose last axis runs over the panels. A solver computes them
-    once for many maps.
+    Instances are pytrees of arrays with panels along the last axis, computed once for many maps.
     """
 
     slack_share: int
@@ -63,10 +62,7 @@ class PanelProof(Protocol):
         ...
 
     def remainder(self, coefficients: Rows, singularities: Singularities) -> Float[Array, "k p"]:
-        """Bounds how far ``sum_j D_j coefficients_j`` departs from its estimate by the end values.
-
-        The caller of :meth:`bounds` adds an allowance for rounding.
-        """
+        """Bounds how far ``sum_j D_j coefficients_j`` is from its estimate, but for rounding."""
         ...
 
     @staticmethod
@@ -114,10 +110,9 @@ def _not_tiled(what: str) -> GeometryError:
 
 
 def split(panels: Panels, known: T, chosen: Array, evaluate: Callable[..., T]) -> tuple[Panels, T]:
-    """Panels with the chosen, divisible ones halved, and what is known of each panel.
+    """With the chosen, divisible panels halved, and what is known of each.
 
-    ``known`` is a pytree of NumPy arrays over the panels; ``evaluate(start, end)`` makes it for the
-    new ones.
+    ``known`` is a pytree of arrays over the panels; ``evaluate(start, end)`` makes it for new ones.
     """
     finer, parent = panels.split(chosen)
     new = chosen[parent]

@@ -33,10 +33,8 @@ _GROUP = 16  # pieces whose maps are evaluated together
 
 @dataclass(frozen=True)
 class PieceCertificate:
-    """What is proved of ``(1 - t) f_0 + t f_1`` on the boundary for every ``t`` in [0, 1].
-
-    Where it is not certified the bounds are infinite.
-    """
+    """What is proved of ``(1 - t) f_0 + t f_1`` on the boundary for every ``t`` in [0, 1]; where it
+    is not certified the bounds are infinite."""
 
     certified: bool
     """Whether ``|f_z| > |f_zbar|`` is proved at every time."""

@@ -85,10 +85,8 @@ def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb
         return document.image, motion, [pose.pose for pose in document.poses]
     motion = glid_nb.Motion.load(chosen.source)
     if chosen.picture is None or chosen.loop not in (None, motion.repeat):
-        raise InputError(
-            f"{chosen.source} is a saved motion: name its picture by --picture, and leave out "
-            "--loop, for it has its own"
-        )
+        advice = "name its picture by --picture, and leave out --loop, for it has its own"
+        raise InputError(f"{chosen.source} is a saved motion: {advice}")
     if chosen.seconds is not None:
         longer = _seconds(chosen) / motion.duration
         own = {key: getattr(motion, key) for key in _SETTINGS}

@@ -25,8 +25,7 @@ from glid_nb.cli.trace import cage_data, size_in_words
 DEFAULT_SAMPLE = "gecko"
 DEFAULT_POSE = "gentle"
 _FILES = ("deformed.png", "overview.png", "cage.json", "map.json", "report.json")
-# The picture is zoomed out if more than this share of the shape leaves its frame.
-_CROPPED = 1e-3
+_CROPPED = 1e-3  # the picture is zoomed out if more than this share of the shape leaves its frame
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -13,6 +13,7 @@ from glid_nb.certificate.rounding import rounded_down, rounded_up
 
 _TIMES = {"compile": 2, "solve": 3, "certify": 3}
 _LONG = ("history", "attempts", "refinements", "options", "versions", "machine")
+_BASIS = "{unknowns} unknowns: {energy:.6g}, {solve_time:.3f} s"
 _INJECTIVE = {
     "yes": "locally and globally",
     "no": "locally only",
@@ -96,10 +97,7 @@ def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("iterations", f"{report['iterations']}"),
         ("energy", f"{e}  ({energy}: {e_iso}, targets: {e_p2p})"),
         *(("ways", _attempt(one)) for one in report["attempts"]),
-        *(
-            ("bases", f"{one['unknowns']} unknowns: {one['energy']:.6g}, {one['solve_time']:.3f} s")
-            for one in report["refinements"]
-        ),
+        *(("bases", _BASIS.format(**one)) for one in report["refinements"]),
         ("certified", "yes" if report["certified"] else "no"),
         ("sigma_2", f">= {_bounded(report['sigma2_lower'], rounded_down, 6)}"),
         ("sigma_1", f"<= {_bounded(report['sigma1_upper'], rounded_up, 6)}"),

@@ -2,8 +2,7 @@
 
 PROBLEM.json is an object with the keys cage, holes, handles and targets (world coordinates);
 offset, offset_cage, offset_holes and hole_points are used when given, and image_size_px and depths
-go into the map. Without --report only the
-map is written, without --out only the report.
+go into the map. Without --report only the map is written, without --out only the report.
 """
 
 import argparse

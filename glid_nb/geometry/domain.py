@@ -25,8 +25,7 @@ _DEFAULT_OFFSET = 0.005
 _LONG, _LONG_SHARE, _VERY_LONG = 3.0, 0.3, 10.0
 # The pieces' length in widths, and their least length as a share of the cage's longer side.
 _PIECE, _LEAST_PIECE = 0.5, 0.02
-# At so many points of an edge the width is taken.
-_SAMPLES = 32
+_SAMPLES = 32  # at so many points of an edge the width is taken
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -35,28 +34,19 @@ class Domain:
 
     The basis is singular at the offset cage's vertices and the hole points, all outside the closed
     domain bounded by `cage`, and smooth on that domain (section 5 and appendix D of Chen & Weber
-    2017). Domains are compared and hashed by identity, so that they can key a cache.
-
-    Parameters
-    ----------
-    cage
-        Boundary P of the certified domain.
-    offset_cage
-        P^, with the exterior loop outside that of `cage` and hole i inside hole i of `cage`.
-        Vertex counts may differ from those of `cage`.
-    hole_points
-        (N, 2), one point strictly inside each hole of `offset_cage`, in the same order; by default
-        they are chosen.
-    notes
-        Sentences about choices made, such as a reduced offset.
-
-    Where the parts do not fit a GeometryError names the loop and the place.
+    2017). Domains are compared and hashed by identity, so that they can key a cache. Where the
+    parts do not fit a GeometryError names the loop and the place.
     """
 
     cage: Cage
+    """Boundary P of the certified domain."""
     offset_cage: Cage
+    """P^, with the exterior loop outside that of `cage` and hole i inside hole i of `cage`. Vertex
+    counts may differ from those of `cage`."""
     hole_points: NDArray[np.float64]
+    """(N, 2), one strictly inside each hole of `offset_cage`, in order; by default chosen."""
     notes: tuple[str, ...]
+    """Sentences about choices made, such as a reduced offset."""
 
     def __init__(
         self,
@@ -177,12 +167,9 @@ def _check_enclosed(cage: Cage, offset_cage: Cage) -> None:
 
 def _checked_hole_points(points: ArrayLike, offset_cage: Cage) -> NDArray[np.float64]:
     """(N, 2) read-only points, one in each offset hole."""
-    checked = number_pairs(
-        points,
-        "hole points must be pairs of numbers [[x, y], ...]",
-        GeometryError,
-        "hole points must have the shape (N, 2), not",
-    )
+    wanted, shape = "be pairs of numbers [[x, y], ...]", "have the shape (N, 2), not"
+    begin = "hole points must"
+    checked = number_pairs(points, f"{begin} {wanted}", GeometryError, f"{begin} {shape}")
     if len(checked) != offset_cage.n_holes:
         raise GeometryError(
             f"{len(checked)} hole points given for a cage with {offset_cage.n_holes} holes; "

@@ -20,18 +20,15 @@ from glid_nb.geometry.cage import Cage
 
 # Least distance of an offset edge from the cage, as a share of the smaller distance at its ends.
 CLEARANCE = 0.3
-# Longest mitre at an acute convex corner, in distances.
-MITRE_LIMIT = 4.0
+MITRE_LIMIT = 4.0  # longest mitre at an acute convex corner, in distances
 
 # Share of a passage's width that either side's offset may take, so that the clearance remains.
 _PASSAGE_SHARE = 1.0 / (2.0 + CLEARANCE)
 # Passages of at least this ratio of length to width are limited before anything else: offsets that
 # pass through each other along a whole passage are seen to meet only at its ends.
 _PASSAGE_LENGTH = 4.0
-# Greatest change of the distance per unit of arc length.
-_SLOPE = 0.5
-# Least length of an offset edge, as a share of its cage edge.
-_KEPT_LENGTH = 0.1
+_SLOPE = 0.5  # greatest change of the distance per unit of arc length
+_KEPT_LENGTH = 0.1  # least length of an offset edge, as a share of its cage edge
 # Rounds of local shrinking before the whole offset is halved, and rounds of halving.
 _LOCAL_ROUNDS = 60
 _GLOBAL_ROUNDS = 30
@@ -96,10 +93,7 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
 
 
 def hole_points(cage: Cage) -> NDArray[np.float64]:
-    """(N, 2) points, one strictly inside each hole of an offset cage.
-
-    Each is the centre of the largest inscribed circle; a GeometryError for too narrow a hole.
-    """
+    """(N, 2) centres of the largest circles in holes; a GeometryError for too narrow a hole."""
     points = np.empty((cage.n_holes, 2))
     for i, hole in enumerate(cage.holes):
         region = shapely.Polygon(hole)
@@ -292,10 +286,9 @@ def _notes(corners: _Corners, local: Array, distance: float) -> tuple[str, ...]:
         if reduced:
             least, count = int(np.argmin(distances)), len(distances)
             share = "everywhere" if reduced == count else f"at {reduced} of {count} vertices"
+            where = f"vertex {least} {place(corners.points[corners.starts[loop] + least])}"
             notes.append(
                 f"{loop_name(loop)}: the offset {distance:.4g} was reduced {share}, to "
-                f"{distances[least]:.4g} at vertex {least} "
-                f"{place(corners.points[corners.starts[loop] + least])}, because there is no room "
-                "for more."
+                f"{distances[least]:.4g} at {where}, because there is no room for more."
             )
     return tuple(notes)

@@ -25,8 +25,7 @@ R = TypeVar("R")
 FORMAT = "glid_nb-map"
 FORMAT_VERSION = 1
 
-# Squares of larger coefficients, times those of the basis, overflow.
-_LARGEST = 1e120
+_LARGEST = 1e120  # squares of larger coefficients, times those of the basis, overflow
 
 
 class MapError(InputError):

@@ -15,8 +15,7 @@ from glid_nb.imaging.texture import Sampler, Texture, gradients
 
 _BAND = 1 << 17  # pixels drawn at a time, to bound the memory
 
-# Rows and columns of the samples in an outline pixel.
-SUBSAMPLES = 8
+SUBSAMPLES = 8  # rows and columns of the samples in an outline pixel
 
 Ints = NDArray[np.integer]
 Floats = NDArray[np.float64]

@@ -18,8 +18,7 @@ RATIO = 0.8
 # A Newton direction may be too short while the Hessian is modified; trying up to twice its length
 # costs nothing and saved up to a tenth of the iterations on the reference shapes.
 LONGEST_STEP = 2.0
-# Sufficient decrease, the constant c of Algorithm 1.
-ARMIJO = 1e-4
+ARMIJO = 1e-4  # sufficient decrease, the constant c of Algorithm 1
 # Closest that a step may come to the first inversion at a sample. Going further lowers the energy
 # more at once, but leaves the next iterations next to the barrier (0.95 took 12 instead of 8
 # iterations on one reference shape).

@@ -33,8 +33,7 @@ SAME_ENERGY = 1e-6
 STAGES = (1e-5, 1e-3, 1e-1)
 STAGE_ITERATIONS, STAGE_TOLERANCE = 8, 1e-3
 TURNING_ITERATIONS = 4
-# Fewer most iterations than these ask for a look at them, not for the minimum.
-FEW_ITERATIONS = 20
+FEW_ITERATIONS = 20  # fewer most iterations than these ask for a look at them, not for the minimum
 
 
 def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:

@@ -25,8 +25,7 @@ from glid_nb.harmonic import as_complex
 from glid_nb.solvers.pose import Pose, rigid_motion
 
 _VERTICES = 300
-# Handles of one part stray by less than this share of the extent from a rigid motion.
-_RIGID = 0.02
+_RIGID = 0.02  # handles of one part stray by less than this share of the extent from a rigid motion
 # Parts that turn by less are not led the other way round.
 _LEAST_TURN = np.deg2rad(10)
 _STAGE = np.deg2rad(40)

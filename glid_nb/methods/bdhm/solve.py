@@ -23,8 +23,7 @@ from glid_nb.solvers import Iteration, Method, MethodError, Result, Status
 from glid_nb.solvers.loop import Ending, GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.method import Inputs
 
-# How much of the margin the proof may take.
-_PROOF = 0.4
+_PROOF = 0.4  # how much of the margin the proof may take
 # How often one program is solved again with more samples.
 _ROUNDS = 10
 _HALVINGS = 12
@@ -33,8 +32,7 @@ _INWARD = 0.9
 # Before the first full step one program is enough, whose solution is cut short anyway, unless it
 # is cut shorter than this.
 _SHORT = 1 / 64
-# An energy as good as none, to which the tolerance is not relative any more.
-_NOTHING = 1e-10
+_NOTHING = 1e-10  # an energy as good as none, to which the tolerance is not relative any more
 # What a program's duality gap may be: relative to the decrease that counts as none, and in itself.
 _GAP, _LEAST_GAP, _MOST_GAP = 0.01, 1e-12, 1e-6
 

@@ -26,8 +26,7 @@ from glid_nb.solvers.unknowns import expand, restrict_gradient, restrict_hessian
 
 Curvature = Literal["exact", "projected", "gauss-newton", "dirichlet"]
 
-# A decrease promised by the direction that rounding of the energy can hide.
-_ROUNDING = 1e-8
+_ROUNDING = 1e-8  # a decrease promised by the direction that rounding of the energy can hide
 # The same for a first-order direction, which promises far more than a step can hold.
 _SMALL_SLOPE = 1e-4
 # A direction longer than this multiple of the coefficients is shortened: the line search works on
