@@ -93,7 +93,9 @@ def _source(image: str) -> tuple[Path, str | None]:
     return glid_nb.samples.path(image), image
 
 
-def _pose(wanted: str | None, sample: str | None, domain: Domain) -> tuple[Pose, str]:
+def _pose(
+    wanted: str | None, sample: str | None, domain: glid_nb.Domain
+) -> tuple[glid_nb.Pose, str]:
     """The pose, and where it comes from, in words."""
     if wanted is None and sample is None:
         return glid_nb.suggest_pose(domain), "chosen automatically (give your own with --pose)"
