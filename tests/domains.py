@@ -29,10 +29,7 @@ def circle(n: int, radius: float, centre: complex = 0, turn: float = 0) -> Array
 
 @functools.cache
 def domain(name: str) -> Domain:
-    """`ell`, `ring`, `twin`, `triple`, or `annulus` with many vertices.
-
-    In `ell` and `triple` the basis is padded, in `ring` and `twin` it is not.
-    """
+    """`ell`, `ring`, `twin`, `triple`, or `annulus` with many vertices."""
     if name == "ell":
         return Domain.from_cage(Cage(_ELL), 0.3)
     if name == "ring":

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -37,17 +37,21 @@ def proof_text(certificate: Certificate) -> str:
         # What is claimed does not depend on the panels, and these are fewer than uniform ones.
         pieces = dyadic_panels(graded_panels(map_.domain), loops)
     values = {key: value for key, value in map_.to_dict().items() if key != "notes"}
-    return json_text(
+    return exact_text(
         {
-            # Every number as the hexadecimal text of its 64 bits.
-            **json.loads(json_text(values), parse_float=lambda text: float(text).hex()),
+            **values,
             "format": FORMAT,
             "version": FORMAT_VERSION,
-            **{key: getattr(certificate, key).hex() for key in bounds},
+            **{key: getattr(certificate, key) for key in bounds},
             "windings": list(certificate.windings),
             "panels": pieces,
         }
     )
+
+
+def exact_text(values: dict[str, Any]) -> str:
+    """Plain values as JSON, with every float as the hexadecimal text of its 64 bits."""
+    return json_text(json.loads(json_text(values), parse_float=lambda text: float(text).hex()))
 
 
 def dyadic_panels(panels: Panels, loops: Iterable[Array]) -> list[list[list[int]]] | None:

@@ -3,7 +3,8 @@
 SOURCE is a session (.glid), whose poses are the keyframes, as its timeline has them, or a file of
 `Motion.save`, which needs --picture. The suffix of --out says the format: .gif, .apng, .mp4 and
 .webm (with the extra `video`), .html for a page, .glb for a mesh with morph targets, .sheet.png for
-a sprite sheet with its JSON, .zip for frames as PNG, none for a folder of them.
+a sprite sheet with its JSON, .zip for frames as PNG, none for a folder of them, .motion.json for
+the motion and, as .motion.proof.json, what `glid-check` proves of it.
 """
 
 import argparse

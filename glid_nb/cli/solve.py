@@ -1,8 +1,9 @@
 """Solve a problem given as a file, and write the map and a report.
 
 PROBLEM.json is an object with the keys cage, holes, handles and targets (world coordinates);
-offset, offset_cage, offset_holes and hole_points are used when given, and image_size_px and depths
-go into the map. Without --report only the map is written, without --out only the report.
+offset, offset_cage, offset_holes, hole_points, angles, scales and weights (of the handles) are used
+when given, and image_size_px and depths go into the map. Without --report only the map is written,
+without --out only the report.
 """
 
 import argparse

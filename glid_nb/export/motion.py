@@ -17,7 +17,7 @@ from glid_nb.export.page import page_html
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import check_fits
-from glid_nb.motion import Motion
+from glid_nb.motion import Motion, file
 from glid_nb.solvers import Pose
 
 MOTION_FORMATS = {
@@ -29,6 +29,7 @@ MOTION_FORMATS = {
     ".glb": "Moving mesh (glTF)",
     ".sheet.png": "Sprite sheet (PNG and JSON)",
     ".zip": "Frames (PNG in a zip)",
+    ".motion.json": "Motion and proof for glid-check (JSON)",
 }
 """What each suffix of a moving picture stands for. A name without one is a folder of frames."""
 
@@ -71,7 +72,8 @@ def motion_files(
     """A motion as files, by name: that of the given name, and what comes with it.
 
     The suffix says the format: one of `MOTION_FORMATS`, of which .mp4 and .webm need
-    ``glid-nb[video]``; .sheet.png comes with .sheet.json; without a suffix frames are in a folder.
+    ``glid-nb[video]``; .sheet.png comes with .sheet.json, .motion.json with .motion.proof.json, as
+    `Motion.save` writes them; without a suffix frames are in a folder.
     The image, (h, w), (h, w, 3) or (h, w, 4), is the one that the cage was traced from. The depths
     of poses, one per keyframe, say which part is in front where the shape overlaps itself.
 
@@ -95,6 +97,9 @@ def motion_files(
         encode.check_video()
     if suffix == ".html":
         return {name: page_html(image, motion, title=name[:-5], pose=poses, loop=loop).encode()}
+    if suffix == ".motion.json":
+        texts = map(str.encode, file.texts(motion))
+        return dict(zip(motion_file_names(name), texts, strict=True))
     if suffix == ".glb":
         return {name: motion_glb(image, motion, poses)}
     fps = frames_per_second
@@ -118,8 +123,9 @@ def motion_files(
 
 
 def motion_file_names(name: str) -> tuple[str, ...]:
-    """The name and those of the files that come with it: a sprite sheet has its JSON."""
-    return (name, f"{name[:-4]}.json") if suffix_of(name) == ".sheet.png" else (name,)
+    """The name and those of the files that come with it: a sheet's JSON, a motion's proof."""
+    beside = {".sheet.png": ".json", ".motion.json": ".proof.json"}.get(suffix_of(name))
+    return (name,) if beside is None else (name, str(Path(name).with_suffix(beside)))
 
 
 def suffix_of(name: str) -> str:

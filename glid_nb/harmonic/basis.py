@@ -80,7 +80,8 @@ def basis_of(domain: Domain) -> Basis:
     rho = domain.hole_points_complex
     m, n_holes = len(vertices), len(rho)
 
-    hole_padding = next(b for b in (*_HOLE_BUCKETS, n_holes) if b >= n_holes) - n_holes
+    least = 4 if n_holes and m + 4 <= 64 else n_holes  # small domains share programs
+    hole_padding = next(b for b in (*_HOLE_BUCKETS, n_holes) if b >= max(n_holes, least)) - n_holes
     own = m + n_holes + hole_padding
     padding = column_bucket(own) - own
     if padding in (1, 2):  # a loop has at least 3 vertices

@@ -80,9 +80,9 @@ class Components:
         row, column = PixelFrame(width=width, height=height).index_at(point, "component_at")
         found = self.found[row, column]
         if found == 0:
+            where = f"component_at: the pixel ({point[0]:g}, {point[1]:g})"
             raise TraceError(
-                f"component_at: the pixel ({point[0]:g}, {point[1]:g}) is background; pick a pixel "
-                "of the shape",
+                f"{where} is background; pick a pixel of the shape",
                 "There is only background at the place that was picked; pick a place on the shape",
             )
         return int(np.flatnonzero(self.labels == found)[0])
@@ -152,11 +152,9 @@ def find_outline(
     inside = np.zeros(components.found.shape, dtype=bool)
     inside[crop] = part
     n_specks = specks + len(loops) - len(chosen)
-    notes = (
-        f"the outline is very rough: it was traced in blocks of {block} x {block} pixels; more "
-        "smoothing, or another way to find the foreground, may help",
-    )
-    notes = notes if block > 1 else ()
+    rough = f"the outline is very rough: it was traced in blocks of {block} x {block} pixels"
+    help = "more smoothing, or another way to find the foreground, may help"
+    notes = (f"{rough}; {help}",) if block > 1 else ()
     return Outline(component, exterior, tuple(holes), n_specks, least, notes, inside)
 
 

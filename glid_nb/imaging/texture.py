@@ -127,11 +127,7 @@ class Sampler:
         number = np.divmod(np.arange(len(point)) - first[point], self._probes[seen, 1])
         share = np.stack(number, axis=1) - (self._probes[seen] - 1) / 2
         colours = _bicubic(self._pixels, place[point] + _times(self._steps[seen], share) - 0.5)
-        total = (
-            np.add.reduceat(colours, first) / (65535 * n_lookups[:, None])
-            if len(first)
-            else colours
-        )
+        total = np.add.reduceat(colours, first) / (65535 * n_lookups[:, None])
         # Distance from the picture, in output pixels.
         outside = np.maximum(-place, place - self._size).max(axis=1)
         total *= (1 - outside / np.maximum(self._radius[triangle], 1e-6)).clip(0, 1)[:, None]

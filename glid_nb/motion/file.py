@@ -10,6 +10,8 @@ import numpy as np
 
 from glid_nb import _json
 from glid_nb._errors import about
+from glid_nb.certificate import certificate_of
+from glid_nb.certificate.proof import exact_text
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic import map as maps
 from glid_nb.motion.settings import MotionError
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
     from glid_nb.motion.motion import Motion
 
 FORMAT = "glid_nb-motion"
+PROOF_FORMAT = "glid_nb-motion-proof"
 FORMAT_VERSION = 1
 
 _MOST_KNOTS = 10_000
@@ -32,23 +35,33 @@ _OPTIONAL = {"handles": _json.check_points, "notes": _json.anything}
 _KNOT = {"time": _json.anything, "phi": _json.anything, "psi": _json.anything}
 
 
-def save(path: str | Path, motion: Motion) -> None:
-    """Write a motion, atomically; numbers read back bit for bit."""
+def texts(motion: Motion, proof: bool = True) -> tuple[str, ...]:
+    """The motion's file, and the proof that ``glid-check`` reads; MotionError if there is none."""
     pieces = motion.pieces_forth
     knots = [(pieces[0].start, pieces[0].start_map), *((p.end, p.end_map) for p in pieces)]
     handles = {} if motion.handles is None else {"handles": motion.handles.tolist()}
-    data = {
-        "format": FORMAT,
+    shared = {
         "version": FORMAT_VERSION,
         **motion.domain.to_dict(),
-        **{key: getattr(motion, key) for key in _SETTINGS},
-        **handles,
         "knots": [
             {"time": time, **{key: map.to_dict()[key] for key in ("phi", "psi")}}
             for time, map in knots
         ],
     }
-    _json.write_json(path, data)
+    settings = {key: getattr(motion, key) for key in _SETTINGS}
+    text = _json.json_text({"format": FORMAT, **shared, **settings, **handles})
+    if not proof:
+        return (text,)
+    if not motion.certificate.certified:
+        raise MotionError(f"there is no proof to write: {motion.certificate.reason}")
+    proofs = motion.certificate.pieces[: len(pieces)]
+    claims = {
+        "format": PROOF_FORMAT,
+        "pieces": [[p.sigma2_lower, p.sigma1_upper, p.k_upper] for p in proofs],
+        "windings": list(certificate_of(motion.keyframes[0]).windings),
+    }
+    del shared["notes"]
+    return text, exact_text({**shared, **claims})
 
 
 def load(path: str | Path, cls: type[Motion]) -> Motion:

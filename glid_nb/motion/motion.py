@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from glid_nb._arrays import Array, number_pairs, read_only
+from glid_nb._files import write_text_atomically
 from glid_nb._runtime import single_blas_thread
 from glid_nb.certificate.pieces import PieceCertificate, certify_pieces
 from glid_nb.certificate.rounding import rounded_down
@@ -236,9 +237,14 @@ class Motion:
             tolerance /= 8  # shorter pieces follow the curve more closely
         return linear_pieces(times, maps), proofs
 
-    def save(self, path: str | Path) -> None:
-        """Write keyframes, settings and pieces as JSON, atomically."""
-        file.save(path, self)
+    def save(self, path: str | Path, proof: str | Path | None = None) -> None:
+        """Write keyframes, settings and pieces as JSON, and the proof that ``glid-check`` reads.
+
+        Raises MotionError for a proof of a motion that is not certified; then nothing is written.
+        """
+        paths = [path] if proof is None else [path, proof]
+        for to, text in zip(paths, file.texts(self, proof is not None), strict=True):
+            write_text_atomically(Path(to), text)
 
     @classmethod
     def load(cls, path: str | Path) -> Motion:

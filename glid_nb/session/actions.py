@@ -7,7 +7,7 @@ import bisect
 import itertools
 import operator
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -50,9 +50,9 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
     wanted = _places_now(state, points) if targets is None else _points(targets, "to")
     depths = state.order.depths(points).round(2) + 0.0
     added = Pose(points, wanted, depths)
-    fields = ("handles", "targets", "depths")
-    parts = (np.concatenate([getattr(p, name) for p in (pose, added)]) for name in fields)
-    return state.changed(pose=Pose(*parts))
+    names = (known.name for known in fields(Pose))
+    parts = {name: np.concatenate([getattr(p, name) for p in (pose, added)]) for name in names}
+    return state.changed(pose=Pose(**parts))
 
 
 def remove_handles(state: EditState, indices: Iterable[int], keep_shape: bool = False) -> EditState:
@@ -105,6 +105,45 @@ def set_depths(state: EditState, indices: Iterable[int], depths: ArrayLike) -> E
     return state.with_current(replace(state.current, pose=pose))
 
 
+def set_pins(state: EditState, indices: Iterable[int], **numbers: ArrayLike | None) -> EditState:
+    """Give some handles other ``angles`` (radians), ``scales`` or ``weights``; None sets free."""
+    chosen, changed = _checked_indices(state, indices), {}
+    for name, values in numbers.items():
+        changed[name] = np.array(getattr(state.pose, name))
+        changed[name][chosen] = np.nan if values is None else values
+    pose = replace(state.pose, **changed)
+    if pose.pins_alike(state.pose):
+        return state
+    state.current.method.check_pose(pose)
+    return state.changed(pose=pose)
+
+
+def turned_now(state: EditState, indices: Iterable[int]) -> tuple[Array, Array]:
+    """Angles and scales (h,) of handles: those that are wanted, else those of the shape there."""
+    pose = state.pose.only(_checked_indices(state, indices))
+    fz = state.map.wirtinger(pose.handles)[0]
+    free = np.angle(fz), np.abs(fz)
+    wanted = pose.angles, pose.scales
+    return tuple(np.where(np.isnan(w), f, w) for w, f in zip(wanted, free, strict=True))
+
+
+def turn(
+    state: EditState, indices: Iterable[int], by: float = 0.0, scale: float = 1.0
+) -> EditState:
+    """Turn (radians) and scale the shape at some handles, from what it is there."""
+    chosen = _checked_indices(state, indices)
+    if not len(chosen):
+        return state
+    angles, scales = turned_now(state, chosen)
+    changed = {"angles": wrapped(angles + by)} if by else {}
+    return set_pins(state, chosen, **changed, **({"scales": scales * scale} if scale != 1 else {}))
+
+
+def wrapped(angles: Array) -> Array:
+    """The same angles between -pi and pi."""
+    return np.angle(np.exp(1j * angles))
+
+
 def bring_forward(state: EditState, indices: Iterable[int], steps: float = 1) -> EditState:
     """Raise the depths of some handles by a number of steps, up to 100; lower them by negative."""
     chosen = _checked_indices(state, indices)
@@ -134,6 +173,7 @@ def set_method(state: EditState, method: Method | str, **settings: Any) -> EditS
     """Solve by another of :mod:`glid_nb.methods`, or its name; refused when it cannot run."""
     method = methods.by_name(method, **settings) if isinstance(method, str) else method
     method.check(state.current.energy)
+    method.check_pose(state.pose)
     return state.changed(method=method)
 
 

@@ -50,7 +50,8 @@ class Problem:
 
         Its keys ``cage``, ``handles`` and ``targets`` are required, ``holes`` is optional, all in
         world coordinates. ``offset`` (a distance), ``offset_cage``, ``offset_holes`` and
-        ``hole_points`` are chosen when missing; ``depths`` are 0. Other keys are ignored.
+        ``hole_points`` are chosen when missing; ``depths``, ``angles``, ``scales`` and ``weights``
+        are as in :class:`~glid_nb.Pose`. Other keys are ignored.
 
         Raises
         ------
@@ -81,7 +82,7 @@ class Problem:
 
 
 def load_pose(path: str | Path) -> Pose:
-    """Read ``handles``, ``targets`` and perhaps ``depths`` from a JSON file; ignore other keys.
+    """Read what `Pose.to_dict` writes from a JSON file; ignore other keys.
 
     An InputFileError names the file and the culprit if it does not hold a valid pose.
     """

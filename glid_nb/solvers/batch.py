@@ -49,6 +49,9 @@ def solve_batch(
     options: Options | None = None,
     devices: Sequence[Any] | None = None,
     depths: ArrayLike | None = None,
+    angles: ArrayLike | None = None,
+    scales: ArrayLike | None = None,
+    weights: ArrayLike | None = None,
 ) -> tuple[Result, ...]:
     """Deform one shape into many poses.
 
@@ -67,7 +70,7 @@ def solve_batch(
     devices : sequence of jax.Device, optional
         By default all local ones. On several hosts under ``jax.distributed`` each call uses the
         devices of its own host; give every host its share of the poses.
-    depths : (h,) array_like, optional
+    depths, angles, scales, weights : (h,) array_like, optional
         Of the handles in every pose, as in :class:`glid_nb.Pose`.
 
     Returns
@@ -86,7 +89,8 @@ def solve_batch(
     check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
     check_type("options", options, Options | None, "write Options(p2p_weight=...)")
     energy, options = as_energy(energy), Options() if options is None else options
-    poses = _poses(handles, targets, depths)
+    more = {"depths": depths, "angles": angles, "scales": scales, "weights": weights}
+    poses = _poses(handles, targets, more)
     if not poses:
         return ()
     poses[0].check_inside(domain)
@@ -94,7 +98,9 @@ def solve_batch(
     given = [Inputs(domain=domain, pose=pose, energy=energy, options=options) for pose in poses]
     # A CPU gains nothing from lockstep, in which every pose takes every branch; and the thread pool
     # of XLA 0.10 was seen to lose tasks of such programs and to wait for them for ever.
-    each = _one_by_one if devices[0].platform == "cpu" else _in_lockstep
+    # Where angles or scales are wanted, the poses have no rows in common.
+    alone = devices[0].platform == "cpu" or poses[0].turned.any()
+    each = _one_by_one if alone else _in_lockstep
     return each(given, devices)
 
 
@@ -140,7 +146,7 @@ def _checked_devices(devices: Any) -> tuple[Any, ...]:
     return given
 
 
-def _poses(handles: ArrayLike, targets: ArrayLike, depths: ArrayLike | None) -> list[Pose]:
+def _poses(handles: ArrayLike, targets: ArrayLike, more: dict[str, Any]) -> list[Pose]:
     try:
         rows = np.asarray(targets)
     except ValueError as error:
@@ -150,7 +156,7 @@ def _poses(handles: ArrayLike, targets: ArrayLike, depths: ArrayLike | None) -> 
     poses = []
     for i, row in enumerate(rows):
         with about(f"pose {i}", PoseError):
-            poses.append(Pose(handles, row, depths))
+            poses.append(Pose(handles, row, **more))
     return poses
 
 

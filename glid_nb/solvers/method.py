@@ -134,6 +134,15 @@ class Method:
             self._import(self.package)
         self.check_energy(energy)
 
+    def check_pose(self, pose: Pose) -> None:
+        """Raise :class:`MethodError` if it cannot hold what is wanted of a handle."""
+        if pose.turned.any() and not self.certified:
+            raise MethodError(
+                f"the method {self.name!r} cannot hold the angle or the scale of handle "
+                f"{int(pose.turned.argmax())}; leave them free, or choose Newton's method, L-BFGS "
+                "or another that moves the certified map"
+            )
+
     def check_energy(self, energy: Energy) -> None:
         """Raise :class:`MethodError` if it cannot minimise this energy."""
         if self.energies is not None and energy.name not in self.energies:

@@ -9,11 +9,12 @@ import numpy as np
 from glid_nb._arrays import Array
 from glid_nb._jax import jit, jnp
 from glid_nb._runtime import double_precision
+from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import evaluation, status, step
 from glid_nb.solvers.loop import Advance, Ending, Stopwatch, follow
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.options import Options
-from glid_nb.solvers.problem import Problem
+from glid_nb.solvers.problem import Problem, map_from
 from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Iteration, Result
 from glid_nb.solvers.status import Status
@@ -65,7 +66,6 @@ class NewtonDescent(SubspaceDescent):
 
     def __init__(self, method: Method, inputs: Inputs) -> None:
         super().__init__(method, inputs, reduced=True)
-        self.problem = self.problem._replace(p2p_hessian=_p2p_hessian(self.problem))
         singular = len(inputs.pose) < 2
         self.ridge, self._least_ridge = (_SINGULAR_RIDGE, _RIDGE) if singular else (0.0, 0.0)
         self.full_since: int | None = None
@@ -82,7 +82,7 @@ class NewtonDescent(SubspaceDescent):
             and start.factor is not None
             and start.discretisation is self.discretisation
             and start.energy_measure == self.problem.energy
-            and np.array_equal(start.pose.handles, self.inputs.pose.handles)
+            and start.pose.pins_alike(self.inputs.pose)
             and (theirs.p2p_weight, theirs.conformal) == (mine.p2p_weight, mine.conformal)
         )
 
@@ -137,7 +137,8 @@ class NewtonDescent(SubspaceDescent):
     def adapt(self, done: Advance) -> Ending | None:
         """Take the full Hessian or another ridge where that may help; else end."""
         if done.outcome == status.CONVERGED:
-            return Ending(Status.CONVERGED)
+            now = map_from(self.inputs.domain, self.point.coefficients)
+            return None if self.pin(now) else Ending(Status.CONVERGED)
         if done.iterations:
             self._relax_ridge()
             # Other nodes make no fewer iterations with K+, which are slow anyway.
@@ -152,6 +153,11 @@ class NewtonDescent(SubspaceDescent):
             return None
         hidden = _ROUNDING * abs(float(self.point.energy))
         return Ending(Status.STATIONARY if self.decrement**2 / 2 <= hidden else Status.BLOCKED)
+
+    def pin(self, map: HarmonicMap) -> bool:
+        changes = super().pin(map)
+        self.problem = self.problem._replace(p2p_hessian=_p2p_hessian(self.problem))
+        return changes
 
     def split(self, refused: Array) -> int:
         count = super().split(refused)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,13 @@ from glid_nb.geometry import Domain, place
 _FARTHEST = 1e6
 DEEPEST = 100.0
 """Largest depth of a handle."""
+# What a handle may have beside its target: least, most, and what it has otherwise.
+_MORE = {
+    "depths": (-DEEPEST, DEEPEST, 0.0),
+    "angles": (-1e3, 1e3, np.nan),
+    "scales": (0.01, 100.0, np.nan),
+    "weights": (1e-6, 1e6, 1.0),
+}
 
 
 class PoseError(InputError):
@@ -37,6 +44,13 @@ class Pose:
     depths : (h,) array_like, optional
         Where parts of the shape overlap, those near handles of greater depth are drawn in front;
         -100 to 100, by default 0. They change no map.
+    angles, scales : (h,) array_like, optional
+        By how much the shape is turned (radians) and scaled at each handle: ``f_z`` there should
+        be ``scale exp(i angle)``. None or NaN, the default, leaves one of them or both free. For
+        methods in the harmonic subspace.
+    weights : (h,) array_like, optional
+        How firmly each handle is held, relative to ``Options.p2p_weight``; by default 1. For
+        methods in the harmonic subspace.
 
     Raises
     ------
@@ -48,9 +62,19 @@ class Pose:
     handles: Array
     targets: Array
     depths: Array
+    angles: Array
+    scales: Array
+    weights: Array
 
     def __init__(
-        self, handles: ArrayLike, targets: ArrayLike, depths: ArrayLike | None = None
+        self,
+        handles: ArrayLike,
+        targets: ArrayLike,
+        depths: ArrayLike | None = None,
+        *,
+        angles: ArrayLike | None = None,
+        scales: ArrayLike | None = None,
+        weights: ArrayLike | None = None,
     ) -> None:
         object.__setattr__(self, "handles", _checked_points(handles, "handles"))
         object.__setattr__(self, "targets", _checked_points(targets, "targets"))
@@ -60,8 +84,9 @@ class Pose:
                 f"there {_counted(n_handles, 'handle')} but {n_targets} "
                 f"target{'' if n_targets == 1 else 's'}; give one target per handle"
             )
-        given = np.zeros(n_handles) if depths is None else depths
-        object.__setattr__(self, "depths", _checked_depths(given, n_handles))
+        more = {"depths": depths, "angles": angles, "scales": scales, "weights": weights}
+        for name, values in more.items():
+            object.__setattr__(self, name, _checked_numbers(name, values, n_handles))
         _, first, inverse = np.unique(self.handles, axis=0, return_index=True, return_inverse=True)
         repeated = np.flatnonzero(first[inverse.ravel()] != np.arange(n_handles))
         if repeated.size:
@@ -85,16 +110,32 @@ class Pose:
 
     def with_targets(self, targets: ArrayLike) -> Pose:
         """The same handles with other targets."""
-        return Pose(self.handles, targets, self.depths)
+        return replace(self, targets=targets)
 
     def only(self, kept: Any) -> Pose:
         """Some of the handles, by their indices or a mask."""
-        return Pose(self.handles[kept], self.targets[kept], self.depths[kept])
+        return Pose(**{known.name: getattr(self, known.name)[kept] for known in fields(self)})
+
+    @property
+    def turned(self) -> Array:
+        """(h,) bool: handles of which an angle or a scale is wanted."""
+        return ~(np.isnan(self.angles) & np.isnan(self.scales))
+
+    def pins_alike(self, other: Pose) -> bool:
+        """Whether the other pose wants the same but for targets and depths."""
+        return all(
+            np.array_equal(getattr(self, name), getattr(other, name), equal_nan=True)
+            for name in ("handles", "angles", "scales", "weights")
+        )
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON values: ``handles``, ``targets``, and ``depths`` where one is not 0."""
-        depths = {"depths": self.depths.tolist()} if self.depths.any() else {}
-        return {"handles": self.handles.tolist(), "targets": self.targets.tolist(), **depths}
+        """Plain JSON values: ``handles``, ``targets``, and what else is not as by default."""
+        more = {}
+        for name, (*_, default) in _MORE.items():
+            values = getattr(self, name)
+            if not np.array_equal(values, np.full(len(self), default), equal_nan=True):
+                more[name] = [None if np.isnan(value) else value for value in values.tolist()]
+        return {"handles": self.handles.tolist(), "targets": self.targets.tolist(), **more}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Pose:
@@ -104,7 +145,8 @@ class Pose:
         for key in ("handles", "targets"):
             if key not in data:
                 raise PoseError(f'the pose lacks the key "{key}"')
-        return cls(data["handles"], data["targets"], data.get("depths"))
+        more = {name: data.get(name) for name in _MORE}
+        return cls(data["handles"], data["targets"], **more)
 
 
 def rigid_motion(z: Array, targets: Array) -> tuple[complex, complex, complex]:
@@ -141,14 +183,19 @@ def _checked_points(points: Any, name: str) -> Array:
     return read_only(array)
 
 
-def _checked_depths(depths: ArrayLike, count: int) -> Array:
-    wanted = f"depths must be {count} numbers from {-DEEPEST:g} to {DEEPEST:g}, one per handle"
+def _checked_numbers(name: str, values: ArrayLike | None, count: int) -> Array:
+    least, most, default = _MORE[name]
+    if values is None:
+        return read_only(np.full(count, default))
+    wanted = f"{name} must be {count} numbers from {least:g} to {most:g}, one per handle"
+    wanted += ", or null where free" if np.isnan(default) else ""
     try:
-        array = real_array(depths)
+        array = real_array(values)
     except (TypeError, ValueError) as error:
         raise PoseError(f"{wanted} ({error})") from error
-    if array.shape != (count,) or not (np.abs(array) <= DEEPEST).all():
-        raise PoseError(f"{wanted}, not {depths!r:.60}")
+    within = (least <= array) & (array <= most) | (np.isnan(array) & np.isnan(default))
+    if array.shape != (count,) or not within.all():
+        raise PoseError(f"{wanted}, not {values!r:.60}")
     return read_only(array)
 
 

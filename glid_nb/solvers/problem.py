@@ -19,6 +19,9 @@ from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.unknowns import Unknowns
 
 _HANDLE_BUCKET = 8
+_TURN = 10.0  # weight of f_z at a handle, beside that of its image
+_FARTHEST_TURN = 1.0  # radians between two measurements
+_SAME_DIRECTION = 1e-4  # radians
 
 
 class Problem(NamedTuple):
@@ -55,14 +58,61 @@ class Positional(NamedTuple):
         return self.matrix.T @ (self.weights * self.residual(y))
 
 
-def positional_energy(domain: Domain, pose: Pose, weight: float) -> Positional:
-    """The positional energy of a pose, its handles padded to a bucket."""
-    count = len(pose)
-    size = _HANDLE_BUCKET * max(1, -(-count // _HANDLE_BUCKET))
-    targets, weights = np.zeros((size, 2)), np.zeros(size)
-    targets[:count], weights[:count] = pose.targets, weight
+def positional_energy(
+    domain: Domain,
+    pose: Pose,
+    weight: float,
+    map: HarmonicMap | None = None,
+    damping: float = 1.0,
+) -> Positional:
+    """The positional energy of a pose, its rows padded to a bucket.
+
+    Angles and scales are rows for ``f_z`` at their handles, measured along a direction that the map
+    decides: that of its own ``f_z``, turned towards the wanted angle by at most a radian. A scale
+    alone asks for ``|f_z|``, whose level sets bend: its second derivative along them is a row too,
+    larger by ``damping``.
+    """
+    count, turned = len(pose), np.flatnonzero(pose.turned) if map is not None else []
+    size = _HANDLE_BUCKET * max(1, -(-(count + len(turned)) // _HANDLE_BUCKET))
+    aims, weights = np.zeros((2, size)), np.zeros((2, size))
+    aims[:, :count], weights[:, :count] = pose.targets.T, weight * pose.weights
     matrix = _matrix_at(domain, pose.handles.tobytes(), size)
-    return Positional(matrix, targets.T.ravel(), np.concatenate([weights, weights]))
+    if map is not None and len(turned):
+        basis, pinned = basis_of(domain), slice(count, count + len(turned))
+        d = _derivatives_at(domain, pose.handles[turned].tobytes())
+        fz, angles, scales = d @ basis.pad(map.phi), pose.angles[turned], pose.scales[turned]
+        left = np.angle(np.exp(1j * np.nan_to_num(angles - np.angle(fz))))
+        d = d * np.exp(-1j * (np.angle(fz) + left.clip(-_FARTHEST_TURN, _FARTHEST_TURN)))[:, None]
+        strain = 1 - scales / np.abs(fz)
+        bends = np.maximum(damping * strain, (1 - damping) * strain).clip(0, 1)
+        aims[0, pinned] = np.nan_to_num(scales)
+        held = np.stack([~np.isnan(scales), np.where(np.isnan(angles), bends, 1)])
+        weights[:, pinned] = _TURN * weight * pose.weights[turned] * held
+        matrix = matrix.reshape(2, size, -1).copy()
+        matrix[:, pinned, : 2 * basis.n_columns] = [
+            np.hstack([np.real(d), -np.imag(d)]),
+            np.hstack([np.imag(d), np.real(d)]),
+        ]
+        matrix = matrix.reshape(2 * size, -1)
+    return Positional(matrix, aims.ravel(), weights.ravel())
+
+
+def measured_apart(a: Positional, b: Positional) -> float:
+    """By how much measurements of angles and scales differ, about radians; 0 where it is no use
+    to go on."""
+    if a.matrix.shape != b.matrix.shape:
+        return _FARTHEST_TURN
+    gaps, lengths = (np.linalg.norm(m, axis=1) for m in (a.matrix - b.matrix, a.matrix))
+    apart = float((gaps / np.maximum(lengths, 1e-300)).max())
+    alike = apart <= _SAME_DIRECTION and np.allclose(a.weights, b.weights, rtol=0.1, atol=0.1)
+    return 0.0 if alike else apart or _SAME_DIRECTION
+
+
+@functools.lru_cache(maxsize=32)
+def _derivatives_at(domain: Domain, points: bytes) -> NDArray[Any]:
+    """(k, c) complex ``D`` at points, kept likewise."""
+    basis, z = basis_of(domain), np.frombuffer(points).reshape(-1, 2) @ np.array([1, 1j])
+    return complex_basis(cauchy.first_derivatives, z, basis)
 
 
 @functools.lru_cache(maxsize=32)

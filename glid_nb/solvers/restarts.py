@@ -70,7 +70,8 @@ def _ways(inputs: Inputs) -> list[tuple[str, list[Inputs], int]]:
 
     A way is a list of problems, each solved from the last one's map; ``inputs`` come last.
     """
-    turning = turning_of(inputs.pose, inputs.domain.cage)
+    positions = replace(inputs.pose, angles=None, scales=None)
+    turning = turning_of(positions, inputs.domain.cage)
     joints, ways = len(turning.joints), list[tuple[str, list[Inputs], int]]()
     if not inputs.energy.is_barrier:
         barrier = replace(inputs, energy=SymmetricDirichlet())

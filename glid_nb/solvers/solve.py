@@ -67,8 +67,8 @@ def solve(
         When the starting map belongs to another domain, is not conformal though the options ask
         for it, or is not proved locally injective.
     MethodError
-        When the method cannot minimise the energy or take the start, or lacks an optional package
-        (the message says which extra to install).
+        When the method cannot minimise the energy, hold an angle or take the start, or lacks an
+        optional package (the message says which extra to install).
 
     Examples
     --------
@@ -90,6 +90,7 @@ def solve(
         energy = method.energies[0]
     energy = as_energy(energy)
     method.check(energy)
+    method.check_pose(pose)
     pose.check_inside(domain)
     inputs = Inputs(
         domain=domain,

@@ -22,6 +22,12 @@ from glid_nb.solvers.result import Iteration, Result
 from glid_nb.solvers.status import Status
 from glid_nb.solvers.unknowns import canonical, unknowns_of
 
+# Measurements of angles and scales, after which the directions found are kept.
+MOST_PINS = 16
+KEPT = 1e9
+"""A damping that keeps them."""
+_FAR, _DAMPING = 0.2, 3.0  # a measurement that far from the last one, radians, overshot
+
 
 class StartError(InputError):
     """The map to start from cannot be used."""
@@ -49,6 +55,7 @@ class SubspaceDescent(Descent):
     """What the last step was proved by: panels, bounds on sigma_2 and turnings."""
     just_split = 0
     """Panels split since the last iteration."""
+    _pins, _damping = 0, 1.0
 
     def __init__(self, method: Method, inputs: Inputs, reduced: bool) -> None:
         super().__init__(method, inputs)
@@ -70,8 +77,23 @@ class SubspaceDescent(Descent):
             images = problem.handle_images(self.problem.positional, basis, map_)[: len(pose)]
             map_ = aligned(map_, pose, images)
         self.start = map_
+        self.pin(map_)
         self.coefficients: Any = problem.real_coefficients(basis, map_)
         self.problem = self.problem._replace(anchor=problem.anchor_of(basis, self.coefficients))
+
+    def pin(self, map: HarmonicMap) -> bool:
+        """Measure angles and scales from this map; whether that changes what is minimised."""
+        inputs, before = self.inputs, self.problem.positional
+        if not inputs.pose.turned.any() or self._damping == KEPT:
+            return False
+        self._damping = KEPT if self._pins == MOST_PINS else self._damping
+        weight, damping = inputs.options.p2p_weight, self._damping
+        now = problem.positional_energy(inputs.domain, inputs.pose, weight, map, damping)
+        apart = problem.measured_apart(before, now)
+        self._damping *= _DAMPING if self._pins and apart > _FAR and damping != KEPT else 1
+        self._pins += 1
+        self.problem = self.problem._replace(positional=now)
+        return apart > 0
 
     def reached(self) -> Reached:
         point, domain = self.point, self.inputs.domain

@@ -16,6 +16,7 @@ from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.mesh import deformed_loops
 from glid_nb.imaging.read import ImageSource, read_image
+from glid_nb.session.actions import turned_now
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditState, Moment
 from glid_nb.widgets.closing import ClosingWidget
@@ -34,7 +35,7 @@ _TOGGLES = (
     ("show_source", "Source", "Show the undeformed shape beside the result"),
 )
 _SOURCE_SHARE = 0.4  # of the width
-_LEAST_SIZE = 100  # CSS pixels
+_LEAST_SIZE, _USUAL_SIZE = 100, (600, 500)  # CSS pixels
 
 
 class DeformCanvas(ClosingWidget, ipywidgets.HBox):
@@ -55,8 +56,9 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         A picture, as in `glid_nb.read_image`.
     deformation : Deformation or Domain
         The model to show, or the domain of a new one.
-    width, height : int
-        Size of the result in CSS pixels, at least 100 each.
+    width, height : int, optional
+        Size of the result in CSS pixels, at least 100 each; an editor with less room shows it
+        narrower. By default 600 by 500, and in an editor as large as there is room.
     n_vertices : int, optional
         Vertices of the mesh that the picture is drawn on, at least 3. By default 10,000, or fewer
         if the page needs longer than 40 ms to draw them.
@@ -89,8 +91,8 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self,
         image: ImageSource,
         deformation: Deformation | Domain,
-        width: int = 600,
-        height: int = 500,
+        width: int | None = None,
+        height: int | None = None,
         *,
         n_vertices: int | None = None,
         evaluated_in: EvaluatedIn | None = None,
@@ -106,6 +108,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self.pane = self._pane(size, interactive=True)
         self.source: Pane | None = None
         self.gestures = PinGestures(model, self.fit, self.image)
+        self.gestures.copy = lambda text: self.pane.stage.send({"copy": text})
         self._closed = False  # a frame may arrive while the canvas closes
         self._panels_at = self._range_at = 0.0
         self._hidden: Any = ()
@@ -116,8 +119,12 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         # A box that may scroll would shrink to nothing inside another.
         self.layout.overflow, self.layout.flex = "visible", "0 0 auto"
         self.layout.align_items = "flex-start"
+        self.add_class("glid-deform")
+        self._asked: tuple[int | None, int | None] = width, height
+        self._given = size
         self._resize()
-        self.pane.stage.observe(self._resize, ["height"])
+        self.pane.stage.observe(self._resize, ["width", "height"])
+        self.pane.stage.observe(self._take_room, ["room"])
         # Frames come from the solver's thread, events from the page's; both hold the model's lock.
         # While the solver works, its next frame acknowledges events, so it sets the pace.
         with model.locked():
@@ -162,13 +169,40 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 pane.adapt()
 
     def _resize(self, _: Any = None) -> None:
-        self.layout.height = f"{self.pane.stage.height}px"
+        stage = self.pane.stage
+        self.layout.height = f"{stage.height}px"
+        if (stage.width, stage.height) != self._given:  # a hand has dragged its corner
+            beside = 0 if self.source is None else self.source.stage.width
+            self._asked = self._given = stage.width + beside, stage.height
+
+    def _take_room(self, _: Any = None) -> None:
+        """Take the room that there is, as far as no size was asked for."""
+        with self.deformation.locked():
+            width, height, alone = self.pane.stage.room
+            if self._closed:
+                return
+            if not alone:
+                asked, tall = self._asked
+                width = min(width, asked or width)
+                height = tall or min(height, width * _USUAL_SIZE[1] // _USUAL_SIZE[0])
+            self._set_size(max(width, _LEAST_SIZE), max(height, _LEAST_SIZE))
+            self.pane.place_legend()
+
+    def _set_size(self, width: int, height: int) -> None:
+        """Share this size, in CSS pixels, between the result and the source."""
+        beside = 0 if self.source is None else round(_SOURCE_SHARE * width)
+        self._given = width - beside, height
+        if self.source is not None:
+            self.source.resize(beside, height)
+        self.pane.resize(width - beside, height)
 
     # Drawing
 
     def _on_model(self, what: str) -> None:
         if what in ("state", "frame", "selection"):
             self._draw(what)
+        if what == "selection":
+            self._reveal()
         if what in ("frame", "status"):
             self.pane.stage.prepared = self.deformation.moment.prepared
             self.pane.stage.acknowledge()
@@ -200,6 +234,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 pose.targets,
                 moment.shown(pose.handles) if len(pose) else (),
                 moment.selection,
+                _ring(moment),
                 self._hidden,
                 state.order,
                 self.overlay,
@@ -214,6 +249,15 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 self.source.show(Drawing(state.identity, images=pose.handles, **cages))
             if (what == "legend" or (what == "frame" and moment.solved)) and not moment.dragged:
                 self.pane.place_legend()
+
+    def _reveal(self) -> None:
+        """Bring a handle that was selected alone into view."""
+        moment, stage = self.deformation.moment, self.pane.stage
+        if len(moment.selection) == 1:
+            target, (x, y, unit) = moment.state.pose.targets[moment.selection[0]], stage.view
+            away = np.abs(target - [x, y]) / unit
+            if (away > [stage.width / 2, stage.height / 2]).any():
+                stage.view = [*target.tolist(), unit]
 
     def show_between(self, map: HarmonicMap | None) -> None:
         """Draw a map of the motion in place of the pose that is edited; None ends that."""
@@ -280,18 +324,25 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             stage, old = self.pane.stage, self.source
             if self.show_source == (old is not None):
                 return
-            if old is None:  # both share the width that the result had
-                width = round(_SOURCE_SHARE * stage.width)
-                stage.width -= width
+            width = stage.width + (0 if old is None else old.stage.width)
+            if old is None:
                 self.source = self._pane((width, stage.height), interactive=False)
-                self.children = [self.source, self.pane]
-                self._draw("state")
             else:
                 self.source = None
-                self.children = [self.pane]
-                stage.width += old.stage.width
                 old.close()
+            self._set_size(width, stage.height)
+            self.children = [pane for pane in (self.source, self.pane) if pane is not None]
+            self._draw("state")
             self.fit()
+
+
+def _ring(moment: Moment) -> tuple[float, ...]:
+    if not moment.selection or moment.comparison is not None:
+        return ()
+    last, pose = moment.selection[-1], moment.state.pose
+    angle, scale = (float(values[0]) for values in turned_now(moment.state, [last]))
+    wanted = (float(not np.isnan(values[last])) for values in (pose.angles, pose.scales))
+    return round(angle, 4), round(scale, 4), *wanted
 
 
 class Toolbar(ClosingWidget, ipywidgets.HBox):
@@ -318,6 +369,7 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
             )
             ipywidgets.link((canvas, name), (toggle, "value"))
         buttons = self.undo, self.redo, self.reset, self.fit
+        kwargs = {"layout": {"flex_flow": "row wrap"}, **kwargs}
         super().__init__([*buttons, self.overlay, *self.toggles.values()], **kwargs)
         self.add_class("glid-tools")
         self._show("state")
@@ -330,8 +382,12 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
 
 
 def check_size(least: int, n_vertices: Any, **sides: Any) -> tuple[int, int]:
-    """Width and height of a canvas; raises, as `check_count`, for them and so many vertices."""
+    """Width and height of a canvas, usual ones for None; raises, as `check_count`, also for so
+    many vertices."""
     if n_vertices is not None:
         check_count("n_vertices", n_vertices, 3, "vertices")
-    width, height = (check_count(name, side, least, "pixels") for name, side in sides.items())
+    width, height = (
+        usual if side is None else check_count(name, side, least, "pixels")
+        for (name, side), usual in zip(sides.items(), _USUAL_SIZE, strict=True)
+    )
     return width, height

@@ -44,8 +44,6 @@ _PINS_HEIGHT = "36px"  # kept free until the pins' numbers are made
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
 
-_LINE = {"width": "0", "min_width": "100%", "height": "44px", "overflow": "hidden auto"}
-
 _LEFT = (
     "{left} was changed by another editor or program and stays as it is; this session is saved to "
     "{path} from now on."
@@ -74,8 +72,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         A session file, which every change updates. If it exists, the editor opens it (give the
         same picture or none). A session that is opened later is updated instead; a picture that is
         opened later is saved beside it, as is this session if another program changes the file.
-    width, height : int
-        Size of the canvas in CSS pixels, at least 240 each.
+    width, height : int, optional
+        Size of the canvas in CSS pixels, at least 240 each; narrower where there is less room. By
+        default it is as large as there is room.
     n_vertices : int, optional
         Vertices of the mesh that the picture is drawn on, at least 3. By default 10,000, or fewer
         if the page needs longer than 40 ms to draw them.
@@ -112,13 +111,13 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         image: ImageSource | None = None,
         path: str | Path | None = None,
         *,
-        width: int = 600,
-        height: int = 500,
+        width: int | None = None,
+        height: int | None = None,
         n_vertices: int | None = None,
         **kwargs: Any,
     ) -> None:
         self._size = check_size(_LEAST_SIZE, n_vertices, width=width, height=height)
-        self._n_vertices = n_vertices
+        self._asked = {"width": width, "height": height, "n_vertices": n_vertices}
         once_loaded(enable_compilation_cache)
         document = None if path is None else find_document(path)
         if (
@@ -396,7 +395,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _deform_tab(self) -> ipywidgets.Widget:
         model, image = self.model.deformation, self.model.image
         assert image is not None
-        self.canvas = DeformCanvas(image, model, *self._size, n_vertices=self._n_vertices)
+        self.canvas = DeformCanvas(image, model, **self._asked)
         self.toolbar = Toolbar(self.canvas)
         self.monitor = SolverMonitor(model, _SIDE_WIDTH, _PLOTS_HEIGHT)
         self.timeline = TimelinePanel(self.canvas, self._open_files)
@@ -409,15 +408,14 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             layout={"min_height": f"{_PLOTS_HEIGHT + 64}px"},
         )
         self._side.observe(self._fill, ["selected_index"])
-        # However long, the status line neither widens its column nor moves what is below.
-        for name, value in _LINE.items():
-            setattr(self.monitor.line.layout, name, value)
-        fixed = {"flex": "0 0 auto", "overflow": "visible"}
-        side = ipywidgets.VBox([self._side], layout={**fixed, "width": f"{_SIDE_WIDTH + 34}px"})
+        line = self.monitor.line
+        line.layout.height, line.layout.overflow = "44px", "hidden auto"  # however long it is
+        side = ipywidgets.VBox([self._side], layout={"width": f"{_SIDE_WIDTH + 34}px"})
+        side.add_class("glid-side")
         left = ipywidgets.VBox(
-            [self.toolbar, self._boxes["pins"], self.canvas, self.timeline, self.monitor.line],
-            layout={**fixed, "margin": "0 14px 0 0"},
+            [self.toolbar, self._boxes["pins"], self.canvas, self.timeline, line]
         )
+        left.add_class("glid-column")
         wrapped = {"align_items": "flex-start", "flex_flow": "row wrap", "overflow": "visible"}
         return ipywidgets.HBox([left, side], layout=wrapped)
 

@@ -20,6 +20,7 @@ from glid_nb.widgets.shader import UNIFORM_VECTORS
 CORNERS = ("bottom right", "bottom left", "top right", "top left")  # the usual place first
 
 _LEGEND_SIZE = (222, 75)  # CSS pixels, with its distance to the border
+_MARKS = ("targets", "images", "selected", "hidden", "ring")
 _REFERENCE: dict[str, Any] = ipywidgets.widget_serialization
 _SHARES = (0.0, 0.25, 0.5, 0.75)  # of an edge
 _ROOM = 1.12  # what is fitted leaves a border
@@ -42,15 +43,16 @@ class Stage(Pad):
     """Width in CSS pixels; the page changes it when the corner is dragged."""
     height = traitlets.Int(500).tag(sync=True)
     """Height in CSS pixels."""
+    room = traitlets.List(traitlets.Int(), []).tag(sync=True)
+    """Width and height that the editor around it has for the canvas, in CSS pixels, and 1 where it
+    shows nothing else; empty without an editor."""
     view = traitlets.List(traitlets.Float(), [0.0, 0.0, 0.04]).tag(sync=True)
     """Centre (x, y) in world units, and the world units of one CSS pixel."""
     coefficients = traitlets.Bytes(b"").tag(sync=True)
     """The map, as ``ShaderMap.wire`` writes it; empty where the kernel evaluates."""
-    marks = traitlets.Dict({key: [] for key in ("targets", "images", "selected", "hidden")}).tag(
-        sync=True
-    )
-    """Targets and images of the handles, lists of [x, y], and indices of the selected and of the
-    hidden ones."""
+    marks = traitlets.Dict({key: [] for key in _MARKS}).tag(sync=True)
+    """Targets and images of the handles, lists of [x, y], indices of the selected and of the hidden
+    ones, and `Drawing.ring`."""
     onion = traitlets.List([]).tag(sync=True)
     """Outlines of other poses: a colour, and loops of [x, y], each."""
     cursor = traitlets.List(default_value=None, allow_none=True).tag(sync=True)
@@ -123,6 +125,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self.layout.flex = "0 0 auto"
         self._resize()
         self.stage.observe(self._resize, ["width", "height"])
+        self._unit, self._seen = 0.0, (0.0, 0.0)  # of the view that `resize` set, and what is in it
         self.fit(map, ())
         self._endings = (lambda: self.scene.close(),)
 
@@ -192,6 +195,16 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         unit = _ROOM * max((high[0] - low[0]) / width, (high[1] - low[1]) / height, 1e-6)
         self.stage.view = [float(x), float(y), float(unit)]
 
+    def resize(self, width: int, height: int) -> None:
+        """Change the size in CSS pixels; what was seen is still seen."""
+        stage = self.stage
+        x, y, unit = stage.view
+        if unit != self._unit:  # the view was changed since
+            self._seen = stage.width * unit, stage.height * unit
+        self._unit = max(self._seen[0] / width, self._seen[1] / height)
+        with stage.hold_sync(), stage.hold_trait_notifications():
+            stage.width, stage.height, stage.view = width, height, [x, y, self._unit]
+
     def _new_scene(self, uniform_vectors: int) -> Scene:
         vectors = uniform_vectors or UNIFORM_VECTORS  # 0 while no page has said
         map_ = self._drawing.map
@@ -229,4 +242,4 @@ def marks_of(drawing: Drawing) -> dict[str, Any]:
     """The trait ``marks``: points rounded to what a screen can show."""
     points = {name: np.round(getattr(drawing, name), 5).tolist() for name in ("targets", "images")}
     hidden = np.flatnonzero(drawing.hidden).tolist()
-    return {**points, "selected": list(drawing.selected), "hidden": hidden}
+    return {**points, "selected": list(drawing.selected), "hidden": hidden, "ring": drawing.ring}

@@ -101,7 +101,6 @@ class TimelinePanel(Pad):
             weakly(self._draw_thumbnails), self, "thumbnails"
         )
         super().__init__(stage=canvas.pane.stage.model_id, **kwargs)
-        self.layout.width, self.layout.min_width = "0", "100%"  # as wide as the canvas
         model = canvas.deformation
         self._actions = _Actions(self)
         self.serve(model, self._on_events)

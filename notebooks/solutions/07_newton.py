@@ -58,3 +58,26 @@ def minimise(v):
     for _ in range(60):
         v = v - np.linalg.solve(hessian(v), gradient(v))
     return v
+
+
+# %% exercise 3: gradient descent
+# It arrives, after more than a thousand steps from side to side of the valley.
+def minimise(v):
+    """A local minimum of energy, by gradient descent from v."""
+    for _ in range(2000):
+        g = np.asarray(gradient(v))
+        t = 1.0
+        while not energy(v - t * g) <= energy(v) - 1e-4 * t * (g @ g) and t > 1e-12:
+            t /= 2
+        v = v - t * g
+    return v
+
+
+# %% exercise 3: gradient descent that looks at the Hessian
+# Only the step's length comes from the Hessian, so it is as slow.
+def minimise(v):
+    """A local minimum of energy, by 100 steps of gradient descent from v."""
+    for _ in range(100):
+        g = np.asarray(gradient(v))
+        v = v - g / abs(np.linalg.eigvalsh(hessian(v))).max()
+    return v

@@ -16,6 +16,7 @@ import pytest
 import trimesh
 from PIL import Image, ImageSequence
 
+import glid_check
 from glid_nb import InputError, Motion
 from glid_nb.export import MOTION_FORMATS, animate, encode, motion_files, motion_glb
 from glid_nb.export.moving import MovingMesh, frames
@@ -150,6 +151,13 @@ def test_frames_go_into_a_zip_or_a_folder(drawn: list[np.ndarray], tmp_path: Pat
             assert archive.read(file.name) == file.read_bytes()
             with Image.open(file) as read:
                 np.testing.assert_array_equal(read, expected)
+
+
+def test_a_motion_comes_with_its_proof(tmp_path: Path) -> None:
+    files = animate(tmp_path / "walk.motion.json", picture(), motion())
+    assert [path.name for path in files] == ["walk.motion.json", "walk.motion.proof.json"]
+    assert glid_check.main([str(path) for path in files]) == 0
+    assert Motion.load(files[0]).certificate.certified
 
 
 def parts_of(glb: bytes) -> tuple[dict[str, Any], list[np.ndarray]]:

@@ -9,7 +9,7 @@ import time
 import traceback
 import zipfile
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -55,7 +55,7 @@ def document(seed: int = 1, scribbles: Scribbles | None = None) -> Document:
             random_map("ring", 0.01, seed),
             energy=AMIPS(0.1 + 0.2),
             options=Options(p2p_weight=np.float64(1 / 3), conformal=True),
-            pose=Pose([[2.0, 0.1], [-2.0, 1 / 3]], [[2.5, 0.0], [-2.0, 0.0]], [-1.0, 0.1 + 0.2]),
+            pose=PINS,
             method=AQP(kappa=1000 / 3),
         ),
     )
@@ -69,6 +69,14 @@ def document(seed: int = 1, scribbles: Scribbles | None = None) -> Document:
     return Document(picture(), ring.cage, ring, options, scribbles, poses, 1, TIMELINE)
 
 
+PINS = Pose(
+    [[2.0, 0.1], [-2.0, 1 / 3]],
+    [[2.5, 0.0], [-2.0, 0.0]],
+    [-1.0, 0.1 + 0.2],
+    angles=[None, 1 / 3],
+    scales=[0.1 + 0.2, None],
+    weights=[1 / 3, 1],
+)
 TIMELINE = Timeline((1 / 3, 2.0), ("in", "in-out"), "loop", 0.7)
 
 
@@ -102,9 +110,7 @@ def assert_same(a: Document, b: Document) -> None:
         for one, same in (
             (pose.map.phi, other.map.phi),
             (pose.map.psi, other.map.psi),
-            (pose.pose.handles, other.pose.handles),
-            (pose.pose.targets, other.pose.targets),
-            (pose.pose.depths, other.pose.depths),
+            *((getattr(pose.pose, n.name), getattr(other.pose, n.name)) for n in fields(Pose)),
         ):
             assert one.tobytes() == same.tobytes()
 
@@ -254,11 +260,14 @@ def zipped(members: dict[str, bytes]) -> bytes:
     return buffer.getvalue()
 
 
+NEW_PINS = ("angles", "scales", "weights")
+
+
 def test_a_document_of_version_1_opens_with_our_method(
     tmp_path: Path, valid: dict[str, bytes]
 ) -> None:
     data = json.loads(valid["document.json"])
-    new = ("method", "depths")
+    new = ("method", "depths", *NEW_PINS)
     old = [{k: v for k, v in pose.items() if k not in new} for pose in data["poses"]]
     del data["timeline"]
     written = {**data, "version": 1, "poses": old}
@@ -279,12 +288,15 @@ def test_a_document_of_version_2_opens_without_depths(
 ) -> None:
     data = json.loads(valid["document.json"])
     assert (data["version"], data.pop("timeline")["back"]) == (4, 0.7)
-    old = [{k: v for k, v in pose.items() if k != "depths"} for pose in data["poses"]]
+    old = [
+        {k: v for k, v in pose.items() if k not in ("depths", *NEW_PINS)} for pose in data["poses"]
+    ]
     text = json.dumps({**data, "version": 2, "poses": old}).encode()
     path = tmp_path / "old.glid"
     path.write_bytes(zipped({**valid, "document.json": text}))
     assert not any(pose.pose.depths.any() for pose in load_document(path).poses)
-    text = json.dumps({**data, "version": 2}).encode()
+    some = [{**pose, "depths": [0, 0]} for pose in old]
+    text = json.dumps({**data, "version": 2, "poses": some}).encode()
     refuse(tmp_path / "new", zipped({**valid, "document.json": text}), "unknown key 'depths'")
 
 
@@ -293,9 +305,9 @@ def test_a_document_of_version_3_opens_without_a_timeline(
 ) -> None:
     data = json.loads(valid["document.json"])
     timeline, path = data.pop("timeline"), tmp_path / "old.glid"
-    path.write_bytes(
-        zipped({**valid, "document.json": json.dumps({**data, "version": 3}).encode()})
-    )
+    old = [{k: v for k, v in pose.items() if k not in NEW_PINS} for pose in data["poses"]]
+    text = json.dumps({**data, "version": 3, "poses": old})
+    path.write_bytes(zipped({**valid, "document.json": text.encode()}))
     assert load_document(path).timeline is None
     for change, culprit in (
         ({"times": [2, 1]}, r"timeline: times\[1\] is 1 and times\[0\] is 2; times must increase"),
@@ -307,7 +319,7 @@ def test_a_document_of_version_3_opens_without_a_timeline(
     ):
         text = json.dumps({**data, "timeline": {**timeline, **change}})
         refuse(tmp_path / "new", zipped({**valid, "document.json": text.encode()}), culprit)
-    text = json.dumps({**data, "version": 3, "timeline": timeline}).encode()
+    text = json.dumps({**data, "version": 3, "poses": old, "timeline": timeline}).encode()
     refuse(tmp_path / "new", zipped({**valid, "document.json": text}), "unknown key 'timeline'")
 
 

@@ -107,14 +107,15 @@ def test_options_energy_and_edits_are_written() -> None:
     assert scope["map"].distance(pose.map) < 1e-6
 
 
-def test_depths_are_written(model: TracingModel, picture: str) -> None:
+def test_depths_and_angles_are_written(model: TracingModel, picture: str) -> None:
     assert model.domain is not None
     point = model.domain.cage.polygon.representative_point()
-    pose = Pose([[point.x, point.y]], [[1.0, 2.0]], [-2.0])
+    pose = Pose([[point.x, point.y]], [[1.0, 2.0]], [-2.0], angles=[0.5], weights=[0.1])
     document = document_of(model, map=HarmonicMap.identity(model.domain), pose=pose)
     assert "    depths=[-2.0],\n" in python_code(document, picture)
     scope = run(python_code(document, picture, exact=True))
     assert scope["pose"].depths.tolist() == [-2.0]
+    assert scope["pose"].pins_alike(pose)
     other = replace(document.poses[0], name="other", pose=Pose([[point.x, point.y]], [[1.0, 2.0]]))
     both = replace(document, poses=(document.poses[0], other))
     assert run(python_code(both, picture, exact=True))["pose"].depths.tolist() == [-2.0]

@@ -434,6 +434,17 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
         assert model.pose.depths.tolist() == [0.5, -1]
         model.undo()
         assert bar.depth.value == -1
+        bar.angle.value, bar.scale.value, bar.weight.value = "30", "1,5", 0.01
+        assert np.degrees(model.pose.angles[0]) == pytest.approx(30)
+        assert (model.pose.scales[0], model.pose.weights[0]) == (1.5, 0.01)
+        bar.angle.value = "much"
+        assert "is no number; type an angle" in bar.refusal.value
+        assert bar.angle.value == "30"
+        bar.angle.value = ""
+        assert np.isnan(model.pose.angles).all()
+        bar.mirror.click()
+        assert model.pose.handles[:, 0].tolist() == [-2, 2]
+        model.undo()
         bar.release.click()
         assert "still moving" in bar.refusal.value
         assert len(model.pose) == 2

@@ -111,6 +111,77 @@ def test_shift_selects_several_that_move_together(hand: Hand) -> None:
 
 
 @pytest.mark.slow
+def test_the_ring_turns_and_scales_in_one_step_each(hand: Hand) -> None:
+    model = hand.model
+    hand.click(2, 0)
+    hand.drag((3, 0), (2, 1), (1, 0.001), part="turn")
+    np.testing.assert_allclose(model.pose.angles, [np.pi - 0.001], atol=1e-6)
+    assert np.isnan(model.pose.scales).all()
+    hand.drag((2, 1), (2, 2), (2, 1.5), part="scale")
+    np.testing.assert_allclose(model.pose.scales, [1.5])
+    np.testing.assert_allclose(model.pose.targets, [[2, 0]], atol=1e-9)
+    hand.click(3, 0, part="turn")  # nothing is pinned on the ring, nothing moves
+    assert len(model.pose) == 1
+    hand.drag((3, 0), (2, 1), (3, 0), part="turn")  # and back
+    model.undo()
+    assert np.isnan(model.pose.scales).all()
+    model.undo()
+    assert not model.pose.turned.any()
+    model.undo()
+    assert not len(model.pose)
+
+
+def test_keys_turn_scale_and_set_free(hand: Hand) -> None:
+    hand.click(2, 0)
+    for key in "<<+-":
+        assert hand.key(key) == ""
+    np.testing.assert_allclose(hand.model.pose.angles, [np.radians(10)])
+    np.testing.assert_allclose(hand.model.pose.scales, [1])
+    hand.key("x")
+    assert not hand.model.pose.turned.any()
+    hand.key("Escape")
+    before = hand.model.state
+    assert hand.key("<") == hand.key("+") == hand.key("x") == ""
+    assert hand.model.state is before
+
+
+def test_a_box_or_a_lasso_selects(hand: Hand) -> None:
+    for x in (2, -2):
+        hand.click(x, 0)
+    hand.key("Escape")
+    loop = [[1, -1], [3, -1], [3, 1], [1, 1]]
+    hand.send("down", 1, -1, shift=True)
+    hand.send("up", 3, 1, shift=True, path=loop)
+    assert hand.model.selection == (0,)
+    hand.send("down", -1, -1)
+    hand.send("up", -1, -1, path=[[-1, -1], [-3, -1], [-3, 2], [-1.1, -1]])
+    assert hand.model.selection == (0, 1)
+    assert len(hand.model.pose) == 2
+    hand.send("down", 1, -1)
+    hand.send("up", 1, -1, path=[[0, 0]] * 2)  # trembling
+    assert len(hand.model.pose) <= 3
+
+
+def test_poses_travel_as_text_and_are_mirrored(hand: Hand) -> None:
+    model, texts = hand.model, list[str]()
+    hand.gestures.copy = texts.append
+    model.add_handles([(2, 0.5), (-2, 0)], [(2.5, 1), (-2, 0)])
+    model.set_pins([0], angles=0.5, weights=0.1)
+    assert hand.key("copy") == ""
+    assert hand.key("m") == ""
+    np.testing.assert_allclose(model.pose.handles, [[-2, 0.5], [2, 0]], atol=1e-9)
+    np.testing.assert_allclose(model.pose.targets, [[-2.5, 1], [2, 0]], atol=1e-9)
+    np.testing.assert_allclose(model.pose.angles, [-0.5, np.nan])
+    assert hand.send("paste_pose", text=texts[0]) == ""
+    np.testing.assert_array_equal(model.pose.targets, [[2.5, 1], [-2, 0]])
+    assert model.pose.weights.tolist() == [0.1, 1]
+    model.undo()
+    model.undo()
+    assert model.pose.angles[0] == 0.5
+    for wrong in ("hello", "[1]", '{"handles": [[0, 0]]}', '{"handles": [], "targets": 3}'):
+        assert "holds no pose" in hand.send("paste_pose", text=wrong)
+
+
 def test_escape_and_undo_take_a_drag_back(hand: Hand) -> None:
     hand.click(2, 0)
     hand.model.paused = False

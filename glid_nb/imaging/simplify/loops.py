@@ -92,11 +92,8 @@ def repair(loops: Loops, importance: Array, kept: Array, gap: float) -> list[str
         place = loops.points[back[-1]]
     count = np.count_nonzero(kept) - before
     vertices = "vertex was" if count == 1 else "vertices were"
-    note = (
-        f"simplification would have made the cage meet itself; {count} {vertices} kept, near "
-        f"({place[0]:.0f}, {place[1]:.0f}) among others"
-    )
-    return [note] if count else []
+    where = f"{count} {vertices} kept, near ({place[0]:.0f}, {place[1]:.0f}) among others"
+    return [f"simplification would have made the cage meet itself; {where}"] if count else []
 
 
 def edges_in_conflict(loops: Loops, gap: float) -> NDArray[np.intp]:

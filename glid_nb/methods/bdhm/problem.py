@@ -13,7 +13,7 @@ from glid_nb.geometry import Domain, graded_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.solvers import Pose
 from glid_nb.solvers.discretisation import complex_basis
-from glid_nb.solvers.problem import map_from, real_coefficients
+from glid_nb.solvers.problem import map_from, positional_energy, real_coefficients
 from glid_nb.solvers.subspace import aligned
 from glid_nb.solvers.unknowns import canonical, expand, unknowns_of
 
@@ -36,8 +36,15 @@ class BoundedProblem:
     """The energy of a map; with frames held fixed it is ``|v|^2 / 2`` plus something linear."""
 
     @double_precision
-    def __init__(self, domain: Domain, pose: Pose, p2p_weight: float) -> None:
-        self.domain, self.pose, self.weight = domain, pose, p2p_weight
+    def __init__(
+        self,
+        domain: Domain,
+        pose: Pose,
+        p2p_weight: float,
+        map: HarmonicMap | None = None,
+        damping: float = 1.0,
+    ) -> None:
+        self.domain, self.pose = domain, pose
         self._basis = basis_of(domain)
         # The holes' psi = conj(phi) are no unknowns of their own.
         unknowns = unknowns_of(self._basis, False)
@@ -46,16 +53,16 @@ class BoundedProblem:
         self._expansion = np.array(jax.vmap(expand, (0, None))(changes, unknowns)).T.copy()
         self._panels = graded_panels(domain, _RATIO)
         self._shares = self._panels.length / self._panels.length.sum()
-        self._targets = pose.targets @ np.array([1, 1j])
         self.samples = self.samples_at(self._panels.middle)
-        phi, psi = _split(self._expansion)
-        c = complex_basis(cauchy.cauchy_coordinates, pose.handles @ np.array([1, 1j]), self._basis)
-        handles = c @ phi + (c @ psi).conj()
-        self._factor = self._triangular(handles)
+        self.positional = positional = positional_energy(domain, pose, p2p_weight, map, damping)
+        root = np.sqrt(np.asarray(positional.weights))
+        rows = root[:, None] * (np.asarray(positional.matrix) @ self._expansion)
+        self._aims = root * np.asarray(positional.aims)
+        self._factor = self._triangular(rows)
         inverse = scipy.linalg.solve_triangular(self._factor, np.eye(len(self._factor)))
         self._expansion = self._expansion @ inverse
         self.samples = Samples(self.samples.a @ inverse, self.samples.b @ inverse)
-        self._handles = handles @ inverse
+        self._rows = rows @ inverse
 
     @double_precision
     def samples_at(self, points: Array) -> Samples:
@@ -78,24 +85,22 @@ class BoundedProblem:
         """ARAP along the boundary, and the positional part."""
         f, g = self.samples.values(v)
         arap = 2 * (np.abs(f) - 1) ** 2 + 2 * np.abs(g) ** 2
-        miss = self._handles @ v - self._targets
-        return float(self._shares @ arap), self.weight / 2 * float((np.abs(miss) ** 2).sum())
+        return float(self._shares @ arap), 0.5 * float(((self._rows @ v - self._aims) ** 2).sum())
 
     def gradient(self, v: Array) -> Array:
         """Of the energy, and of the energy with the frames at ``v`` held fixed."""
         f, g = self.samples.values(v)
         pull = self.samples.a.conj().T @ (4 * self._shares * (f - f / np.abs(f)))
         pull += self.samples.b.conj().T @ (4 * self._shares * g)
-        pull += self.weight * (self._handles.conj().T @ (self._handles @ v - self._targets))
-        return np.real(pull)
+        return np.real(pull) + self._rows.T @ (self._rows @ v - self._aims)
 
-    def _triangular(self, handles: Array) -> Array:
+    def _triangular(self, positional: Array) -> Array:
         """``R`` with ``R^T R`` the energy's matrix, without squaring its condition."""
         root = np.sqrt(4 * self._shares)[:, None]
-        rows = [root * self.samples.a, root * self.samples.b, np.sqrt(self.weight) * handles]
-        stacked = [part for row in rows for part in (row.real, row.imag)]
+        rows = [root * self.samples.a, root * self.samples.b]
+        stacked = [*(part for row in rows for part in (row.real, row.imag)), positional]
         if len(self.pose) < 2:
-            stacked.append(np.sqrt(_RIDGE) * np.eye(handles.shape[1]))
+            stacked.append(np.sqrt(_RIDGE) * np.eye(positional.shape[1]))
         return np.asarray(np.linalg.qr(np.concatenate(stacked), mode="r"))
 
 

@@ -22,6 +22,8 @@ from glid_nb.methods.bdhm.program import MARGIN, ActiveSet, DistortionBounds, St
 from glid_nb.solvers import Iteration, Method, MethodError, Result, Status
 from glid_nb.solvers.loop import Ending, GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.method import Inputs
+from glid_nb.solvers.problem import measured_apart
+from glid_nb.solvers.subspace import KEPT, MOST_PINS
 
 _PROOF = 0.4  # how much of the margin the proof may take
 # How often one program is solved again with more samples.
@@ -84,17 +86,34 @@ class _Descent:
     """One run, and the samples that it adds to as it goes."""
 
     def __init__(self, method: BDHM, inputs: Inputs) -> None:
-        self.method, self.inputs = method, inputs
+        self.method, self.inputs, self.far = method, inputs, True
+        self.measured = 0
+        self._measure(method.harmonic_start(inputs) or HarmonicMap.identity(inputs.domain))
+
+    def _measure(self, map: HarmonicMap) -> None:
+        """Measure angles and scales of handles from a map."""
+        domain, pose, options = self.inputs.domain, self.inputs.pose, self.inputs.options
         with single_blas_thread():
-            self.problem = BoundedProblem(inputs.domain, inputs.pose, inputs.options.p2p_weight)
+            damping = KEPT if self.measured == MOST_PINS else 1.0
+            self.problem = BoundedProblem(domain, pose, options.p2p_weight, map, damping)
         samples = self.problem.samples
         none = np.zeros((3, len(samples.a)), dtype=bool)
-        self.active = ActiveSet(self.problem, method, samples, none)
-        self.far = True
+        self.active = ActiveSet(self.problem, self.method, samples, none)
+        self.measured += 1
+
+    def _measured_anew(self, now: Iterate) -> Iterate | None:
+        """The same map, where angles and scales are measured otherwise from it; else None."""
+        if self.measured > MOST_PINS or not self.inputs.pose.turned.any():
+            return None
+        before, map = self.problem.positional, now.certificate.map
+        self._measure(map)
+        if not measured_apart(before, self.problem.positional):
+            return None
+        v = self.problem.unknowns(map, False)
+        return now._replace(v=v, energy=sum(self.problem.energies(v)))
 
     def steps(self) -> Steps:
         identity = HarmonicMap.identity(self.inputs.domain)
-        now: Iterate | Ending
         for map_ in (self.method.harmonic_start(self.inputs) or identity, identity):
             v = self.problem.unknowns(map_, self.inputs.options.align)
             now = Iterate(v, sum(self.problem.energies(v)), self._proved(v))
@@ -103,11 +122,16 @@ class _Descent:
         else:
             why = now.certificate.reason
             raise MethodError(f"the identity is not proved to keep the bounds: {why}")
-        while isinstance(now, Iterate):
+        while True:
             yield functools.partial(self.reached, now)
             with single_blas_thread():
-                now = self.advance(now)
-        return now
+                then = self.advance(now)
+            if isinstance(then, Ending):
+                anew = self._measured_anew(now) if then.status is Status.CONVERGED else None
+                if anew is None:
+                    return then
+                then = anew
+            now = then
 
     def reached(self, now: Iterate) -> Reached:
         iso, p2p = self.problem.energies(now.v)

@@ -18,7 +18,7 @@ from glid_nb.solvers.evaluation import Coefficients, Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
 from glid_nb.solvers.loop import Advance, Ending, Reached, Stopwatch, follow
 from glid_nb.solvers.method import Inputs
-from glid_nb.solvers.problem import Problem
+from glid_nb.solvers.problem import Problem, map_from
 from glid_nb.solvers.status import NO_DECREASE, RUNNING
 from glid_nb.solvers.step import LEAST_ENERGY
 from glid_nb.solvers.subspace import SubspaceDescent
@@ -150,6 +150,18 @@ class DirectedDescent(SubspaceDescent):
         return now._replace(entry=entry)
 
     def adapt(self, done: Advance) -> Ending | None:
+        """End where steps gain nothing, unless free angles and scales have to be measured anew."""
+        ending = self._adapted(done)
+        if ending is None or not ending.status.ok:
+            return ending
+        if not self.pin(map_from(self.inputs.domain, self.point.coefficients)):
+            return ending
+        vars(self).pop("p2p_hessian", None)
+        self._chosen = self.memory = None
+        self._evaluate()
+        return None
+
+    def _adapted(self, done: Advance) -> Ending | None:
         """End where steps gain nothing; try without memory where none lowers the energy."""
         if self._ending is not None:
             return self._ending

@@ -1,19 +1,23 @@
 // The pad over the renderer: sends pointers and keys, draws handles, colour bars and notices.
 
+import { copied } from "../pad/clipboard.js";
 import { follow, make } from "../pad/dom.js";
-import { help } from "../pad/help.js";
+import { help, shield } from "../pad/help.js";
+import { icon } from "../pad/icons.js";
 import { Link } from "../pad/link.js";
 import { openMenu } from "../pad/menu.js";
 import { Pad, undoAround } from "../pad/pad.js";
 import { clearedContext } from "../pad/pen.js";
 import { View } from "../pad/view.js";
-import { drawMarks, drawOnion, markAt } from "./marks.js";
+import { drawLasso, drawMarks, drawOnion, lostMarks, markAt, ringAt } from "./marks.js";
+import { Room } from "./room.js";
 import { Shapes, drawingTime, uniformVectors } from "./shapes.js";
 
 const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
 const KEYS = new Set([
   "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Delete", "Backspace", "Escape", "Enter",
   "0", "f", "F", ",", ".", "a", "A", "PageUp", "PageDown", "[", "]",
+  "<", ">", "+", "=", "-", "x", "X", "m", "M",
 ]);
 const HELP = [
   ["Click the shape", "pin a point"],
@@ -21,10 +25,14 @@ const HELP = [
   ["Right-click, long touch, Menu key", "what can be done with a pin, or with the shape there"],
   ["Delete", "remove the selected pins; with Shift keep the shape"],
   ["Shift-click, A", "select several pins, all pins"],
+  ["Shift and drag, Ctrl and drag", "select the pins in a box, in a lasso"],
+  ["Ring around a pin: drag it, or its knob", "turn the shape there, scale it there"],
+  ["< >, + -, X", "turn, scale; leave both free again"],
   ["Page Down, Page Up", "selected pins and what is around them go back, come forward; also [ and ]"],
   ["Arrow keys", "nudge selected pins, with Shift farther; else move a cursor"],
   ["Enter", "show the cursor; pin or select there"],
-  [", .", "select the pin before, the next pin"],
+  [", .", "select the pin before, the next pin, and bring it into view; so does a click on an arrow at the edge"],
+  ["Ctrl+C, Ctrl+V, M", "copy the pose, put it on this or a similar shape; swap its left and right"],
   ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
   ["Esc", "cancel a drag; select nothing"],
   ["0", "back to the undeformed shape"],
@@ -32,6 +40,8 @@ const HELP = [
   ["Space", "play the motion through the poses, pause; in the timeline too"],
   ["Timeline: arrow keys, Home, End", "step in time, with Shift to the next pose; first, last pose"],
   ["Timeline: Alt and arrow keys", "move the pose in time; Delete removes it"],
+  ["P", "the picture alone, for lectures; Esc brings the rest back"],
+  ["W", "the whole screen"],
   ["Wheel, two fingers", "zoom"],
   ["Middle button, Space and drag", "move the view"],
 ];
@@ -40,6 +50,12 @@ const TIPS = [
   "where it should be. Drag it; a right click shows what else; Shift-click selects several",
   "where the shape has got to. The cyan disk is where it should be",
 ];
+const RING_TIPS = {
+  turn: "Drag around the pin to turn the shape there; X leaves it free again",
+  scale: "Drag away from the pin or towards it to scale the shape there; X leaves it free again",
+};
+const COPIED = "The pose is in the clipboard; Ctrl+V on a canvas puts it there";
+const NOT_COPIED = "The browser does not give access to the clipboard; use Ctrl+C and Ctrl+V";
 const SAVE_VIEW_AFTER = 250; // ms
 const LEAST_SIZE = 240; // CSS pixels
 
@@ -105,6 +121,7 @@ function render({ model, el }) {
     if (shapes.motion) return; // pins belong to the pose that is edited
     drawOnion(pen, view, model.get("onion"));
     drawMarks(pen, view, model.get("marks"), { hovered: found?.mark, held, cursor });
+    if (pad?.encloses && pad.path.length > 2) drawLasso(pen, view, pad.path);
   };
   const soon = () => { due = due || requestAnimationFrame(draw); };
 
@@ -134,33 +151,50 @@ function render({ model, el }) {
         null,
         [selected.includes(mark) && selected.length > 1 ? `Remove ${selected.length} pins` : "Remove", "Delete", press("Delete")],
         ["Remove, keep the shape", "Shift+Delete", press("Delete", true)],
+        ["Leave angle and scale free", "X", press("x")],
       ]),
       null,
+      ["Copy the pose", "Ctrl+C", press("copy")],
+      ["Paste a pose", "Ctrl+V", () => navigator.clipboard?.readText().then(paste, () => say(NOT_COPIED)) ?? say(NOT_COPIED)],
+      ["Swap left and right", "M", press("m")],
       ["Select all pins", "A", press("a")],
       ["The undeformed shape", "0", press("0")],
       ["See everything", "F", press("f")],
+      ["The picture alone", "P", () => room.alone()],
+      ["Full screen", "W", () => room.fullScreen()],
       ["All keys", "?", keys.toggle],
     ]);
   };
-  const pad = model.get("interactive") ? new Pad(box, view, link, {
+  const room = model.get("interactive") ? new Room(box, (room) => save(model, { room }), (notice) => save(model, { notice })) : null;
+  const alone = () => room.alone(), whole = () => room.fullScreen();
+  const pad = room ? new Pad(box, view, link, {
     reach: REACH,
     keys: KEYS,
-    actions: { "?": keys.toggle, ContextMenu: () => showMenu() },
+    actions: { "?": keys.toggle, ContextMenu: () => showMenu(), p: alone, P: alone, w: whole, W: whole },
     menu: showMenu,
     tapped: () => box.dispatchEvent(new CustomEvent("glid:play", { bubbles: true })),
-    find: (point, reach) => shapes.motion ? null : markAt(marks(), point, reach),
+    find: (point, reach) => shapes.motion ? null
+      : markAt(marks(), point, reach) ?? ringAt(view, marks(), view.toScreen(point)),
+    encloses: (found, e) => found ? null : e.shiftKey ? "box" : e.ctrlKey || e.metaKey ? "lasso" : null,
     held: ({ mark }) => {
       const { selected, targets } = marks();
       return new Map((selected.includes(mark) ? selected : [mark]).map((i) => [i, targets[i]]));
     },
     cursor: (found) => {
+      if (found?.part) {
+        box.title = RING_TIPS[found.part];
+        return "grab";
+      }
       const covered = found && marks().hidden.includes(found.mark) ? ". Another part of the shape covers it" : "";
       box.title = found ? `Pin ${found.mark + 1}: ${TIPS[Number(found.reached)]}${covered}` : "";
       return found ? "grab" : "crosshair";
     },
     changed: soon,
   }) : null;
-  if (pad) box.append(keys.button, keys.table, resizeGrip(model));
+  const button = (name, title, onclick) =>
+    make("button", { type: "button", className: "glid-help-button", title, "aria-label": title, onclick }, icon(name));
+  const buttons = [keys.button, button("fit", "Full screen (W)", whole), button("rectangle", "The picture alone (P)", alone)];
+  if (pad) box.append(shield(make("div", { className: "glid-corner" }, ...buttons)), keys.table, resizeGrip(model));
   const forget = pad && undoAround(box, (e) => pad.keydown(e));
 
   // While the timeline shows a motion, the first touch goes back to the pose that is edited.
@@ -177,6 +211,30 @@ function render({ model, el }) {
       e.stopImmediatePropagation();
       e.preventDefault();
       back();
+    }, true);
+  }
+
+  // Poses go from one canvas to another as text in the clipboard.
+  const say = (notice) => save(model, { notice });
+  const paste = (text) => link.put({ type: "paste_pose", text });
+  const copy = async ({ copy: text }) => {
+    if (text && pad?.focused) say(await copied(text) ? COPIED : NOT_COPIED);
+  };
+  model.on("msg:custom", copy);
+  if (pad) {
+    box.addEventListener("copy", (e) => {
+      if (document.activeElement !== box) return;
+      e.preventDefault();
+      pad.press("copy", { shiftKey: false, timeStamp: e.timeStamp });
+    });
+    box.addEventListener("paste", (e) => [e.preventDefault(), paste(e.clipboardData.getData("text"))]);
+    box.addEventListener("pointerdown", (e) => {
+      const [x, y] = pad.place(e);
+      const lost = lostMarks(view, marks()).find(({ at }) => Math.hypot(at[0] - x, at[1] - y) < 12);
+      if (!lost || e.target !== box) return;
+      [view.x, view.y] = lost.target;
+      view.changed();
+      e.stopImmediatePropagation();
     }, true);
   }
 
@@ -224,7 +282,9 @@ function render({ model, el }) {
     cancelAnimationFrame(due);
     clearTimeout(saving);
     unfollow();
+    model.off("msg:custom", copy);
     forget?.();
+    room?.close();
     pad?.close();
     link.close();
     shapes.close();

@@ -1,0 +1,68 @@
+// The room that an editor has for its canvas, full screen, and the picture alone.
+
+const PAGE = 120, PARTS = 330; // CSS pixels: what a notebook's page and an editor's parts need above and below
+const LEAST = 480, GAP = 16; // CSS pixels: of the height, and of the width beside the plots
+const SLACK = 20; // CSS pixels: a scroll bar that comes and goes changes nothing
+const SETTLE = 80; // ms
+
+export class Room {
+  // tell([width, height, alone]): the room is another one. refused(text): why there is no full screen.
+  constructor(pad, tell, refused) {
+    Object.assign(this, { pad, tell, refused, root: null, last: [0, 0, 0] });
+    this.later = () => {
+      clearTimeout(this.timer);
+      this.timer = setTimeout(() => this.measure(), SETTLE);
+    };
+    this.observer = new ResizeObserver(this.later);
+    this.observer.observe(pad);
+    this.left = () => document.fullscreenElement || this.alone(false);
+    this.escape = (e) => {
+      if (e.key !== "Escape" || !this.last[2] || pad.querySelector(".glid-menu")) return;
+      e.stopPropagation();
+      this.alone(false);
+    };
+    window.addEventListener("resize", this.later);
+    window.addEventListener("keydown", this.escape, true);
+    document.addEventListener("fullscreenchange", this.left);
+  }
+
+  measure() {
+    const { pad, last } = this, root = pad.closest(".glid-editor"), column = pad.closest(".glid-column");
+    if (!column?.clientWidth) return;
+    if (!this.root) this.observer.observe(column.parentElement);
+    this.root = root;
+    const whole = column.parentElement.clientWidth, beside = whole - column.nextElementSibling.offsetWidth - GAP;
+    const alone = Number(root.classList.contains("glid-alone")), page = document.fullscreenElement === root ? 0 : PAGE;
+    const room = alone ? [root.clientWidth, window.innerHeight - page, 1]
+      : [beside >= LEAST ? beside : whole, Math.max(LEAST, window.innerHeight - page - PARTS), 0];
+    const wider = room[0] - last[0];
+    if (wider >= 0 && wider < SLACK && room[1] === last[1] && alone === last[2]) return;
+    this.last = room;
+    this.tell(room.map(Math.floor));
+  }
+
+  // Shows nothing but the picture, or everything again.
+  alone(on = !this.last[2]) {
+    const { root, pad, last } = this;
+    if (!root || (!on && !last[2])) return this.later();
+    root.classList.toggle("glid-alone", on);
+    this.measure();
+    root.scrollIntoView({ block: on ? "start" : "nearest" });
+    pad.focus({ preventScroll: true });
+    if (!on && document.fullscreenElement) document.exitFullscreen();
+  }
+
+  fullScreen() {
+    const { root } = this;
+    if (document.fullscreenElement) document.exitFullscreen();
+    else root?.requestFullscreen().catch((error) => this.refused(`There is no full screen here: ${error.message}`));
+  }
+
+  close() {
+    clearTimeout(this.timer);
+    this.observer.disconnect();
+    window.removeEventListener("resize", this.later);
+    window.removeEventListener("keydown", this.escape, true);
+    document.removeEventListener("fullscreenchange", this.left);
+  }
+}
