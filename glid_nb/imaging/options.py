@@ -137,7 +137,8 @@ def _strokes(
 ) -> tuple[NDArray[np.float64], ...] | NDArray[np.bool_]:
     if isinstance(strokes, np.ndarray) and strokes.dtype == np.bool_:
         if strokes.ndim != 2:
-            raise TraceError(f"scribbles: the {name} mask must be (h, w), not {strokes.shape}")
+            wanted = f"must have the shape (h, w), not {strokes.shape}"
+            raise TraceError(f"scribbles: the {name} mask {wanted}")
         return read_only(strokes.copy())
     lines = []
     for i, stroke in enumerate(strokes):

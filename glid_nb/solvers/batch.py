@@ -56,7 +56,10 @@ def solve_batch(
     """Deform one shape into many poses.
 
     The same as calling :func:`glid_nb.solve` for each row of targets, up to rounding, and faster
-    where there are several devices or one wide one. Every result is certified on its own.
+    where there are several devices or one wide one. Every result is certified on its own; they come
+    in the order of the poses. Raises a TypeError when the domain or the options are of the wrong
+    type, or the devices are not one or more different ones of one platform; a PoseError when a
+    handle lies outside the domain, or the targets have another shape.
 
     Parameters
     ----------
@@ -72,19 +75,6 @@ def solve_batch(
         devices of its own host; give every host its share of the poses.
     depths, angles, scales, weights : (h,) array_like, optional
         Of the handles in every pose, as in :class:`glid_nb.Pose`.
-
-    Returns
-    -------
-    tuple of Result
-        In the order of the poses.
-
-    Raises
-    ------
-    TypeError
-        When the domain or the options are of the wrong type, or the devices are not one or more
-        different ones of one platform.
-    PoseError
-        When a handle lies outside the domain, or the targets have another shape.
     """
     check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
     check_type("options", options, Options | None, "write Options(p2p_weight=...)")
@@ -248,11 +238,6 @@ def _program(devices: tuple[Any, ...]) -> Any:
 
         return jax.vmap(one)(aims, coefficients, limits)
 
-    sharded = jax.shard_map(
-        together,
-        mesh=mesh,
-        in_specs=(shared, shared, each, each, each),
-        out_specs=each,
-        check_vma=False,
-    )
+    specs: Any = {"in_specs": (shared, shared, each, each, each), "out_specs": each}
+    sharded = jax.shard_map(together, mesh=mesh, check_vma=False, **specs)
     return jax.jit(sharded, compiler_options=COMPILER_OPTIONS)

@@ -142,7 +142,6 @@ def backtrack(
         PanelBounds(blank, blank, blank, real, blank),
         jnp.zeros_like(real),
     )
-    outcome, index, there, panel, refused = lax.while_loop(
-        lambda c: c[0] == PENDING, attempt, start
-    )
+    ended = lax.while_loop(lambda carry: carry[0] == PENDING, attempt, start)
+    outcome, index, there, panel, refused = ended
     return Backtracking(outcome, found.steps[index], there, panel, refused)

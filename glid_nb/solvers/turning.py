@@ -126,9 +126,8 @@ def turning_of(pose: Pose, cage: Cage) -> Turning:
         parents.append(j)
         turns.append(turn)
         stretches.append(max(abs(ratio), _LEAST_STRETCH))
-    return Turning(
-        pose, tuple(order.tolist()), tuple(parents), whole, tuple(turns), tuple(stretches)
-    )
+    lists = tuple(order.tolist()), tuple(parents), whole, tuple(turns), tuple(stretches)
+    return Turning(pose, *lists)
 
 
 def _distances(cage: Cage, points: Array) -> Array:
