@@ -226,10 +226,8 @@ def _conclude(map: HarmonicMap, panels: Panels, known: Known, kind: CertificateK
         reason = f"The map is not locally injective: {seen}."
     elif unproved.any():
         i = int(np.argmin(bounds.sigma2_lower))
-        reason = (
-            f"Undecided: {int(unproved.sum())} of {len(panels)} panels could not be proved "
-            f"injective, the worst near {place(panels.middle[i])}."
-        )
+        share = f"{int(unproved.sum())} of {len(panels)} panels could not be proved injective"
+        reason = f"Undecided: {share}, the worst near {place(panels.middle[i])}."
     elif not known.angle_error < 1:
         reason = "Undecided: f_z is too small beside rounding errors to count its turns."
     elif sum(turns) != 0:

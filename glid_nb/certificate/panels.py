@@ -103,9 +103,9 @@ def check_tiling(panels: Panels, cage: Cage) -> None:
 
 
 def _not_tiled(what: str) -> GeometryError:
+    remedy = "make them of this cage, as graded_panels does, or leave them out"
     return GeometryError(
-        f"the panels do not tile the boundary of this map's cage: {what}; make them of this cage, "
-        "as graded_panels does, or leave them out"
+        f"the panels do not tile the boundary of this map's cage: {what}; {remedy}"
     )
 
 

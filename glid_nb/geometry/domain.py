@@ -137,10 +137,8 @@ def _checked_notes(notes: Any) -> tuple[str, ...]:
 def _check_enclosed(cage: Cage, offset_cage: Cage) -> None:
     """The closed domain of `cage` must lie in the open domain of `offset_cage`."""
     if offset_cage.n_holes != cage.n_holes:
-        raise GeometryError(
-            f"the offset cage has {offset_cage.n_holes} holes and the cage {cage.n_holes}; "
-            "give one offset hole per hole, in the same order"
-        )
+        both = f"the offset cage has {offset_cage.n_holes} holes and the cage {cage.n_holes}"
+        raise GeometryError(f"{both}; give one offset hole per hole, in the same order")
     # Loops of different index need no check: the loops of either cage do not meet.
     for i, (loop, offset_loop) in enumerate(zip(cage.loops, offset_cage.loops, strict=True)):
         name = "the exterior loop" if i == 0 else loop_name(i)
@@ -171,18 +169,15 @@ def _checked_hole_points(points: ArrayLike, offset_cage: Cage) -> NDArray[np.flo
     begin = "hole points must"
     checked = number_pairs(points, f"{begin} {wanted}", GeometryError, f"{begin} {shape}")
     if len(checked) != offset_cage.n_holes:
-        raise GeometryError(
-            f"{len(checked)} hole points given for a cage with {offset_cage.n_holes} holes; "
-            "give one per hole"
-        )
+        given = f"{len(checked)} hole points given for a cage with {offset_cage.n_holes} holes"
+        raise GeometryError(f"{given}; give one per hole")
     for i, ((x, y), hole) in enumerate(zip(checked, offset_cage.holes, strict=True), start=1):
         if not np.isfinite([x, y]).all():
             raise GeometryError(f"the point of hole {i} is ({x}, {y}); give finite coordinates")
         if not shapely.contains_xy(shapely.Polygon(hole), x, y):
-            raise GeometryError(
-                f"the point of hole {i} at {place([x, y])} does not lie strictly inside offset "
-                f"hole {i}; move it there, or leave hole_points out to have them chosen"
-            )
+            what = f"the point of hole {i} at {place([x, y])} does not lie strictly inside"
+            remedy = "move it there, or leave hole_points out to have them chosen"
+            raise GeometryError(f"{what} offset hole {i}; {remedy}")
     return read_only(checked)
 
 

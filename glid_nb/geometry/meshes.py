@@ -151,10 +151,9 @@ def triangulate(
     wanted = number_pairs(given, "points must be a list of [x, y] pairs", GeometryError)
     outside = np.flatnonzero(~cage.contains(wanted))
     if outside.size:
-        raise GeometryError(
-            f"point {outside[0]} at {place(wanted[outside[0]])} is to be a vertex of the "
-            "triangulation but does not lie inside the cage; move it inside or leave it out"
-        )
+        what = f"point {outside[0]} at {place(wanted[outside[0]])} is to be a vertex of the"
+        where = "triangulation but does not lie inside the cage; move it inside or leave it out"
+        raise GeometryError(f"{what} {where}")
     wanted = np.unique(wanted, axis=0)
     loops = [_with_points(loop, wanted, _SAME * cage.longer_side) for loop in loops]
     boundary = np.concatenate(loops)

@@ -129,10 +129,8 @@ def _checked_devices(devices: Any) -> tuple[Any, ...]:
     given = tuple(devices) if isinstance(devices, Iterable) else ()
     are = bool(given) and all(isinstance(device, jax.Device) for device in given)
     if not are or len(set(given)) < len(given) or len({one.platform for one in given}) > 1:
-        raise TypeError(
-            "devices must be one or more of jax.local_devices(), each of them once and all of one "
-            f"platform, not {devices!r:.200}"
-        )
+        wanted = "one or more of jax.local_devices(), each of them once and all of one platform"
+        raise TypeError(f"devices must be {wanted}, not {devices!r:.200}")
     return given
 
 

@@ -37,10 +37,8 @@ class Search(NamedTuple):
 
 
 def largest_step(nodes: Nodes, change: Nodes) -> Number:
-    """The step at which the first sample becomes inverted, or infinity, in closed form.
-
-    ``|f + t df|^2 - |g + t dg|^2`` is a quadratic in ``t`` that is positive at 0.
-    """
+    """The step at which the first sample becomes inverted, or infinity: the first zero of
+    ``|f + t df|^2 - |g + t dg|^2``, a quadratic in ``t`` that is positive at 0."""
     a = _difference_of_squares(change, change)
     b = 2 * _difference_of_squares(nodes, change)
     c = _difference_of_squares(nodes, nodes)

@@ -28,7 +28,7 @@ class Unknowns(NamedTuple):
     """One entry per padded hole column (its length is what matters)."""
 
 
-def unknowns_of(basis: Basis, conformal: bool, whitening: AnyArray | None = None) -> Unknowns:
+def unknowns_of(basis: Basis, conformal: bool, whitening: Array | None = None) -> Unknowns:
     """The unknowns among all columns, or among the coordinates of a whitening (2, c, u).
 
     ``conformal`` drops ``psi`` and the logarithms.

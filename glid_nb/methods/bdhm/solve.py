@@ -169,11 +169,9 @@ class _Descent:
             if program.decrease <= none and program.status == "Solved":
                 if self.active.excess < 1:
                     return _blocked("giving back some of the margin costs more than it gains")
-                return Ending(
-                    Status.CONVERGED,
-                    "The solver converged: with the frames held fixed no map within the bounds has "
-                    f"an energy that is lower by more than {self.method.tolerance:g} of it.",
-                )
+                least = f"an energy that is lower by more than {self.method.tolerance:g} of it"
+                none = f"with the frames held fixed no map within the bounds has {least}"
+                return Ending(Status.CONVERGED, f"The solver converged: {none}.")
             reached = now.v + program.change
             wider = self.active.and_violated(reached)
             if wider is self.active:
@@ -208,19 +206,15 @@ class _Descent:
                 accepted = self._accepted(now, v, step)
                 if isinstance(accepted, Iterate):
                     return accepted
-        return _blocked(
-            f"no step toward the cone program's solution ({program.status}), which promises to "
-            f"lower the energy by {program.decrease / now.energy:.1g} of it, both lowers it and is "
-            "proved to keep the bounds"
-        )
+        solution = f"the cone program's solution ({program.status}), which promises to lower"
+        share = f"the energy by {program.decrease / now.energy:.1g} of it"
+        missed = "both lowers it and is proved to keep the bounds"
+        return _blocked(f"no step toward {solution} {share}, {missed}")
 
     def _proved(self, v: Array) -> Certificate:
         return self.problem.certified(v, _PROOF * MARGIN * self.method.narrowest)
 
 
 def _blocked(why: str) -> Ending:
-    return Ending(
-        Status.BLOCKED,
-        f"The solver did not converge: {why}. The last map, which keeps the bounds and has the "
-        "least energy, is returned.",
-    )
+    last = "The last map, which keeps the bounds and has the least energy, is returned."
+    return Ending(Status.BLOCKED, f"The solver did not converge: {why}. {last}")
