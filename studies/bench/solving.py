@@ -1,7 +1,5 @@
 """Time per iteration, to convergence and of a drag step: the paper's settings and ours."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path

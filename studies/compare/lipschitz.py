@@ -1,7 +1,5 @@
 """The paper's Lipschitz constants and BDHM's, and Newton's method under either (Figure 7)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import jax.numpy as jnp

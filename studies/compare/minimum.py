@@ -6,8 +6,6 @@ the harmonic subspace it takes the exact Hessian where that is positive definite
 one that is projected triangle by triangle (paper Section 7): the entries of ``K`` are the same.
 """
 
-from __future__ import annotations
-
 from typing import Any, Literal, NamedTuple
 
 import jax
