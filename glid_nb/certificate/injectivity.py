@@ -108,8 +108,7 @@ def global_injectivity(
 
 def _pairs_not_apart(arcs: Arcs, panels: Panels) -> Array:
     """(2, q) pairs of panels without a common end whose images are not proved disjoint."""
-    ends, r = np.array([arcs.start, arcs.end]), arcs.radius
-    x, y = ends.real, ends.imag
+    (x, y), r = (part([arcs.start, arcs.end]) for part in (np.real, np.imag)), arcs.radius
     boxes = shapely.box(x.min(0) - r, y.min(0) - r, x.max(0) + r, y.max(0) + r)
     first, second = shapely.STRtree(boxes).query(boxes)
     wanted = (first < second) & (panels.next[first] != second) & (panels.next[second] != first)

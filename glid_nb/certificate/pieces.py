@@ -47,6 +47,9 @@ class PieceCertificate:
     """The middle of the panel where sigma_2 is least, or where the proof fails first."""
 
 
+Proofs = tuple[PieceCertificate, ...]
+
+
 class _Values(NamedTuple):
     """Maps on panels: (p, ...) arrays."""
 
@@ -66,7 +69,7 @@ class _Values(NamedTuple):
 
 
 @np.errstate(all="ignore")
-def certify_pieces(maps: Sequence[HarmonicMap], tightness: float = 0.05) -> list[PieceCertificate]:
+def certify_pieces(maps: Sequence[HarmonicMap], tightness: float = 0.05) -> Proofs:
     """Prove the linear motion from each map of one domain to the next, or say how far that goes.
 
     Panels are halved where the proof fails or bounds are further than the relative ``tightness``
@@ -80,7 +83,7 @@ def certify_pieces(maps: Sequence[HarmonicMap], tightness: float = 0.05) -> list
         values = _evaluated(group, size)(panels.start, panels.end)
         for i, pair in enumerate(itertools.pairwise(group)):
             proofs.append(_prove(*pair, values.pair(i), size, tightness))
-    return proofs
+    return tuple(proofs)
 
 
 def _prove(

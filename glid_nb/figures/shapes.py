@@ -287,8 +287,9 @@ def _side_by_side(
             lines.append(f"{count} triangle{'' if count == 1 else 's'} turned over")
         text, color = "\n".join(lines or [" "]), VERMILION if count else INK
         axes.set_title(text, fontsize=style.FONT_SIZE, color=color)
-        folded, look = [*sheet.images[sheet.triangles[sheet.folded]]], {"edgecolors": "face"}
-        axes.add_collection(PolyCollection(folded, facecolors=VERMILION, linewidths=0.6, **look))
+        folded = [*sheet.images[sheet.triangles[sheet.folded]]]
+        look: Any = {"edgecolors": "face", "linewidths": 0.6}
+        axes.add_collection(PolyCollection(folded, facecolors=VERMILION, **look))
         if pose is not None:
             drawing.targets(axes, map, pose)
     if pose is not None:

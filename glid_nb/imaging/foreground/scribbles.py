@@ -51,7 +51,7 @@ def scribble_score(
         how = {"beta": _BETA, "mode": "bf", "channel_axis": -1, "return_full_prob": True}
         probability = random_walker(scaled, labels, **how)[0].clip(0, 1)
     field = Image.fromarray(probability.astype(np.float32))
-    return np.array(field.resize(shape[::-1], Image.Resampling.BILINEAR)), notes
+    return np.array(field.resize((shape[1], shape[0]), Image.Resampling.BILINEAR)), notes
 
 
 def _labels(
