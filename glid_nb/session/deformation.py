@@ -183,6 +183,7 @@ class Deformation(Observed):
     turn = _step(actions.turn)
     mirror_pose = _step(pose_text.mirror_pose)
     paste_pose = _step(pose_text.paste_pose)
+    set_stiffness = _step(actions.set_stiffness)
     reset = _step(actions.reset)
     set_energy = _step(actions.set_energy)
     set_options = _step(actions.set_options)

@@ -1,12 +1,12 @@
 """Poses on the way to another shape: as text, mirrored, moved inside."""
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import shapely
-from numpy.typing import ArrayLike
 
 from glid_nb._arrays import Array
 from glid_nb.geometry import Cage
@@ -40,23 +40,27 @@ def paste_pose(state: EditState, text: str) -> EditState:
         raise EditError(f"{_BOX} must be the lower and the upper corner of a box, not {box}")
     here = _box(state.domain.cage)
     if np.allclose(box, here, rtol=0, atol=1e-9):
-        return _posed(state, pose, pose.handles, pose.targets)
+        return _posed(state, pose)
     stretch = (here[1] - here[0]) / (box[1] - box[0])
-    places = (here[0] + (points - box[0]) * stretch for points in (pose.handles, pose.targets))
-    return _posed(state, pose, *places)
+    return _posed(state, pose, lambda z: here[0] + (z - box[0]) * stretch, stretch.prod() ** 0.5)
 
 
 def mirror_pose(state: EditState) -> EditState:
-    """Swap left and right, about the middle of the shape: handles, targets and angles."""
+    """Swap left and right, about the middle of the shape."""
     pose, across = state.pose, _box(state.domain.cage).sum(axis=0) * [1, 0]
     pose = replace(pose, angles=-pose.angles)
-    places = (across + points * [-1, 1] for points in (pose.handles, pose.targets))
-    return _posed(state, pose, *places)
+    return _posed(state, pose, lambda points: across + points * [-1, 1])
 
 
-def _posed(state: EditState, pose: Pose, handles: ArrayLike, targets: ArrayLike) -> EditState:
-    """The pose with other places, its handles inside the shape, from the undeformed shape on."""
-    handles, targets = np.array(handles), np.array(targets)
+def _posed(
+    state: EditState,
+    pose: Pose,
+    place: Callable[[Array], Array] = np.array,
+    scale: float = 1.0,
+) -> EditState:
+    """The pose with all in other places, its handles inside the shape, which is undeformed."""
+    handles, targets = place(pose.handles), place(pose.targets)
+    pose = replace(pose, stiffness=pose.stiffness.moved(place, scale))
     moved = _inside(state.domain.cage, handles)
     targets += moved - handles
     gaps = np.linalg.norm(moved[:, None] - moved, axis=2)

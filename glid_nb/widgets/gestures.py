@@ -186,11 +186,15 @@ class PinGestures(Gestures):
         before, now = ((place - centre) @ [1, 1j] for place in (press.start, point))
         if abs(now) == 0 or len(angles) != len(model.dragged):
             return
-        if press.part == "turn":
-            model.drag_pins(angles=wrapped(angles + np.angle(now / before)))
-        else:
+        wanted = {"angles": wrapped(angles + np.angle(now / before))}
+        if press.part == "scale":
             scales = (scales * abs(now / before)).clip(_LEAST_SCALE, _LARGEST_SCALE)
-            model.drag_pins(scales=scales)
+            wanted = {"scales": scales}
+        try:
+            model.drag_pins(**wanted)
+        except InputError:  # the method cannot
+            model.end_drag()
+            raise
 
     def _up(self, event: Event) -> None:
         press, self._press = self._press, None
@@ -198,7 +202,7 @@ class PinGestures(Gestures):
         if len(path) > 2:  # a box or a lasso
             inside = shapely.make_valid(shapely.Polygon(path))
             chosen = np.flatnonzero(shapely.contains_xy(inside, *self.deformation.pose.targets.T))
-            self.deformation.select([*self.deformation.selection, *chosen])
+            self.deformation.select([*self.deformation.selection, *chosen.tolist()])
             return
         if press is None or (press.part and not press.dragging):
             return

@@ -55,6 +55,10 @@ class Stage(Pad):
     ones, and `Drawing.ring`."""
     onion = traitlets.List([]).tag(sync=True)
     """Outlines of other poses: a colour, and loops of [x, y], each."""
+    stiff = traitlets.List([]).tag(sync=True)
+    """The painted areas, while there is a brush: strengths, and loops of [x, y], each."""
+    brush = traitlets.Dict({}).tag(sync=True)
+    """The brush that the left button paints with: ``radius`` and ``strength``; empty for none."""
     cursor = traitlets.List(default_value=None, allow_none=True).tag(sync=True)
     """Where the keyboard's cursor is, [x, y]; None while it is not used."""
     legend = traitlets.Dict({}).tag(sync=True)

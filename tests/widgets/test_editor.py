@@ -320,7 +320,7 @@ assert not unwanted, unwanted
 assert clock.programs == 0, clock.programs
 # Axes without anything in them, at once.
 assert editor.monitor.image.format == "svg+xml"
-assert b"time per iteration" in bytes(editor.monitor.image.value)
+assert b"Certificate" in bytes(editor.monitor.image.value)
 assert len(widget._instances) <= 100, len(widget._instances)
 editor.canvas.pane.stage.drawn = True
 boxes = [editor.tabs.children[0], *editor._side.children[1:]]

@@ -62,6 +62,7 @@ class BDHM(DistortionBounds, Method):
     family = "harmonic"
     energies = ("arap",)
     package = "clarabel"
+    stiffens = False
 
     tolerance: float = TOLERANCE
 

@@ -9,7 +9,9 @@ import { openMenu } from "../pad/menu.js";
 import { Pad, undoAround } from "../pad/pad.js";
 import { clearedContext } from "../pad/pen.js";
 import { View } from "../pad/view.js";
-import { drawLasso, drawMarks, drawOnion, lostMarks, markAt, ringAt } from "./marks.js";
+import {
+  drawBrush, drawLasso, drawMarks, drawOnion, drawStiff, lostMarks, markAt, ringAt,
+} from "./marks.js";
 import { Room } from "./room.js";
 import { Shapes, drawingTime, uniformVectors } from "./shapes.js";
 
@@ -17,7 +19,7 @@ const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
 const KEYS = new Set([
   "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Delete", "Backspace", "Escape", "Enter",
   "0", "f", "F", ",", ".", "a", "A", "PageUp", "PageDown", "[", "]",
-  "<", ">", "+", "=", "-", "x", "X", "m", "M",
+  "<", ">", "+", "=", "-", ..."xXmMbBeE",
 ]);
 const HELP = [
   ["Click the shape", "pin a point"],
@@ -37,6 +39,7 @@ const HELP = [
   ["Esc", "cancel a drag; select nothing"],
   ["0", "back to the undeformed shape"],
   ["F", "see everything"],
+  ["B, E", "paint what should stay as it is, erase it; Esc lays the brush down"],
   ["Space", "play the motion through the poses, pause; in the timeline too"],
   ["Timeline: arrow keys, Home, End", "step in time, with Shift to the next pose; first, last pose"],
   ["Timeline: Alt and arrow keys", "move the pose in time; Delete removes it"],
@@ -46,6 +49,7 @@ const HELP = [
   ["Middle button, Space and drag", "move the view"],
 ];
 const FIRST = "Click the shape to pin a point, then drag the pin · ? shows all keys";
+const PAINT = "Paint what should stay as it is · E erases · Esc when done";
 const TIPS = [
   "where it should be. Drag it; a right click shows what else; Shift-click selects several",
   "where the shape has got to. The cyan disk is where it should be",
@@ -59,12 +63,12 @@ const NOT_COPIED = "The browser does not give access to the clipboard; use Ctrl+
 const SAVE_VIEW_AFTER = 250; // ms
 const LEAST_SIZE = 240; // CSS pixels
 
-function colorBar({ title, colors, ticks }) {
+function colorBar({ title, colors, ticks, about }) {
   const gradient = `background: linear-gradient(to right, ${colors.join(", ")})`;
   const labels = ticks.map((tick) => make("span", {}, tick));
   return make(
     "div",
-    { className: "glid-legend-part" },
+    { className: "glid-legend-part", title: about },
     make("div", { className: "glid-legend-title" }, title),
     make("div", { className: "glid-legend-bar", style: gradient }),
     make("div", { className: "glid-legend-ticks" }, ...labels),
@@ -120,7 +124,9 @@ function render({ model, el }) {
     const pen = clearedContext(paper, view);
     if (shapes.motion) return; // pins belong to the pose that is edited
     drawOnion(pen, view, model.get("onion"));
+    drawStiff(pen, view, model.get("stiff"));
     drawMarks(pen, view, model.get("marks"), { hovered: found?.mark, held, cursor });
+    if (paints()) drawBrush(pen, view, model.get("brush"), pad);
     if (pad?.encloses && pad.path.length > 2) drawLasso(pen, view, pad.path);
   };
   const soon = () => { due = due || requestAnimationFrame(draw); };
@@ -137,6 +143,7 @@ function render({ model, el }) {
   };
   const link = new Link(model, el);
   const marks = () => model.get("marks");
+  const paints = () => pad && "radius" in model.get("brush");
   // Opens the menu of a pin or of the shape; by default that of the pin selected last.
   const showMenu = (place, found = { mark: marks().selected.at(-1) }) => {
     const mark = found?.mark, { selected, targets } = marks();
@@ -160,6 +167,7 @@ function render({ model, el }) {
       ["Select all pins", "A", press("a")],
       ["The undeformed shape", "0", press("0")],
       ["See everything", "F", press("f")],
+      ["Paint stiff areas", "B", press("b")],
       ["The picture alone", "P", () => room.alone()],
       ["Full screen", "W", () => room.fullScreen()],
       ["All keys", "?", keys.toggle],
@@ -173,8 +181,9 @@ function render({ model, el }) {
     actions: { "?": keys.toggle, ContextMenu: () => showMenu(), p: alone, P: alone, w: whole, W: whole },
     menu: showMenu,
     tapped: () => box.dispatchEvent(new CustomEvent("glid:play", { bubbles: true })),
-    find: (point, reach) => shapes.motion ? null
-      : markAt(marks(), point, reach) ?? ringAt(view, marks(), view.toScreen(point)),
+    get painting() { return paints(); },
+    find: (point, reach) => shapes.motion || paints() ? null
+      : markAt(marks(), point, reach) ?? ringAt(view, marks(), view.toScreen(point), reach / view.unit / 2),
     encloses: (found, e) => found ? null : e.shiftKey ? "box" : e.ctrlKey || e.metaKey ? "lasso" : null,
     held: ({ mark }) => {
       const { selected, targets } = marks();
@@ -238,6 +247,18 @@ function render({ model, el }) {
     }, true);
   }
 
+  // A pin that was selected alone, though not by the pointer, comes into view.
+  let chosen;
+  const reveal = () => {
+    const { selected: [first, ...others], targets, images } = marks();
+    const now = others.length ? undefined : first;
+    if (now === chosen) return;
+    chosen = now;
+    if (now === undefined || pad?.mode || lostMarks(view, { targets: [targets[now], images[now]] }).length < 2) return;
+    [view.x, view.y] = targets[now];
+    view.changed();
+  };
+
   const fit = () => {
     Object.assign(view, { width: model.get("width"), height: model.get("height") });
     [view.x, view.y, view.unit] = model.get("view");
@@ -246,7 +267,7 @@ function render({ model, el }) {
   };
   const tell = () => {
     const refusal = model.get("notice"), first = pad && !marks().targets.length;
-    notice.textContent = refusal || (first ? FIRST : "");
+    notice.textContent = refusal || (paints() ? PAINT : first ? FIRST : "");
     notice.hidden = !notice.textContent;
     notice.classList.toggle("glid-first", !refusal);
   };
@@ -265,10 +286,11 @@ function render({ model, el }) {
   const unfollow = follow(model, {
     "change:width change:height change:view": fit,
     "change:coefficients": () => shapes.refresh(),
-    "change:marks change:cursor change:onion": soon,
+    "change:marks change:cursor change:onion change:stiff change:brush": soon,
     "glid:motion": showMotion,
     "change:legend change:panel_legend change:legend_corner": showLegend,
-    "change:notice change:marks": tell,
+    "change:notice change:marks change:brush": tell,
+    "change:marks": reveal,
     "change:prepared": prepare,
   });
   let gone = false;

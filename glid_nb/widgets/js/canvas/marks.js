@@ -1,10 +1,11 @@
 // Handles and targets, drawn over the shape: cyan disks where handles should go, black dots where
 // they are, and a line between the two. Those that another part of the shape covers are faint rings.
 
+import { make } from "../pad/dom.js";
 import { disk, strokePath, tracePath } from "../pad/pen.js";
 
 const TARGET = 7.5, IMAGE = 3.5, RING = 12; // radii, CSS pixels
-const DIAL = 42, GRASP = 7, KNOB = 6, EDGE = 14; // of a scale of 1; CSS pixels
+const DIAL = 42, KNOB = 6, EDGE = 14; // of a scale of 1; CSS pixels
 const WANTED = "#d55e00", FREE = "rgba(40,40,40,0.75)", BORDER = "rgba(255,255,255,0.85)";
 
 // Lines between pairs of points, with a border.
@@ -35,6 +36,40 @@ export function drawOnion(pen, view, outlines) {
   pen.globalAlpha = 1;
 }
 
+const STIFF = "#4b0f7a"; // told by its hatching, whatever the colours
+
+function hatching(pen, strength) {
+  const size = Math.round(16 - 9 * strength); // the stiffer, the closer
+  const tile = make("canvas", { width: size, height: size }), ink = tile.getContext("2d");
+  tracePath(ink, [[[0, size], [size, 0]], [[-1, 1], [1, -1]], [[size - 1, size + 1], [size + 1, size - 1]]], false);
+  strokePath(ink, [[3, "rgba(255,255,255,0.75)"], [1.5, STIFF]]);
+  return pen.createPattern(tile, "repeat");
+}
+
+// Painted areas: strength, and loops of points.
+export function drawStiff(pen, view, areas) {
+  for (const [strength, loops] of areas) {
+    tracePath(pen, loops.map((loop) => loop.map((p) => view.toScreen(p))));
+    pen.fillStyle = hatching(pen, strength);
+    pen.fill();
+    strokePath(pen, [[3.4, "rgba(255,255,255,0.85)"], [1.5, STIFF]]);
+  }
+}
+
+// The brush below the pointer, and what it has painted since it was pressed.
+export function drawBrush(pen, view, { radius, strength }, { path, rests }) {
+  const wide = radius / view.unit, color = strength ? STIFF : "#ffffff";
+  if (path.length) {
+    tracePath(pen, [[...path, path.at(-1)].map((p) => view.toScreen(p))], false);
+    Object.assign(pen, { lineCap: "round", lineJoin: "round", globalAlpha: 0.45 });
+    strokePath(pen, [[2 * wide, color]]);
+    pen.globalAlpha = 1;
+  }
+  if (!rests) return;
+  disk(pen, rests, wide, null, "rgba(255,255,255,0.85)", 3.4);
+  disk(pen, rests, wide, null, STIFF, 1.4);
+}
+
 // The ring around the pin that was selected last: where it is, and its knob, on the screen.
 function dial(view, marks, held) {
   const last = marks.selected.at(-1), [angle, scale] = marks.ring;
@@ -45,11 +80,11 @@ function dial(view, marks, held) {
 }
 
 // The part of the ring at a place on the screen, as `part`; null for none.
-export function ringAt(view, marks, [px, py]) {
+export function ringAt(view, marks, [px, py], reach) {
   const ring = dial(view, marks);
   if (!ring) return null;
-  if (Math.hypot(px - ring.knob[0], py - ring.knob[1]) <= KNOB + 4) return { part: "scale" };
-  return Math.abs(Math.hypot(px - ring.x, py - ring.y) - ring.radius) <= GRASP ? { part: "turn" } : null;
+  if (Math.hypot(px - ring.knob[0], py - ring.knob[1]) <= Math.max(KNOB + 4, reach)) return { part: "scale" };
+  return Math.abs(Math.hypot(px - ring.x, py - ring.y) - ring.radius) <= reach ? { part: "turn" } : null;
 }
 
 // Orange and full what is wanted, grey and dashed what is free.

@@ -139,7 +139,7 @@ export class Pad {
     this.encloses = left && !this.canvas.painting && this.canvas.encloses?.(found, e);
     this.path = left && (this.canvas.painting || this.encloses) ? [this.view.toWorld(place)] : [];
     this.send("down", place, e, { part: found?.part });
-    if (e.pointerType === "touch") this.longPress = setTimeout(() => this.pressedLong(e, place), LONG_PRESS);
+    if (e.pointerType === "touch" && this.canvas.menu && !this.canvas.painting) this.longPress = setTimeout(() => this.pressedLong(e, place), LONG_PRESS);
     this.shape();
     this.canvas.changed();
   }
