@@ -126,8 +126,9 @@ box = ipywidgets.VBox([canvas, panel])
 box
 """
 _DEPTHS = """
+before, behind = (glid.Pose(handles, curled(handles), [0, 0, d]) for d in (1, -1))
+model.apply(lambda state: state.changed(pose=before, map=curled))
 model.save_pose()
-behind = glid.Pose(handles, curled(handles), [0, 0, -1])
 model.apply(lambda state: state.changed(pose=behind, map=curled))
 canvas.show_panels = True
 """
@@ -153,7 +154,9 @@ def test_in_a_motion_the_order_and_the_boundary_are_those_of_its_time(
     assert seen() == [False] * 60
     assert legend.inner_text() == "Certified σ₂ on the boundary"
     for time, right_in_front in ((0.1, True), (0.9, False), (0.2, True)):
+        timeline.root.scroll_into_view_if_needed()
         timeline.scrub([time])
+        assert timeline.time == pytest.approx(time, abs=0.02)
         hand.page.wait_for_timeout(300)
         assert seen() == [right_in_front] * 60
         assert legend.inner_text() == "σ₂ on the boundary at this time"
