@@ -1,6 +1,7 @@
 # make demo   one picture from file to certified deformation, in an environment of its own
 # make test   everything that continuous integration runs
 # make unit   the fast tests only (under a minute)
+# make leaks  ten minutes of random editing and 36 runs of a cell: does memory grow?
 # make lint   ruff and pyright
 # make dev    the development environment with everything
 # make compare  the paper's comparisons measured anew (half an hour); ARGUMENTS=--help tells more
@@ -16,7 +17,7 @@ WORKERS = $(shell expr $$(nproc) + 1)
 # Without bytecode every process of the tests compiles the package and the test files anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test unit lint format dev compare bench docs browser clean
+.PHONY: demo test unit leaks lint format dev compare bench docs browser clean
 .DEFAULT_GOAL := demo
 
 demo: $(VENV)/.demo
@@ -29,6 +30,9 @@ test: $(VENV)/.test browser
 
 unit: $(VENV)/.test
 	$(PYTEST) -p no:nbval --no-skip -m "not slow and not browser" -n auto tests
+
+leaks: $(VENV)/.test browser
+	$(PYTEST) -p no:nbval --no-skip -s --minutes 10 -m long tests/widgets
 
 lint: $(VENV)/.dev
 	$(VENV)/bin/ruff check .

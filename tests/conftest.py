@@ -30,6 +30,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         help="a test that would be skipped fails instead",
     )
     parser.addoption(
+        "--minutes",
+        type=float,
+        default=0.0,
+        help="length of the tests marked `long`, which are left out without it",
+    )
+    parser.addoption(
         "--reference",
         metavar="DIR",
         default=os.environ.get("GLID_NB_REFERENCE"),
@@ -47,6 +53,12 @@ def pytest_configure(config: pytest.Config) -> None:
     os.environ["GLID_NB_DATA"] = tempfile.mkdtemp(prefix="glid_nb-")
 
 
+@pytest.fixture
+def minutes(request: pytest.FixtureRequest) -> float:
+    """How long a test marked `long` may take."""
+    return request.config.getoption("--minutes")
+
+
 @pytest.fixture(scope="session", autouse=True)
 def _compilation_cache() -> None:
     enable_compilation_cache()
@@ -55,9 +67,9 @@ def _compilation_cache() -> None:
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     # First, so that one process takes all that wait for a browser, and the others work meanwhile.
     items.sort(key=lambda item: item.get_closest_marker("browser") is None)
-    if config.getoption("--reference"):
-        return
-    left_out = [item for item in items if item.get_closest_marker("reference")]
+    wanted = {"reference": config.getoption("--reference"), "long": config.getoption("--minutes")}
+    unwanted = [name for name, value in wanted.items() if not value]
+    left_out = [item for item in items if any(map(item.get_closest_marker, unwanted))]
     if left_out:
         config.hook.pytest_deselected(items=left_out)
         items[:] = [item for item in items if not item.get_closest_marker("reference")]

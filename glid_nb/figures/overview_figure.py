@@ -16,6 +16,7 @@ from glid_nb.figures.shapes import Sheet, draw_deformed, draw_distortion
 from glid_nb.figures.style import BLUE, FONT_SIZE, GREY, INK, LEGEND
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
+from glid_nb.solvers.restarts import isometry_energy
 
 if TYPE_CHECKING:
     from glid_nb.solvers import Pose, Result
@@ -86,7 +87,8 @@ def overview(
     drawing.targets(pictures[1], map, pose)
     _add_legend(pictures[1])
     draw_distortion(pictures[2:], [sheet], "distortion", extendfrac=0.04)
-    EnergyPlot(plots[0]).update(result.history, result.start_energy)
+    minimum = isometry_energy(result.energy_measure)
+    EnergyPlot(plots[0]).update(result.history, result.start_energy, minimum=minimum)
     StepPlot(plots[1]).update(result.history)
     CertificatePlot(plots[2], cage).update(certificate, map)
     figure.draw_without_rendering()  # lays out the axes

@@ -32,12 +32,14 @@ _AXIS_NAME = 12.0  # points from the axis down to its name
 _WIDE = 3.0  # inches; above narrower axes a line of text does not fit beside the legend
 _LEGEND_HEIGHT = 12.0  # points
 _NARROW = 1.3  # inches; above narrower axes the legend does not fit
-_LOG_FROM = 20.0  # an energy that falls by this factor gets a logarithmic axis
 _DECADES = 12  # most decades that a logarithmic axis shows
+_BELOW_LAST = 1e-3  # where an energy's axis begins at the lowest, in multiples of the last energy
+_AT_MINIMUM = 1e-9  # an energy above its minimum by less is drawn as so much
 _DOTTED = 12  # most iterations that are drawn with dots; a single one needs its dot to be seen
 
 # Round limits change seldom, and only a change of limits needs a full redraw.
 _ROUND = MaxNLocator(1, steps=[1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10], min_n_ticks=1)
+_LOG_ENDS = np.outer(10.0 ** np.arange(-16, 300), [1.0, 2.0, 5.0]).ravel()
 _ROUND_ITERATIONS = MaxNLocator(3, steps=[1, 2, 5, 10], integer=True)
 
 _CHARACTER = 0.62  # mean width of a character over the font's size
@@ -68,6 +70,10 @@ class Plot:
         before = axes.get_xlim(), axes.get_ylim(), axes.get_yscale()
         self._show(*arguments, **named)
         return before != (axes.get_xlim(), axes.get_ylim(), axes.get_yscale())
+
+    def entitle(self, name: str, above: float = _LEGEND_HEIGHT) -> None:
+        """Write the plot's name above its legend, or so many points above the axes."""
+        self._beside(name, (0, 1), above, va="bottom", fontweight="bold", in_layout=False)
 
     def _line(self, color: str, linewidth: float = style.LINE, **look: Any) -> Line2D:
         look = {"color": color, "linewidth": linewidth, "markersize": 2.4, **look}
@@ -161,7 +167,8 @@ class _OverIterations(Plot):
 
 
 class EnergyPlot(_OverIterations):
-    """Energy after each iteration: the total, the isometric part and the targets' part."""
+    """Energy after each iteration above the least one there is: the total, the isometric part, and
+    the targets' part as it is; on a logarithmic axis."""
 
     _looks: ClassVar = {
         "energy_p2p": {"color": ORANGE, "label": "targets"},
@@ -172,6 +179,9 @@ class EnergyPlot(_OverIterations):
 
     def __init__(self, axes: Axes, animated: bool = False) -> None:
         super().__init__(axes, animated)
+        axes.set_yscale("log")
+        axes.yaxis.set_minor_locator(NullLocator())
+        axes.yaxis.set_major_formatter("{x:g}")
         self._text = self._note()
         self.artists = *self.artists, self._text
 
@@ -181,22 +191,30 @@ class EnergyPlot(_OverIterations):
         start_energy: float | None = None,
         starts: Collection[int] = (),
         solving: bool = False,
+        minimum: float = 0.0,
     ) -> None:
-        """Show iterations; ``start_energy`` is the total before the first, at iteration 0."""
+        """Show iterations; ``start_energy`` is the total before the first, at iteration 0, and
+        ``minimum`` the isometric part of a shape that is not deformed."""
         rows = _rows(history, *self._looks)
         if start_energy is not None:
             rows = np.insert(rows, 0, [0, np.nan, np.nan, start_energy], axis=1)
+        above, least = rows[1:], _AT_MINIMUM * max(1.0, minimum)
+        above[1:] = np.maximum(above[1:] - minimum, least)
         # Only the lines count for the limits: the peaks after moved targets would flatten them.
-        values = self._join(rows[0], rows[1:], starts, solving)
-        total, values = values[-1], values[np.isfinite(values)]
-        self._text.set_text(f"E = {history[-1].energy:.4g}" if len(history) else "no iterations")
-        if len(total) and total[0] > _LOG_FROM * total[-1] > 0:
-            # The targets' part may fall to 0; the axis need not follow it.
-            lowest = 0.1 * float(total[total > 0].min())
-            self._limit_decades(values[values > lowest])
-        else:
-            self.axes.set_yscale("linear")
-            self.axes.set_ylim(0.0, _rounded_up(1.2 * float(values.max(initial=1.0))))
+        _, isometric, total = self._join(rows[0], above, starts, solving)
+        finite, total = (v[v < _LOG_ENDS[-9]] for v in (np.append(isometric, total), total))
+        low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.11, 0.9)
+        low = max(low, least, *(_BELOW_LAST * total[-1:]))
+        high = max(high, low)
+        low, high = _LOG_ENDS[0.97 * low > _LOG_ENDS][-1], _LOG_ENDS[1.03 * high < _LOG_ENDS][0]
+        subs = (1.0, 2.0, 5.0) if high < 40 * low else (1.0,)
+        self.axes.yaxis.set_major_locator(LogLocator(subs=subs, numticks=6))
+        self.axes.set_ylim(low, high)
+        text = "no iterations"
+        if len(history):
+            text = f"E = {minimum:.4g} + " if minimum else "E = "
+            text += f"{above[-1, -1]:.3g}"
+        self._text.set_text(text)
 
 
 class StepPlot(_OverIterations):
@@ -235,7 +253,7 @@ class TimePlot(_OverIterations):
         corners = np.stack([sides.ravel(), ends.ravel()], axis=1)
         self._bars.set_xy(corners if len(corners) else [[0.0, 0.0]])
         usual = float(np.median(times)) if len(times) else 0.0
-        self._text.set_text(f"{usual:.3g} ms per iteration" if usual else "")
+        self._text.set_text(f"{usual:.3g} ms each" if usual else "")
         # A single slow iteration must not make the other bars too low to see.
         most = min(float(times.max()), 3 * usual) if usual else 1.0
         self.axes.set_ylim(0.0, _rounded_up(1.1 * most))

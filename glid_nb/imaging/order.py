@@ -141,6 +141,14 @@ class Sheets:
             return None
         return found[np.lexsort((self._order(found), self._opaque(found)))[-1]]
 
+    def sources(self, places: Array) -> Array:
+        """As `source` for many places (k, 2), to the precision of a mesh; NaN outside the shape."""
+        which, found = self._drawn_at(places, 0.0)
+        order = np.lexsort((self._order(found), self._opaque(found)))
+        seen = np.full(places.shape, np.nan)
+        seen[which[order]] = found[order]  # of several the last one stays
+        return seen
+
     def hidden(self, points: Any) -> NDArray[np.bool_]:
         """(k,) bool: which of (k, 2) points of the undeformed shape another part covers."""
         points = np.reshape(np.asarray(points, dtype=float), (-1, 2))

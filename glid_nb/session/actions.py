@@ -7,7 +7,7 @@ import bisect
 import itertools
 import operator
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -22,7 +22,8 @@ from glid_nb.motion.settings import Easing, Repeat
 from glid_nb.session.document import NamedPose, check_count
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.solvers import Method, Pose
-from glid_nb.solvers.pose import DEEPEST
+from glid_nb.solvers.pose import DEEPEST, PER_HANDLE
+from glid_nb.solvers.stiffness import Stiffness
 
 # Least distance of two handles, as a share of the cage's size.
 _LEAST_DISTANCE = 1e-6
@@ -50,9 +51,8 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
     wanted = _places_now(state, points) if targets is None else _points(targets, "to")
     depths = state.order.depths(points).round(2) + 0.0
     added = Pose(points, wanted, depths)
-    names = (known.name for known in fields(Pose))
-    parts = {name: np.concatenate([getattr(p, name) for p in (pose, added)]) for name in names}
-    return state.changed(pose=Pose(**parts))
+    parts = {n: np.concatenate([getattr(p, n) for p in (pose, added)]) for n in PER_HANDLE}
+    return state.changed(pose=replace(pose, **parts))
 
 
 def remove_handles(state: EditState, indices: Iterable[int], keep_shape: bool = False) -> EditState:
@@ -68,7 +68,7 @@ def remove_handles(state: EditState, indices: Iterable[int], keep_shape: bool = 
 
 def clear_handles(state: EditState) -> EditState:
     """Remove all handles; the shape relaxes."""
-    return state.changed(pose=Pose([], []))
+    return state.changed(pose=state.pose.only([]))
 
 
 def move_targets(state: EditState, indices: Iterable[int], targets: ArrayLike) -> EditState:
@@ -105,11 +105,59 @@ def set_depths(state: EditState, indices: Iterable[int], depths: ArrayLike) -> E
     return state.with_current(replace(state.current, pose=pose))
 
 
+def set_pins(state: EditState, indices: Iterable[int], **numbers: ArrayLike | None) -> EditState:
+    """Give some handles other ``angles`` (radians), ``scales`` or ``weights``; None sets free."""
+    chosen, changed = _checked_indices(state, indices), {}
+    for name, values in numbers.items():
+        changed[name] = np.array(getattr(state.pose, name))
+        changed[name][chosen] = np.nan if values is None else values
+    pose = replace(state.pose, **changed)
+    if pose.pins_alike(state.pose):
+        return state
+    state.current.method.check_pose(pose)
+    return state.changed(pose=pose)
+
+
+def turned_now(state: EditState, indices: Iterable[int]) -> tuple[Array, Array]:
+    """Angles and scales (h,) of handles: those that are wanted, else those of the shape there."""
+    pose = state.pose.only(_checked_indices(state, indices))
+    fz, wanted = state.map.wirtinger(pose.handles)[0], (pose.angles, pose.scales)
+    free = np.angle(fz), np.abs(fz)
+    angles, scales = (np.where(np.isnan(w), f, w) for w, f in zip(wanted, free, strict=True))
+    return angles, scales
+
+
+def turn(
+    state: EditState, indices: Iterable[int], by: float = 0.0, scale: float = 1.0
+) -> EditState:
+    """Turn (radians) and scale the shape at some handles, from what it is there."""
+    chosen = _checked_indices(state, indices)
+    if not len(chosen):
+        return state
+    angles, scales = turned_now(state, chosen)
+    changed = {"angles": wrapped(angles + by)} if by else {}
+    return set_pins(state, chosen, **changed, **({"scales": scales * scale} if scale != 1 else {}))
+
+
+def wrapped(angles: Array) -> Array:
+    """The same angles between -pi and pi."""
+    return np.angle(np.exp(1j * angles))
+
+
 def bring_forward(state: EditState, indices: Iterable[int], steps: float = 1) -> EditState:
     """Raise the depths of some handles by a number of steps, up to 100; lower them by negative."""
     chosen = _checked_indices(state, indices)
     depths = (state.pose.depths[chosen] + steps).clip(-DEEPEST, DEEPEST)
     return set_depths(state, chosen, depths)
+
+
+def set_stiffness(state: EditState, stiffness: Stiffness) -> EditState:
+    """Make other areas stiff, as by ``state.pose.stiffness.painted(points, radius)``."""
+    if stiffness == state.pose.stiffness:
+        return state
+    pose = replace(state.pose, stiffness=stiffness)
+    state.current.method.check_pose(pose)
+    return state.changed(pose=pose)
 
 
 def reset(state: EditState) -> EditState:
@@ -134,6 +182,7 @@ def set_method(state: EditState, method: Method | str, **settings: Any) -> EditS
     """Solve by another of :mod:`glid_nb.methods`, or its name; refused when it cannot run."""
     method = methods.by_name(method, **settings) if isinstance(method, str) else method
     method.check(state.current.energy)
+    method.check_pose(state.pose)
     return state.changed(method=method)
 
 

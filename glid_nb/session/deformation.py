@@ -6,7 +6,7 @@ import functools
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from numbers import Real
-from typing import Concatenate, ParamSpec
+from typing import Any, Concatenate, ParamSpec
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,7 +18,7 @@ from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import Sheets
-from glid_nb.session import actions
+from glid_nb.session import actions, pose_text
 from glid_nb.session.document import NamedPose
 from glid_nb.session.edit_state import EditError, EditState, Frame, Moment, Task
 from glid_nb.session.live_solver import LiveSolver
@@ -179,6 +179,11 @@ class Deformation(Observed):
     nudge = _step(actions.nudge)
     set_depths = _step(actions.set_depths)
     bring_forward = _step(actions.bring_forward)
+    set_pins = _step(actions.set_pins)
+    turn = _step(actions.turn)
+    mirror_pose = _step(pose_text.mirror_pose)
+    paste_pose = _step(pose_text.paste_pose)
+    set_stiffness = _step(actions.set_stiffness)
     reset = _step(actions.reset)
     set_energy = _step(actions.set_energy)
     set_options = _step(actions.set_options)
@@ -272,11 +277,18 @@ class Deformation(Observed):
 
     def drag_to(self, targets: ArrayLike) -> None:
         """Move the targets of the dragged handles to (h, 2)."""
+        self._drag(actions.move_targets, targets)
+
+    def drag_pins(self, **numbers: ArrayLike) -> None:
+        """`actions.set_pins` of the dragged handles."""
+        self._drag(actions.set_pins, **numbers)
+
+    def _drag(self, action: Callable[..., EditState], *arguments: Any, **named: Any) -> None:
         with self.locked():
             if not self.dragged:
                 raise EditError("nothing is being dragged; begin a drag first")
-            moved = actions.move_targets(self.state, self.dragged, targets)
-            if np.array_equal(moved.pose.targets, self.pose.targets):
+            moved = action(self.state, self.dragged, *arguments, **named)
+            if _asks_alike(moved.pose, self.pose):
                 return
             self.history = self.history.step(moved, gesture=self.dragged)
             self._error = None
@@ -289,8 +301,8 @@ class Deformation(Observed):
             if not self.dragged:
                 return
             self.dragged = ()
-            origin, targets = self.history.origin, self.pose.targets
-            if origin is not None and np.array_equal(origin.present.pose.targets, targets):
+            origin = self.history.origin
+            if origin is not None and _asks_alike(origin.present.pose, self.pose):
                 self.history = origin.refined(self.state)  # the drag came back to its start
             self.history = self.history.ended()
             self._tell("state")
@@ -449,6 +461,10 @@ class Deformation(Observed):
             if self.moment.comparison is not None:
                 self._frame = None  # of an earlier problem
             self._tell("frame", "status")
+
+
+def _asks_alike(a: Pose, b: Pose) -> bool:
+    return np.array_equal(a.targets, b.targets) and a.pins_alike(b)
 
 
 def _still_there(chosen: Iterable[int], old: Pose, new: Pose) -> tuple[int, ...]:

@@ -101,7 +101,7 @@ def load_document(path: str | Path) -> Document:
         since_3 = {"depths": _json.anything} if version > 2 else {}
         since_4 = {"timeline": _json.check_object} if version > 3 else {}
         if version > 3:
-            since_3 |= dict.fromkeys(("angles", "scales", "weights"), _json.anything)
+            since_3 |= dict.fromkeys(("angles", "scales", "weights", "stiffness"), _json.anything)
         _json.check_fields(data, _JSON, _KEYS, {"scribbles": _json.check_object, **since_4})
         size = _checked_size(data["image_size_px"])
         image = np.asarray(read_png(members[_IMAGE], size, "RGBA", _IMAGE), dtype=np.uint8)

@@ -33,6 +33,7 @@ from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Result
 from glid_nb.solvers.status import RUNNING
+from glid_nb.solvers.stiffness import Stiffness
 
 # Poses per device and call; few sizes, for each compiles a program of its own.
 _SIZES = (1, 4, 16, 64)
@@ -52,6 +53,7 @@ def solve_batch(
     angles: ArrayLike | None = None,
     scales: ArrayLike | None = None,
     weights: ArrayLike | None = None,
+    stiffness: Any = None,
 ) -> tuple[Result, ...]:
     """Deform one shape into many poses.
 
@@ -72,6 +74,8 @@ def solve_batch(
         devices of its own host; give every host its share of the poses.
     depths, angles, scales, weights : (h,) array_like, optional
         Of the handles in every pose, as in :class:`glid_nb.Pose`.
+    stiffness : optional
+        What is stiff in every pose, as there.
 
     Returns
     -------
@@ -89,7 +93,8 @@ def solve_batch(
     check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
     check_type("options", options, Options | None, "write Options(p2p_weight=...)")
     energy, options = as_energy(energy), Options() if options is None else options
-    more = {"depths": depths, "angles": angles, "scales": scales, "weights": weights}
+    more: dict[str, Any] = {"depths": depths, "angles": angles, "scales": scales}
+    more |= {"weights": weights, "stiffness": Stiffness.of(stiffness)}
     poses = _poses(handles, targets, more)
     if not poses:
         return ()

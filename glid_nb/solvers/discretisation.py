@@ -62,7 +62,7 @@ class Matrices(NamedTuple):
     whitening: Float[Array, "2 c u"]
     """``T`` as (Re, Im)."""
     weights: Float[Array, " p+q"]
-    """Quadrature weights of the energy at the nodes; their sum is 1."""
+    """Quadrature weights of the energy at the nodes; their sum is 1, and :attr:`stiff`."""
     hessian_weights: Float[Array, " h"]
     proof: PanelProof
     """The constants of the certificate on the panels."""
@@ -73,6 +73,9 @@ class Matrices(NamedTuple):
     next: Int[Array, " p"]
     real: Bool[Array, " p"]
     """False for padding."""
+    stiff: Float[Array, ""] | None = None
+    """What stiff areas add to the weights; None without any. With them, nodes inside the domain
+    follow those on the panels."""
 
 
 class _Rows(NamedTuple):
@@ -99,15 +102,13 @@ class Discretisation:
     def basis(self) -> Basis:
         return basis_of(self.domain)
 
-    @property
     @double_precision
-    def full_matrices(self) -> Matrices:
-        """:attr:`matrices`, anew, with the Hessian in double precision and on all its nodes.
+    def full(self, m: Matrices) -> Matrices:
+        """Matrices with the Hessian in double precision and on all its nodes.
 
         On graded panels these are the energy's, at least twice as many: the Hessian is then exactly
         that of the discrete energy. The uniform sampling keeps its own (33).
         """
-        m = self.matrices
         if self.sampling == "graded":
             index = jax.device_put(np.arange(len(m.weights)))
             m = m._replace(hessian_index=index, hessian_weights=m.weights)
@@ -238,10 +239,10 @@ def _assembled(
         h = padding(len(index))
     else:
         h = -(-len(index) // 16) * 16
-    index, chord, nodes = padded(index, h), panels.end - panels.start, _real_columns(nodes)
+    index, chord, nodes = padded(index, h), panels.end - panels.start, real_columns(nodes)
     on_host = {
         "nodes": nodes,
-        "slopes": _real_columns(padded(rows.slopes, p)),
+        "slopes": real_columns(padded(rows.slopes, p)),
         "hessian_index": index,
         "whitened": whitened(nodes, index, t, np.float32),
         "whitening": t,
@@ -284,7 +285,7 @@ def _hessian_nodes(
     return every, weights[every]
 
 
-def _real_columns(rows: np.ndarray) -> np.ndarray:
+def real_columns(rows: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray(np.concatenate([np.real(rows), -np.imag(rows)], axis=1).T)
 
 

@@ -71,19 +71,26 @@ def moved(problem: Problem, point: Point, line: Line, step: Number) -> Point:
 
 
 def _point(problem: Problem, y: Coefficients, samples: Samples, largest: Number) -> Point:
-    iso = isometric_energy(samples.nodes, problem.matrices.weights, problem.energy)
+    iso = isometric_energy(samples.nodes, problem.matrices, problem.energy)
     return Point(y, samples, iso, problem.positional.energy(y), largest)
 
 
 def isometric_energy(
-    nodes: Float[Array, "4 *t s"], weights: Float[Array, " s"], energy: Energy
+    nodes: Float[Array, "4 *t s"], matrices: Matrices, energy: Energy
 ) -> Float[Array, "*t"]:
-    """Equation (31), infinite where a sample is inverted; padding (weight 0) counts nothing."""
+    """Equation (31), infinite where a sample is inverted; padding (weight 0) counts nothing.
+
+    Of what stiff areas add, an isometry has nothing.
+    """
+    weights = matrices.weights
     x, y = squares(nodes)
     valid = x > y
     density = energy.density(jnp.where(valid, x, 1.0), jnp.where(valid, y, 0.0))
     density = jnp.where(valid & (density < jnp.inf), density, jnp.inf)
-    return jnp.sum(jnp.where(weights > 0, weights * density, 0), axis=-1)
+    total = jnp.sum(jnp.where(weights > 0, weights * density, 0), axis=-1)
+    if matrices.stiff is None:
+        return total
+    return total - matrices.stiff * energy.density(jnp.ones(()), jnp.zeros(()))
 
 
 def gradient(problem: Problem, point: Point) -> Coefficients:

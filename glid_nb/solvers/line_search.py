@@ -67,7 +67,7 @@ def search(problem: Problem, point: Point, line: Line) -> Search:
         r = residual + t[:, None] * residual_change
         p2p = 0.5 * jnp.sum(positional.weights * r**2, axis=-1)
         there = nodes[:, None] + t[:, None] * change[:, None]
-        return evaluation.isometric_energy(there, problem.matrices.weights, problem.energy) + p2p
+        return evaluation.isometric_energy(there, problem.matrices, problem.energy) + p2p
 
     def acceptable(steps: Array, energies: Array) -> Array:
         return energies < total - ARMIJO * steps * line.squared_decrement

@@ -71,6 +71,8 @@ class Method:
     tolerance: ClassVar[float] = 0.0
     energies: ClassVar[tuple[str, ...] | None] = None
     """Names of the energies that it can minimise; None for any."""
+    stiffens: ClassVar[bool] = True
+    """Whether it keeps stiff areas, where its maps are certified."""
     package: ClassVar[str | None] = None
     """The optional package that it needs."""
     options: ClassVar[tuple[str, ...]] = ("p2p_weight", "align", "max_iterations")
@@ -135,7 +137,12 @@ class Method:
         self.check_energy(energy)
 
     def check_pose(self, pose: Pose) -> None:
-        """Raise :class:`MethodError` if it cannot hold what is wanted of a handle."""
+        """Raise :class:`MethodError` if it cannot hold an angle, a scale or a stiff area."""
+        if pose.stiffness and not (self.stiffens and self.certified):
+            raise MethodError(
+                f"the method {self.name!r} knows no stiff areas; clear them, or choose Newton's "
+                "method, L-BFGS or another descent that moves the certified map"
+            )
         if pose.turned.any() and not self.certified:
             raise MethodError(
                 f"the method {self.name!r} cannot hold the angle or the scale of handle "

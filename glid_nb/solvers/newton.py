@@ -163,7 +163,7 @@ class NewtonDescent(SubspaceDescent):
     def split(self, refused: Array) -> int:
         count = super().split(refused)
         if count and self.full_since is not None:
-            self.problem = self.problem._replace(matrices=self.discretisation.full_matrices)
+            self.problem = self.problem._replace(matrices=self.discretisation.full(self.matrices))
         return count
 
     def _take_full_hessian(self) -> bool:
@@ -171,7 +171,7 @@ class NewtonDescent(SubspaceDescent):
         if self.full_since is not None:
             return False
         self.full_since = len(self.history)
-        self.problem = self.problem._replace(matrices=self.discretisation.full_matrices)
+        self.problem = self.problem._replace(matrices=self.discretisation.full(self.matrices))
         return True
 
     def _relax_ridge(self) -> None:

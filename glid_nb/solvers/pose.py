@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from glid_nb._arrays import Array, number_pairs, read_only, real_array
 from glid_nb._errors import InputError
 from glid_nb.geometry import Domain, place
+from glid_nb.solvers.stiffness import Stiffness
 
 # Farther away, the rounding of a coordinate would be felt in the proof.
 _FARTHEST = 1e6
@@ -25,6 +26,7 @@ _MORE = {
     "scales": (0.01, 100.0, np.nan),
     "weights": (1e-6, 1e6, 1.0),
 }
+PER_HANDLE = ("handles", "targets", *_MORE)
 
 
 class PoseError(InputError):
@@ -51,12 +53,19 @@ class Pose:
     weights : (h,) array_like, optional
         How firmly each handle is held, relative to ``Options.p2p_weight``; by default 1. For
         methods in the harmonic subspace.
+    stiffness : list of dict or Stiffness, optional
+        Strokes over what should stay as it is, each with ``points`` (n, 2) of the undeformed shape,
+        the ``radius`` of the brush and the ``strength`` from 0, which erases, to 1; the last one
+        counts. It is written and passed on with the pose, as part of what is asked for. For
+        descents in the harmonic subspace.
 
     Raises
     ------
     PoseError
         When shapes or counts differ, a coordinate is not finite or out of scale, or two handles
         coincide.
+    StiffnessError
+        When a stroke is not valid.
     """
 
     handles: Array
@@ -65,6 +74,7 @@ class Pose:
     angles: Array
     scales: Array
     weights: Array
+    stiffness: Stiffness
 
     def __init__(
         self,
@@ -75,6 +85,7 @@ class Pose:
         angles: ArrayLike | None = None,
         scales: ArrayLike | None = None,
         weights: ArrayLike | None = None,
+        stiffness: Stiffness | Sequence[Mapping[str, Any]] | None = None,
     ) -> None:
         object.__setattr__(self, "handles", _checked_points(handles, "handles"))
         object.__setattr__(self, "targets", _checked_points(targets, "targets"))
@@ -87,6 +98,7 @@ class Pose:
         more = {"depths": depths, "angles": angles, "scales": scales, "weights": weights}
         for name, values in more.items():
             object.__setattr__(self, name, _checked_numbers(name, values, n_handles))
+        object.__setattr__(self, "stiffness", Stiffness.of(stiffness))
         _, first, inverse = np.unique(self.handles, axis=0, return_index=True, return_inverse=True)
         repeated = np.flatnonzero(first[inverse.ravel()] != np.arange(n_handles))
         if repeated.size:
@@ -114,7 +126,7 @@ class Pose:
 
     def only(self, kept: Any) -> Pose:
         """Some of the handles, by their indices or a mask."""
-        return Pose(**{known.name: getattr(self, known.name)[kept] for known in fields(self)})
+        return replace(self, **{name: getattr(self, name)[kept] for name in PER_HANDLE})
 
     @property
     def turned(self) -> Array:
@@ -123,7 +135,7 @@ class Pose:
 
     def pins_alike(self, other: Pose) -> bool:
         """Whether the other pose wants the same but for targets and depths."""
-        return all(
+        return self.stiffness == other.stiffness and all(
             np.array_equal(getattr(self, name), getattr(other, name), equal_nan=True)
             for name in ("handles", "angles", "scales", "weights")
         )
@@ -135,6 +147,8 @@ class Pose:
             values = getattr(self, name)
             if not np.array_equal(values, np.full(len(self), default), equal_nan=True):
                 more[name] = [None if np.isnan(value) else value for value in values.tolist()]
+        if self.stiffness:
+            more["stiffness"] = self.stiffness.to_list()
         return {"handles": self.handles.tolist(), "targets": self.targets.tolist(), **more}
 
     @classmethod
@@ -145,7 +159,7 @@ class Pose:
         for key in ("handles", "targets"):
             if key not in data:
                 raise PoseError(f'the pose lacks the key "{key}"')
-        more = {name: data.get(name) for name in _MORE}
+        more = {name: data.get(name) for name in (*_MORE, "stiffness")}
         return cls(data["handles"], data["targets"], **more)
 
 

@@ -90,8 +90,8 @@ def positional_energy(
         weights[:, pinned] = _TURN * weight * pose.weights[turned] * held
         matrix = matrix.reshape(2, size, -1).copy()
         matrix[:, pinned, : 2 * basis.n_columns] = [
-            np.hstack([d.real, -d.imag]),
-            np.hstack([d.imag, d.real]),
+            np.hstack([np.real(d), -np.imag(d)]),
+            np.hstack([np.imag(d), np.real(d)]),
         ]
         matrix = matrix.reshape(2 * size, -1)
     return Positional(matrix, aims.ravel(), weights.ravel())

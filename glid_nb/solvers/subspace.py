@@ -12,7 +12,7 @@ from glid_nb.certificate import Certificate, certificate_of, certify, proved_by
 from glid_nb.geometry import Domain, Panels
 from glid_nb.harmonic import HarmonicMap, as_complex
 from glid_nb.solvers import evaluation, problem
-from glid_nb.solvers.discretisation import Discretisation, discretise
+from glid_nb.solvers.discretisation import Discretisation, Matrices, discretise
 from glid_nb.solvers.evaluation import Point
 from glid_nb.solvers.loop import Descent, Ending, Reached
 from glid_nb.solvers.method import Inputs, Method
@@ -20,6 +20,7 @@ from glid_nb.solvers.pose import Pose, rigid_motion
 from glid_nb.solvers.problem import Problem, map_from
 from glid_nb.solvers.result import Iteration, Result
 from glid_nb.solvers.status import Status
+from glid_nb.solvers.stiff_matrices import stiff_matrices
 from glid_nb.solvers.unknowns import canonical, unknowns_of
 
 # Measurements of angles and scales, after which the directions found are kept.
@@ -63,7 +64,7 @@ class SubspaceDescent(Descent):
         map_, self.given, self.discretisation = _starting_point(method, inputs)
         basis = self.discretisation.basis
         self.problem = Problem(
-            matrices=self.discretisation.matrices,
+            matrices=self.matrices,
             singularities=basis.singularities,
             unknowns=unknowns_of(
                 basis,
@@ -80,6 +81,12 @@ class SubspaceDescent(Descent):
         self.pin(map_)
         self.coefficients: Any = problem.real_coefficients(basis, map_)
         self.problem = self.problem._replace(anchor=problem.anchor_of(basis, self.coefficients))
+
+    @property
+    def matrices(self) -> Matrices:
+        """Those of the panels, with the weights of the pose's stiffness."""
+        disc, stiffness = self.discretisation, self.inputs.pose.stiffness
+        return stiff_matrices(disc, stiffness) if stiffness else disc.matrices
 
     def pin(self, map: HarmonicMap) -> bool:
         """Measure angles and scales from this map; whether that changes what is minimised."""
@@ -147,7 +154,7 @@ class SubspaceDescent(Descent):
         count = int(wanted.sum())
         if count:
             self.discretisation = self.discretisation.refined(wanted)
-            self.problem = self.problem._replace(matrices=self.discretisation.matrices)
+            self.problem = self.problem._replace(matrices=self.matrices)
             self.just_split += count
         return count
 

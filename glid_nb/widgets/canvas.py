@@ -17,11 +17,13 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.mesh import deformed_loops
 from glid_nb.imaging.order import Order
 from glid_nb.imaging.read import ImageSource, read_image
+from glid_nb.session.actions import turned_now
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditState, Moment
+from glid_nb.widgets.brush import BrushGestures, brush_toggle, painted_areas
 from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.controls import button
-from glid_nb.widgets.gestures import Event, PinGestures
+from glid_nb.widgets.gestures import Event
 from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import OVERLAYS
 from glid_nb.widgets.pane import Pane
@@ -43,10 +45,14 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
 
     A click on the shape adds a handle, a drag moves its target (cyan); the handle (black) follows
     as far as a certified map allows. Right click, long touch and the Menu key show what else can
-    be done. Delete removes it, with Shift the shape stays. Shift-click selects several.
+    be done. Delete removes it, with Shift the shape stays. Shift-click, a box (Shift and drag) and
+    a lasso (Ctrl and drag) select several. The ring around a handle turns and scales the shape
+    there, as do ``<`` and ``>``, ``+`` and ``-``; X sets both free. Ctrl+C and Ctrl+V copy a pose
+    to this or a similar shape, M swaps its left and right.
     Page Down and Page Up, or ``[`` and ``]``, send selected handles, and what is around them, back
     and forward. Arrow keys nudge, Ctrl+Z and Ctrl+Shift+Z undo and redo, Esc cancels a drag, 0
-    resets the shape, F makes everything visible. The wheel zooms about the pointer; the middle
+    resets the shape, F makes everything visible. B takes a brush that paints what should stay as it
+    is, E its eraser, Esc lays it down. The wheel zooms about the pointer; the middle
     button, or the space bar and a drag, pan; so do two fingers. By keyboard alone: arrow keys move
     a cursor, Enter adds or selects a handle there, comma and full stop select the next one.
 
@@ -107,7 +113,10 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self._mesh: dict[str, Any] = {"n_vertices": n_vertices, "evaluated_in": evaluated_in}
         self.pane = self._pane(size, interactive=True)
         self.source: Pane | None = None
-        self.gestures = PinGestures(model, self.fit, self.image)
+        self.gestures = BrushGestures(model, self.fit, self.image)
+        self.gestures.copy = lambda text: self.pane.stage.send({"copy": text})
+        self.brush = self.gestures.brush
+        """What the hand paints stiff areas with."""
         self._closed = False  # a frame may arrive while the canvas closes
         self._panels_at = self._range_at = 0.0
         self._hidden: Any = ()
@@ -140,6 +149,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self.observe(lambda _: self._draw("legend"), ["overlay", "show_panels"])
         self.observe(self._show_source, ["show_source"])
         self.observe(lambda _: self._draw("state"), ["show_onion"])
+        self.brush.observe(lambda _: self._draw("state"))
 
     @property
     def drawn(self) -> bool:
@@ -231,6 +241,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 pose.targets,
                 moment.shown(pose.handles) if len(pose) else (),
                 moment.selection,
+                _ring(moment),
                 self._hidden,
                 state.order,
                 self.overlay,
@@ -241,6 +252,8 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             )
             self.pane.show(drawing)
             self.pane.stage.onion = self._onion(state) if self.show_onion else []
+            self.pane.stage.brush = self.brush.shown
+            self.pane.stage.stiff = painted_areas(moment) if self.brush.tool else []
             if self.source is not None:
                 self.source.show(Drawing(state.identity, images=pose.handles, **cages))
             if (what == "legend" or (what == "frame" and moment.solved)) and not moment.dragged:
@@ -328,6 +341,15 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             self.fit()
 
 
+def _ring(moment: Moment) -> tuple[float, ...]:
+    if not moment.selection or moment.comparison is not None:
+        return ()
+    last, pose = moment.selection[-1], moment.state.pose
+    angle, scale = (float(values[0]) for values in turned_now(moment.state, [last]))
+    wanted = (float(not np.isnan(values[last])) for values in (pose.angles, pose.scales))
+    return round(angle, 4), round(scale, 4), *wanted
+
+
 class Toolbar(ClosingWidget, ipywidgets.HBox):
     """Undo, redo, reset, fit, and what the canvas shows."""
 
@@ -352,8 +374,12 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
             )
             ipywidgets.link((canvas, name), (toggle, "value"))
         buttons = self.undo, self.redo, self.reset, self.fit
+        tip = "Paint what should stay as it is (B)"
+        look = {"description": "Stiff", "icon": "paint-brush", "tooltip": tip}
+        self.stiff = brush_toggle(canvas.brush, "stiff", "", **look)
         kwargs = {"layout": {"flex_flow": "row wrap"}, **kwargs}
-        super().__init__([*buttons, self.overlay, *self.toggles.values()], **kwargs)
+        shown = [*buttons, self.overlay, *self.toggles.values(), self.stiff]
+        super().__init__(shown, **kwargs)
         self.add_class("glid-tools")
         self._show("state")
         self._endings = (model.observe(self._show),)

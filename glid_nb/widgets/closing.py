@@ -87,8 +87,17 @@ def close_on_rerun(made: Any) -> bool:
     closed = [] if last_run == run else list(earlier)
     for old in closed:
         old.close()
+        _forget(old)
     _made[cell] = run, weakref.WeakSet([made, *(earlier if last_run == run else ())])
     return bool(closed)
+
+
+def _forget(closed: Any) -> None:
+    """Take what is closed out of the notebook's ``Out`` and ``_12``, which would keep it alive."""
+    names = getattr(sys.modules["IPython"].get_ipython(), "user_ns", {})
+    for number in [n for n, value in names.get("_oh", {}).items() if value is closed]:
+        del names["_oh"][number]
+        names.pop(f"_{number}", None)
 
 
 def _running_cell() -> tuple[str, str] | None:

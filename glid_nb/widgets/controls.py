@@ -42,7 +42,7 @@ class EditControls(ClosingWidget, ipywidgets.VBox):
     ) -> None:
         self.deformation = deformation
         """The model that this is a view of."""
-        self.refusal = ipywidgets.HTML()
+        self.refusal = ipywidgets.HTML().add_class("glid-refusal")
         """Why the last change was refused."""
         # Whether controls follow the model; per thread, as they may be used in another meanwhile.
         self._following = threading.local()

@@ -26,6 +26,7 @@ from glid_nb.session.edit_state import EditError
 from glid_nb.session.editor_model import EditorModel, find_document
 from glid_nb.session.status_line import StatusLine
 from glid_nb.solvers import Method, Pose
+from glid_nb.widgets.brush import BrushBar
 from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
 from glid_nb.widgets.closing import ClosingWidget, close_on_rerun, close_with_parts
 from glid_nb.widgets.controls import REFUSED, button, paragraph
@@ -40,8 +41,8 @@ from glid_nb.widgets.tracer import CageTracer
 _TRACE, _DEFORM = 0, 1
 _FILES = 2  # of the tabs beside the canvas
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
-_PINS_HEIGHT = "36px"  # kept free until the pins' numbers are made
-_SIDE_WIDTH, _PLOTS_HEIGHT = 460, 370  # CSS pixels
+_PINS_HEIGHT = "68px"  # kept free until the pins' numbers are made; two rows of them
+_SIDE_WIDTH, _PLOTS_HEIGHT = 460, 382  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
 
 _LEFT = (
@@ -380,7 +381,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         """One of these parts, in its box."""
         makers: dict[str, Callable[[], ipywidgets.Widget]] = {
             "tracer": lambda: CageTracer(model=self.model.tracing, height=self._size[1]),
-            "pins": lambda: PinBar(self.deformation),
+            "pins": self._bars,
             "solver": lambda: SolverPanel(self.deformation),
             "files": lambda: FilePanel(self.model, self.timeline.animation),
         }
@@ -392,6 +393,12 @@ class Editor(ClosingWidget, ipywidgets.VBox):
                 self._boxes[name].children = [part]
             return self._parts[name]
 
+    def _bars(self) -> ipywidgets.VBox:
+        """The numbers of the pins, and in their place the brush's while there is one."""
+        assert self.canvas is not None
+        pins = PinBar(self.deformation)
+        return ipywidgets.VBox([pins, BrushBar(self.deformation, self.canvas.brush, pins)])
+
     def _deform_tab(self) -> ipywidgets.Widget:
         model, image = self.model.deformation, self.model.image
         assert image is not None
@@ -401,9 +408,9 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.timeline = TimelinePanel(self.canvas, self._open_files)
         # Boxes to be filled: if the children changed, the page would select another tab.
         self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}
-        self._boxes["pins"] = ipywidgets.VBox(layout={"min_height": _PINS_HEIGHT})
+        bars = self._boxes["pins"] = ipywidgets.VBox(layout={"min_height": _PINS_HEIGHT})
         self._side = ipywidgets.Tab(
-            [self.monitor.image, self._boxes["solver"], self._boxes["files"]],
+            [self.monitor.plots, self._boxes["solver"], self._boxes["files"]],
             titles=("Monitor", "Solver", "Files"),
             layout={"min_height": f"{_PLOTS_HEIGHT + 64}px"},
         )
@@ -412,9 +419,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         line.layout.height, line.layout.overflow = "44px", "hidden auto"  # however long it is
         side = ipywidgets.VBox([self._side], layout={"width": f"{_SIDE_WIDTH + 34}px"})
         side.add_class("glid-side")
-        left = ipywidgets.VBox(
-            [self.toolbar, self._boxes["pins"], self.canvas, self.timeline, line]
-        )
+        left = ipywidgets.VBox([self.toolbar, bars, self.canvas, self.timeline, line])
         left.add_class("glid-column")
         wrapped = {"align_items": "flex-start", "flex_flow": "row wrap", "overflow": "visible"}
         return ipywidgets.HBox([left, side], layout=wrapped)

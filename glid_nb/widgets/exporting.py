@@ -1,11 +1,15 @@
 """Exports of an editor, chosen by the file's suffix."""
 
+import contextlib
+import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from glid_nb._errors import InputError
 from glid_nb._files import write_bytes_atomically, zipped
 from glid_nb._json import json_text
+from glid_nb._runtime import data_directory
 from glid_nb.certificate.proof import proof_text
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View
@@ -187,3 +191,24 @@ def _write(model: EditorModel, owner: Path, contents: Mapping[Path, bytes], repl
 
 def _holds(path: Path, data: bytes) -> bool:
     return path.is_file() and path.stat().st_size == len(data) and path.read_bytes() == data
+
+
+def last_export() -> dict[str, Any]:
+    """What `remember_export` wrote last; empty where nothing can be read."""
+    try:
+        known = json.loads(_last_export().read_bytes())
+    except (OSError, ValueError):  # none yet, or damaged
+        return {}
+    return known if isinstance(known, dict) else {}
+
+
+def remember_export(choices: Mapping[str, Any]) -> None:
+    """Keep the choices of an export in the user's data folder, if that can be written."""
+    path = _last_export()
+    with contextlib.suppress(OSError):  # the export itself needs no such folder
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_bytes_atomically(path, json_text(choices).encode())
+
+
+def _last_export() -> Path:
+    return data_directory() / "last-export.json"

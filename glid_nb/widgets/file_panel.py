@@ -1,5 +1,6 @@
 """Open, save, export."""
 
+import contextlib
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -7,6 +8,7 @@ from typing import Any
 
 import anywidget
 import ipywidgets
+import traitlets
 
 from glid_nb._errors import InputError
 from glid_nb._scripts import bundle
@@ -25,7 +27,9 @@ from glid_nb.widgets.exporting import (
     export,
     export_source,
     files_of,
+    last_export,
     names_of,
+    remember_export,
     write_beside,
 )
 
@@ -191,6 +195,12 @@ class FilePanel(ipywidgets.VBox):
         self.add_class("glid-files")
         for control in (self.path, self.format, self.width):
             control.observe(self._show, ["value"])
+        self._remembered: dict[str, Any] = {"format": self.format, "view": self.view}
+        if self.motion is not None:
+            self._remembered |= {"size": self.motion.size, "rate": self.motion.rate}
+        for name, value in last_export().items():
+            with contextlib.suppress(KeyError, traitlets.TraitError):  # no choice here, or no more
+                self._remembered[name].value = value
         self._show()
 
     def _add_buttons(self) -> None:
@@ -275,7 +285,7 @@ class FilePanel(ipywidgets.VBox):
         return path, chosen.startswith(_MOTION)
 
     def _export(self, sure: bool) -> str:
-        path, moving = self._chosen
+        path, moving = self._remember()
         if not sure:
             from glid_nb.export.motion import motion_file_names  # noqa: PLC0415 - as above
 
@@ -291,8 +301,13 @@ class FilePanel(ipywidgets.VBox):
     def _wrote(self, files: Sequence[Path]) -> str:
         return f"Wrote {names_of(files)} to {files[0].parent.absolute()}"
 
+    def _remember(self) -> tuple[Path, bool]:
+        """What is chosen, for this export and the next session."""
+        remember_export({name: control.value for name, control in self._remembered.items()})
+        return self._chosen
+
     def _download(self, _: bool) -> str:
-        path, moving = self._chosen
+        path, moving = self._remember()
         if moving and self.motion is not None:
             return self.motion.start(path.name, lambda files: self._sent(*as_one(files, path.stem)))
         view: Any = self.view.value

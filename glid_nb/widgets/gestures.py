@@ -5,12 +5,15 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
+import shapely
 
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
+from glid_nb.session.actions import turned_now, wrapped
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
 from glid_nb.session.model import Observed
+from glid_nb.session.pose_text import pose_text
 
 Event = Mapping[str, Any]
 
@@ -21,6 +24,9 @@ _CURSOR, _CURSOR_SHIFT = 6.0, 30.0  # pixels
 ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowDown": (0, -1)}
 
 DEPTHS = {"PageUp": 1, "]": 1, "PageDown": -1, "[": -1}
+TURNS = {"<": np.radians(5), ">": np.radians(-5)}
+SCALES = {"+": 1.05, "=": 1.05, "-": 1 / 1.05}
+_LEAST_SCALE, _LARGEST_SCALE = 0.05, 20.0  # that a hand gives
 
 
 class Gestures:
@@ -69,6 +75,10 @@ class _Press:
     targets: Array | None
     """Where the dragged targets were when the pointer was at ``start``; None without a handle."""
     dragging: bool = False
+    part: str = ""
+    """Of the ring around a handle: "turn" or "scale"."""
+    turned: tuple[Array, Array] | None = None
+    """Angles and scales of the selected handles when the pointer was at ``start``."""
 
 
 class PinGestures(Gestures):
@@ -78,6 +88,7 @@ class PinGestures(Gestures):
     """
 
     takes = Gestures.takes | {"pin"}
+    asks: ClassVar[dict[str, tuple[str, ...]]] = {"paste_pose": ("text",)}
 
     def __init__(
         self, deformation: Deformation, fit: Callable[[], None], image: Array | None = None
@@ -86,6 +97,8 @@ class PinGestures(Gestures):
         self.deformation, self._image = deformation, image
         self._fit = fit
         self._press: _Press | None = None
+        self.copy: Callable[[str], None] = lambda _: None
+        """Puts text into the clipboard."""
         self.cursor: list[float] | None = None
         """Where the keyboard's cursor is."""
 
@@ -119,7 +132,10 @@ class PinGestures(Gestures):
             model.select([hit])  # what the menu is about
         if event["button"] != LEFT:
             return
-        if hit is None:
+        if hit is None and (part := event.get("part")) and model.selection:
+            turned = turned_now(model.state, model.selection)
+            self._press = _Press(point, None, None, part=part, turned=turned)
+        elif hit is None:
             source = None if event["shift"] else self._source(point)
             self._press = _Press(point, source, None)
         elif event["shift"]:
@@ -135,6 +151,9 @@ class PinGestures(Gestures):
         if press is None:
             return
         moved = float(np.linalg.norm(point - press.start))
+        if press.part:
+            self._turn(press, point)
+            return
         if press.targets is None:
             if press.source is None or moved <= _SLOP_ON_SHAPE * event["unit"]:
                 return
@@ -153,9 +172,39 @@ class PinGestures(Gestures):
             press.start, press.targets = point, model.pose.targets[held]
         model.drag_to(press.targets + (point - press.start))
 
+    def _turn(self, press: _Press, point: Array) -> None:
+        """Turn or scale the shape at the selected handles as the pointer moves around the last."""
+        model = self.deformation
+        if not model.selection or (press.dragging and not model.dragged):  # undone, or removed
+            self._press = None
+            return
+        if not press.dragging:
+            model.begin_drag(model.selection)
+            press.dragging = True
+        assert press.turned is not None
+        centre, (angles, scales) = model.pose.targets[model.selection[-1]], press.turned
+        before, now = ((place - centre) @ [1, 1j] for place in (press.start, point))
+        if abs(now) == 0 or len(angles) != len(model.dragged):
+            return
+        wanted = {"angles": wrapped(angles + np.angle(now / before))}
+        if press.part == "scale":
+            scales = (scales * abs(now / before)).clip(_LEAST_SCALE, _LARGEST_SCALE)
+            wanted = {"scales": scales}
+        try:
+            model.drag_pins(**wanted)
+        except InputError:  # the method cannot
+            model.end_drag()
+            raise
+
     def _up(self, event: Event) -> None:
         press, self._press = self._press, None
-        if press is None:
+        path = event.get("path") or ()
+        if len(path) > 2:  # a box or a lasso
+            inside = shapely.make_valid(shapely.Polygon(path))
+            chosen = np.flatnonzero(shapely.contains_xy(inside, *self.deformation.pose.targets.T))
+            self.deformation.select([*self.deformation.selection, *chosen.tolist()])
+            return
+        if press is None or (press.part and not press.dragging):
             return
         if press.dragging:
             self.deformation.end_drag()
@@ -202,6 +251,16 @@ class PinGestures(Gestures):
             model.reset()
         elif key in DEPTHS:
             model.bring_forward(model.selection, DEPTHS[key])
+        elif key in TURNS:
+            model.turn(model.selection, TURNS[key])
+        elif key in SCALES:
+            model.turn(model.selection, scale=SCALES[key])
+        elif key in ("x", "X"):
+            model.set_pins(model.selection, angles=None, scales=None)
+        elif key in ("m", "M"):
+            model.mirror_pose()
+        elif key == "copy":
+            self.copy(pose_text(model.state))
         elif key in ("f", "F"):
             self._fit()
         elif key in (",", "."):

@@ -13,11 +13,12 @@ from glid_nb.geometry import Cage
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import png
 from glid_nb.solvers import Iteration
+from glid_nb.widgets.monitor import PLOTS
 
 _DPI, _SCALE = 100, 1.5  # pixels of the picture for each of CSS
 # CSS pixels. A plot's legend is above it; ticks and the axis's name are below.
 _LEFT, _RIGHT, _ABOVE, _BELOW = 44, 8, 31, 32
-_BETWEEN_COLUMNS, _BETWEEN_ROWS, _ABOVE_TIMES = 46, 52, 17
+_BETWEEN_COLUMNS, _BETWEEN_ROWS, _ABOVE_TIMES = 46, 64, 17
 _ROWS, _STEPS_AND_TIMES = (0.56, 0.44), (0.68, 0.32)  # shares of the height
 
 
@@ -52,6 +53,8 @@ class LivePlots:
         self._time = TimePlot(figure.add_subplot(right[1]), animated=True)
         self._certificate = CertificatePlot(figure.add_subplot(rows[1]), cage, animated=True)
         self._plots: tuple[Plot, ...] = self._energy, self._step, self._time, self._certificate
+        for plot, name in zip(self._plots, PLOTS, strict=True):
+            plot.entitle(name, *((2.0,) if plot is self._time else ()))
         # Steps and times share the axis below them.
         self._step.axes.set_xlabel("")
         self._step.axes.tick_params(labelbottom=False)
@@ -64,14 +67,16 @@ class LivePlots:
         map: HarmonicMap | None = None,
         starts: Collection[int] = (),
         solving: bool = False,
+        minimum: float = 0.0,
     ) -> bytes:
         """The plots of these iterations and of this certificate, if there is one, as PNG.
 
         With a map its sampled sigma_2 is drawn over the certified bound. ``starts`` are the first
-        iterations after targets moved, ``solving`` tells whether the last solve goes on.
+        iterations after targets moved, ``solving`` tells whether the last solve goes on,
+        ``minimum`` is the least isometric energy there is.
         """
         changed = [
-            self._energy.update(history, starts=starts, solving=solving),
+            self._energy.update(history, starts=starts, solving=solving, minimum=minimum),
             self._step.update(history, starts, solving),
             self._time.update(history),
             self._certificate.update(certificate, map),

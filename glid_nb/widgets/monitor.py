@@ -15,6 +15,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import Moment
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins, weakly
+from glid_nb.solvers.restarts import isometry_energy
 from glid_nb.widgets.closing import ClosingWidget
 
 if TYPE_CHECKING:
@@ -24,11 +25,35 @@ _INTERVAL = 0.1  # least number of seconds between two drawings of the plots
 _COLORS = (GREY, BLUE, GREEN, ORANGE, VERMILION)
 _TONES = dict(zip(("idle", "working", "good", "blocked", "error"), _COLORS, strict=True))
 _RATE_WINDOW = 1.0  # seconds over which frames are counted
-# The placeholder's axes: name, left, top, width and height in percent.
-_AXES = (
-    *(("energy", 10, 9, 39, 42), ("steps", 59, 9, 39, 25), ("time per iteration", 59, 39, 39, 12)),
-    ("certificate", 10, 65, 88, 26),
-)
+PLOTS = {
+    "Energy": (
+        (9.6, 8.1, 39.3, 37.4),
+        "How far the shape is from undeformed, on a logarithmic axis: the energy's mean along the "
+        "boundary above the least one there is, 2 for the symmetric Dirichlet energy (blue, "
+        "Section 6), what the pins miss (orange), and both together, (20). Lines join the ends of "
+        "solves, dots are iterations within them.",
+    ),
+    "Steps": (
+        (58.9, 8.1, 39.3, 22.4),
+        "The Newton decrement, which falls to 0 as a minimum comes near, and the share of each "
+        "Newton step that was taken, 1 for all of it. The Hessian is projected as in Section 7 if "
+        "it has to be, and the line search shortens a step until the energy falls and the map is "
+        "certified (Section 9.2, Algorithm 1).",
+    ),
+    "Time": (
+        (58.9, 35.0, 39.3, 10.5),
+        "How long each iteration took: energy, gradient, Hessian, factor, line search and "
+        "certificate together. Section 10 compares such times (Figure 9, Table 2).",
+    ),
+    "Certificate": (
+        (9.6, 62.3, 88.7, 29.3),
+        "The certified lower bound on σ₂ along the boundary (blue), loop by loop, and σ₂ itself at "
+        "samples (dark): while the bound is above 0 and the winding number is 0, the map folds "
+        "nowhere, also inside (Theorem 4.2). Section 8 has such bounds; ours are sharper.",
+    ),
+}
+"""By a plot's name: left, top, width and height in percent; what it shows, and where in the paper
+that is."""
 
 
 class SolverMonitor(ClosingWidget, ipywidgets.VBox):
@@ -60,14 +85,16 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
             value=_placeholder(width, height), format="svg+xml", width=width, height=height
         )
         """The plots; empty axes until the solver has begun."""
-        self._size = (width, height)
+        self.plots = ipywidgets.VBox([_guide(width, height), self.image])
+        """The plots and what explains them."""
+        self._size, self._with_plots = (width, height), plots
         self._plots: LivePlots | None = None
         self._frames: deque[float] = deque()
         self._worker: LatestWins[None] = LatestWins(
             weakly(self._update), self, "monitor", interval=_INTERVAL
         )
         self._drawn: Any = None
-        super().__init__([self.line, self.image] if plots else [self.line], **kwargs)
+        super().__init__([self.line, self.plots] if plots else [self.line], **kwargs)
         self.add_class("glid-monitor")
         self.image.add_class("glid-plots")
         self.image.layout.width, self.image.layout.height = f"{width}px", f"{height}px"
@@ -103,7 +130,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         if moment.busy:
             self._worker.submit(None)
         # The first canvas does not wait for matplotlib.
-        if self.image in self.children and self.deformation.begun:
+        if self._with_plots and self.deformation.begun:
             self._draw(moment)
 
     def _status(self, moment: Moment) -> StatusLine:
@@ -135,7 +162,8 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
             proof, map_ = frame.proof, None
         else:
             proof, map_ = certificate_of(moment.map), moment.map
-        picture = self._plots.draw(history, proof, map_, starts, moment.busy)
+        minimum = isometry_energy(moment.state.current.energy)
+        picture = self._plots.draw(history, proof, map_, starts, moment.busy, minimum)
         with self.image.hold_sync():  # format and value in one message
             self.image.format, self.image.value = "png", picture
         self._drawn = new
@@ -147,10 +175,42 @@ def _placeholder(width: int, height: int) -> bytes:
         f'<svg x="{left}%" y="{top}%" width="{wide}%" height="{high}%" stroke="{FAINT}">'
         '<line y2="100%"/><line y1="100%" x2="100%" y2="100%"/>'
         f'<text x="50%" y="50%" dy="4" fill="{GREY}" stroke="none">{name}</text></svg>'
-        for name, left, top, wide, high in _AXES
+        for name, ((left, top, wide, high), _) in PLOTS.items()
     )
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
         'font-family="sans-serif" font-size="11" text-anchor="middle">'
         f'<rect width="100%" height="100%" fill="#fff"/>{axes}</svg>'
     ).encode()
+
+
+_GUIDE = """<style>
+.glid-guide { position: relative; height: 0; z-index: 1; font: 12px/1.4 system-ui, sans-serif; }
+.glid-guide > * { position: absolute; }
+.glid-guide summary { width: 16px; border-radius: 8px; list-style: none; text-align: center;
+  cursor: pointer; color: var(--jp-ui-font-color2, #616161); font-weight: 600; }
+.glid-guide summary:is(:hover, :focus-visible) { color: #fff; background: #0072b2; outline: none; }
+.glid-guide p { position: absolute; top: 18px; width: 250px; margin: 0; padding: 8px 10px;
+  border-radius: 6px; color: var(--jp-ui-font-color1, #222);
+  background: var(--jp-layout-color1, #fff); box-shadow: 0 2px 12px rgba(0, 0, 0, 0.3); }
+</style>"""
+
+
+def _guide(width: int, height: int) -> ipywidgets.HTML:
+    """Lies over the plots, of this size in CSS pixels, and explains each on hover and by a "?"."""
+
+    def about(name: str) -> str:
+        (left, top, wide, high), text = PLOTS[name]
+        y, above = top * height / 100, 18 if name == "Time" else 32
+        beside, side = 10 + 5.4 * len(name), "left" if left < 50 else "right"
+        return (
+            f'<div title="{text}" style="left:{left}%;top:{y:.0f}px;width:{wide}%;'
+            f'height:{high * height / 100:.0f}px"></div>'
+            f'<details name="glid-guide" style="left:calc({left}% + {beside:.0f}px);'
+            f'top:{y - above:.0f}px"><summary title="{text}" aria-label="About the plot: {name}">'
+            f'?</summary><p style="{side}:0"><b>{name}.</b> {text}</p></details>'
+        )
+
+    parts = "".join(map(about, PLOTS))
+    value = f'{_GUIDE}<div class="glid-guide" style="width:{width}px">{parts}</div>'
+    return ipywidgets.HTML(value, layout={"height": "0", "margin": "0", "overflow": "visible"})

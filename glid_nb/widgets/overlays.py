@@ -30,6 +30,7 @@ PANEL_LEGEND = {
     "moving": "σ₂ on the boundary at this time",
     "colors": list(MARGIN_COLORS),
     "ticks": [f"≥ {FULL_MARGIN:g}", f"{FULL_MARGIN / 2:g}", "0"],
+    "about": "What is proved on each panel of the boundary: where it is 0 the map might fold",
 }
 """The colour bar of the boundary's panels, for the page."""
 
@@ -111,7 +112,8 @@ def legend(name: str, energy: Energy, range_: tuple[float, float]) -> dict[str, 
     if OVERLAYS[name].number < 2 or (name == "energy" and energy.shader is None):
         return {}
     title, ticks = OVERLAYS[name].label, _ticks(*range_, 5 if name == "energy" else 3)
-    return {"title": title, "colors": list(COLORS), "ticks": ticks}
+    about = "Colours of the shape: pale where nothing is distorted, dark where most is"
+    return {"title": title, "colors": list(COLORS), "ticks": ticks, "about": about}
 
 
 def _ticks(low: float, high: float, count: int) -> list[str]:

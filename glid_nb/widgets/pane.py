@@ -20,6 +20,7 @@ from glid_nb.widgets.shader import UNIFORM_VECTORS
 CORNERS = ("bottom right", "bottom left", "top right", "top left")  # the usual place first
 
 _LEGEND_SIZE = (222, 75)  # CSS pixels, with its distance to the border
+_MARKS = ("targets", "images", "selected", "hidden", "ring")
 _REFERENCE: dict[str, Any] = ipywidgets.widget_serialization
 _SHARES = (0.0, 0.25, 0.5, 0.75)  # of an edge
 _ROOM = 1.12  # what is fitted leaves a border
@@ -49,13 +50,15 @@ class Stage(Pad):
     """Centre (x, y) in world units, and the world units of one CSS pixel."""
     coefficients = traitlets.Bytes(b"").tag(sync=True)
     """The map, as ``ShaderMap.wire`` writes it; empty where the kernel evaluates."""
-    marks = traitlets.Dict({key: [] for key in ("targets", "images", "selected", "hidden")}).tag(
-        sync=True
-    )
-    """Targets and images of the handles, lists of [x, y], and indices of the selected and of the
-    hidden ones."""
+    marks = traitlets.Dict({key: [] for key in _MARKS}).tag(sync=True)
+    """Targets and images of the handles, lists of [x, y], indices of the selected and of the hidden
+    ones, and `Drawing.ring`."""
     onion = traitlets.List([]).tag(sync=True)
     """Outlines of other poses: a colour, and loops of [x, y], each."""
+    stiff = traitlets.List([]).tag(sync=True)
+    """The painted areas, while there is a brush: strengths, and loops of [x, y], each."""
+    brush = traitlets.Dict({}).tag(sync=True)
+    """The brush that the left button paints with: ``radius`` and ``strength``; empty for none."""
     cursor = traitlets.List(default_value=None, allow_none=True).tag(sync=True)
     """Where the keyboard's cursor is, [x, y]; None while it is not used."""
     legend = traitlets.Dict({}).tag(sync=True)
@@ -243,4 +246,4 @@ def marks_of(drawing: Drawing) -> dict[str, Any]:
     """The trait ``marks``: points rounded to what a screen can show."""
     points = {name: np.round(getattr(drawing, name), 5).tolist() for name in ("targets", "images")}
     hidden = np.flatnonzero(drawing.hidden).tolist()
-    return {**points, "selected": list(drawing.selected), "hidden": hidden}
+    return {**points, "selected": list(drawing.selected), "hidden": hidden, "ring": drawing.ring}

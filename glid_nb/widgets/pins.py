@@ -4,14 +4,19 @@ from functools import partial
 from typing import Any
 
 import ipywidgets
+import numpy as np
 
+from glid_nb.session.actions import wrapped
 from glid_nb.session.deformation import Deformation
+from glid_nb.session.edit_state import EditError
 from glid_nb.solvers.pose import DEEPEST
 from glid_nb.widgets.controls import EditControls, button
 
 
 class PinBar(EditControls):
-    """The list of pins; target and depth of the one selected last; what to do with all selected.
+    """The list of pins; the numbers of the one selected last; what to do with all selected.
+
+    Target, angle (degrees), scale, weight and depth; an empty angle or scale is free.
 
     Parameters
     ----------
@@ -25,7 +30,7 @@ class PinBar(EditControls):
             options=[("No pin", -1)], tooltip="The selected pin", layout={"width": "92px"}
         )
         look: dict[str, Any] = {
-            "layout": ipywidgets.Layout(width="100px"),
+            "layout": ipywidgets.Layout(width="92px"),
             "style": {"description_width": "initial"},
         }
         self.x = ipywidgets.FloatText(description="x", step=0.1, tooltip="Target", **look)
@@ -36,6 +41,34 @@ class PinBar(EditControls):
             min=-DEEPEST,
             max=DEEPEST,
             **look,
+        )
+
+        self.angle, self.scale = (
+            ipywidgets.Text(
+                description=name,
+                placeholder="free",
+                continuous_update=False,
+                tooltip=f"{what} at the pin; empty: free ({keys})",
+                layout={"width": "112px"},
+                style=look["style"],
+            )
+            for name, what, keys in (
+                ("Angle °", "By how much the shape is turned", "< and >, X"),
+                ("Scale", "By how much the shape is scaled", "+ and -, X"),
+            )
+        )
+        self.weight = ipywidgets.FloatLogSlider(
+            description="Weight",
+            tooltip="How firmly the pin is held: soft to the left, firm to the right",
+            base=10,
+            min=-6,
+            max=2,
+            step=0.25,
+            value=1,
+            readout_format=".2g",
+            continuous_update=False,
+            layout={"width": "186px"},
+            style={"description_width": "initial"},
         )
 
         def acting(icon: str, tooltip: str, act: Any) -> ipywidgets.Button:
@@ -57,9 +90,17 @@ class PinBar(EditControls):
         self.list.observe(self._select, ["value"])
         for field in (self.x, self.y):
             field.observe(lambda _: self._act(self._move), ["value"])
+        self.angle.observe(lambda _: self._act(self._set_angle), ["value"])
+        self.scale.observe(lambda _: self._act(self._set_scale), ["value"])
+        self.weight.observe(lambda _: self._act(self._set_weight), ["value"])
         self.depth.observe(lambda _: self._act(self._set_depth), ["value"])
-        shown = [self.list, self.x, self.y, self.depth, self.back, self.front, self.release]
-        super().__init__(deformation, [ipywidgets.HBox(shown)], **kwargs)
+        self.mirror = acting("exchange", "Swap left and right of the pose (M)", model.mirror_pose)
+        turned = self.angle, self.scale, self.weight
+        self._numbers = [self.x, self.y, *turned, self.depth, self.back, self.front, self.release]
+        row = ipywidgets.HBox(
+            [self.list, *self._numbers, self.mirror], layout={"flex_flow": "row wrap"}
+        )
+        super().__init__(deformation, [row], **kwargs)
 
     def _on_model(self, what: str) -> None:
         super()._on_model("state" if what == "selection" else what)
@@ -71,11 +112,16 @@ class PinBar(EditControls):
         if self.list.options != names:
             self.list.options = names
         self.list.value = selection[-1] if selection else -1
-        for control in (self.x, self.y, self.depth, self.back, self.front, self.release):
+        for control in self._numbers:
             control.disabled = not selection
+        self.mirror.disabled = not len(pose)
         if selection:
-            self.x.value, self.y.value = pose.targets[selection[-1]].round(4).tolist()
-            self.depth.value = float(pose.depths[selection[-1]])
+            last = selection[-1]
+            self.x.value, self.y.value = pose.targets[last].round(4).tolist()
+            self.angle.value = _free_or(np.degrees(pose.angles[last]))
+            self.scale.value = _free_or(pose.scales[last])
+            self.weight.value = float(pose.weights[last])
+            self.depth.value = float(pose.depths[last])
 
     def _select(self, change: Any) -> None:
         chosen = [] if change["new"] == -1 else [change["new"]]
@@ -84,5 +130,35 @@ class PinBar(EditControls):
     def _move(self) -> None:
         self.deformation.move_target(self.deformation.selection[-1], (self.x.value, self.y.value))
 
+    def _set_angle(self) -> None:
+        degrees = _number(self.angle.value, "an angle in degrees, such as 30")
+        angle = None if degrees is None else float(wrapped(np.radians(degrees)))
+        self.deformation.set_pins(self.deformation.selection, angles=angle)
+
+    def _set_scale(self) -> None:
+        scale = _number(self.scale.value, "a scale, such as 1.5")
+        self.deformation.set_pins(self.deformation.selection, scales=scale)
+
+    def _set_weight(self) -> None:
+        self.deformation.set_pins(self.deformation.selection, weights=self.weight.value)
+
     def _set_depth(self) -> None:
         self.deformation.set_depths(self.deformation.selection, self.depth.value)
+
+
+def _free_or(number: float) -> str:
+    return "" if np.isnan(number) else f"{number:.4g}"
+
+
+def _number(text: str, wanted: str) -> float | None:
+    """The number in a field; None for an empty one or the word "free"."""
+    text = text.strip().rstrip("°").replace(",", ".")
+    if text in ("", "free"):
+        return None
+    try:
+        number = float(text)
+    except ValueError:
+        number = np.nan
+    if not np.isfinite(number):
+        raise EditError(f"{text!r:.40} is no number; type {wanted}, or nothing to leave it free")
+    return number

@@ -51,6 +51,8 @@ class Drawing:
     """(h, 2) where they are."""
     selected: tuple[int, ...] = ()
     """Indices of selected handles."""
+    ring: tuple[float, ...] = ()
+    """Angle and scale of the handle that is selected last, and whether each is wanted."""
     hidden: Any = ()
     """(h,) whether another part of the shape covers a handle."""
     order: Order | None = None

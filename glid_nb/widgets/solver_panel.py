@@ -10,7 +10,7 @@ from glid_nb._arguments import field_kinds
 from glid_nb.energies import ENERGIES, CustomEnergy, Energy, energy_by_name
 from glid_nb.methods import METHODS
 from glid_nb.session.deformation import Deformation
-from glid_nb.solvers import Method, Options
+from glid_nb.solvers import Iteration, Method, Options
 from glid_nb.widgets.controls import EditControls, button, paragraph
 
 _WORKS_ON = {"harmonic": "", "mesh": " · mesh", "linear": " · linear"}
@@ -19,6 +19,7 @@ _UNCERTIFIED = (
 )
 _CUSTOM = CustomEnergy.label, CustomEnergy.name
 _FULL = {"width": "auto"}
+_STEPS = 12  # that are told
 _OPTIONS = (
     *("p2p_weight", "sampling", "certificate", "hessian"),
     *("iterations_per_call", "conformal"),
@@ -115,14 +116,28 @@ class SolverPanel(EditControls):
         self.reset = button("Reset", "refresh", "The undeformed shape (0)", deformation.reset)
         free = deformation.clear_handles
         self.clear = button("Clear handles", "eraser", "Let go of all handles", free)
+        self.steps = ipywidgets.HTML(layout={"height": "96px", "overflow": "hidden auto"})
+        """What single steps did, the last one first; hidden while the solver is not paused."""
         buttons = ipywidgets.HBox(
             [self.pause, self.step, self.reset, self.clear], layout={"flex_flow": "row wrap"}
         )
-        parts = [method, self.about, self.settings, energy, self.options, buttons]
+        parts = [method, self.about, self.settings, energy, self.options, buttons, self.steps]
         super().__init__(deformation, parts, **kwargs)
         self.add_class("glid-solver-panel")
         method.add_class("glid-method")
         energy.add_class("glid-energy")
+
+    def _on_model(self, what: str) -> None:
+        super()._on_model(what)
+        if what != "selection":
+            self._show_steps()
+
+    def _show_steps(self) -> None:
+        moment = self.deformation.moment
+        self.steps.layout.display = None if moment.paused else "none"
+        history = moment.frame.history[-_STEPS:] if moment.paused and moment.frame else ()
+        told = [paragraph(step_in_words(iteration)) for iteration in reversed(history)]
+        self.steps.value = "".join(told) or paragraph("Step tells here what it did.")
 
     def _show(self) -> None:
         current = self.deformation.state.current
@@ -133,6 +148,7 @@ class SolverPanel(EditControls):
             control.disabled = name not in current.method.options
         self.pause.value = self.deformation.paused
         self.step.disabled = not self.deformation.paused
+        self._show_steps()
 
     def _show_method(self, method: Method) -> None:
         self.method.value = method.name
@@ -156,6 +172,19 @@ class SolverPanel(EditControls):
         name, s = self.energy.value, self.s.value
         if name in ENERGIES:
             self._act(lambda: self.deformation.set_energy(energy_by_name(name, s)))
+
+
+def step_in_words(iteration: Iteration) -> str:
+    """What an iteration did: by which Hessian, how far, and which panels had refused more."""
+    parts = [f"Iteration {iteration.iteration}"]
+    if iteration.hessian_modified is not None:
+        parts.append(f"Hessian {'projected' if iteration.hessian_modified else 'exact'}")
+    if iteration.step is not None:
+        parts.append(f"step length {iteration.step:.3g}")
+    if iteration.panels_split is not None:
+        split = iteration.panels_split or "none"
+        parts.append(f"{split} of {iteration.panels} panels split")
+    return " · ".join([*parts, f"E = {iteration.energy:.6g}"])
 
 
 def _methods() -> dict[str, str]:

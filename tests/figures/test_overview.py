@@ -21,6 +21,7 @@ from PIL import Image
 from skimage.color import rgb2lab
 
 from glid_nb.certificate import Certificate, certify
+from glid_nb.energies import SymmetricDirichlet
 from glid_nb.figures import figure_png, overview
 from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot, TimePlot
 from glid_nb.figures.style import CYAN, distortion_colors
@@ -78,7 +79,12 @@ def pose(bent: HarmonicMap) -> Pose:
 @pytest.fixture(scope="module")
 def result(bent: HarmonicMap, certificate: Certificate, pose: Pose) -> Any:
     return SimpleNamespace(
-        map=bent, certificate=certificate, history=HISTORY, pose=pose, start_energy=40.0
+        map=bent,
+        certificate=certificate,
+        history=HISTORY,
+        pose=pose,
+        start_energy=40.0,
+        energy_measure=SymmetricDirichlet(),
     )
 
 
@@ -208,20 +214,49 @@ def test_the_distortion_colours_darken_evenly():
     assert steps.max() < 2 * steps.mean()
 
 
-def test_the_energy_plot_is_logarithmic_where_that_helps():
+def test_the_energy_is_drawn_above_its_minimum_on_a_logarithmic_axis():
     plot = EnergyPlot(new_axes())
-    assert plot.update(HISTORY)
+    assert plot.update(HISTORY, minimum=2.0)
     assert plot.axes.get_yscale() == "log"
     low, high = plot.axes.get_ylim()
     # The targets' part falls out of the plot, the total stays in it.
-    assert low < 2.0 < 1.3e3 < high
-    assert low > 1e-2
-    _, iso, total, _, text = plot.artists
-    np.testing.assert_allclose(total.get_ydata(), [r.energy for r in HISTORY])  # type: ignore[attr-defined]
-    np.testing.assert_allclose(iso.get_xdata(), range(1, 7))  # type: ignore[attr-defined]
+    assert 1e-2 < low < 0.2 < 1.3e3 < high
+    p2p, iso, total, _, text = plot.artists
+    np.testing.assert_allclose(p2p.get_ydata(), [r.energy_p2p for r in HISTORY])  # type: ignore[attr-defined]
+    np.testing.assert_allclose(total.get_ydata(), [r.energy - 2 for r in HISTORY])  # type: ignore[attr-defined]
+    np.testing.assert_allclose(iso.get_ydata(), [r.energy_iso - 2 for r in HISTORY])  # type: ignore[attr-defined]
+    assert text.get_text() == "E = 2 + 0.2"  # type: ignore[attr-defined]
+    plot.update(HISTORY)
     assert text.get_text() == "E = 2.2"  # type: ignore[attr-defined]
-    assert plot.update(HISTORY[3:])
-    assert plot.axes.get_yscale() == "linear"
+
+
+@pytest.mark.parametrize("energy", [np.nan, np.inf, 1e300, 2.0, 1.9, 0.0])
+def test_any_energy_is_drawn(energy: float):
+    """Also those of maps that fold, and of shapes that are not deformed."""
+    for records in ([Record(1, energy, 0.0)], [*HISTORY, Record(7, energy, 0.0)]):
+        plot = EnergyPlot(new_axes())
+        plot.update(records, minimum=2.0)
+        low, high = plot.axes.get_ylim()
+        assert 0 < low < high < np.inf
+        plot.axes.figure.canvas.draw()
+
+
+@pytest.mark.parametrize("minimum", [0.0, 2.0, np.exp(2)])
+def test_a_small_drag_is_seen_in_the_energy(minimum: float):
+    """From 0.105 to 0.134 above the minimum, each target solved in three iterations."""
+    ends = np.linspace(0.105, 0.134, 10)
+    records = [Record(i, minimum + ends[i // 3], (10, 0.1, 1e-5)[i % 3]) for i in range(30)]
+    plot = EnergyPlot(new_axes())
+    plot.update(records, starts=range(3, 30, 3), minimum=minimum)
+    _, iso, *_ = plot.artists
+    places = plot.axes.transData.transform(np.column_stack(iso.get_data()))  # type: ignore[attr-defined]
+    assert np.ptp(places[:, 1]) > 0.2 * plot.axes.bbox.height
+    assert plot.axes.bbox.y0 < places[0, 1] < places[-1, 1] < plot.axes.bbox.y1
+    assert len([t for t in plot.axes.get_yticks() if 0.1 <= t <= 0.2]) >= 2
+    # Back to the undeformed shape: at the minimum, and within the axes.
+    plot.update([*records, Record(30, minimum, 0.0)], minimum=minimum)
+    low, high = plot.axes.get_ylim()
+    assert low < plot.artists[1].get_ydata()[-1] < high  # type: ignore[attr-defined]
 
 
 @pytest.mark.parametrize("kind", [EnergyPlot, StepPlot, TimePlot])
@@ -266,7 +301,7 @@ def test_the_time_of_each_iteration_is_a_bar():
     bars, text = plot.artists
     corners = bars.get_xy()  # type: ignore[attr-defined]
     np.testing.assert_allclose(corners[:20].reshape(5, 4, 2)[:, 1, 1], [4, 8, 12, 16, 20])
-    assert text.get_text() == "14 ms per iteration"  # type: ignore[attr-defined]
+    assert text.get_text() == "14 ms each"  # type: ignore[attr-defined]
     # One that had to wait does not flatten the others.
     assert 20 < plot.axes.get_ylim()[1] < 100
 

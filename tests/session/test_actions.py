@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from glid_nb.energies import AMIPS
+from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.session import actions
+from glid_nb.session import actions, pose_text
 from glid_nb.session.document import Solution
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.solvers import OptionError, Pose, PoseError, Status
@@ -125,6 +126,20 @@ def test_the_list_of_poses(state: EditState) -> None:
     fewer = actions.delete_pose(three, 0)
     assert (len(fewer.poses), fewer.active) == (2, 0)
     assert actions.rename_pose(fewer, 1, " right ").poses[1].name == "right"
+
+
+def test_a_pose_fits_a_similar_shape(state: EditState) -> None:
+    posed = actions.set_pins(state, [0], angles=0.3)
+    text = pose_text.pose_text(posed)
+    twice = EditState.initial(Domain.from_cage(Cage(2 * state.domain.cage.exterior)))
+    pose = pose_text.paste_pose(twice, text).pose
+    np.testing.assert_allclose(pose.handles, 2 * posed.pose.handles)
+    np.testing.assert_allclose(pose.targets, 2 * posed.pose.targets)
+    assert pose.angles[0] == 0.3
+    # A handle that would lie in the hole moves to its edge.
+    moved = text.replace("[[2.0, 0.0]", "[[0.1, 0.0]")
+    assert moved != text
+    pose_text.paste_pose(state, moved).pose.check_inside(state.domain)
 
 
 def test_depths_move_nothing_and_are_a_step_of_their_own(state: EditState) -> None:

@@ -9,7 +9,7 @@ import time
 import traceback
 import zipfile
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,7 @@ from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.problem import Problem, load_pose
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Newton, Options, Pose
+from glid_nb.solvers.pose import PER_HANDLE
 
 from ..domains import domain, random_map
 
@@ -106,11 +107,12 @@ def assert_same(a: Document, b: Document) -> None:
         assert pose.energy == other.energy
         assert pose.options == other.options
         assert pose.method == other.method
+        assert pose.pose.stiffness == other.pose.stiffness
         assert other.map.domain is b.domain
         for one, same in (
             (pose.map.phi, other.map.phi),
             (pose.map.psi, other.map.psi),
-            *((getattr(pose.pose, n.name), getattr(other.pose, n.name)) for n in fields(Pose)),
+            *((getattr(pose.pose, n), getattr(other.pose, n)) for n in PER_HANDLE),
         ):
             assert one.tobytes() == same.tobytes()
 
@@ -152,6 +154,25 @@ def test_a_document_may_have_no_poses(tmp_path: Path) -> None:
     assert before.active_pose is None
     save_document(before, tmp_path / "a.glid")
     assert_same(before, load_document(tmp_path / "a.glid"))
+
+
+def test_stiff_areas_are_kept_since_version_4(tmp_path: Path) -> None:
+    base, path = document(), tmp_path / "a.glid"
+    stroke = {"points": [[2, 1 / 3], [2, 0]], "radius": 0.1 + 0.2, "strength": 0.7}
+    pose = replace(base.poses[0].pose, stiffness=[stroke])
+    before = replace(base, poses=(replace(base.poses[0], pose=pose),), active=0, timeline=None)
+    save_document(before, path)
+    assert_same(before, load_document(path))
+    with zipfile.ZipFile(path) as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    data = json.loads(members["document.json"])
+    wrong = [{**data["poses"][0], "stiffness": [{**stroke, "radius": -1}]}]
+    for change, culprit in (
+        ({"version": 3}, "unknown key 'stiffness'"),
+        ({"poses": wrong}, r"stiffness\[0\]: radius must be"),
+    ):
+        text = json.dumps({**data, **change}).encode()
+        refuse(tmp_path / "new", zipped({**members, "document.json": text}), culprit)
 
 
 def test_painted_scribbles_are_kept_though_they_are_not_used(tmp_path: Path) -> None:

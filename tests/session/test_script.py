@@ -121,6 +121,17 @@ def test_depths_and_angles_are_written(model: TracingModel, picture: str) -> Non
     assert run(python_code(both, picture, exact=True))["pose"].depths.tolist() == [-2.0]
 
 
+def test_stiff_areas_are_written(model: TracingModel, picture: str) -> None:
+    assert model.domain is not None
+    stroke = {"points": [[-6.0, 0.0], [-5.0, 1 / 3]], "radius": 1.5, "strength": 0.7}
+    pose = Pose([[-6.0, 0.0]], [[-6.5, 1.0]], stiffness=[stroke])
+    document = document_of(model, map=HarmonicMap.identity(model.domain), pose=pose)
+    code = python_code(document, picture)
+    assert f"    stiffness=[{stroke}],\n" in code
+    lines = code[code.index("pose = ") : code.index("result = ")]
+    assert run(f"import glid_nb as glid\n{lines}")["pose"].stiffness == pose.stiffness
+
+
 def test_exact_lines_need_no_solve(model: TracingModel, picture: str) -> None:
     assert model.domain is not None
     document = document_of(model, map=HarmonicMap.identity(model.domain))

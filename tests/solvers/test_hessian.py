@@ -330,7 +330,8 @@ CUSTOM = CustomEnergy(lambda x, y: (x - 1) ** 2 - 3 * y + x * y**2)
 @pytest.mark.parametrize("energy", [ENERGIES[0], CUSTOM], ids=lambda e: e.name)
 def test_gradient_and_hessian_are_those_of_the_discretised_energy(energy: Energy) -> None:
     d, _, rows, dense, y = discretised()
-    matrices = discretise(d).full_matrices
+    disc = discretise(d)
+    matrices = disc.full(disc.matrices)
     basis = basis_of(d)
     unknowns = unknowns_of(basis, conformal=False)
     n, c = d.n_coefficients, basis.n_columns

@@ -64,7 +64,7 @@ def test_the_stored_basis_is_the_whitened_one_to_its_precision(name: str, sampli
         exact = np.asarray(whitened(m.nodes, m.hessian_index, m.whitening, np.float64))
     assert m.whitened.dtype == np.float32
     np.testing.assert_allclose(np.asarray(m.whitened), exact, atol=1e-6 * np.abs(exact).max())
-    full = disc.full_matrices
+    full = disc.full(disc.matrices)
     assert full.whitened.dtype == np.float64
     with jax.enable_x64(True):
         exact = np.asarray(whitened(full.nodes, full.hessian_index, full.whitening, np.float64))

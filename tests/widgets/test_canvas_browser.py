@@ -101,7 +101,26 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     hand.drag(line(THREE[1], [5.0, 2.5], 10))
     hand.wait_for_target(1, [5.0, 2.5])
     page = book.page
+    # Each plot has a name and says what it shows, on hover and by its "?".
+    for name, place in (("Energy", "Section 6"), ("Steps", "Section 9.2"), ("Time", "Section 10")):
+        about = page.get_by_label(f"About the plot: {name}")
+        assert place in (about.get_attribute("title") or "")
+        about.click()
+        page.locator(".glid-guide p", has_text=place).wait_for()
+        book.screenshot(f"editor-about-{name}")
+    about.click()
     page.locator(".lm-TabBar-tabLabel", has_text="Solver").click()
+    # Single steps say what each did.
+    page.get_by_role("button", name="Pause").click()
+    book.value("None", setup="model.drag(1, to=(5.5, 2.0))")
+    page.get_by_role("button", name="Step").click()
+    told = page.locator(".glid-solver-panel").get_by_text("panels split").first
+    told.wait_for()
+    assert "Hessian projected · step length" in told.inner_text()
+    book.screenshot("editor-single-step")
+    page.get_by_role("button", name="Pause").click()
+    told.wait_for(state="hidden")
+    hand.settle()
     energy = page.locator(".glid-energy select")
     energy.select_option(label="AMIPS")
     book.wait_for("model.state.current.energy.name == 'amips'")
@@ -135,6 +154,9 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     for label in ("Stretch σ₁", "Dilatation k", "Energy density", "Stretch σ₂"):
         overlay.select_option(label=label)
         page.locator(".glid-legend-title", has_text=label).wait_for()
+        assert "Colours of the shape" in (
+            page.locator(".glid-legend-part").get_attribute("title") or ""
+        )
         hand.wait_until_drawn()
     colored = hand.color_at([0.0, -0.5])
     assert max(abs(a - b) for a, b in zip(colored, plain, strict=True)) > 20
@@ -340,6 +362,8 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
         book.value(
             "None", setup="stage.notice = 'So it is. ' * 9; stage.legend_corner = 'top left'"
         )
+        book.value("None", setup="editor._parts['pins'].refusal.value = '<div>Refused. </div>' * 9")
+        page.locator(".glid-column .glid-refusal").get_by_text("Refused.").first.wait_for()
         notice = page.locator(".glid-notice", has_text="So it is.")
         notice.wait_for()
         bar = page.locator(".glid-legend[data-corner='top left']")

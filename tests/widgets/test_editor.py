@@ -320,7 +320,7 @@ assert not unwanted, unwanted
 assert clock.programs == 0, clock.programs
 # Axes without anything in them, at once.
 assert editor.monitor.image.format == "svg+xml"
-assert b"time per iteration" in bytes(editor.monitor.image.value)
+assert b"Certificate" in bytes(editor.monitor.image.value)
 assert len(widget._instances) <= 100, len(widget._instances)
 editor.canvas.pane.stage.drawn = True
 boxes = [editor.tabs.children[0], *editor._side.children[1:]]
@@ -434,6 +434,17 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
         assert model.pose.depths.tolist() == [0.5, -1]
         model.undo()
         assert bar.depth.value == -1
+        bar.angle.value, bar.scale.value, bar.weight.value = "30", "1,5", 0.01
+        assert np.degrees(model.pose.angles[0]) == pytest.approx(30)
+        assert (model.pose.scales[0], model.pose.weights[0]) == (1.5, 0.01)
+        bar.angle.value = "much"
+        assert "is no number; type an angle" in bar.refusal.value
+        assert bar.angle.value == "30"
+        bar.angle.value = ""
+        assert np.isnan(model.pose.angles).all()
+        bar.mirror.click()
+        assert model.pose.handles[:, 0].tolist() == [-2, 2]
+        model.undo()
         bar.release.click()
         assert "still moving" in bar.refusal.value
         assert len(model.pose) == 2

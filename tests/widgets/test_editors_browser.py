@@ -60,6 +60,10 @@ def test_two_editors_at_once_and_a_rerun(open_notebook: OpenNotebook) -> None:
         book.run_cell(2)
         two = Hand(book, 1, "two.canvas")
         assert book.value("old is not two and not old.deformation._worker.thread.is_alive()")
+        assert book.value("[any(v is e for v in Out.values()) for e in (old, two)]") == [
+            False,
+            True,
+        ]
         book.page.wait_for_function("document.querySelectorAll('.glid-pad').length === 2")
     book.wait_for(f"{threads} <= {before[1]}")
     assert book.value(widgets) <= before[0]

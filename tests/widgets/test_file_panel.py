@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -35,6 +36,7 @@ def bar() -> np.ndarray:
 @pytest.fixture
 def model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[EditorModel]:
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("GLID_NB_DATA", str(tmp_path.with_name(f"{tmp_path.name}-data")))
     model = EditorModel(bar())
     yield model
     model.close()
@@ -345,3 +347,22 @@ def test_the_motion_is_exported_in_the_background(model: EditorModel, tmp_path: 
     assert not list(tmp_path.glob("*.zip"))
     motion.close()
     animation.close()
+
+
+def test_the_last_export_is_chosen_again_in_the_next_session(model: EditorModel) -> None:
+    first = FilePanel(model)
+    assert (first.format.value, first.view.value) == (".png", "fit")
+    first.format.value, first.view.value = ".svg", "source"
+    assert FilePanel(model).format.value == ".png"  # chosen, but not exported
+    first.export_button.click()
+    assert Path("session.svg").is_file()
+    again = FilePanel(model)
+    assert (again.format.value, again.view.value) == (".svg", "source")
+    again.format.value = ".obj"
+    again.download_button.click()
+    assert FilePanel(model).format.value == ".obj"
+    # What cannot be read, or chosen, counts for nothing.
+    for text in ('{"format": ".xyz", "view": "source", "more": 1}', "[1]", "{", ""):
+        (last,) = Path(os.environ["GLID_NB_DATA"]).glob("last-export.json")
+        last.write_text(text)
+        assert FilePanel(model).format.value == ".png"

@@ -9,8 +9,12 @@ import numpy as np
 import pytest
 
 from glid_nb.certificate import certify
+from glid_nb.geometry import Cage, Domain
+from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.deformation import Deformation
-from glid_nb.widgets.gestures import PinGestures
+from glid_nb.solvers import MethodError
+from glid_nb.solvers.stiffness import Stiffness
+from glid_nb.widgets.brush import BrushGestures, painted_areas
 
 from ..domains import domain
 
@@ -22,7 +26,7 @@ class Hand:
 
     def __init__(self, model: Deformation) -> None:
         self.fitted = 0
-        self.gestures = PinGestures(model, self._fit)
+        self.gestures = BrushGestures(model, self._fit)
         self.model = model
 
     def _fit(self) -> None:
@@ -75,6 +79,75 @@ def test_keys_send_selected_handles_back_and_forward(hand: Hand) -> None:
     assert hand.model.pose.depths.tolist() == [0, 1]
 
 
+def test_a_brush_paints_and_erases_in_steps_for_undo(hand: Hand) -> None:
+    brush, model = hand.gestures.brush, hand.model
+    brush.radius, brush.strength = 0.5, 0.6
+    hand.key("b")
+    assert brush.tool == "stiff"
+    # Through the ring, its hole and the ring again: no pin, two lines, one step.
+    path = [[-2.8, 0.0], [-1.0, 0.05], [2.8, 0.0]]
+    hand.send("down", *path[0])
+    assert hand.send("up", *path[-1], path=path) == ""
+    assert len(model.pose) == 0
+    assert len(model.pose.stiffness.strokes) == 2
+    assert model.pose.stiffness([[2, 0.4], [-2, -0.4], [2, 0.7], [0, 2]]).tolist() == [
+        0.6,
+        0.6,
+        0,
+        0,
+    ]
+    hand.key("E")
+    hand.send("down", 2, 0)
+    hand.send("up", 2, 0, path=[[2, 0]])
+    assert model.pose.stiffness([[2, 0.4], [-2, 0.4]]).tolist() == [0, 0.6]
+    hand.key("undo")
+    assert model.pose.stiffness([[2, 0.4], [-2, 0.4]]).tolist() == [0.6, 0.6]
+    assert "no shape here" in hand.send("up", 0, 0, path=[[0, 0]])
+    hand.key("undo")
+    assert not model.pose.stiffness
+    hand.key("redo")
+    model.set_stiffness(Stiffness())
+    assert not model.pose.stiffness
+    hand.key("Escape")
+    assert brush.tool == ""
+    hand.click(2, 0)
+    assert len(model.pose) == 1
+
+
+def test_painting_follows_the_deformed_shape(hand: Hand) -> None:
+    ring = domain("ring")
+    identity = HarmonicMap.identity(ring)
+    phi = identity.phi.copy()
+    phi[: len(ring.offset_cage.exterior)] += 10
+    aside = HarmonicMap(ring, phi, identity.psi)
+    hand.model.apply(lambda state: state.changed(map=aside))
+    hand.gestures.brush.tool, hand.gestures.brush.radius = "stiff", 0.3
+    hand.send("up", 12, 0, path=[[12, 0]])
+    (stroke,) = hand.model.pose.stiffness.strokes
+    np.testing.assert_allclose(stroke.points, [[2, 0]] * len(stroke.points), atol=1e-6)
+    ((strength, (loop,)),) = painted_areas(hand.model.moment)
+    assert strength == 1
+    np.testing.assert_allclose(np.linalg.norm(np.array(loop) - [12, 0], axis=1), 0.3, rtol=0.02)
+
+
+def test_stiff_areas_stay_with_another_outline_and_other_pins(hand: Hand) -> None:
+    model = hand.model
+    model.add_handle((2, 0))
+    model.set_stiffness(Stiffness().painted([[2, 0]], 0.5))
+    model.mirror_pose()
+    assert model.pose.stiffness([[-2, 0.2], [2, 0.2]]).tolist() == [1, 0]
+    model.undo()
+    model.set_stiffness(model.pose.stiffness.painted([[-2, 0]], 0.5))
+    model.clear_handles()
+    model.save_pose()
+    cage = model.state.domain.cage
+    model.set_domain(Domain.from_cage(Cage(cage.exterior[cage.exterior[:, 0] > -1])))
+    assert model.pose.stiffness([[2, 0.2]]).tolist() == [1]
+    assert len(model.pose.stiffness.within(model.state.domain.cage)) == 1
+    with pytest.raises(MethodError, match="'mls' knows no stiff areas"):
+        model.set_method("mls")
+
+
 @pytest.mark.slow
 def test_a_drag_moves_a_target_and_a_trembling_click_does_not(hand: Hand) -> None:
     hand.click(2, 0)
@@ -111,6 +184,85 @@ def test_shift_selects_several_that_move_together(hand: Hand) -> None:
 
 
 @pytest.mark.slow
+def test_the_ring_turns_and_scales_in_one_step_each(hand: Hand) -> None:
+    model = hand.model
+    hand.click(2, 0)
+    hand.drag((3, 0), (2, 1), (1, 0.001), part="turn")
+    np.testing.assert_allclose(model.pose.angles, [np.pi - 0.001], atol=1e-6)
+    assert np.isnan(model.pose.scales).all()
+    hand.drag((2, 1), (2, 2), (2, 1.5), part="scale")
+    np.testing.assert_allclose(model.pose.scales, [1.5])
+    np.testing.assert_allclose(model.pose.targets, [[2, 0]], atol=1e-9)
+    hand.click(3, 0, part="turn")  # nothing is pinned on the ring, nothing moves
+    assert len(model.pose) == 1
+    hand.drag((3, 0), (2, 1), (3, 0), part="turn")  # and back
+    model.undo()
+    assert np.isnan(model.pose.scales).all()
+    model.undo()
+    assert not model.pose.turned.any()
+    model.undo()
+    assert not len(model.pose)
+
+
+def test_a_method_on_a_mesh_refuses_the_ring(hand: Hand) -> None:
+    hand.click(2, 0)
+    hand.model.set_method("mls")
+    hand.send("down", 3, 0, part="turn")
+    assert "cannot hold the angle" in hand.send("move", 2, 1, part="turn")
+    assert hand.model.dragged == ()
+
+
+def test_keys_turn_scale_and_set_free(hand: Hand) -> None:
+    hand.click(2, 0)
+    for key in "<<+-":
+        assert hand.key(key) == ""
+    np.testing.assert_allclose(hand.model.pose.angles, [np.radians(10)])
+    np.testing.assert_allclose(hand.model.pose.scales, [1])
+    hand.key("x")
+    assert not hand.model.pose.turned.any()
+    hand.key("Escape")
+    before = hand.model.state
+    assert hand.key("<") == hand.key("+") == hand.key("x") == ""
+    assert hand.model.state is before
+
+
+def test_a_box_or_a_lasso_selects(hand: Hand) -> None:
+    for x in (2, -2):
+        hand.click(x, 0)
+    hand.key("Escape")
+    loop = [[1, -1], [3, -1], [3, 1], [1, 1]]
+    hand.send("down", 1, -1, shift=True)
+    hand.send("up", 3, 1, shift=True, path=loop)
+    assert hand.model.selection == (0,)
+    hand.send("down", -1, -1)
+    hand.send("up", -1, -1, path=[[-1, -1], [-3, -1], [-3, 2], [-1.1, -1]])
+    assert hand.model.selection == (0, 1)
+    assert len(hand.model.pose) == 2
+    hand.send("down", 1, -1)
+    hand.send("up", 1, -1, path=[[0, 0]] * 2)  # trembling
+    assert len(hand.model.pose) <= 3
+
+
+def test_poses_travel_as_text_and_are_mirrored(hand: Hand) -> None:
+    model, texts = hand.model, list[str]()
+    hand.gestures.copy = texts.append
+    model.add_handles([(2, 0.5), (-2, 0)], [(2.5, 1), (-2, 0)])
+    model.set_pins([0], angles=0.5, weights=0.1)
+    assert hand.key("copy") == ""
+    assert hand.key("m") == ""
+    np.testing.assert_allclose(model.pose.handles, [[-2, 0.5], [2, 0]], atol=1e-9)
+    np.testing.assert_allclose(model.pose.targets, [[-2.5, 1], [2, 0]], atol=1e-9)
+    np.testing.assert_allclose(model.pose.angles, [-0.5, np.nan])
+    assert hand.send("paste_pose", text=texts[0]) == ""
+    np.testing.assert_array_equal(model.pose.targets, [[2.5, 1], [-2, 0]])
+    assert model.pose.weights.tolist() == [0.1, 1]
+    model.undo()
+    model.undo()
+    assert model.pose.angles[0] == 0.5
+    for wrong in ("hello", "[1]", '{"handles": [[0, 0]]}', '{"handles": [], "targets": 3}'):
+        assert "holds no pose" in hand.send("paste_pose", text=wrong)
+
+
 def test_escape_and_undo_take_a_drag_back(hand: Hand) -> None:
     hand.click(2, 0)
     hand.model.paused = False

@@ -6,6 +6,7 @@ import itertools
 import threading
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -16,8 +17,10 @@ from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.status_line import rounded_down
+from glid_nb.solvers import Iteration
 from glid_nb.widgets import SolverMonitor
 from glid_nb.widgets.live_plots import LivePlots
+from glid_nb.widgets.solver_panel import SolverPanel, step_in_words
 
 from ..domains import domain
 
@@ -194,3 +197,34 @@ def test_a_frame_says_where_its_solves_began(model: Deformation) -> None:
     moved = [i for i in frame.starts if i - 1 in energies]
     assert len(moved) >= 2
     assert all(energies[i] > energies[i - 1] for i in moved)
+
+
+def test_a_single_step_says_what_it_did(model: Deformation) -> None:
+    model.paused = True
+    panel = SolverPanel(model)
+    assert "Step tells here" in panel.steps.value
+    model.add_handles([(2, 0), (-2, 0)])
+    model.drag(0, to=(3.0, 1.0))
+    for count in (1, 2):
+        panel.step.click()
+        assert model.solve(TIMEOUT)
+        frame = model.moment.frame
+        assert frame is not None
+        assert len(frame.history) == count
+        last = frame.history[-1]
+        told = f"Hessian {'projected' if last.hessian_modified else 'exact'} · step length "
+        assert f"Iteration {count} · {told}{last.step:.3g}" in panel.steps.value
+        assert f"of {last.panels} panels split" in panel.steps.value
+    assert panel.steps.layout.display is None
+    model.paused = False
+    assert panel.steps.layout.display == "none"
+    panel.close()
+
+
+def test_a_step_in_words() -> None:
+    step = Iteration(iteration=7, energy_iso=2.125, energy_p2p=0.0, step=0.5, panels=212)
+    step = replace(step, hessian_modified=True, panels_split=3)
+    words = "Iteration 7 · Hessian projected · step length 0.5 · 3 of 212 panels split · E = 2.125"
+    assert step_in_words(step) == words
+    other = replace(step, hessian_modified=None, panels_split=None, step=None)
+    assert step_in_words(other) == "Iteration 7 · E = 2.125"

@@ -64,6 +64,7 @@ class BDHM(DistortionBounds, Method):
     family = "harmonic"
     energies = ("arap",)
     package = "clarabel"
+    stiffens = False
 
     tolerance: float = TOLERANCE
 

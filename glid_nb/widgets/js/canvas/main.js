@@ -1,5 +1,6 @@
 // The pad over the renderer: sends pointers and keys, draws handles, colour bars and notices.
 
+import { copied } from "../pad/clipboard.js";
 import { follow, make } from "../pad/dom.js";
 import { help, shield } from "../pad/help.js";
 import { icon } from "../pad/icons.js";
@@ -8,7 +9,9 @@ import { openMenu } from "../pad/menu.js";
 import { Pad, undoAround } from "../pad/pad.js";
 import { clearedContext } from "../pad/pen.js";
 import { View } from "../pad/view.js";
-import { drawMarks, drawOnion, markAt } from "./marks.js";
+import {
+  drawBrush, drawLasso, drawMarks, drawOnion, drawStiff, lostMarks, markAt, ringAt,
+} from "./marks.js";
 import { Room } from "./room.js";
 import { Shapes, drawingTime, uniformVectors } from "./shapes.js";
 
@@ -16,6 +19,7 @@ const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
 const KEYS = new Set([
   "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Delete", "Backspace", "Escape", "Enter",
   "0", "f", "F", ",", ".", "a", "A", "PageUp", "PageDown", "[", "]",
+  "<", ">", "+", "=", "-", ..."xXmMbBeE",
 ]);
 const HELP = [
   ["Click the shape", "pin a point"],
@@ -23,14 +27,19 @@ const HELP = [
   ["Right-click, long touch, Menu key", "what can be done with a pin, or with the shape there"],
   ["Delete", "remove the selected pins; with Shift keep the shape"],
   ["Shift-click, A", "select several pins, all pins"],
+  ["Shift and drag, Ctrl and drag", "select the pins in a box, in a lasso"],
+  ["Ring around a pin: drag it, or its knob", "turn the shape there, scale it there"],
+  ["< >, + -, X", "turn, scale; leave both free again"],
   ["Page Down, Page Up", "selected pins and what is around them go back, come forward; also [ and ]"],
   ["Arrow keys", "nudge selected pins, with Shift farther; else move a cursor"],
   ["Enter", "show the cursor; pin or select there"],
-  [", .", "select the pin before, the next pin"],
+  [", .", "select the pin before, the next pin, and bring it into view; so does a click on an arrow at the edge"],
+  ["Ctrl+C, Ctrl+V, M", "copy the pose, put it on this or a similar shape; swap its left and right"],
   ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
   ["Esc", "cancel a drag; select nothing"],
   ["0", "back to the undeformed shape"],
   ["F", "see everything"],
+  ["B, E", "paint what should stay as it is, erase it; Esc lays the brush down"],
   ["Space", "play the motion through the poses, pause; in the timeline too"],
   ["Timeline: arrow keys, Home, End", "step in time, with Shift to the next pose; first, last pose"],
   ["Timeline: Alt and arrow keys", "move the pose in time; Delete removes it"],
@@ -40,19 +49,26 @@ const HELP = [
   ["Middle button, Space and drag", "move the view"],
 ];
 const FIRST = "Click the shape to pin a point, then drag the pin · ? shows all keys";
+const PAINT = "Paint what should stay as it is · E erases · Esc when done";
 const TIPS = [
   "where it should be. Drag it; a right click shows what else; Shift-click selects several",
   "where the shape has got to. The cyan disk is where it should be",
 ];
+const RING_TIPS = {
+  turn: "Drag around the pin to turn the shape there; X leaves it free again",
+  scale: "Drag away from the pin or towards it to scale the shape there; X leaves it free again",
+};
+const COPIED = "The pose is in the clipboard; Ctrl+V on a canvas puts it there";
+const NOT_COPIED = "The browser does not give access to the clipboard; use Ctrl+C and Ctrl+V";
 const SAVE_VIEW_AFTER = 250; // ms
 const LEAST_SIZE = 240; // CSS pixels
 
-function colorBar({ title, colors, ticks }) {
+function colorBar({ title, colors, ticks, about }) {
   const gradient = `background: linear-gradient(to right, ${colors.join(", ")})`;
   const labels = ticks.map((tick) => make("span", {}, tick));
   return make(
     "div",
-    { className: "glid-legend-part" },
+    { className: "glid-legend-part", title: about },
     make("div", { className: "glid-legend-title" }, title),
     make("div", { className: "glid-legend-bar", style: gradient }),
     make("div", { className: "glid-legend-ticks" }, ...labels),
@@ -108,7 +124,10 @@ function render({ model, el }) {
     const pen = clearedContext(paper, view);
     if (shapes.motion) return; // pins belong to the pose that is edited
     drawOnion(pen, view, model.get("onion"));
+    drawStiff(pen, view, model.get("stiff"));
     drawMarks(pen, view, model.get("marks"), { hovered: found?.mark, held, cursor });
+    if (paints()) drawBrush(pen, view, model.get("brush"), pad);
+    if (pad?.encloses && pad.path.length > 2) drawLasso(pen, view, pad.path);
   };
   const soon = () => { due = due || requestAnimationFrame(draw); };
 
@@ -124,6 +143,7 @@ function render({ model, el }) {
   };
   const link = new Link(model, el);
   const marks = () => model.get("marks");
+  const paints = () => pad && "radius" in model.get("brush");
   // Opens the menu of a pin or of the shape; by default that of the pin selected last.
   const showMenu = (place, found = { mark: marks().selected.at(-1) }) => {
     const mark = found?.mark, { selected, targets } = marks();
@@ -138,11 +158,16 @@ function render({ model, el }) {
         null,
         [selected.includes(mark) && selected.length > 1 ? `Remove ${selected.length} pins` : "Remove", "Delete", press("Delete")],
         ["Remove, keep the shape", "Shift+Delete", press("Delete", true)],
+        ["Leave angle and scale free", "X", press("x")],
       ]),
       null,
+      ["Copy the pose", "Ctrl+C", press("copy")],
+      ["Paste a pose", "Ctrl+V", () => navigator.clipboard?.readText().then(paste, () => say(NOT_COPIED)) ?? say(NOT_COPIED)],
+      ["Swap left and right", "M", press("m")],
       ["Select all pins", "A", press("a")],
       ["The undeformed shape", "0", press("0")],
       ["See everything", "F", press("f")],
+      ["Paint stiff areas", "B", press("b")],
       ["The picture alone", "P", () => room.alone()],
       ["Full screen", "W", () => room.fullScreen()],
       ["All keys", "?", keys.toggle],
@@ -156,12 +181,19 @@ function render({ model, el }) {
     actions: { "?": keys.toggle, ContextMenu: () => showMenu(), p: alone, P: alone, w: whole, W: whole },
     menu: showMenu,
     tapped: () => box.dispatchEvent(new CustomEvent("glid:play", { bubbles: true })),
-    find: (point, reach) => shapes.motion ? null : markAt(marks(), point, reach),
+    get painting() { return paints(); },
+    find: (point, reach) => shapes.motion || paints() ? null
+      : markAt(marks(), point, reach) ?? ringAt(view, marks(), view.toScreen(point), reach / view.unit / 2),
+    encloses: (found, e) => found ? null : e.shiftKey ? "box" : e.ctrlKey || e.metaKey ? "lasso" : null,
     held: ({ mark }) => {
       const { selected, targets } = marks();
       return new Map((selected.includes(mark) ? selected : [mark]).map((i) => [i, targets[i]]));
     },
     cursor: (found) => {
+      if (found?.part) {
+        box.title = RING_TIPS[found.part];
+        return "grab";
+      }
       const covered = found && marks().hidden.includes(found.mark) ? ". Another part of the shape covers it" : "";
       box.title = found ? `Pin ${found.mark + 1}: ${TIPS[Number(found.reached)]}${covered}` : "";
       return found ? "grab" : "crosshair";
@@ -193,6 +225,42 @@ function render({ model, el }) {
     }, true);
   }
 
+  // Poses go from one canvas to another as text in the clipboard.
+  const say = (notice) => save(model, { notice });
+  const paste = (text) => link.put({ type: "paste_pose", text });
+  const copy = async ({ copy: text }) => {
+    if (text && pad?.focused) say(await copied(text) ? COPIED : NOT_COPIED);
+  };
+  model.on("msg:custom", copy);
+  if (pad) {
+    box.addEventListener("copy", (e) => {
+      if (document.activeElement !== box) return;
+      e.preventDefault();
+      pad.press("copy", { shiftKey: false, timeStamp: e.timeStamp });
+    });
+    box.addEventListener("paste", (e) => [e.preventDefault(), paste(e.clipboardData.getData("text"))]);
+    box.addEventListener("pointerdown", (e) => {
+      const [x, y] = pad.place(e);
+      const lost = lostMarks(view, marks()).find(({ at }) => Math.hypot(at[0] - x, at[1] - y) < 12);
+      if (!lost || e.target !== box) return;
+      [view.x, view.y] = lost.target;
+      view.changed();
+      e.stopImmediatePropagation();
+    }, true);
+  }
+
+  // A pin that was selected alone, though not by the pointer, comes into view.
+  let chosen;
+  const reveal = () => {
+    const { selected: [first, ...others], targets, images } = marks();
+    const now = others.length ? undefined : first;
+    if (now === chosen) return;
+    chosen = now;
+    if (now === undefined || pad?.mode || lostMarks(view, { targets: [targets[now], images[now]] }).length < 2) return;
+    [view.x, view.y] = targets[now];
+    view.changed();
+  };
+
   const fit = () => {
     Object.assign(view, { width: model.get("width"), height: model.get("height") });
     [view.x, view.y, view.unit] = model.get("view");
@@ -201,7 +269,7 @@ function render({ model, el }) {
   };
   const tell = () => {
     const refusal = model.get("notice"), first = pad && !marks().targets.length;
-    notice.textContent = refusal || (first ? FIRST : "");
+    notice.textContent = refusal || (paints() ? PAINT : first ? FIRST : "");
     notice.hidden = !notice.textContent;
     notice.classList.toggle("glid-first", !refusal);
   };
@@ -221,10 +289,11 @@ function render({ model, el }) {
   const unfollow = follow(model, {
     "change:width change:height change:view": fit,
     "change:coefficients": () => shapes.refresh(),
-    "change:marks change:cursor change:onion": soon,
+    "change:marks change:cursor change:onion change:stiff change:brush": soon,
     "glid:motion": showMotion,
     "change:legend change:panel_legend change:legend_corner": showLegend,
-    "change:notice change:marks": tell,
+    "change:notice change:marks change:brush": tell,
+    "change:marks": reveal,
     "change:prepared": prepare,
   });
   let gone = false;
@@ -238,6 +307,7 @@ function render({ model, el }) {
     cancelAnimationFrame(due);
     clearTimeout(saving);
     unfollow();
+    model.off("msg:custom", copy);
     forget?.();
     room?.close();
     pad?.close();

@@ -1,9 +1,12 @@
 // Handles and targets, drawn over the shape: cyan disks where handles should go, black dots where
 // they are, and a line between the two. Those that another part of the shape covers are faint rings.
 
+import { make } from "../pad/dom.js";
 import { disk, strokePath, tracePath } from "../pad/pen.js";
 
 const TARGET = 7.5, IMAGE = 3.5, RING = 12; // radii, CSS pixels
+const DIAL = 42, KNOB = 6, EDGE = 14; // of a scale of 1; CSS pixels
+const WANTED = "#d55e00", FREE = "rgba(40,40,40,0.75)", BORDER = "rgba(255,255,255,0.85)";
 
 // Lines between pairs of points, with a border.
 function lines(pen, pairs, styles) {
@@ -33,6 +36,105 @@ export function drawOnion(pen, view, outlines) {
   pen.globalAlpha = 1;
 }
 
+const STIFF = "#4b0f7a"; // told by its hatching, whatever the colours
+
+function hatching(pen, strength) {
+  const size = Math.round(16 - 9 * strength); // the stiffer, the closer
+  const tile = make("canvas", { width: size, height: size }), ink = tile.getContext("2d");
+  tracePath(ink, [[[0, size], [size, 0]], [[-1, 1], [1, -1]], [[size - 1, size + 1], [size + 1, size - 1]]], false);
+  strokePath(ink, [[3, "rgba(255,255,255,0.75)"], [1.5, STIFF]]);
+  return pen.createPattern(tile, "repeat");
+}
+
+// Painted areas: strength, and loops of points.
+export function drawStiff(pen, view, areas) {
+  for (const [strength, loops] of areas) {
+    tracePath(pen, loops.map((loop) => loop.map((p) => view.toScreen(p))));
+    pen.fillStyle = hatching(pen, strength);
+    pen.fill();
+    strokePath(pen, [[3.4, "rgba(255,255,255,0.85)"], [1.5, STIFF]]);
+  }
+}
+
+// The brush below the pointer, and what it has painted since it was pressed.
+export function drawBrush(pen, view, { radius, strength }, { path, rests }) {
+  const wide = radius / view.unit, color = strength ? STIFF : "#ffffff";
+  if (path.length) {
+    tracePath(pen, [[...path, path.at(-1)].map((p) => view.toScreen(p))], false);
+    Object.assign(pen, { lineCap: "round", lineJoin: "round", globalAlpha: 0.45 });
+    strokePath(pen, [[2 * wide, color]]);
+    pen.globalAlpha = 1;
+  }
+  if (!rests) return;
+  disk(pen, rests, wide, null, "rgba(255,255,255,0.85)", 3.4);
+  disk(pen, rests, wide, null, STIFF, 1.4);
+}
+
+// The ring around the pin that was selected last: where it is, and its knob, on the screen.
+function dial(view, marks, held) {
+  const last = marks.selected.at(-1), [angle, scale] = marks.ring;
+  if (angle === undefined || !marks.targets[last]) return null;
+  const [x, y] = view.toScreen(held?.get(last) || marks.targets[last]);
+  const radius = DIAL * Math.min(2.5, Math.max(0.5, scale));
+  return { x, y, radius, knob: [x + radius * Math.cos(angle), y - radius * Math.sin(angle)] };
+}
+
+// The part of the ring at a place on the screen, as `part`; null for none.
+export function ringAt(view, marks, [px, py], reach) {
+  const ring = dial(view, marks);
+  if (!ring) return null;
+  if (Math.hypot(px - ring.knob[0], py - ring.knob[1]) <= Math.max(KNOB + 4, reach)) return { part: "scale" };
+  return Math.abs(Math.hypot(px - ring.x, py - ring.y) - ring.radius) <= reach ? { part: "turn" } : null;
+}
+
+// Orange and full what is wanted, grey and dashed what is free.
+function drawRing(pen, view, marks, held) {
+  const ring = dial(view, marks, held);
+  if (!ring) return;
+  const [, , turned, scaled] = marks.ring;
+  disk(pen, [ring.x, ring.y], ring.radius, null, BORDER, 4);
+  if (!turned) pen.setLineDash([6, 4]);
+  disk(pen, [ring.x, ring.y], ring.radius, null, turned ? WANTED : FREE, 2);
+  pen.setLineDash([]);
+  lines(pen, [[[ring.x, ring.y], ring.knob]], [[3, BORDER], [1.2, turned ? WANTED : FREE]]);
+  pen.beginPath();
+  pen.rect(ring.knob[0] - KNOB, ring.knob[1] - KNOB, 2 * KNOB, 2 * KNOB);
+  pen.fillStyle = scaled ? WANTED : "#fff";
+  pen.fill();
+  strokePath(pen, [[1.6, scaled ? "#fff" : FREE]]);
+}
+
+// Where the edge points to pins that are out of sight: `at` on the screen, `target` in the world.
+export function lostMarks(view, marks) {
+  return marks.targets.flatMap((target) => {
+    const place = view.toScreen(target), [x, y] = place;
+    if (x >= 0 && y >= 0 && x <= view.width && y <= view.height) return [];
+    const within = (value, size) => Math.min(size - EDGE, Math.max(EDGE, value));
+    const at = [within(x, view.width), within(y, view.height)];
+    return [{ at, target, angle: Math.atan2(y - at[1], x - at[0]) }];
+  });
+}
+
+function drawLost(pen, view, marks) {
+  for (const { at: [x, y], angle } of lostMarks(view, marks)) {
+    const corner = (turn, r) => [x + r * Math.cos(angle + turn), y + r * Math.sin(angle + turn)];
+    tracePath(pen, [[corner(0, 11), corner(2.4, 9), corner(-2.4, 9)]]);
+    pen.fillStyle = "#00d5e0";
+    pen.fill();
+    strokePath(pen, [[1.6, "#063f45"]]);
+  }
+}
+
+// The box or lasso that selects.
+export function drawLasso(pen, view, path) {
+  tracePath(pen, [path.map((p) => view.toScreen(p))]);
+  pen.fillStyle = "rgba(0,114,178,0.12)";
+  pen.fill("evenodd");
+  pen.setLineDash([5, 3]);
+  strokePath(pen, [[3, BORDER], [1.4, "#0072b2"]]);
+  pen.setLineDash([]);
+}
+
 // held: where the pointer holds targets, by index.
 export function drawMarks(pen, view, marks, { hovered, held, cursor }) {
   const targets = marks.targets.map((p, i) => view.toScreen(held.get(i) || p));
@@ -46,6 +148,8 @@ export function drawMarks(pen, view, marks, { hovered, held, cursor }) {
     if (marks.hidden.includes(i)) ring(pen, target);
     else disk(pen, target, TARGET, "#00d5e0", "#063f45", 1.4);
   });
+  drawRing(pen, view, marks, held);
+  drawLost(pen, view, marks);
   images.forEach((image, i) => {
     if (marks.hidden.includes(i)) return;
     disk(pen, image, IMAGE + 1, "rgba(255,255,255,0.9)");

@@ -13,14 +13,16 @@ export function openMenu(element, [x, y], rows) {
     close();
     if (e.button === 0 && element.contains(e.target)) e.stopPropagation(); // it closes the menu, no more
   };
+  let pressed = false; // the end of the long touch that opens the menu chooses nothing
   const step = (by) => {
     const items = [...menu.querySelectorAll("button")];
     items.at((items.indexOf(document.activeElement) + by) % items.length).focus();
   };
   const keys = { ArrowDown: () => step(1), ArrowUp: () => step(-1), Escape: close, Tab: close };
   const menu = make("div", { className: "glid-menu", role: "menu" }, ...rows.map((row) => row ? make(
-    "button", { type: "button", role: "menuitem", onclick: () => [close(), row[2]()] }, row[0], make("kbd", {}, row[1]),
+    "button", { type: "button", role: "menuitem", onclick: (e) => (pressed || !e.detail) && [close(), row[2]()] }, row[0], make("kbd", {}, row[1]),
   ) : make("hr")));
+  menu.addEventListener("pointerdown", () => { pressed = true; });
   for (const name of ["pointerdown", "pointermove", "wheel", "keydown", "keyup", "contextmenu"]) {
     menu.addEventListener(name, (e) => {
       e.stopPropagation(); // the pad takes none of these

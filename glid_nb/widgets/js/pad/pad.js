@@ -41,6 +41,7 @@ export class Pad {
   //   find(point, reach): what is there, or null; with `mark` if it can be dragged
   //   held(found): the points that a drag moves, by their marks
   //   pans(found), painting: whether the left button moves the view, or paints a path
+  //   encloses(found, e): whether it draws a "box" or a "lasso" around things
   //   tapped(): the space bar was pressed and let go, and nothing was dragged
   //   cursor(found): the pointer's shape
   //   menu(place, found): opens the menu of what is there, by the right button or a long touch
@@ -135,9 +136,10 @@ export class Pad {
       this.grip = { from: this.view.toWorld(place), points: this.canvas.held(found) };
     }
     this.pans = left && this.canvas.pans?.(found);
-    this.path = left && this.canvas.painting ? [this.view.toWorld(place)] : [];
-    this.send("down", place, e);
-    if (e.pointerType === "touch") this.longPress = setTimeout(() => this.pressedLong(e, place), LONG_PRESS);
+    this.encloses = left && !this.canvas.painting && this.canvas.encloses?.(found, e);
+    this.path = left && (this.canvas.painting || this.encloses) ? [this.view.toWorld(place)] : [];
+    this.send("down", place, e, { part: found?.part });
+    if (e.pointerType === "touch" && this.canvas.menu && !this.canvas.painting) this.longPress = setTimeout(() => this.pressedLong(e, place), LONG_PRESS);
     this.shape();
     this.canvas.changed();
   }
@@ -180,12 +182,15 @@ export class Pad {
     }
     if (this.mode === "pan") this.view.pan(place[0] - before[0], place[1] - before[1]);
     else if (this.mode === "pinch") this.pinch();
-    else if (this.mode === "hand") this.handMoved(place, e);
+    else if (this.mode === "hand") this.handMoved(place, e, far);
   }
 
-  handMoved(place, e) {
+  handMoved(place, e, far) {
     const point = this.view.toWorld(place);
-    if (this.path.length) {
+    if (this.encloses === "box") {
+      const [[x, y]] = this.path, [u, v] = point;
+      this.path = far > CLICK ? [[x, y], [u, y], [u, v], [x, v]] : [[x, y]];
+    } else if (this.path.length) {
       const [x, y] = this.view.toScreen(this.path.at(-1));
       if (Math.hypot(place[0] - x, place[1] - y) >= PATH_STEP) this.path.push(point);
     } else {

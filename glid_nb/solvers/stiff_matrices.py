@@ -1,0 +1,84 @@
+"""A discretisation's matrices where a shape is stiff: weights of the nodes, and nodes inside."""
+
+import functools
+
+import numpy as np
+import shapely
+
+from glid_nb._arrays import Array
+from glid_nb._jax import jax
+from glid_nb._runtime import double_precision
+from glid_nb.geometry import Domain, as_points
+from glid_nb.harmonic import as_complex, basis_of, cauchy
+from glid_nb.solvers.discretisation import (
+    Discretisation,
+    Matrices,
+    complex_basis,
+    padded,
+    real_columns,
+)
+from glid_nb.solvers.stiffness import FULL_WEIGHT, Stiffness
+from glid_nb.solvers.whitening import whitened
+
+NODES = 128
+"""Inside the areas; always as many, so that painting more compiles nothing."""
+_COARSER, _MOST_LINES = 1.03, 400  # of the grid
+
+
+@functools.lru_cache(maxsize=4)
+@double_precision
+def stiff_matrices(disc: Discretisation, stiffness: Stiffness) -> Matrices:
+    """The matrices with the weights of a stiffness; the very same where nothing is stiff.
+
+    A node on the boundary weighs ``FULL_WEIGHT**strength`` times as much. What that adds is added
+    for the inside, too, as an integral over the area in place of the boundary's, both shares of
+    the whole.
+    """
+    m, panels = disc.matrices, disc.panels
+    areas = stiffness.within(disc.domain.cage)
+    if not areas:
+        return m
+    p, count = len(m.real), len(panels)
+    added = np.zeros(len(m.weights))
+    added[:count] = _added(stiffness, panels.start)
+    if disc.can_refine:
+        added[p : p + count] = _added(stiffness, panels.middle)
+    weights, index = np.asarray(m.weights), np.asarray(m.hessian_index)
+    inner, nodes = _inside(disc.domain, stiffness)
+    at_nodes = whitened(nodes, np.arange(NODES), m.whitening, np.asarray(m.whitened).dtype.type)
+    hessian = np.asarray(m.hessian_weights) * (1 + added[index])
+    changed = {
+        "nodes": np.hstack([m.nodes, nodes]),
+        "weights": np.concatenate([weights * (1 + added), inner]),
+        "hessian_index": np.concatenate([index, len(weights) + np.arange(NODES)]),
+        "hessian_weights": np.concatenate([hessian, inner]),
+        "whitened": np.hstack([m.whitened, at_nodes]),
+        "stiff": weights @ added + inner.sum(),
+    }
+    return m._replace(**jax.device_put(changed))
+
+
+def _added(stiffness: Stiffness, z: Array) -> Array:
+    return FULL_WEIGHT ** stiffness(as_points(z)) - 1
+
+
+@functools.lru_cache(maxsize=4)
+def _inside(domain: Domain, stiffness: Stiffness) -> tuple[Array, Array]:
+    """Weights and ``D`` at nodes on a square grid inside the areas."""
+    whole = shapely.union_all(list(stiffness.within(domain.cage).values()))
+    shapely.prepare(whole)
+    left, bottom, right, top = whole.bounds
+    step = max(np.sqrt(whole.area / NODES), max(right - left, top - bottom) / _MOST_LINES)
+    while True:
+        x, y = np.meshgrid(np.arange(left, right, step), np.arange(bottom, top, step))
+        x, y = x.ravel() + step / 2, y.ravel() + step / 2
+        inside = shapely.contains_xy(whole, x, y)
+        if np.count_nonzero(inside) <= NODES:
+            break
+        step *= _COARSER
+    z = (x + 1j * y)[inside]
+    if not len(z):
+        z = as_complex(shapely.get_coordinates(whole.representative_point()))
+    weights = _added(stiffness, z) * whole.area / len(z) / domain.cage.area
+    d = complex_basis(cauchy.first_derivatives, z, basis_of(domain))
+    return padded(weights, NODES, 0.0), real_columns(padded(d, NODES))

@@ -1,0 +1,157 @@
+"""Painting what should stay as it is: the brush, its strokes, its controls, the painted areas."""
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+import ipywidgets
+import numpy as np
+import shapely
+import traitlets
+
+from glid_nb._arrays import Array
+from glid_nb.geometry import Cage
+from glid_nb.session.deformation import Deformation
+from glid_nb.session.edit_state import EditError, Moment
+from glid_nb.solvers.stiffness import Stiffness
+from glid_nb.widgets.controls import EditControls, button
+from glid_nb.widgets.gestures import LEFT, Event, PinGestures
+
+_KEYS = {"b": "stiff", "e": "erase"}
+_USUAL_RADIUS, _LARGEST_RADIUS = 0.05, 0.25  # of the shape's longer side
+_EDGES = 60  # along the longer side, so that edges bend with the shape
+
+
+class Brush(traitlets.HasTraits):
+    """What the left button paints with; nothing while it has no tool."""
+
+    tool = traitlets.Enum(("", "stiff", "erase"), "")
+    radius = traitlets.Float()
+    """In world units."""
+    strength = traitlets.Float(1.0)
+    """How stiff, from 0 to 1."""
+
+    @property
+    def shown(self) -> dict[str, float]:
+        """What the page draws: radius and strength, 0 for the eraser; empty without a tool."""
+        strength = self.strength if self.tool == "stiff" else 0.0
+        return {"radius": self.radius, "strength": strength} if self.tool else {}
+
+
+class BrushGestures(PinGestures):
+    """Pins and drags, or paints with a brush."""
+
+    def __init__(
+        self, deformation: Deformation, fit: Callable[[], None], image: Array | None = None
+    ) -> None:
+        super().__init__(deformation, fit, image)
+        self.brush = Brush(radius=_USUAL_RADIUS * deformation.state.domain.cage.longer_side)
+
+    def _down(self, event: Event) -> None:
+        if not self.brush.tool or event["button"] != LEFT:
+            super()._down(event)
+
+    def _up(self, event: Event) -> None:
+        if self.brush.tool and event.get("path"):
+            self._paint(np.array(event["path"], dtype=float), event["unit"])
+        else:
+            super()._up(event)
+
+    def _key(self, event: Event) -> None:
+        tool, brush = _KEYS.get(event["key"].lower()), self.brush
+        if tool is not None:
+            brush.tool = "" if brush.tool == tool else tool
+        elif event["key"] == "Escape" and brush.tool:
+            brush.tool = ""
+        else:
+            super()._key(event)
+
+    def _paint(self, path: Array, unit: float) -> None:
+        """One step for undo: the lines of the undeformed shape that a path over the canvas shows.
+
+        Where it leaves the shape, or goes on to another limb, a line ends.
+        """
+        brush, places, model = self.brush, path[:1], self.deformation
+        if len(path) > 1 and (line := shapely.LineString(path)).length > unit:
+            places = shapely.get_coordinates(line.simplify(unit).segmentize(brush.radius / 2))
+        sources = model.sheets(self._image).sources(places)
+        far = np.linalg.norm(np.diff(sources, axis=0), axis=1) > 2 * brush.radius
+        outside = np.isnan(sources[:, 0])
+        if outside.all():
+            raise EditError("there is no shape here; paint over the shape")
+        stiffness = model.pose.stiffness
+        for line in np.split(sources, np.flatnonzero(far | outside[1:] | outside[:-1]) + 1):
+            if not np.isnan(line).any():
+                stiffness = stiffness.painted(line, brush.radius, brush.shown["strength"])
+        model.set_stiffness(stiffness)
+
+
+class BrushBar(EditControls):
+    """Eraser, size and strength of a brush, and a button that clears what is painted.
+
+    While the brush has a tool it is shown in place of ``other``.
+    """
+
+    def __init__(self, deformation: Deformation, brush: Brush, other: ipywidgets.Widget) -> None:
+        style = {"description_width": "56px"}
+        look: dict[str, Any] = {"layout": {"width": "210px"}, "style": style}
+        most = _LARGEST_RADIUS * deformation.state.domain.cage.longer_side
+        size = {"min": most / 50, "max": most, "step": most / 50, "readout": False}
+        self.size = ipywidgets.FloatSlider(description="Size", **size, **look)
+        self.strength = ipywidgets.FloatSlider(
+            description="Strength", min=0.1, max=1.0, step=0.1, readout_format=".1f", **look
+        )
+        ipywidgets.link((brush, "radius"), (self.size, "value"))
+        ipywidgets.link((brush, "strength"), (self.strength, "value"))
+        self.erase = brush_toggle(brush, "erase", "stiff", icon="eraser", tooltip="Erase (E)")
+        clear = functools.partial(self._act, lambda: deformation.set_stiffness(Stiffness()))
+        self.clear = button("Clear", "trash", "Erase all stiff areas", clear)
+        shown = [self.size, self.strength, self.erase, self.clear]
+        super().__init__(deformation, [ipywidgets.HBox(shown)])
+
+        def swap(_: Any = None) -> None:
+            self.layout.display = None if brush.tool else "none"
+            other.layout.display = "none" if brush.tool else None
+
+        brush.observe(swap, ["tool"])
+        swap()
+
+    def _show(self) -> None:
+        self.clear.disabled = not self.deformation.pose.stiffness
+
+
+def brush_toggle(brush: Brush, on: str, off: str, **look: Any) -> ipywidgets.ToggleButton:
+    """A button that gives the brush one tool, and another one, or none, when it is let go."""
+    made = ipywidgets.ToggleButton(layout={"width": "auto"}, **look)
+
+    def pressed() -> bool:
+        return brush.tool == on if off else bool(brush.tool)
+
+    def choose(change: Any) -> None:
+        if change["new"] != pressed():  # else it follows the brush
+            brush.tool = on if change["new"] else off
+
+    brush.observe(lambda _: made.set_trait("value", pressed()), ["tool"])
+    made.observe(choose, ["value"])
+    return made
+
+
+def painted_areas(moment: Moment) -> list[Any]:
+    """What is stiff where the shape is now: strengths, and loops of [x, y], each."""
+    state = moment.state
+    return [
+        [strength, [np.round(moment.shown(loop), 3).tolist() for loop in loops]]
+        for strength, loops in _outlines(state.pose.stiffness, state.domain.cage)
+    ]
+
+
+@functools.lru_cache(maxsize=2)
+def _outlines(stiffness: Stiffness, cage: Cage) -> list[tuple[float, list[Array]]]:
+    """The loops (n, 2) of the areas at rest, all around in one sense, their holes in the other."""
+    outlines = []
+    for strength, part in stiffness.within(cage).items():
+        fine = shapely.segmentize(shapely.normalize(part), cage.longer_side / _EDGES)
+        areas = [area for area in shapely.get_parts(fine) if area.geom_type == "Polygon"]
+        rings = [ring for area in areas for ring in (area.exterior, *area.interiors)]
+        outlines.append((strength, [shapely.get_coordinates(ring)[:-1] for ring in rings]))
+    return outlines

@@ -1,0 +1,115 @@
+"""Long sessions: neither the kernel nor the page grows, and no message goes astray.
+
+Left out unless ``--minutes`` says how long; `make leaks` takes ten minutes for each test.
+"""
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from playwright.sync_api import CDPSession
+
+from ..browser import JupyterServer, NotebookPage
+from .conftest import OpenNotebook
+from .editor_page import EDITOR, SETUP, Hand, line
+
+SETTLING = 0.2  # of the time; after that nothing may grow to more than
+GROWTH = 1.05
+
+_MEASURE = """
+import ctypes, gc, psutil
+gc.collect()
+ctypes.CDLL("libc.so.6").malloc_trim(0)  # what is free counts for nobody
+"""
+
+
+def heap(session: CDPSession) -> float:
+    """MB of JavaScript objects that something still refers to."""
+    session.send("HeapProfiler.collectGarbage")
+    return session.send("Runtime.getHeapUsage")["usedSize"] / 1e6
+
+
+def memory(book: NotebookPage) -> float:
+    """MB of the kernel."""
+    return book.value("psutil.Process().memory_info().rss / 1e6", _MEASURE)
+
+
+def check_growth(
+    book: NotebookPage, act: Callable[[], None], minutes: float, jupyter: JupyterServer
+) -> None:
+    """Act until the time is over; compare the end with what it was after a fifth of it."""
+    session = book.page.context.new_cdp_session(book.page)
+    begin, seen = time.monotonic(), list[tuple[float, float]]()
+    for share in np.linspace(SETTLING, 1, 5):
+        while time.monotonic() < begin + share * 60 * minutes:
+            act()
+        seen.append((memory(book), heap(session)))
+        print(f"{share * minutes:.1f} min: kernel {seen[-1][0]:.0f} MB, page {seen[-1][1]:.1f} MB")
+    (kernel, page), *_, (kernel_at_end, page_at_end) = seen
+    assert kernel_at_end < GROWTH * kernel
+    assert page_at_end < GROWTH * page
+    assert "No such comm" not in jupyter.log
+
+
+@pytest.mark.browser
+@pytest.mark.long
+@pytest.mark.timeout(3600)
+def test_editing_for_long_leaves_nothing_behind(
+    open_notebook: OpenNotebook, jupyter: JupyterServer, minutes: float
+) -> None:
+    book = open_notebook([SETUP, EDITOR], viewport={"width": 1366, "height": 768})
+    hand, rng = Hand(book), np.random.default_rng(0)
+    tabs = book.page.get_by_role("tab", name="Trace"), book.page.get_by_role("tab", name="Deform")
+
+    def act() -> None:
+        handles = hand.handles
+        what = rng.choice(["drag", "drag", "drag", "pin", "keys", "wheel", "tabs"])
+        if what == "pin" or not handles:
+            hand.click(rng.uniform([-7, -1.5], [7, 1.5]).tolist())
+        elif what == "drag":
+            chosen = hand.targets[rng.integers(len(handles))]
+            to = np.add(chosen, rng.normal(size=2)).clip([-8, -4], [8, 4])
+            hand.drag(line(chosen, to.tolist(), 12))
+        elif what == "keys":
+            many = "Delete" if len(handles) > 6 else "ArrowUp"
+            for key in ("Control+z", "Control+z", "Control+Shift+z", many):
+                book.page.keyboard.press(key)
+        elif what == "wheel":
+            book.page.mouse.move(*hand.place((0, 0)))
+            book.page.mouse.wheel(0, float(rng.choice([-200, 200])))
+            book.page.keyboard.press("f")
+        else:
+            for tab in tabs:
+                tab.click()
+            hand.wait_until_still()
+        hand.settle()
+
+    check_growth(book, act, minutes, jupyter)
+    assert hand.certified()
+
+
+@pytest.mark.browser
+@pytest.mark.long
+@pytest.mark.timeout(3600)
+def test_running_the_cell_again_leaves_nothing_behind(
+    open_notebook: OpenNotebook, jupyter: JupyterServer
+) -> None:
+    """30 times, with a pin and a drag in each."""
+    book = open_notebook([SETUP, EDITOR], viewport={"width": 1366, "height": 768})
+    session = book.page.context.new_cdp_session(book.page)
+    seen = []
+    for count in range(36):
+        if count:
+            book.run_cell(1)
+        hand = Hand(book)
+        hand.click((6.0, 0.0))
+        book.wait_for("len(model.pose) == 1")
+        hand.drag(line((6.0, 0.0), [6.5, 1.0], 6))
+        hand.settle()
+        if count in (5, 35):
+            seen.append((memory(book), heap(session)))
+            print(f"{count + 1} runs: kernel {seen[-1][0]:.0f} MB, page {seen[-1][1]:.1f} MB")
+    for before, after in zip(*seen, strict=True):
+        assert after < GROWTH * before
+    assert "No such comm" not in jupyter.log

@@ -1,0 +1,65 @@
+"""Painting stiff areas in a real browser."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+
+from .conftest import OpenNotebook
+from .editor_page import EDITOR, SETUP, Hand, line
+
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
+
+RATIO = """
+places = np.stack(np.meshgrid(np.linspace(4.2, 7.7, 40), np.linspace(-1.8, 1.8, 40)), -1)
+def ratio():
+    fz, fzb = (abs(part) for part in model.map.wirtinger(places.reshape(-1, 2)))
+    return float(((fz + fzb) / (fz - fzb)).max())
+"""
+
+
+def test_a_hand_paints_a_stiff_head_erases_undoes_and_clears(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, EDITOR, RATIO])
+    hand, page = Hand(book), book.page
+    for point in [(-6.0, 0.0), (0.0, 0.0), (6.5, 0.0)]:
+        hand.click(point)
+    book.wait_for("len(model.pose) == 3")
+    hand.drag(line([6.5, 0.0], [3.5, 5.0], 10))
+    hand.wait_for_target(2, [3.5, 5.0])
+    free = book.value("ratio()")
+    before = hand.targets
+
+    page.get_by_role("button", name="Stiff").click()
+    book.wait_for("canvas.brush.tool == 'stiff'")
+    page.get_by_text("Esc when done").wait_for()
+    book.value("canvas.brush.set_trait('radius', 2.2)")
+    ends = book.value("model.map([[4.6, 0.3], [7.4, 0.3], [7.4, -0.3], [4.6, -0.3]]).tolist()")
+    path = [p for a, b in itertools.pairwise(ends) for p in line(a, b, 8)]
+    hand.drag(path)
+    book.wait_for("len(model.pose.stiffness.strokes) == 1 and model.moment.solved", 90)
+    hand.settle()
+    assert hand.targets == before
+    assert book.value("ratio()") < 1.1 < 1.2 < free
+    assert hand.certified()
+    hand.wait_until_drawn()
+    book.screenshot("editor-stiff")
+
+    page.keyboard.press("e")
+    book.wait_for("canvas.brush.tool == 'erase'")
+    hand.drag(line(ends[1], ends[2], 4))
+    book.wait_for("len(model.pose.stiffness.strokes) == 2")
+    assert book.value("model.pose.stiffness([[7.4, 0], [4.5, 0]]).tolist()") == [0, 1]
+    book.screenshot("editor-stiff-erased")
+    page.keyboard.press("Control+z")
+    book.wait_for("len(model.pose.stiffness.strokes) == 1")
+    page.get_by_role("button", name="Clear", exact=True).click()
+    book.wait_for("not model.pose.stiffness")
+    hand.settle()
+    np.testing.assert_allclose(book.value("ratio()"), free, rtol=1e-3)
+    hand.pad.focus()
+    page.keyboard.press("Escape")
+    book.wait_for("canvas.brush.tool == ''")
+    hand.click([-3.0, 0.5])
+    book.wait_for("len(model.pose) == 4")
