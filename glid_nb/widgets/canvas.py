@@ -44,17 +44,9 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     """A picture that follows its handles.
 
     A click on the shape adds a handle, a drag moves its target (cyan); the handle (black) follows
-    as far as a certified map allows. Right click, long touch and the Menu key show what else can
-    be done. Delete removes it, with Shift the shape stays. Shift-click, a box (Shift and drag) and
-    a lasso (Ctrl and drag) select several. The ring around a handle turns and scales the shape
-    there, as do ``<`` and ``>``, ``+`` and ``-``; X sets both free. Ctrl+C and Ctrl+V copy a pose
-    to this or a similar shape, M swaps its left and right.
-    Page Down and Page Up, or ``[`` and ``]``, send selected handles, and what is around them, back
-    and forward. Arrow keys nudge, Ctrl+Z and Ctrl+Shift+Z undo and redo, Esc cancels a drag, 0
-    resets the shape, F makes everything visible. B takes a brush that paints what should stay as it
-    is, E its eraser, Esc lays it down. The wheel zooms about the pointer; the middle
-    button, or the space bar and a drag, pan; so do two fingers. By keyboard alone: arrow keys move
-    a cursor, Enter adds or selects a handle there, comma and full stop select the next one.
+    as far as a certified map allows. Right click, long touch and the Menu key show what else can be
+    done; the ``?`` on the canvas has the table of all keys and gestures. All of it can be done by
+    keyboard alone: arrow keys move a cursor, Enter adds or selects a handle there.
 
     Parameters
     ----------
@@ -356,7 +348,7 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
     def __init__(self, canvas: DeformCanvas, **kwargs: Any) -> None:
         self.deformation = model = canvas.deformation
         # Shared: every widget delays the first canvas.
-        narrow, fitting = ipywidgets.Layout(width="38px"), ipywidgets.Layout(width="auto")
+        narrow, fitting = ipywidgets.Layout(width="34px"), ipywidgets.Layout(width="auto")
         self.undo = button("", "undo", "Undo (Ctrl+Z)", model.undo, narrow)
         self.redo = button("", "repeat", "Redo (Ctrl+Shift+Z)", model.redo, narrow)
         self.reset = button("", "home", "The undeformed shape (0)", model.reset, narrow)
