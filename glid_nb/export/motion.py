@@ -80,8 +80,8 @@ def motion_files(
     Frames have a longer side of ``size`` pixels, at least 16, and even sides; there are at most
     100 per second. The background's red, green and blue are 0 to 255; None is transparent, which
     GIF and MP4 cannot be. With ``loop`` GIF, APNG and page begin again at the end. ``progress`` is
-    called with the numbers of finished and of all frames; when it returns True the export stops,
-    and there are no files.
+    called with the numbers of finished and of all frames, or stages where there are no frames; when
+    it returns True the export stops, and there are no files.
 
     Raises an InputError for another suffix, a setting that is out of range, or a missing package.
     """
@@ -93,16 +93,19 @@ def motion_files(
         raise InputError(f"{name}: {suffix[1:].upper()} has no transparency; {remedy}")
     if suffix in _VIDEO:
         encode.check_video()
-    if suffix == ".html":
-        return {name: page_html(image, motion, title=name[:-5], pose=poses, loop=loop).encode()}
-    if suffix == ".motion.json":
-        texts = map(str.encode, file.texts(motion))
-        return dict(zip(motion_file_names(name), texts, strict=True))
-    if suffix == ".glb":
-        return {name: motion_glb(image, motion, poses)}
     fps = frames_per_second
-    drawn = frames(image, motion, poses, size, fps, background, progress)
     try:
+        if suffix == ".html":
+            page = page_html(
+                image, motion, title=name[:-5], pose=poses, loop=loop, progress=progress
+            )
+            return {name: page.encode()}
+        if suffix == ".glb":
+            return {name: motion_glb(image, motion, poses, progress=progress)}
+        if suffix == ".motion.json":
+            texts = map(str.encode, file.texts(motion))
+            return dict(zip(motion_file_names(name), texts, strict=True))
+        drawn = frames(image, motion, poses, size, fps, background, progress)
         if suffix == ".gif" and background is not None:
             return {name: encode.gif(drawn.pictures, fps, background, loop)}
         if suffix == ".apng":

@@ -40,12 +40,18 @@ class Order:
     """
 
     def __init__(self, mesh: Triangulation, limbs: Array, depths: Array) -> None:
-        self._mesh, self._depths = mesh, depths
+        self._mesh, self._limbs, self._depths = mesh, limbs, depths
         self._heights = depths + _TIE * limbs
 
     def __call__(self, points: Any) -> Array:
         """(k,) heights of (k, 2) points of the undeformed shape."""
         return self._mesh.weights(points) @ self._heights
+
+    def towards(self, other: "Order", share: float) -> "Order":
+        """The order at a share of the way to another one of this shape."""
+        if other is self:
+            return self
+        return Order(self._mesh, self._limbs, self._depths + share * (other._depths - self._depths))
 
     def depths(self, points: Any) -> Array:
         """(k,) depths that the handles' depths give to (k, 2) points."""
