@@ -15,7 +15,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
-from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
+from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
 from glid_nb.certificate import Certificate
@@ -181,7 +181,6 @@ class EnergyPlot(_OverIterations):
         super().__init__(axes, animated)
         axes.set_yscale("log")
         axes.yaxis.set_minor_locator(NullLocator())
-        axes.yaxis.set_major_formatter("{x:g}")
         self._text = self._note()
         self.artists = *self.artists, self._text
 
@@ -207,8 +206,10 @@ class EnergyPlot(_OverIterations):
         low = max(low, least, *(_BELOW_LAST * total[-1:]))
         high = max(high, low)
         low, high = _LOG_ENDS[0.97 * low > _LOG_ENDS][-1], _LOG_ENDS[1.03 * high < _LOG_ENDS][0]
-        subs = (1.0, 2.0, 5.0) if high < 40 * low else (1.0,)
+        narrow = high < 40 * low
+        subs = (1.0, 2.0, 5.0) if narrow else (1.0,)
         self.axes.yaxis.set_major_locator(LogLocator(subs=subs, numticks=6))
+        self.axes.yaxis.set_major_formatter("{x:g}" if narrow else LogFormatterSciNotation())
         self.axes.set_ylim(low, high)
         text = "no iterations"
         if len(history):
@@ -226,9 +227,7 @@ class StepPlot(_OverIterations):
     }
     _dotted = 0
 
-    def _show(
-        self, history: Sequence[Iteration], starts: Collection[int] = (), solving: bool = False
-    ) -> None:
+    def _show(self, history: Any, starts: Collection[int] = (), solving: bool = False) -> None:
         x, *series = _rows(history, *self._looks)
         values = np.where(np.array(series) > 0, series, np.nan)
         self._join(x, values, starts, solving)
@@ -335,8 +334,7 @@ class CertificatePlot(Plot):
             self._truth.set_data(_with_gaps(places, first), _with_gaps(seen, first))
         # High peaks are cut off: what matters is the distance from 0.
         top = max(0.1, min(float(seen.max()), _PEAK * float(np.quantile(seen, 0.9))))
-        bottom = min(float(seen.min()), float(bound.min()))
-        high = _rounded_up(1.2 * top)
+        bottom, high = min(float(seen.min()), float(bound.min())), _rounded_up(1.2 * top)
         low = max(min(-0.04 * high, -_rounded_up(-1.05 * bottom)), -max(high, 1.0))
         self.axes.set_ylim(low, high)
 

@@ -15,6 +15,7 @@ from glid_nb.figures.style import BLUE, ORANGE
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.mesh import deformed_loops
+from glid_nb.imaging.order import Order
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session.actions import turned_now
 from glid_nb.session.deformation import Deformation
@@ -43,17 +44,9 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     """A picture that follows its handles.
 
     A click on the shape adds a handle, a drag moves its target (cyan); the handle (black) follows
-    as far as a certified map allows. Right click, long touch and the Menu key show what else can
-    be done. Delete removes it, with Shift the shape stays. Shift-click, a box (Shift and drag) and
-    a lasso (Ctrl and drag) select several. The ring around a handle turns and scales the shape
-    there, as do ``<`` and ``>``, ``+`` and ``-``; X sets both free. Ctrl+C and Ctrl+V copy a pose
-    to this or a similar shape, M swaps its left and right.
-    Page Down and Page Up, or ``[`` and ``]``, send selected handles, and what is around them, back
-    and forward. Arrow keys nudge, Ctrl+Z and Ctrl+Shift+Z undo and redo, Esc cancels a drag, 0
-    resets the shape, F makes everything visible. B takes a brush that paints what should stay as it
-    is, E its eraser, Esc lays it down. The wheel zooms about the pointer; the middle
-    button, or the space bar and a drag, pan; so do two fingers. By keyboard alone: arrow keys move
-    a cursor, Enter adds or selects a handle there, comma and full stop select the next one.
+    as far as a certified map allows. Right click, long touch and the Menu key show what else can be
+    done; the ``?`` on the canvas has the table of all keys and gestures. All of it can be done by
+    keyboard alone: arrow keys move a cursor, Enter adds or selects a handle there.
 
     Parameters
     ----------
@@ -233,7 +226,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 self._hidden = ()
             elif color_range != "keep" or len(pose) != len(self._hidden):  # as often as that
                 self._hidden = self.deformation.sheets(self.image).hidden(pose.handles)
-            cages: dict[str, Any] = {"cage": self.show_cage, "offset_cage": self.show_offset_cage}
+            cages = self._cages
             drawing = Drawing(
                 moment.map,
                 moment.comparison,
@@ -258,17 +251,22 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             if (what == "legend" or (what == "frame" and moment.solved)) and not moment.dragged:
                 self.pane.place_legend()
 
-    def show_between(self, map: HarmonicMap | None) -> None:
+    @property
+    def _cages(self) -> dict[str, Any]:
+        return {"cage": self.show_cage, "offset_cage": self.show_offset_cage}
+
+    def show_between(self, map: HarmonicMap | None, order: Order | None = None) -> None:
         """Draw a map of the motion in place of the pose that is edited; None ends that."""
         with self.deformation.locked():
             if map is None:
                 self._draw("state")
             elif not self._closed:
-                state = self.deformation.state
-                cages: dict[str, Any] = {"cage": self.show_cage}
-                drawing = Drawing(map, order=state.order, overlay=self.overlay, **cages)
-                energy = state.current.energy
-                self.pane.show(replace(drawing, energy=energy, color_range="keep"))
+                moment = self.deformation.moment
+                drawing = Drawing(map, order=order, overlay=self.overlay, **self._cages)
+                panels = self._panels_of(moment) if self.show_panels else None
+                energy = moment.state.current.energy
+                drawing = replace(drawing, energy=energy, color_range="keep", panels=panels)
+                self.pane.show(drawing)
 
     def _onion(self, state: EditState) -> list[Any]:
         """Outlines of the poses beside the one that is edited, rounded to what a screen shows."""
@@ -350,7 +348,7 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
     def __init__(self, canvas: DeformCanvas, **kwargs: Any) -> None:
         self.deformation = model = canvas.deformation
         # Shared: every widget delays the first canvas.
-        narrow, fitting = ipywidgets.Layout(width="38px"), ipywidgets.Layout(width="auto")
+        narrow, fitting = ipywidgets.Layout(width="34px"), ipywidgets.Layout(width="auto")
         self.undo = button("", "undo", "Undo (Ctrl+Z)", model.undo, narrow)
         self.redo = button("", "repeat", "Redo (Ctrl+Shift+Z)", model.redo, narrow)
         self.reset = button("", "home", "The undeformed shape (0)", model.reset, narrow)

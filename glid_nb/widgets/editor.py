@@ -417,7 +417,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self._side.observe(self._fill, ["selected_index"])
         line = self.monitor.line
         line.layout.height, line.layout.overflow = "44px", "hidden auto"  # however long it is
-        side = ipywidgets.VBox([self._side], layout={"width": f"{_SIDE_WIDTH + 34}px"})
+        side = ipywidgets.VBox([self._side], layout={"width": f"{_SIDE_WIDTH + 38}px"})
         side.add_class("glid-side")
         left = ipywidgets.VBox([self.toolbar, bars, self.canvas, self.timeline, line])
         left.add_class("glid-column")

@@ -29,9 +29,8 @@ PLOTS = {
     "Energy": (
         (9.6, 8.1, 39.3, 37.4),
         "How far the shape is from undeformed, on a logarithmic axis: the energy's mean along the "
-        "boundary above the least one there is, 2 for the symmetric Dirichlet energy (blue, "
-        "Section 6), what the pins miss (orange), and both together, (20). Lines join the ends of "
-        "solves, dots are iterations within them.",
+        "boundary above its least value, 2 for the symmetric Dirichlet energy (blue, Section 6), "
+        "what the pins miss (orange), and the sum (20). Lines join the ends of solves.",
     ),
     "Steps": (
         (58.9, 8.1, 39.3, 22.4),
@@ -187,6 +186,7 @@ def _placeholder(width: int, height: int) -> bytes:
 _GUIDE = """<style>
 .glid-guide { position: relative; height: 0; z-index: 1; font: 12px/1.4 system-ui, sans-serif; }
 .glid-guide > * { position: absolute; }
+.glid-guide > [open] { z-index: 1; }
 .glid-guide summary { width: 16px; border-radius: 8px; list-style: none; text-align: center;
   cursor: pointer; color: var(--jp-ui-font-color2, #616161); font-weight: 600; }
 .glid-guide summary:is(:hover, :focus-visible) { color: #fff; background: #0072b2; outline: none; }
@@ -201,8 +201,8 @@ def _guide(width: int, height: int) -> ipywidgets.HTML:
 
     def about(name: str) -> str:
         (left, top, wide, high), text = PLOTS[name]
-        y, above = top * height / 100, 18 if name == "Time" else 32
-        beside, side = 10 + 5.4 * len(name), "left" if left < 50 else "right"
+        y, above = top * height / 100, 14 if name == "Time" else 28
+        beside, side = 9 + 5.2 * len(name), "left" if left < 50 else "right"
         return (
             f'<div title="{text}" style="left:{left}%;top:{y:.0f}px;width:{wide}%;'
             f'height:{high * height / 100:.0f}px"></div>'

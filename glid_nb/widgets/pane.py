@@ -129,7 +129,6 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self.layout.flex = "0 0 auto"
         self._resize()
         self.stage.observe(self._resize, ["width", "height"])
-        self._unit, self._seen = 0.0, (0.0, 0.0)  # of the view that `resize` set, and what is in it
         self.fit(map, ())
         self._endings = (lambda: self.scene.close(),)
 
@@ -189,6 +188,10 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         pixels = (seen - [x, y]) / unit + [width / 2, height / 2]
         self.stage.legend_corner = emptiest_corner(pixels, width, height, n_bars)
 
+    # What a view is to show, in world units, and its unit, which they give.
+    _seen: tuple[float, float]
+    _unit: float
+
     def fit(self, map: DeformationMap, points: Any) -> None:
         """Make the whole shape visible, and these points."""
         outline = map(np.concatenate(self.scene.domain.cage.loops))
@@ -196,14 +199,15 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         low, high = everything.min(axis=0), everything.max(axis=0)
         x, y = (low + high) / 2
         width, height = self.stage.width, self.stage.height
-        unit = _ROOM * max((high[0] - low[0]) / width, (high[1] - low[1]) / height, 1e-6)
-        self.stage.view = [float(x), float(y), float(unit)]
+        self._seen = across, up = (_ROOM * np.maximum(high - low, 1e-6)).tolist()
+        self._unit = max(across / width, up / height)
+        self.stage.view = [float(x), float(y), self._unit]
 
     def resize(self, width: int, height: int) -> None:
         """Change the size in CSS pixels; what was seen is still seen."""
         stage = self.stage
         x, y, unit = stage.view
-        if unit != self._unit:  # the view was changed since
+        if unit != self._unit:  # a hand has zoomed since
             self._seen = stage.width * unit, stage.height * unit
         self._unit = max(self._seen[0] / width, self._seen[1] / height)
         with stage.hold_sync(), stage.hold_trait_notifications():

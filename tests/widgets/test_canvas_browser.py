@@ -111,14 +111,14 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     about.click()
     page.locator(".lm-TabBar-tabLabel", has_text="Solver").click()
     # Single steps say what each did.
-    page.get_by_role("button", name="Pause").click()
+    page.get_by_title("Let the solver wait").click()
     book.value("None", setup="model.drag(1, to=(5.5, 2.0))")
-    page.get_by_role("button", name="Step").click()
+    page.get_by_title("One frame's iterations").click()
     told = page.locator(".glid-solver-panel").get_by_text("panels split").first
     told.wait_for()
     assert "Hessian projected · step length" in told.inner_text()
     book.screenshot("editor-single-step")
-    page.get_by_role("button", name="Pause").click()
+    page.get_by_title("Let the solver wait").click()
     told.wait_for(state="hidden")
     hand.settle()
     energy = page.locator(".glid-energy select")

@@ -15,15 +15,16 @@ export class Room {
     };
     this.observer = new ResizeObserver(this.later);
     this.observer.observe(pad);
-    this.left = () => document.fullscreenElement || this.alone(false);
-    this.escape = (e) => {
-      if (e.key !== "Escape" || !this.last[2] || pad.querySelector(".glid-menu")) return;
+    this.ending = new AbortController();
+    const { signal } = this.ending;
+    const escape = (e) => {
+      if (e.key !== "Escape" || !this.last[2] || pad.matches(":active, :has(.glid-menu)")) return;
       e.stopPropagation();
       this.alone(false);
     };
-    window.addEventListener("resize", this.later);
-    window.addEventListener("keydown", this.escape, true);
-    document.addEventListener("fullscreenchange", this.left);
+    window.addEventListener("resize", this.later, { signal });
+    window.addEventListener("keydown", escape, { signal, capture: true });
+    document.addEventListener("fullscreenchange", () => document.fullscreenElement || this.alone(false), { signal });
   }
 
   measure() {
@@ -61,8 +62,6 @@ export class Room {
   close() {
     clearTimeout(this.timer);
     this.observer.disconnect();
-    window.removeEventListener("resize", this.later);
-    window.removeEventListener("keydown", this.escape, true);
-    document.removeEventListener("fullscreenchange", this.left);
+    this.ending.abort();
   }
 }
