@@ -153,9 +153,7 @@ def motion_glb(
     return data
 
 
-def _animate(
-    moved: Array, times: Array, weights: Array, buffers: Any, tree: dict[str, Any]
-) -> None:
+def _animate(moved: Array, times: Array, weights: Array, buffers: Any, tree: Any) -> None:
     """Add morph targets (m, v, 3) to glTF's only mesh, and their weights (k, m) at (k,) times."""
 
     def accessor(values: Array, kind: str) -> int:

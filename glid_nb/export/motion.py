@@ -89,10 +89,8 @@ def motion_files(
     encode.check_settings(size, frames_per_second, background)
     check_fits(PixelFrame(*np.shape(image)[1::-1]), motion.keyframes[0])
     if background is None and suffix in (".gif", ".mp4"):
-        raise InputError(
-            f"{name}: {suffix[1:].upper()} has no transparency; choose a background, or .apng or "
-            ".webm"
-        )
+        remedy = "choose a background, or .apng or .webm"
+        raise InputError(f"{name}: {suffix[1:].upper()} has no transparency; {remedy}")
     if suffix in _VIDEO:
         encode.check_video()
     fps = frames_per_second
@@ -135,8 +133,6 @@ def suffix_of(name: str) -> str:
     """The one of `MOTION_FORMATS` that a name ends in, "" for a folder."""
     found = next((suffix for suffix in MOTION_FORMATS if name.lower().endswith(suffix)), "")
     if len(name) == len(found) or (not found and Path(name).suffix):
-        raise InputError(
-            f"{name!r:.200} cannot be written: the name must end in {', '.join(MOTION_FORMATS)}, "
-            "or have no suffix for a folder of frames"
-        )
+        ends = f"{', '.join(MOTION_FORMATS)}, or have no suffix for a folder of frames"
+        raise InputError(f"{name!r:.200} cannot be written: the name must end in {ends}")
     return found

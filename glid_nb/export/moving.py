@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -76,9 +77,8 @@ class MovingMesh:
             times = (pieces[0].start, *(piece.end for piece in pieces))
             poses += poses[: shown.repeat == "loop"]
         cage = shown.domain.cage
-        vertices, images, triangles, error = fine_mesh(
-            cage, lambda points: images_under(maps, points), n_vertices, tolerance
-        )
+        image = functools.partial(images_under, maps)
+        vertices, images, triangles, error = fine_mesh(cage, image, n_vertices, tolerance)
         orders = [order_of(cage, one) for one in poses]
         if all(order is orders[0] for order in orders):
             del orders[1:]

@@ -115,9 +115,7 @@ class Sheets:
     Where the picture (h, w, 4) is transparent, if it is given, what lies below is seen.
     """
 
-    def __init__(
-        self, map: DeformationMap, order: Order, image: NDArray[np.uint8] | None = None
-    ) -> None:
+    def __init__(self, map: DeformationMap, order: Order, image: Array | None = None) -> None:
         self._map, self._order, self._image = map, order, image
         if isinstance(map, MeshMap):
             self._mesh, images = map.triangulation, map.images
