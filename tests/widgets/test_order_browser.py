@@ -159,7 +159,7 @@ def test_in_a_motion_the_order_and_the_boundary_are_those_of_its_time(
         assert timeline.time == pytest.approx(time, abs=0.02)
         hand.page.wait_for_timeout(300)
         assert seen() == [right_in_front] * 60
-        assert legend.inner_text() == "σ₂ on the boundary at this time"
+        assert legend.inner_text() == "σ₂ on the boundary now"
         book.screenshot(f"order-at-{time}")
     hand.page.keyboard.press("Escape")
     hand.page.wait_for_timeout(300)
