@@ -80,15 +80,14 @@ def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str
     "most", or "above". By default numbers are at least 0. For a tuple of numbers or a sequence they
     say in "form" how it is written.
     """
-    limits = limits or {}
+    limits, allowed = limits or {}, get_args(kind)
     if get_origin(kind) is Literal:
-        allowed = get_args(kind)
         known = any(type(value) is type(one) and value == one for one in allowed)
         return "" if known else f"one of {', '.join(map(str, allowed))}"
     if get_origin(kind) in (tuple, Sequence):
         return "" if _holds(kind, value, limits) else limits["form"]
-    if get_args(kind):
-        each = [unmet(one, value, limits) for one in get_args(kind)]
+    if allowed:
+        each = [unmet(one, value, limits) for one in allowed]
         return "" if "" in each else " or ".join(text for text in each if text != "None")
     if kind is NoneType:
         return "" if value is None else "None"

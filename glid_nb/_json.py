@@ -16,15 +16,8 @@ Check = Callable[[Any, str], None]
 _MOST_VALUES = 4_000_000
 _EXACT_DIGITS = 300  # integers of fewer are in the range of floating point
 
-_KINDS = {
-    type(None): "null",
-    bool: "true or false",
-    list: "a list",
-    dict: "an object",
-    str: "a string",
-    int: "a number",
-    float: "a number",
-}
+_KINDS = {type(None): "null", bool: "true or false", int: "a number", float: "a number"}
+_KINDS |= {list: "a list", dict: "an object", str: "a string"}
 
 
 def parse_json(raw: bytes, name: str, kind: str = "a JSON file", *, nan: bool = True) -> Any:

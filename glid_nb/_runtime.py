@@ -148,11 +148,8 @@ def enable_compilation_cache() -> Path:
     return folder
 
 
-_COMPILING = (
-    "/jax/core/compile/jaxpr_trace_duration",
-    "/jax/core/compile/jaxpr_to_mlir_module_duration",
-    "/jax/core/compile/backend_compile_duration",
-)
+_STAGES = ("jaxpr_trace", "jaxpr_to_mlir_module", "backend_compile")
+_COMPILING = tuple(f"/jax/core/compile/{stage}_duration" for stage in _STAGES)
 
 
 class CompilationClock:

@@ -9,8 +9,6 @@ the page OUT.md are replaced, its text is left alone. A run that was interrupted
 stopped. On a machine with a GPU, after `pip install "jax[cuda12]"`, the same commands measure it.
 """
 
-from __future__ import annotations
-
 import argparse
 import importlib
 from collections.abc import Sequence
@@ -30,28 +28,19 @@ def main(arguments: Sequence[str] | None = None) -> None:
         description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("what", choices=("compare", "bench"))
-    parser.add_argument(
-        "--out", type=Path, metavar="OUT", help="default: glid-nb-compare or glid-nb-bench"
-    )
-    parser.add_argument(
-        "--reference",
-        type=Path,
-        metavar="DIR",
-        help="folder of problems with the paper's shapes (default: the bundled samples)",
-    )
-    parser.add_argument(
-        "--only", action="append", metavar="STUDY", help="one study, may be repeated (default: all)"
-    )
-    parser.add_argument(
-        "--repeats", type=int, default=9, metavar="N", help="timings of each kind (default 9)"
-    )
-    parser.add_argument("--quick", action="store_true", help="small sizes only, to try it out")
+    add = parser.add_argument
+    add("what", choices=("compare", "bench"))
+    add("--out", type=Path, metavar="OUT", help="default: glid-nb-compare or glid-nb-bench")
+    shapes = "folder of problems with the paper's shapes (default: the bundled samples)"
+    add("--reference", type=Path, metavar="DIR", help=shapes)
+    one = "one study, may be repeated (default: all)"
+    add("--only", action="append", metavar="STUDY", help=one)
+    add("--repeats", type=int, default=9, metavar="N", help="timings of each kind (default 9)")
+    add("--quick", action="store_true", help="small sizes only, to try it out")
     how = parser.add_mutually_exclusive_group()
     how.add_argument("--fresh", action="store_true", help="measure again what is there already")
-    how.add_argument(
-        "--render", action="store_true", help="measure nothing: tables and figures from OUT/data"
-    )
+    nothing = "measure nothing: tables and figures from OUT/data"
+    how.add_argument("--render", action="store_true", help=nothing)
     chosen = parser.parse_args(arguments)
     out = chosen.out or Path(f"glid-nb-{chosen.what}")
     check_folder(out)
@@ -61,12 +50,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     with step("measuring") as detail:
         plan = Plan(cases, chosen.repeats, chosen.quick, detail)
         page = run_studies(
-            studies,
-            out,
-            plan,
-            only=chosen.only,
-            fresh=chosen.fresh,
-            measuring=not chosen.render,
+            studies, out, plan, only=chosen.only, fresh=chosen.fresh, measuring=not chosen.render
         )
     print(page)
 

@@ -1,7 +1,5 @@
 """The shapes and poses on which methods are compared."""
 
-from __future__ import annotations
-
 import functools
 import hashlib
 import re

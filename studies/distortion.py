@@ -4,8 +4,6 @@ What a solver minimises depends on its space: ours takes the mean along the boun
 mesh that over the area. To compare where they end, all maps are measured here over one area.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import jax.numpy as jnp

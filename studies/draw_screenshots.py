@@ -6,8 +6,6 @@ Run it from the repository's root; it needs the extra `test` and Chromium. The p
 with few colours, so that they are small.
 """
 
-from __future__ import annotations
-
 import argparse
 import io
 import tempfile

@@ -3,8 +3,6 @@
 Usage: python -m studies.draw_walk [OUT ...]    other names, such as walk.mp4 or walk.html, too
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Pieces of figures: maps coloured by their distortion, curves of energies."""
 
-from __future__ import annotations
-
 import io
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Measurements in a process of their own: its memory, its devices, its first compilation."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

@@ -5,8 +5,6 @@ that count are those of the last, which nothing looks at and which finds its pro
 in memory.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any

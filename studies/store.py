@@ -1,7 +1,5 @@
 """Measurements on disk, one JSON file each: an interrupted study goes on where it stopped."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable

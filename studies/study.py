@@ -1,7 +1,5 @@
 """What a study is, and how several of them are run."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path

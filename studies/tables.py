@@ -4,8 +4,6 @@ A page marks the place of the table ``NAME.csv`` by ``<!-- table: NAME -->`` and
 ``<!-- end -->``; what lies between is replaced, the rest of the page is left as it was written.
 """
 
-from __future__ import annotations
-
 import csv
 import io
 import math

@@ -4,8 +4,6 @@ pyperf was tried and not kept: it times each function in processes of its own, t
 each of which imports JAX and loads compiled programs first, and it cannot take functions in turn.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Mapping
 from typing import Any

@@ -72,10 +72,9 @@ class Arcs(NamedTuple):
         length = np.abs(end - start)
         direction = (end - start) / np.where(length > 0, length, 1)
         # A function whose slope is at most K is at most (|start| + |end| + K l) / 2.
-        bend = (
-            sum(np.abs(jet.second(direction)) + jet.second_error for jet in (at_start, at_end))
-            + at_start.third / np.where(length > 0, length, np.inf)
-        ) / 2
+        slope = at_start.third / np.where(length > 0, length, np.inf)
+        ends = (np.abs(jet.second(direction)) + jet.second_error for jet in (at_start, at_end))
+        bend = (sum(ends) + slope) / 2
         return cls(
             at_start.f,
             at_end.f,

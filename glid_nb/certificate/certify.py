@@ -30,11 +30,8 @@ from glid_nb.harmonic.cauchy import Singularities
 
 CertificateKind = Literal["hermite", "lipschitz", "bdhm"]
 
-PROOFS: dict[CertificateKind, type[PanelProof]] = {
-    "hermite": Hermite,
-    "lipschitz": Lipschitz,
-    "bdhm": BDHM,
-}
+PROOFS: dict[CertificateKind, type[PanelProof]]
+PROOFS = {"hermite": Hermite, "lipschitz": Lipschitz, "bdhm": BDHM}
 """The kinds of proof by name."""
 
 _MAX_ROUNDS = 40
@@ -56,10 +53,9 @@ class PanelCertificate(Panels):
 
 @dataclass(frozen=True, eq=False)
 class Certificate:
-    """The outcome of :func:`certify` for a whole domain (Theorem 4.2).
+    """The outcome of :func:`certify` (Theorem 4.2).
 
-    The bounds on the singular values and the little dilatation hold on the whole domain when
-    ``certified``, otherwise on the boundary only.
+    Bounds hold on the whole domain when ``certified``, otherwise on the boundary only.
     """
 
     certified: bool
@@ -139,31 +135,21 @@ def certify(
 ) -> Certificate:
     """Prove a map locally injective and bound its distortion, or say where that fails.
 
-    Parameters
-    ----------
-    kind : "hermite", "lipschitz" or "bdhm"
-        Cubic interpolants with Bernstein coefficients, the paper's Lipschitz constants (26)-(27),
-        or the larger ones of bounded distortion harmonic mappings (Figure 7).
-    panels : Panels, optional
-        Pieces of the boundary to start from; by default graded ones.
-    refine : bool
-        Split panels on which the proof fails, as the paper does not, or whose bounds are further
-        than the relative ``tightness`` from values that the map attains.
-
-    Raises
-    ------
-    GeometryError
-        When the panels do not tile the boundary of the map's cage.
+    The kind is "hermite", cubic interpolants with Bernstein coefficients, "lipschitz", the paper's
+    Lipschitz constants (26)-(27), or "bdhm", the larger ones of bounded distortion harmonic
+    mappings (Figure 7). ``panels`` are pieces of the boundary to start from, by default graded
+    ones; a GeometryError where they do not tile that of the map's cage. With ``refine`` panels are
+    split on which the proof fails, as the paper does not, or whose bounds are further than the
+    relative ``tightness`` from values that the map attains.
     """
     if kind not in PROOFS:
         raise ValueError(f"unknown kind of certificate {kind!r}; choose one of {', '.join(PROOFS)}")
     if not tightness > 0:
         raise ValueError(f"tightness is {tightness}; it must be positive")
     evaluate = functools.partial(run_on, map, functools.partial(_kernel, kind=kind))
-    if panels is None:
-        panels = graded_panels(map.domain)
-    else:
+    if panels is not None:
         check_tiling(panels, map.domain.cage)
+    panels = graded_panels(map.domain) if panels is None else panels
     known: Known = evaluate(panels.start, panels.end)
     if refine:
         panels, known = refined(panels, known, evaluate, tightness)
@@ -206,10 +192,7 @@ def _to_split(known: Known, tightness: float) -> Array:
 
 
 def certificate_of(map: HarmonicMap) -> Certificate:
-    """The certificate of a map from its coefficients alone; computed once, for maps are immutable.
-
-    Where a solver has proved a map by :func:`proved_by`, and this cannot, it is the solver's.
-    """
+    """A map's from its coefficients alone, else a solver's (`proved_by`) if it has one; kept."""
     known = vars(map)
     if "_certificate" not in known:
         own = certify(map)
@@ -239,16 +222,12 @@ def _conclude(map: HarmonicMap, panels: Panels, known: Known, kind: CertificateK
     certified = False
     if known.folded.any():
         i = int(np.argmin(known.sigma2_seen))
-        reason = (
-            f"The map is not locally injective: sigma_2 = {known.sigma2_seen[i]:.3g} "
-            f"near {place(panels.start[i])}."
-        )
+        seen = f"sigma_2 = {known.sigma2_seen[i]:.3g} near {place(panels.start[i])}"
+        reason = f"The map is not locally injective: {seen}."
     elif unproved.any():
         i = int(np.argmin(bounds.sigma2_lower))
-        reason = (
-            f"Undecided: {int(unproved.sum())} of {len(panels)} panels could not be proved "
-            f"injective, the worst near {place(panels.middle[i])}."
-        )
+        share = f"{int(unproved.sum())} of {len(panels)} panels could not be proved injective"
+        reason = f"Undecided: {share}, the worst near {place(panels.middle[i])}."
     elif not known.angle_error < 1:
         reason = "Undecided: f_z is too small beside rounding errors to count its turns."
     elif sum(turns) != 0:

@@ -61,23 +61,16 @@ class Hermite(NamedTuple):
         if direction is not None:
             e_f = e_f + rounding.BERNSTEIN * p_most  # of u itself and the products
         halves = [
-            _piece_bounds(p_half, q_half, e_f, e_g)
-            for p_half, q_half in zip(
-                _halves(p if direction is None else along), _halves(q), strict=True
-            )
+            _piece_bounds(a, b, e_f, e_g)
+            for a, b in zip(_halves(p if direction is None else along), _halves(q), strict=True)
         ]
         sigma2, sigma1, k = zip(*halves, strict=True)
         if direction is not None:
             sigma1 = [p_most + _greatest([modulus(point) for point in q]) + e_f + e_g]
-
         # If the control points lie in a half plane further than e_f from 0, f_z avoids 0 there.
         offset = _least(along)
         return PanelBounds(
-            _least(sigma2),
-            _greatest(sigma1),
-            _greatest(k),
-            offset > e_f,
-            turning(fz.start, fz.end),
+            _least(sigma2), _greatest(sigma1), _greatest(k), offset > e_f, turning(fz.start, fz.end)
         )
 
 
@@ -135,15 +128,9 @@ def _squared_modulus(cubic: Cubic) -> Sextic:
         a, b = cubic[i], cubic[j]
         return a.real * b.real + a.imag * b.imag
 
-    return [
-        dot(0, 0),
-        dot(0, 1),
-        (2 * dot(0, 2) + 3 * dot(1, 1)) / 5,
-        (dot(0, 3) + 9 * dot(1, 2)) / 10,
-        (2 * dot(1, 3) + 3 * dot(2, 2)) / 5,
-        dot(2, 3),
-        dot(3, 3),
-    ]
+    second, fourth = (2 * dot(i, i + 2) + 3 * dot(i + 1, i + 1) for i in (0, 1))
+    middle = (dot(0, 3) + 9 * dot(1, 2)) / 10
+    return [dot(0, 0), dot(0, 1), second / 5, middle, fourth / 5, dot(2, 3), dot(3, 3)]
 
 
 def _least(values: list[Array] | tuple[Array, ...]) -> Array:

@@ -8,7 +8,7 @@ decides. `docs/proof.md` has the lemmas.
 
 import functools
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 import shapely
@@ -84,18 +84,14 @@ def global_injectivity(
         unresolved = ~_simple(arcs) | corners
         unresolved[panels.next[corners]] = True
         if not unresolved.any() and not pairs.size:
-            reason = (
-                f"Proved globally injective: the images of the {len(panels)} pieces of the "
-                "boundary meet only where neighbours join."
-            )
+            images = f"the images of the {len(panels)} pieces of the boundary"
+            reason = f"Proved globally injective: {images} meet only where neighbours join."
             return GlobalInjectivity("yes", reason, len(panels))
         double_point = _proved_crossing(map, panels, arcs, pairs)
         if double_point is not None:
             image, points = double_point
-            reason = (
-                f"The map overlaps itself: the boundary points {places(points)} are both mapped to "
-                f"{place(image)}."
-            )
+            both = f"the boundary points {places(points)} are both mapped to {place(image)}"
+            reason = f"The map overlaps itself: {both}."
             return GlobalInjectivity("no", reason, len(panels), as_points(image), as_points(points))
         # Split the larger arc of a pair, or both if they are about equal.
         first, second = pairs
@@ -112,9 +108,7 @@ def global_injectivity(
 
 def _pairs_not_apart(arcs: Arcs, panels: Panels) -> Array:
     """(2, q) pairs of panels without a common end whose images are not proved disjoint."""
-    x = np.real([arcs.start, arcs.end])
-    y = np.imag([arcs.start, arcs.end])
-    r = arcs.radius
+    (x, y), r = (part([arcs.start, arcs.end]) for part in (np.real, np.imag)), arcs.radius
     boxes = shapely.box(x.min(0) - r, y.min(0) - r, x.max(0) + r, y.max(0) + r)
     first, second = shapely.STRtree(boxes).query(boxes)
     wanted = (first < second) & (panels.next[first] != second) & (panels.next[second] != first)
@@ -139,10 +133,8 @@ def _corner_simple(arcs: Arcs, following: Array) -> Array:
     return back_clear & ahead_clear
 
 
-def _proved_crossing(
-    map: HarmonicMap, panels: Panels, arcs: Arcs, pairs: Array
-) -> tuple[complex, Array] | None:
-    """A double point of the image of the boundary, and the two boundary points mapped to it.
+def _proved_crossing(map: HarmonicMap, panels: Panels, arcs: Arcs, pairs: Array) -> Any:
+    """A double point of the boundary's image and the two points mapped to it, or None.
 
     Newton's method finds candidates, starting from pairs of panels whose chords cross. A candidate
     is proved on windows around it on the two edges, which may extend over several panels.

@@ -50,8 +50,7 @@ class PanelBounds(NamedTuple):
 class PanelProof(Protocol):
     """A kind of proof; an instance holds the constants that depend on the panels only.
 
-    Instances are JAX pytrees of arrays whose last axis runs over the panels. A solver computes them
-    once for many maps.
+    Instances are pytrees of arrays with panels along the last axis, computed once for many maps.
     """
 
     slack_share: int
@@ -63,10 +62,7 @@ class PanelProof(Protocol):
         ...
 
     def remainder(self, coefficients: Rows, singularities: Singularities) -> Float[Array, "k p"]:
-        """Bounds how far ``sum_j D_j coefficients_j`` departs from its estimate by the end values.
-
-        The caller of :meth:`bounds` adds an allowance for rounding.
-        """
+        """Bounds how far ``sum_j D_j coefficients_j`` is from its estimate, but for rounding."""
         ...
 
     @staticmethod
@@ -95,9 +91,7 @@ def check_tiling(panels: Panels, cage: Cage) -> None:
         start, end = panels.start[own], panels.end[own]
         is_corner = np.isin(start, corners)
         if not np.array_equal(start[is_corner], corners) or not is_corner[0]:
-            raise _not_tiled(
-                f"vertices of the {loop_name(i)} are no ends of panels, or not in order"
-            )
+            raise _not_tiled(f"vertices of the {loop_name(i)} are no ends, or not in order")
         edge = np.cumsum(is_corner) - 1
         origin, along = corners[edge], (np.roll(corners, -1) - corners)[edge]
         direction = along / np.abs(along)
@@ -109,19 +103,16 @@ def check_tiling(panels: Panels, cage: Cage) -> None:
 
 
 def _not_tiled(what: str) -> GeometryError:
+    remedy = "make them of this cage, as graded_panels does, or leave them out"
     return GeometryError(
-        f"the panels do not tile the boundary of this map's cage: {what}; make them of this cage, "
-        "as graded_panels does, or leave them out"
+        f"the panels do not tile the boundary of this map's cage: {what}; {remedy}"
     )
 
 
-def split(
-    panels: Panels, known: T, chosen: NDArray[Any], evaluate: Callable[..., T]
-) -> tuple[Panels, T]:
-    """Panels with the chosen, divisible ones halved, and what is known of each panel.
+def split(panels: Panels, known: T, chosen: Array, evaluate: Callable[..., T]) -> tuple[Panels, T]:
+    """With the chosen, divisible panels halved, and what is known of each.
 
-    ``known`` is a pytree of NumPy arrays over the panels; ``evaluate(start, end)`` makes it for the
-    new ones.
+    ``known`` is a pytree of arrays over the panels; ``evaluate(start, end)`` makes it for new ones.
     """
     finer, parent = panels.split(chosen)
     new = chosen[parent]

@@ -19,6 +19,8 @@ from glid_nb.certificate import rounding
 from glid_nb.certificate.panels import Ends, EndValues, PanelBounds, PerPanel, Rows, modulus
 from glid_nb.harmonic.cauchy import Singularities, slope_jumps
 
+Weights = Float[Array, "p n"]
+
 
 def segment_bounds(
     fz: EndValues, fzb_conj: EndValues, variation: Float[Array, "2 p"] | list[Array]
@@ -74,9 +76,8 @@ class Lipschitz(NamedTuple):
 def variation(f: EndValues, remainder: PerPanel) -> PerPanel:
     """``L l``, with the paper's Lipschitz constant of ``f_z`` or ``f_zbar`` on each segment.
 
-    ``L_fz = (|f_z'(v_i)| + |f_z'(v_{i+1})|) / 2
-    + l/2 (sum_j L_j |s_j - s_{j+1}| + sum_j L_j^h |phi_j|)``; ``remainder`` is the second term
-    times ``l``.
+    ``L_fz = (|f_z'(v_i)| + |f_z'(v_{i+1})|) / 2 + l/2 (sum_j L_j |s_j - s_{j+1}| + sum_j L_j^h
+    |phi_j|)``; ``remainder`` is the second term times ``l``.
     """
     return (modulus(f.slope_start) + modulus(f.slope_end)) / 2 + remainder
 
@@ -87,10 +88,7 @@ def jumps(coefficients: Rows, singularities: Singularities) -> Float[Array, "k n
 
 
 def derivative_bound_weights(
-    start: Ends,
-    end: Ends,
-    singularities: Singularities,
-    order: int,
+    start: Ends, end: Ends, singularities: Singularities, order: int
 ) -> Float[Array, "p n"]:
     """Weights ``w`` with ``l^order |d^order f_z / dz^order| <= w @ jumps`` on each segment.
 
@@ -117,9 +115,7 @@ def beside(start: Ends, end: Ends, singularities: Singularities) -> Float[Array,
     return xp.concat([off[:, :m] / (2 * math.pi), 2 * off[:, m:] / d[:, m:]], axis=1)
 
 
-def clearance(
-    start: Ends, end: Ends, singularities: Singularities
-) -> tuple[Float[Array, "p n"], Float[Array, "p n"]]:
+def clearance(start: Ends, end: Ends, singularities: Singularities) -> tuple[Weights, Weights]:
     """Lower bounds on :func:`distances` around each segment, and ``l / d``; 0 and inf where none.
 
     The computed nearest point is off by 16 roundoffs of the distance to ``start``, at most
@@ -150,10 +146,8 @@ def distances(start: Ends, end: Ends, singularities: Singularities) -> Float[Arr
 
 
 def turning(fz_start: Ends, fz_end: Ends) -> PerPanel:
-    """``Arg(f_z(v_{i+1}) / f_z(v_i))``, the change of ``arg f_z`` along each segment (29).
-
-    Theorem 8.1 proves this if ``|f_z(v_i)| + |f_z(v_{i+1})| > L_fz l`` (28).
-    """
+    """``Arg(f_z(v_{i+1}) / f_z(v_i))`` (29), the change of ``arg f_z`` along each segment if
+    ``|f_z(v_i)| + |f_z(v_{i+1})| > L_fz l`` (28): Theorem 8.1."""
     xp = fz_end.__array_namespace__()
     return xp.angle(fz_end * xp.conj(fz_start))
 

@@ -33,10 +33,8 @@ _GROUP = 16  # pieces whose maps are evaluated together
 
 @dataclass(frozen=True)
 class PieceCertificate:
-    """What is proved of ``(1 - t) f_0 + t f_1`` on the boundary for every ``t`` in [0, 1].
-
-    Where it is not certified the bounds are infinite.
-    """
+    """What is proved of ``(1 - t) f_0 + t f_1`` on the boundary for every ``t`` in [0, 1]; where it
+    is not certified the bounds are infinite."""
 
     certified: bool
     """Whether ``|f_z| > |f_zbar|`` is proved at every time."""
@@ -47,6 +45,9 @@ class PieceCertificate:
     """It is proved at all times before this one; 1 where certified."""
     place: complex
     """The middle of the panel where sigma_2 is least, or where the proof fails first."""
+
+
+Proofs = tuple[PieceCertificate, ...]
 
 
 class _Values(NamedTuple):
@@ -68,9 +69,7 @@ class _Values(NamedTuple):
 
 
 @np.errstate(all="ignore")
-def certify_pieces(
-    maps: Sequence[HarmonicMap], tightness: float = 0.05
-) -> tuple[PieceCertificate, ...]:
+def certify_pieces(maps: Sequence[HarmonicMap], tightness: float = 0.05) -> Proofs:
     """Prove the linear motion from each map of one domain to the next, or say how far that goes.
 
     Panels are halved where the proof fails or bounds are further than the relative ``tightness``
@@ -142,16 +141,14 @@ def _evaluated(maps: Sequence[HarmonicMap], size: Array) -> Any:
     return evaluate
 
 
-def _values(
-    start: Any, end: Any, coefficients: Any, size: Any, singularities: Singularities
-) -> _Values:
-    ends, slack = end_values(start, end, coefficients, singularities)
+def _values(start: Any, end: Any, rows: Any, size: Any, singularities: Singularities) -> _Values:
+    ends, slack = end_values(start, end, rows, singularities)
     slack = slack + _coefficient_rounding(start, end, size, singularities)
-    remainder = Hermite.on(start, end, singularities).remainder(coefficients, singularities)
-    shift = jumps(coefficients, singularities) @ beside(start, end, singularities).T
+    remainder = Hermite.on(start, end, singularities).remainder(rows, singularities)
+    shift = jumps(rows, singularities) @ beside(start, end, singularities).T
     by_map = [
-        np.stack(rows, axis=-1).reshape(len(coefficients) // 2, 2, len(start), -1)
-        for rows in (ends, [remainder + slack, slack + shift])
+        np.stack(values, axis=-1).reshape(len(rows) // 2, 2, len(start), -1)
+        for values in (ends, [remainder + slack, slack + shift])
     ]
     return _Values(*(np.moveaxis(values, 2, 0) for values in by_map))
 

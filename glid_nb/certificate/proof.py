@@ -22,10 +22,8 @@ if TYPE_CHECKING:
 FORMAT = "glid_nb-proof"
 FORMAT_VERSION = 1
 
-# An edge is not bisected more often than its positions can tell apart.
-_MOST_BISECTIONS = 60
-# How far rounding moves a panel's middle, in lengths of the panel.
-_ROUNDING = 0.1
+_MOST_BISECTIONS = 60  # an edge is not bisected more often than its positions can tell apart
+_ROUNDING = 0.1  # how far rounding moves a panel's middle, in lengths of the panel
 
 
 def proof_text(certificate: Certificate) -> str:
@@ -82,7 +80,4 @@ def _bisected(middles: Array, k: int, d: int) -> list[list[int]]:
     if len(middles) <= 1 or d == _MOST_BISECTIONS:
         return [[k, d]]
     left = int(np.searchsorted(middles, (2 * k + 1) / 2 ** (d + 1)))
-    return [
-        *_bisected(middles[:left], 2 * k, d + 1),
-        *_bisected(middles[left:], 2 * k + 1, d + 1),
-    ]
+    return [*_bisected(middles[:left], 2 * k, d + 1), *_bisected(middles[left:], 2 * k + 1, d + 1)]

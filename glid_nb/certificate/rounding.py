@@ -47,10 +47,8 @@ def carried_slack_factor(n_columns: int) -> float:
 
 
 def allowance(slack: Float[Array, "*k p"], probe: Float[Array, ""]) -> Float[Array, "*k p"]:
-    """Errors with that of underflow; infinite under fast math (Lemmas 13 and 14).
-
-    ``probe`` is any positive number that the compiler does not know.
-    """
+    """Errors with that of underflow; infinite under fast math (Lemmas 13 and 14), which is probed
+    by any positive number that the compiler does not know."""
     xp = slack.__array_namespace__()
     return xp.where(_is_exact(probe), slack + UNDERFLOW, xp.inf)
 
@@ -86,10 +84,8 @@ def derivatives(
 def panel_scale(
     start: Complex[Array, " p"], end: Complex[Array, " p"], singularities: Singularities
 ) -> Float[Array, " p"]:
-    """Per panel, the larger scale of the terms of ``f_z`` and ``l f_z'`` at its two ends.
-
-    :func:`slack_factor` times this and the largest coefficient bounds the error of both together.
-    """
+    """Per panel, the larger scale of the terms of ``f_z`` and ``l f_z'`` at its two ends: times
+    :func:`slack_factor` and the largest coefficient it bounds the error of both together."""
     xp = start.__array_namespace__()
     length = xp.abs(end - start)
     scales = [term_scale(z, singularities) for z in (start, end)]
@@ -99,10 +95,8 @@ def panel_scale(
 def term_scale(
     z: Points, singularities: Singularities
 ) -> tuple[Float[Array, " k"], Float[Array, " k"]]:
-    """Sums of the moduli of all terms of ``D(z)``, with the logarithms' errors, and of ``D'(z)``.
-
-    Infinite where a computed logarithm may be that of the wrong branch.
-    """
+    """Sums of the moduli of all terms of ``D(z)``, with the logarithms' errors, and of ``D'(z)``;
+    infinite where a computed logarithm may be that of the wrong branch."""
     xp, (vertices, following, preceding, rho) = z.__array_namespace__(), singularities
     b, to_hole = xp.abs(vertices - z[:, None]), xp.abs(z[:, None] - rho)
     edge, chord = (xp.abs(vertices[following] - vertices[i]) for i in (slice(None), preceding))

@@ -73,9 +73,8 @@ def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb
     if chosen.source.suffix.lower() != ".json":
         document = glid_nb.load_document(chosen.source)
         if len(document.poses) < 2:
-            raise InputFileError(
-                f"{chosen.source} holds {len(document.poses)} poses; a motion needs at least 2"
-            )
+            held = f"{chosen.source} holds {len(document.poses)} poses"
+            raise InputFileError(f"{held}; a motion needs at least 2")
         if chosen.picture is not None:
             raise InputError("--picture is for saved motions; a session holds its picture")
         timeline = document.timeline or replace(Timeline.even(len(document.poses)), repeat="loop")
@@ -87,10 +86,8 @@ def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb
         return document.image, motion, [pose.pose for pose in document.poses]
     motion = glid_nb.Motion.load(chosen.source)
     if chosen.picture is None or chosen.loop not in (None, motion.repeat):
-        raise InputError(
-            f"{chosen.source} is a saved motion: name its picture by --picture, and leave out "
-            "--loop, for it has its own"
-        )
+        advice = "name its picture by --picture, and leave out --loop, for it has its own"
+        raise InputError(f"{chosen.source} is a saved motion: {advice}")
     if chosen.seconds is not None:
         longer = _seconds(chosen) / motion.duration
         own = {key: getattr(motion, key) for key in _SETTINGS}

@@ -25,8 +25,7 @@ from glid_nb.cli.trace import cage_data, size_in_words
 DEFAULT_SAMPLE = "gecko"
 DEFAULT_POSE = "gentle"
 _FILES = ("deformed.png", "overview.png", "cage.json", "map.json", "report.json")
-# The picture is zoomed out if more than this share of the shape leaves its frame.
-_CROPPED = 1e-3
+_CROPPED = 1e-3  # the picture is zoomed out if more than this share of the shape leaves its frame
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -90,9 +89,7 @@ def _source(image: str) -> tuple[Path, str | None]:
         return Path(image), None
     names = glid_nb.samples.names()
     if image not in names:
-        raise InputFileError(
-            f"{image}: there is no such file, and no sample of that name ({', '.join(names)})"
-        )
+        raise InputFileError(f"{image}: no such file, and no such sample ({', '.join(names)})")
     return glid_nb.samples.path(image), image
 
 

@@ -30,11 +30,10 @@ class OneLineParser(argparse.ArgumentParser):
 
 
 def build_parser() -> argparse.ArgumentParser:
-    parser = OneLineParser(
-        prog="glid-nb",
-        description="Locally injective image deformation: from a picture to a map that is proved "
-        "never to fold.",
+    what = (
+        "Locally injective image deformation: from a picture to a map that is proved never to fold."
     )
+    parser = OneLineParser(prog="glid-nb", description=what)
     parser.add_argument("--version", action="version", version=f"glid-nb {glid_nb.__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for module in COMMANDS:
@@ -46,9 +45,8 @@ def build_parser() -> argparse.ArgumentParser:
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
         module.add_arguments(command)
-        command.add_argument(
-            "--debug", action="store_true", help="show the traceback when the input is refused"
-        )
+        debug = "show the traceback when the input is refused"
+        command.add_argument("--debug", action="store_true", help=debug)
         command.set_defaults(run=module.run)
     return parser
 

@@ -13,6 +13,7 @@ from glid_nb.certificate.rounding import rounded_down, rounded_up
 
 _TIMES = {"compile": 2, "solve": 3, "certify": 3}
 _LONG = ("history", "attempts", "refinements", "options", "versions", "machine")
+_BASIS = "{unknowns} unknowns: {energy:.6g}, {solve_time:.3f} s"
 _INJECTIVE = {
     "yes": "locally and globally",
     "no": "locally only",
@@ -59,9 +60,7 @@ def summary_json(report: Mapping[str, Any], files: Iterable[Path], **extra: Any)
     return json.dumps({**extra, **short, "files": {path.name: str(path) for path in files}})
 
 
-def summary_text(
-    report: Mapping[str, Any], files: Iterable[Path], rows: Iterable[tuple[str, str]] = ()
-) -> str:
+def summary_text(report: Any, files: Iterable[Path], rows: Iterable[tuple[str, str]] = ()) -> str:
     """The report on one screen: ``rows`` of (name, text) and ``files`` too."""
     folders = groupby(files, key=lambda path: path.parent)
     written = [f"{folder}: {', '.join(path.name for path in f)}" for folder, f in folders]
@@ -98,10 +97,7 @@ def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("iterations", f"{report['iterations']}"),
         ("energy", f"{e}  ({energy}: {e_iso}, targets: {e_p2p})"),
         *(("ways", _attempt(one)) for one in report["attempts"]),
-        *(
-            ("bases", f"{one['unknowns']} unknowns: {one['energy']:.6g}, {one['solve_time']:.3f} s")
-            for one in report["refinements"]
-        ),
+        *(("bases", _BASIS.format(**one)) for one in report["refinements"]),
         ("certified", "yes" if report["certified"] else "no"),
         ("sigma_2", f">= {_bounded(report['sigma2_lower'], rounded_down, 6)}"),
         ("sigma_1", f"<= {_bounded(report['sigma1_upper'], rounded_up, 6)}"),

@@ -7,12 +7,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
-# Seconds before a step is announced.
-PATIENCE = 1.0
+PATIENCE = 1.0  # seconds before a step is announced
 
 _REFRESH = 0.2
-# Seconds between lines where they are kept, as in a log file.
-_REPEAT = 15.0
+_REPEAT = 15.0  # seconds between lines where they are kept, as in a log file
 _ERASE_LINE = "\r\x1b[K"
 
 
@@ -23,23 +21,19 @@ def step(
     """Run a step called ``doing``; yields a function that sets the detail to show.
 
     On a terminal one line is updated and finally erased; elsewhere a line is written when a step
-    turns out to be long, every 15 seconds, and at its end.
-
-    By default it writes to stderr, and after :data:`PATIENCE` seconds.
+    turns out to be long, every 15 seconds, and at its end. By default it writes to stderr, and
+    after :data:`PATIENCE` seconds.
     """
     out = sys.stderr if stream is None else stream
     details: list[str] = []
-    done = threading.Event()
-    start = time.perf_counter()
-    live = out.isatty()
+    done, start, live = threading.Event(), time.perf_counter(), out.isatty()
 
     def write(text: str) -> None:
         out.write(_ERASE_LINE + text if live else f"glid-nb: {text}\n")
         out.flush()
 
     def line() -> str:
-        seconds = time.perf_counter() - start
-        return ", ".join([f"{doing}: {seconds:.1f} s", *details[-1:]])
+        return ", ".join([f"{doing}: {time.perf_counter() - start:.1f} s", *details[-1:]])
 
     def report() -> None:
         if done.wait(PATIENCE if patience is None else patience):

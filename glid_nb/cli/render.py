@@ -41,10 +41,9 @@ def run(chosen: argparse.Namespace) -> None:
     own = image.shape[1::-1]
     traced = data.get("image_size_px")
     if traced not in (None, list(own)):
-        raise InputFileError(
-            f"{chosen.image} has {own[0]} x {own[1]} pixels, but {chosen.map} is of a picture of "
-            f"{traced!r:.60}; take the picture that its cage was traced from"
-        )
+        other = f"but {chosen.map} is of a picture of {traced!r:.60}"
+        advice = "take the picture that its cage was traced from"
+        raise InputFileError(f"{chosen.image} has {own[0]} x {own[1]} pixels, {other}; {advice}")
     size = tuple(chosen.size or own)
     with about(chosen.map), step("rendering"):
         picture = glid_nb.export.picture_png(image, harmonic_map, size, chosen.view, pose)

@@ -44,9 +44,8 @@ def run(chosen: argparse.Namespace) -> None:
     energy, options = energy_of(chosen), options_of(chosen)
     start = glid_nb.HarmonicMap.load(chosen.start) if chosen.start else None
     with about(chosen.start or chosen.problem):
-        result, report = run_solver(
-            problem.domain, problem.pose, energy, options, start, chosen.refine
-        )
+        what = problem.domain, problem.pose, energy, options, start, chosen.refine
+        result, report = run_solver(*what)
     assert isinstance(result.map, glid_nb.HarmonicMap)
     files: dict[Path, bytes | str] = {}
     if chosen.out:

@@ -27,10 +27,8 @@ def run_solver(
     Ctrl-C ends the solve with the last certified map; a second Ctrl-C raises KeyboardInterrupt.
     """
     glid_nb.enable_compilation_cache()
-    with (
-        step("solving (new shapes are compiled first; Ctrl-C stops)") as detail,
-        _interruptible() as interrupted,
-    ):
+    doing = "solving (new shapes are compiled first; Ctrl-C stops)"
+    with step(doing) as detail, _interruptible() as interrupted:
 
         def show(state: glid_nb.Progress) -> bool:
             if state.history:
@@ -67,8 +65,7 @@ def finish(
     the solver reached could be proved.
     """
     write_all(files)
-    text = summary_json(report, files, **extra) if json else summary_text(report, files, rows or [])
-    print(text)
+    print(summary_json(report, files, **extra) if json else summary_text(report, files, rows or []))
     if result.status is glid_nb.Status.STOPPED:
         raise KeyboardInterrupt
     if result.status is glid_nb.Status.UNPROVED or not report["certified"]:

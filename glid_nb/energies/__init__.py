@@ -2,5 +2,6 @@
 
 from glid_nb.energies.custom import CustomEnergy
 from glid_nb.energies.energy import ENERGIES, Differentials, Energy, as_energy, energy_by_name
+from glid_nb.energies.energy import EnergyError as EnergyError
 from glid_nb.energies.table1 import AMIPS, ARAP, MIPS, SymmetricDirichlet
 from glid_nb.energies.table1 import ExponentialSymmetricDirichlet as ExponentialSymmetricDirichlet

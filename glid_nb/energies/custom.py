@@ -16,16 +16,11 @@ _checked: weakref.WeakSet[Callable[..., Any]] = weakref.WeakSet()
 class CustomEnergy(Energy):
     """An energy given as one function ``E(x, y)`` of scalars, written with ``jax.numpy``.
 
-    ``x = |f_z|^2 > y = |f_zbar|^2 >= 0``. The alphas and betas come from automatic
+    ``x = |f_z|^2 > y = |f_zbar|^2 >= 0``. The function is twice differentiable by JAX, with its
+    minimum at the isometry ``E(1, 0)``. Use one function object for many solves; each new one is
+    compiled anew. An EnergyError says so if it does not make one number of two, cannot be
+    differentiated, or is not finite at the isometry. The alphas and betas come from automatic
     differentiation; the projection of the Hessian from Equations (23)-(24).
-
-    Parameters
-    ----------
-    function : callable
-        ``E(x, y) -> scalar``, twice differentiable by JAX, with its minimum at the isometry
-        ``E(1, 0)``. Use one function object for many solves; each new one is compiled anew. An
-        EnergyError says so if it does not make one number of two, cannot be differentiated, or is
-        not finite at the isometry.
 
     Examples
     --------
@@ -70,9 +65,8 @@ class CustomEnergy(Energy):
         return Differentials(*jnp.vectorize(at_one_sample)(x, y))
 
 
-once_loaded(
-    lambda: jax.tree_util.register_dataclass(CustomEnergy, data_fields=[], meta_fields=["function"])
-)
+_FIELDS = {"data_fields": [], "meta_fields": ["function"]}
+once_loaded(lambda: jax.tree_util.register_dataclass(CustomEnergy, **_FIELDS))
 
 
 def _check_isometry(energy: CustomEnergy) -> None:

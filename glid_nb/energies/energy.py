@@ -87,9 +87,7 @@ def register_energy(cls: type[E]) -> type[E]:
     """
     once_loaded(
         lambda: jax.tree_util.register_pytree_node(
-            cls,
-            lambda energy: (tuple(vars(energy).values()), cls),
-            _rebuilt,
+            cls, lambda energy: (tuple(vars(energy).values()), cls), _rebuilt
         )
     )
     ENERGIES[cls.name] = cls

@@ -4,8 +4,8 @@ from collections.abc import Iterable
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb.figures.style import BLUE, CYAN, GREY, INK
 from glid_nb.geometry import as_points
 from glid_nb.geometry._loops import subdivided
@@ -20,11 +20,7 @@ _PIECE = 0.0025  # of the cage's size: how finely its covered parts are found
 
 
 def cage_svg(
-    map: HarmonicMap,
-    image_size: tuple[int, int],
-    *,
-    source: bool = False,
-    pose: Pose | None = None,
+    map: HarmonicMap, image_size: tuple[int, int], *, source: bool = False, pose: Pose | None = None
 ) -> str:
     """Draw the image of a map's cage: curves, as polylines within 0.002 world units of them.
 
@@ -72,7 +68,7 @@ def cage_svg(
     )
 
 
-def _in_sight(map: HarmonicMap, sheets: Sheets) -> list[NDArray[np.float64]] | None:
+def _in_sight(map: HarmonicMap, sheets: Sheets) -> list[Array] | None:
     """The pieces of the cage's image that no other part covers; None if nothing is covered."""
     cage, pieces, covered = map.domain.cage, [], False
     for loop in cage.loops_complex:
@@ -88,12 +84,7 @@ def _in_sight(map: HarmonicMap, sheets: Sheets) -> list[NDArray[np.float64]] | N
 
 
 def _path(
-    name: str,
-    loops: Iterable[NDArray[np.float64]],
-    color: str,
-    width: float,
-    dash: float = 0.0,
-    close: str = "Z",
+    name: str, loops: Iterable[Array], color: str, width: float, dash: float = 0, close: str = "Z"
 ) -> str:
     data = " ".join("M" + " ".join(f"{x:.3f},{y:.3f}" for x, y in loop) + close for loop in loops)
     dashes = f' stroke-dasharray="{dash:.3f}"' if dash else ""
@@ -103,8 +94,6 @@ def _path(
     )
 
 
-def _disks(
-    name: str, points: NDArray[np.float64], radius: float, color: str, line: str = "white"
-) -> str:
+def _disks(name: str, points: Array, radius: float, color: str, line: str = "white") -> str:
     disks = "".join(f'<circle cx="{x:.3f}" cy="{y:.3f}" r="{radius:.3f}"/>' for x, y in points)
     return f'<g id={quoteattr(name)} fill="{color}" stroke="{line}">{disks}</g>'

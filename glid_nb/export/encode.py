@@ -81,17 +81,13 @@ def _saved(pictures: list[Image.Image], format: str, duration: Any, loop: bool) 
 def check_video() -> None:
     """Raise an InputError that says what to install, where the extra ``video`` is missing."""
     if importlib.util.find_spec("imageio_ffmpeg") is None:
-        raise InputError(
-            "MP4 and WebM need the package imageio-ffmpeg, which brings ffmpeg along: "
-            "pip install 'glid-nb[video]'"
-        )
+        needed = "MP4 and WebM need the package imageio-ffmpeg, which brings ffmpeg along"
+        raise InputError(f"{needed}: pip install 'glid-nb[video]'")
 
 
 def video(drawn: Drawn, fps: float, kind: str, transparent: bool = False) -> bytes:
-    """An MP4 (H.264) or WebM (VP9) video of even sides. WebM may be transparent.
-
-    ffmpeg runs as a process of its own, to which frames are sent as they are drawn.
-    """
+    """An MP4 (H.264) or WebM (VP9) video of even sides, by an ffmpeg that takes frames as they are
+    drawn. WebM may be transparent."""
     check_video()
     from imageio_ffmpeg import get_ffmpeg_exe  # noqa: PLC0415 - an extra
 
@@ -127,22 +123,17 @@ def sprite_sheet(drawn: Drawn, fps: float, name: str, png: Callable[..., bytes])
     (width, height), columns = drawn.size, math.ceil(math.sqrt(drawn.count))
     sides = columns * width, math.ceil(drawn.count / columns) * height
     if max(sides) > _LARGEST_SHEET:
-        raise InputError(
-            f"{drawn.count} frames of {width} x {height} pixels need a sheet of {sides[0]} x "
-            f"{sides[1]}; {_LARGEST_SHEET} is the most, so choose a smaller size or fewer frames "
-            "per second"
-        )
+        what = f"{drawn.count} frames of {width} x {height} pixels"
+        need = f"need a sheet of {sides[0]} x {sides[1]}; {_LARGEST_SHEET} is the most"
+        raise InputError(f"{what} {need}, so choose a smaller size or fewer frames per second")
     sheet = np.zeros((*sides[::-1], 4), np.uint8)
     size, found = {"w": width, "h": height}, {}
     for i, (picture, frame) in enumerate(zip(drawn.pictures, names(drawn.count), strict=True)):
         x, y = i % columns * width, i // columns * height
         sheet[y : y + height, x : x + width] = picture
         found[frame] = {
-            "frame": {"x": x, "y": y, **size},
-            "rotated": False,
-            "trimmed": False,
-            "spriteSourceSize": {"x": 0, "y": 0, **size},
-            "sourceSize": size,
+            **{"frame": {"x": x, "y": y, **size}, "rotated": False, "trimmed": False},
+            **{"spriteSourceSize": {"x": 0, "y": 0, **size}, "sourceSize": size},
             "duration": 1000 / fps,
         }
     meta = {

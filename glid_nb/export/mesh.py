@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
 from glid_nb._arrays import Array
-from glid_nb.export.moving import MovingMesh
+from glid_nb.export.moving import MovingMesh, Progress, report
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.mesh import deformed_mesh
@@ -124,6 +124,7 @@ def motion_glb(
     poses: Sequence[Pose] | None = None,
     n_vertices: int = 3000,
     tolerance: float | None = 0.02,
+    progress: Progress | None = None,
 ) -> bytes:
     """A motion as binary glTF 2.0: a mesh with morph targets and an animation of their weights.
 
@@ -132,7 +133,9 @@ def motion_glb(
     arguments are those of `textured_mesh`, with one pose per keyframe; the tolerance holds at any
     time.
     """
+    report(progress, 0, 2)
     mesh = MovingMesh.of(motion, poses, n_vertices, tolerance)
+    report(progress, 1, 2)
     relief = np.array([_relief(row) for row in mesh.heights])
     z = [mesh.heights_at(time, relief) for time in mesh.times]
     positions = np.concatenate([mesh.images, np.array(z)[:, :, None]], axis=2)
@@ -145,12 +148,12 @@ def motion_glb(
         weights = np.concatenate([weights, weights[-2::-1]])
     made = _textured(image, positions[0], mesh.vertices, mesh.triangles)
     moved = positions[1:n] - positions[0]
-    return mesh_glb(made, functools.partial(_animate, moved, times, weights[:, 1:]))
+    data = mesh_glb(made, functools.partial(_animate, moved, times, weights[:, 1:]))
+    report(progress, 2, 2)
+    return data
 
 
-def _animate(
-    moved: Array, times: Array, weights: Array, buffers: Any, tree: dict[str, Any]
-) -> None:
+def _animate(moved: Array, times: Array, weights: Array, buffers: Any, tree: Any) -> None:
     """Add morph targets (m, v, 3) to glTF's only mesh, and their weights (k, m) at (k,) times."""
 
     def accessor(values: Array, kind: str) -> int:

@@ -80,8 +80,8 @@ def motion_files(
     Frames have a longer side of ``size`` pixels, at least 16, and even sides; there are at most
     100 per second. The background's red, green and blue are 0 to 255; None is transparent, which
     GIF and MP4 cannot be. With ``loop`` GIF, APNG and page begin again at the end. ``progress`` is
-    called with the numbers of finished and of all frames; when it returns True the export stops,
-    and there are no files.
+    called with the numbers of finished and of all frames, or stages where there are no frames; when
+    it returns True the export stops, and there are no files.
 
     Raises an InputError for another suffix, a setting that is out of range, or a missing package.
     """
@@ -89,22 +89,23 @@ def motion_files(
     encode.check_settings(size, frames_per_second, background)
     check_fits(PixelFrame(*np.shape(image)[1::-1]), motion.keyframes[0])
     if background is None and suffix in (".gif", ".mp4"):
-        raise InputError(
-            f"{name}: {suffix[1:].upper()} has no transparency; choose a background, or .apng or "
-            ".webm"
-        )
+        remedy = "choose a background, or .apng or .webm"
+        raise InputError(f"{name}: {suffix[1:].upper()} has no transparency; {remedy}")
     if suffix in _VIDEO:
         encode.check_video()
-    if suffix == ".html":
-        return {name: page_html(image, motion, title=name[:-5], pose=poses, loop=loop).encode()}
-    if suffix == ".motion.json":
-        texts = map(str.encode, file.texts(motion))
-        return dict(zip(motion_file_names(name), texts, strict=True))
-    if suffix == ".glb":
-        return {name: motion_glb(image, motion, poses)}
     fps = frames_per_second
-    drawn = frames(image, motion, poses, size, fps, background, progress)
     try:
+        if suffix == ".html":
+            page = page_html(
+                image, motion, title=name[:-5], pose=poses, loop=loop, progress=progress
+            )
+            return {name: page.encode()}
+        if suffix == ".glb":
+            return {name: motion_glb(image, motion, poses, progress=progress)}
+        if suffix == ".motion.json":
+            texts = map(str.encode, file.texts(motion))
+            return dict(zip(motion_file_names(name), texts, strict=True))
+        drawn = frames(image, motion, poses, size, fps, background, progress)
         if suffix == ".gif" and background is not None:
             return {name: encode.gif(drawn.pictures, fps, background, loop)}
         if suffix == ".apng":
@@ -132,8 +133,6 @@ def suffix_of(name: str) -> str:
     """The one of `MOTION_FORMATS` that a name ends in, "" for a folder."""
     found = next((suffix for suffix in MOTION_FORMATS if name.lower().endswith(suffix)), "")
     if len(name) == len(found) or (not found and Path(name).suffix):
-        raise InputError(
-            f"{name!r:.200} cannot be written: the name must end in {', '.join(MOTION_FORMATS)}, "
-            "or have no suffix for a folder of frames"
-        )
+        ends = f"{', '.join(MOTION_FORMATS)}, or have no suffix for a folder of frames"
+        raise InputError(f"{name!r:.200} cannot be written: the name must end in {ends}")
     return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -28,7 +29,13 @@ Progress = Callable[[int, int], bool | None]
 
 
 class Stopped(Exception):  # noqa: N818 - not an error
-    """The caller's progress function wants no more frames."""
+    """The caller's progress function wants no file."""
+
+
+def report(progress: Progress | None, done: int, total: int) -> None:
+    """Tell how far an export is; Stopped where it is to go no further."""
+    if progress is not None and progress(done, total):
+        raise Stopped
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,9 +77,8 @@ class MovingMesh:
             times = (pieces[0].start, *(piece.end for piece in pieces))
             poses += poses[: shown.repeat == "loop"]
         cage = shown.domain.cage
-        vertices, images, triangles, error = fine_mesh(
-            cage, lambda points: images_under(maps, points), n_vertices, tolerance
-        )
+        image = functools.partial(images_under, maps)
+        vertices, images, triangles, error = fine_mesh(cage, image, n_vertices, tolerance)
         orders = [order_of(cage, one) for one in poses]
         if all(order is orders[0] for order in orders):
             del orders[1:]
@@ -122,15 +128,11 @@ def frames(
     frame = frame_around(mesh.images.reshape(-1, 2), size)
     texture, (times, _) = Texture.from_image(as_rgba8(image)), motion.resample(fps)
 
-    def tell(done: int) -> None:
-        if progress is not None and progress(done, len(times)):
-            raise Stopped
-
     def pictures() -> Iterator[NDArray[np.uint8]]:
         for i, time in enumerate(times):
-            tell(i)
+            report(progress, i, len(times))
             pixels = draw_mesh(texture, mesh.at(float(time)), frame)
             yield pixels if background is None else np.asarray(on_background(pixels, background))
-        tell(len(times))
+        report(progress, len(times), len(times))
 
     return Drawn((frame.width, frame.height), len(times), pictures())

@@ -2,22 +2,34 @@
 
 import { Motion } from "../widgets/js/motion/motion.js";
 
-(() => {
+(async () => {
   "use strict";
   const data = JSON.parse(document.getElementById("data").textContent);
   const get = (id) => document.getElementById(id);
   const canvas = document.querySelector("canvas");
   const fail = (message) => Object.assign(get("problem"), { textContent: message, hidden: false });
   const gl = canvas.getContext("webgl2", { antialias: true, premultipliedAlpha: true, preserveDrawingBuffer: true });
-  if (!gl) return fail("This page needs WebGL 2, which this browser does not offer.");
+  if (!gl || !window.DecompressionStream) return fail("This page needs WebGL 2 and a browser of 2023 or later.");
 
   const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
-  const floats = (text) => new Float32Array(bytes(text));
-  const source = floats(data.source), count = source.length / 2, wide = count > 65535;
-  const triangles = new (wide ? Uint32Array : Uint16Array)(bytes(data.triangles));
-  const motion = new Motion(data.motion, floats(data.coefficients));
-  const undeformed = floats(data.undeformed), cage = floats(data.cage);
-  const layers = new Motion({ times: data.height_times.length ? data.height_times : [0], repeat: motion.repeat }, floats(data.heights));
+  const unpacked = async ({ bytes: text, step }, width) => { // what `_packed` in page.py wrote
+    const stream = new Blob([bytes(text)]).stream().pipeThrough(new DecompressionStream("deflate"));
+    const packed = new Uint8Array(await new Response(stream).arrayBuffer());
+    const n = packed.length / 4, whole = new Int32Array(n);
+    for (let i = 0; i < n; i++) {
+      const folded = packed[i] | packed[n + i] << 8 | packed[2 * n + i] << 16 | packed[3 * n + i] << 24;
+      whole[i] = ((folded >>> 1) ^ -(folded & 1)) + 2 * (whole[i - width] ?? 0) - (whole[i - 2 * width] ?? 0);
+    }
+    return Float32Array.from(whole, (value) => step * value);
+  };
+  const source = await unpacked(data.source, 2), count = source.length / 2, wide = count > 65535;
+  const rows = await unpacked(data.coefficients, data.width);
+  const undeformed = rows.subarray(0, data.width), motion = new Motion(data.motion, rows.subarray(data.width));
+  const cage = new Float32Array(bytes(data.cage)), heights = await unpacked(data.heights, count);
+  const layers = new Motion({ times: data.height_times.length ? data.height_times : [0], repeat: motion.repeat }, heights);
+  const corners = await unpacked(data.triangles, 3), height = ([a, b, c]) => heights[a] + heights[b] + heights[c];
+  const faces = Array.from({ length: corners.length / 3 }, (_, i) => [0, 1, 2].map((k) => corners[3 * i] + (k && corners[3 * i + k])));
+  const triangles = new (wide ? Uint32Array : Uint16Array)(faces.sort((a, b) => height(a) - height(b)).flat());
   const position = new Float32Array(3 * count);
   for (let i = 0; i < count; i++) position.set([source[2 * i], source[2 * i + 1], layers.floats[i]], 3 * i);
 

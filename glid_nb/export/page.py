@@ -4,6 +4,7 @@ import base64
 import html
 import json
 import re
+import zlib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -15,8 +16,9 @@ from glid_nb._arrays import Array
 from glid_nb._scripts import bundle, glsl
 from glid_nb.certificate import Certificate, global_injectivity
 from glid_nb.certificate.rounding import rounded_down, rounded_up
-from glid_nb.export.moving import MovingMesh
+from glid_nb.export.moving import MovingMesh, Progress, report
 from glid_nb.figures.style import COLORS, rgb
+from glid_nb.geometry import Domain
 from glid_nb.harmonic import FixedPoints, HarmonicMap
 from glid_nb.harmonic.shader_map import ShaderMap
 from glid_nb.imaging import PixelFrame, as_rgba8
@@ -30,6 +32,11 @@ _VERTICES = 4000
 _TOLERANCE = 0.004  # world units; the picture is 20 long
 _MARGIN = 0.04  # of the canvas, as in a rendering with view="fit"
 _GRID_LINES = 20  # along the longer side
+# Vertices and images are rounded by this share of the shape's size: less than a fiftieth of a pixel
+# where it is 2000 pixels long.
+_STEP = 1e-5
+_HEIGHT = 2.0**-16
+_MOST_STEPS = 2**28  # of a coefficient
 _LONGEST_CHAIN = 1024  # vectors that a block of uniforms holds on every device
 # By the verdict on global injectivity.
 _OVERLAPS = {
@@ -62,6 +69,7 @@ def page_html(
     tolerance: float = _TOLERANCE,
     pose: Pose | Sequence[Pose] | None = None,
     loop: bool = True,
+    progress: Progress | None = None,
 ) -> str:
     """A page that shows the warped picture, with zoom, pan and colours for the distortion.
 
@@ -74,13 +82,16 @@ def page_html(
     motion one for each keyframe, say which part is in front where the shape overlaps itself. The
     security policy blocks the network.
     """
+    report(progress, 0, 3)
     mesh = MovingMesh.of(map, pose, _VERTICES, tolerance)
+    report(progress, 1, 3)
     proof = map.certificate if isinstance(map, Motion) else certificate
     texture = as_rgba8(image)
     height, width = texture.shape[:2]
+    step = _STEP * map.domain.cage.longer_side
     data = {
-        **_shape(mesh),
-        **_shaders(mesh, map),
+        **_shape(mesh, step),
+        **_shaders(mesh, map, step),
         "frame": [*PixelFrame(width, height).bounds],
         "margin": _MARGIN,
         "grid": map.domain.cage.longer_side / _GRID_LINES,
@@ -89,6 +100,7 @@ def page_html(
         "loop": loop,
         "picture": "data:image/png;base64," + _base64(png(texture)),
     }
+    report(progress, 2, 3)
     parts = {
         "title": html.escape(title),
         "caption": html.escape(_caption(map, proof)),
@@ -97,23 +109,28 @@ def page_html(
         "data": json.dumps(data, allow_nan=False),
     }
     # One pass, so that inserted text is not searched for placeholders.
-    return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _read("page.html"))
+    page = re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _read("page.html"))
+    report(progress, 3, 3)
+    return page
 
 
-def _shape(mesh: MovingMesh) -> dict[str, Any]:
+def _shape(mesh: MovingMesh, step: float) -> dict[str, Any]:
     """The triangulation, its layers and its extent."""
+    first = mesh.triangles.argmin(axis=1)[:, None]
+    corners = np.take_along_axis(mesh.triangles, (first + np.arange(3)) % 3, axis=1)
+    corners = corners[np.lexsort(corners.T[::-1])]  # so that they pack well
     heights = mesh.heights - mesh.heights.mean()
     return {
-        "source": _floats(mesh.vertices),
-        "heights": _floats(heights / (2 * np.abs(heights).max() or 1.0)),
+        "source": _packed(mesh.vertices, step),
+        "heights": _packed(heights / (2 * np.abs(heights).max() or 1.0), _HEIGHT),
         "height_times": list(mesh.height_times) if len(heights) > 1 else [],
-        "triangles": _base64(mesh.triangles.astype("<u4" if len(mesh.vertices) > 65535 else "<u2")),
+        "triangles": _packed(corners - corners[:, :1] * [0, 1, 1], 1),
         "bounds": _bounds(mesh.images.reshape(-1, 2)),
         "source_bounds": _bounds(mesh.vertices),
     }
 
 
-def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion) -> dict[str, Any]:
+def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion, step: float) -> dict[str, Any]:
     """The shaders of the canvas, and the maps at the knots as they take them."""
     domain = shown.domain
     shader = ShaderMap(domain)
@@ -130,15 +147,30 @@ def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion) -> dict[str, Any]:
         motion, arrays = playing(shown, wire)
     else:
         motion, arrays = {"times": [0, 1], "keyframes": [], "repeat": "once"}, 2 * wire(shown)
+    step *= 1 if in_kernel else 1 / _spread(domain, mesh.vertices)
+    undeformed = wire(HarmonicMap.identity(domain))
+    rows = np.frombuffer(undeformed + arrays, "<f4").reshape(-1, len(undeformed) // 4)
+    step = max(step, float(np.abs(rows).max()) / _MOST_STEPS)
     parts = (glsl(name) for name in ("colors.glsl", "energy.glsl", "picture.frag"))
     return {
         "vertex": _VERTEX + head + glsl("picture.vert"),
         "fragment": _FRAGMENT + "\n".join(["precision highp float; out vec4 shown;", *parts]),
         "motion": motion,
-        "coefficients": _base64(arrays),
-        "undeformed": _base64(wire(HarmonicMap.identity(domain))),
+        "coefficients": _packed(rows, step),
+        "width": rows.shape[1],
         "cage": "" if in_kernel else _floats(shader.cage),
     }
+
+
+def _spread(domain: Domain, points: Array) -> float:
+    """How far images of points move where coefficients are rounded to whole numbers, at most.
+
+    Of a sample, and half as much again.
+    """
+    n, holes = domain.n_coefficients, domain.n_holes
+    phi, psi = np.random.default_rng(0).uniform(-0.5, 0.5, (2, n, 2)) @ [1, 1j]
+    psi[n - holes :] = phi[n - holes :].conj()
+    return 1.5 * float(np.abs(HarmonicMap(domain, phi, psi)(points)).max())
 
 
 def _ranges(proof: Certificate | MotionCertificate | None) -> dict[str, list[float]]:
@@ -169,6 +201,18 @@ def _caption(shown: HarmonicMap | Motion, proof: Certificate | MotionCertificate
 
 def _bounds(points: Array) -> list[float]:
     return [*points.min(axis=0).tolist(), *points.max(axis=0).tolist()]
+
+
+def _packed(values: Array, step: float) -> dict[str, Any]:
+    """(n, m) values rounded to whole steps, for `unpacked` in the page.
+
+    Second differences down the columns, as whole numbers of which odd ones are negative, the least
+    significant bytes of all first; deflated.
+    """
+    whole = np.rint(np.asarray(values, dtype=float) / step).astype(np.int64)
+    fresh = np.diff(whole, 2, axis=0, prepend=np.zeros((2, whole.shape[1]), np.int64))
+    folded = ((fresh << 1) ^ (fresh >> 63)).astype("<u4").reshape(-1, 1)
+    return {"step": step, "bytes": _base64(zlib.compress(folded.view("u1").T.tobytes(), 9))}
 
 
 def _floats(values: Array) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image, ImageDraw
 
+from glid_nb._arrays import Array
 from glid_nb.export.encode import Color, apng, check_settings, gif
 from glid_nb.figures.style import CYAN, INK
 from glid_nb.harmonic import HarmonicMap
@@ -107,9 +108,7 @@ def on_background(pixels: NDArray[np.uint8], background: Color) -> Image.Image:
     return picture
 
 
-def _marks(
-    pose: Pose, map: HarmonicMap, frame: PixelFrame, hidden: NDArray[np.bool_]
-) -> Image.Image:
+def _marks(pose: Pose, map: HarmonicMap, frame: PixelFrame, hidden: Array) -> Image.Image:
     """Disks at the targets, dots at the images of the handles, lines between; rings if hidden."""
     layer = Image.new("RGBA", (frame.width * _SMOOTH, frame.height * _SMOOTH))
     draw, unit = ImageDraw.Draw(layer), max(layer.size)

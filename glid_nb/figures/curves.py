@@ -52,12 +52,10 @@ def energy_levels(*energies: Energy | str) -> NotebookFigure:
         least = float(energy.density(*isometry)[0])
         above = np.where((sigma2 <= sigma1) & np.isfinite(density), density - least, np.nan)
         levels = 0.02 * 3.0 ** np.arange(10)
-        norm = LogNorm(levels[0], levels[-1])
-        look: Any = {"levels": levels, "norm": norm}
+        look: Any = {"levels": levels, "norm": LogNorm(levels[0], levels[-1])}
         axes.contourf(sigma1, sigma2, above, cmap=style.distortion_colors(), extend="both", **look)
         lines = axes.contour(sigma1, sigma2, above, colors=INK, linewidths=0.4, **look)
-        labels = {level: f"{level + least:.3g}" for level in levels[2:8:2]}
-        label_levels(axes, lines, labels)
+        label_levels(axes, lines, {level: f"{level + least:.3g}" for level in levels[2:8:2]})
         axes.axhspan(-0.4, 0.0, facecolor="white", edgecolor=VERMILION, hatch="////", linewidth=0)
         axes.axhline(0.0, color=VERMILION, linewidth=style.LINE)
         axes.plot([0, 2.4], [0, 2.4], color=GREY, linewidth=0.6)
@@ -105,9 +103,8 @@ def convergence(
 ) -> NotebookFigure:
     """Total energies of several named results, on a logarithmic axis.
 
-    They are drawn against "iterations" or "seconds", those of `Iteration.time`: without
-    compilation. With ``gap_to``, such as the lowest energy known, (E - gap_to) / gap_to is drawn
-    instead.
+    They are drawn against "iterations" or "seconds", those of `Iteration.time`: without compiling.
+    With ``gap_to``, such as the lowest energy known, (E - gap_to) / gap_to is drawn instead.
     """
     if against not in ("iterations", "seconds"):
         raise ValueError(f"against is {against!r}; choose 'iterations' or 'seconds'")

@@ -227,9 +227,7 @@ class StepPlot(_OverIterations):
     }
     _dotted = 0
 
-    def _show(
-        self, history: Sequence[Iteration], starts: Collection[int] = (), solving: bool = False
-    ) -> None:
+    def _show(self, history: Any, starts: Collection[int] = (), solving: bool = False) -> None:
         x, *series = _rows(history, *self._looks)
         values = np.where(np.array(series) > 0, series, np.nan)
         self._join(x, values, starts, solving)
@@ -336,8 +334,7 @@ class CertificatePlot(Plot):
             self._truth.set_data(_with_gaps(places, first), _with_gaps(seen, first))
         # High peaks are cut off: what matters is the distance from 0.
         top = max(0.1, min(float(seen.max()), _PEAK * float(np.quantile(seen, 0.9))))
-        bottom = min(float(seen.min()), float(bound.min()))
-        high = _rounded_up(1.2 * top)
+        bottom, high = min(float(seen.min()), float(bound.min())), _rounded_up(1.2 * top)
         low = max(min(-0.04 * high, -_rounded_up(-1.05 * bottom)), -max(high, 1.0))
         self.axes.set_ylim(low, high)
 

@@ -31,13 +31,8 @@ from glid_nb.solvers import Pose
 Quantity = Literal["sigma1", "sigma2", "k", "energy", "distortion"]
 AnyMap = HarmonicMap | MeshMap
 
-_LABELS = {
-    "sigma1": "σ₁",
-    "sigma2": "σ₂",
-    "k": "k = |f_z̄| / |f_z|",
-    "energy": "energy density",
-    "distortion": "max(σ₁, 1/σ₂)",
-}
+_LABELS = {"sigma1": "σ₁", "sigma2": "σ₂", "k": "k = |f_z̄| / |f_z|"}
+_LABELS |= {"energy": "energy density", "distortion": "max(σ₁, 1/σ₂)"}
 _VERTICES = 3000
 _PIXELS = 600  # of the longer side of one drawn picture
 _WIDTH, _WIDTH_OF_ONE, _TALLEST = 7.4, 4.6, 3.8  # inches
@@ -90,15 +85,13 @@ class Sheet(NamedTuple):
     @double_precision
     def values(self, quantity: Quantity | Energy) -> Floats:
         """(t,) values; an energy is infinite where the map folds."""
-        if quantity == "sigma1":
-            return self.abs_fz + self.abs_fzb
-        if quantity == "sigma2":
-            return self.abs_fz - self.abs_fzb
+        sigma1, sigma2 = self.abs_fz + self.abs_fzb, self.abs_fz - self.abs_fzb
+        if quantity in ("sigma1", "sigma2"):
+            return sigma1 if quantity == "sigma1" else sigma2
         if quantity == "k":
             return self.abs_fzb / np.maximum(self.abs_fz, 1e-300)
         if quantity == "distortion":
-            least = np.maximum(self.abs_fz - self.abs_fzb, 1e-300)
-            return np.maximum(self.abs_fz + self.abs_fzb, 1 / least)
+            return np.maximum(sigma1, 1 / np.maximum(sigma2, 1e-300))
         energy = SymmetricDirichlet() if quantity == "energy" else quantity
         if not isinstance(energy, Energy):
             raise ValueError(f"unknown quantity {quantity!r}; choose one of {', '.join(_LABELS)}")
@@ -279,11 +272,7 @@ def _scale(quantity: Quantity | Energy, known: Floats) -> tuple[Any, Any]:
 
 
 def _side_by_side(
-    maps: Sequence[AnyMap],
-    sheets: Sequence[Sheet],
-    pose: Pose | None,
-    titles: Sequence[str],
-    room: float,
+    maps: list[AnyMap], sheets: list[Sheet], pose: Pose | None, titles: Sequence[str], room: float
 ) -> tuple[NotebookFigure, list[Axes]]:
     """Axes with one scale, titles, folds and targets, one for each map; ``room`` is below them."""
     if len(titles) not in (0, len(maps)):
@@ -298,10 +287,9 @@ def _side_by_side(
             lines.append(f"{count} triangle{'' if count == 1 else 's'} turned over")
         text, color = "\n".join(lines or [" "]), VERMILION if count else INK
         axes.set_title(text, fontsize=style.FONT_SIZE, color=color)
-        folded = sheet.images[sheet.triangles[sheet.folded]]
-        axes.add_collection(
-            PolyCollection(list(folded), facecolors=VERMILION, edgecolors="face", linewidths=0.6)
-        )
+        folded = [*sheet.images[sheet.triangles[sheet.folded]]]
+        look: Any = {"edgecolors": "face", "linewidths": 0.6}
+        axes.add_collection(PolyCollection(folded, facecolors=VERMILION, **look))
         if pose is not None:
             drawing.targets(axes, map, pose)
     if pose is not None:

@@ -31,14 +31,8 @@ SMALL = 7.0
 LINE = 1.2
 HAIRLINE = 0.6
 
-LEGEND = {
-    "fontsize": SMALL,
-    "frameon": False,
-    "labelcolor": INK,
-    "handlelength": 1.1,
-    "handletextpad": 0.4,
-    "borderpad": 0.1,
-}
+LEGEND = {"fontsize": SMALL, "frameon": False, "labelcolor": INK}
+LEGEND |= {"handlelength": 1.1, "handletextpad": 0.4, "borderpad": 0.1}
 """The look of every legend: keywords of matplotlib's."""
 
 COLORS = (
@@ -49,10 +43,7 @@ COLORS = (
 
 
 def distortion_colors() -> Colormap:
-    """Pale where the map is isometric, dark where it is not: magma's scale without its black.
-
-    Perceptually uniform, with a lightness that only falls, so it also reads in grey.
-    """
+    """Pale where isometric, dark where not, in grey too: magma without its black."""
     from matplotlib import colormaps  # noqa: PLC0415 - as above
     from matplotlib.colors import ListedColormap  # noqa: PLC0415
 

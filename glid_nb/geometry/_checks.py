@@ -21,13 +21,9 @@ _EDGES = 64
 
 def checked_vertices(vertices: ArrayLike, name: str) -> Array:
     """A float64 copy of (n, 2) finite vertices, n >= 3."""
-    wanted = f"{name}: vertices must"
-    loop = number_pairs(
-        vertices,
-        f"{wanted} be pairs of numbers [[x, y], ...]",
-        GeometryError,
-        f"{wanted} have the shape (n, 2), not",
-    )
+    wanted, shape = "be pairs of numbers [[x, y], ...]", "have the shape (n, 2), not"
+    begin = f"{name}: vertices must"
+    loop = number_pairs(vertices, f"{begin} {wanted}", GeometryError, f"{begin} {shape}")
     if len(loop) < 3:
         raise GeometryError(f"{name}: {len(loop)} vertices given, a loop needs at least 3")
     wrong = np.flatnonzero(~(np.abs(loop) <= 1e100).all(axis=1))
@@ -94,11 +90,9 @@ def _check_not_flat(loop: Array, number: int, resolution: float) -> None:
 def _check_fold_back(loop: Array, number: int, resolution: float) -> None:
     before, after = np.roll(segments(loop), 1), segments(loop)
     corner_before, corner_after = np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0)
-    gap = np.minimum(
-        shapely.distance(before, shapely.points(corner_after)),
-        shapely.distance(after, shapely.points(corner_before)),
-    )
-    folded = np.flatnonzero(gap <= resolution)
+    near_after = shapely.distance(before, shapely.points(corner_after)) <= resolution
+    near_before = shapely.distance(after, shapely.points(corner_before)) <= resolution
+    folded = np.flatnonzero(near_after | near_before)
     if folded.size:
         i, n = int(folded[0]), len(loop)
         raise _refusal(
@@ -145,11 +139,9 @@ def _check_crossings(loops: list[Array], resolution: float) -> None:
         name_a = "the exterior loop" if a == 0 else loop_name(a)
         what = f"edge {edge_b} of {loop_name(b)} and edge {edge_a} of {name_a}"
     else:
-        advice = (
-            "move its points, or change their order, so that no two sides cross"
-            if verb == "cross"
-            else "move the points apart that meet"
-        )
+        advice = "move the points apart that meet"
+        if crosses:
+            advice = "move its points, or change their order, so that no two sides cross"
         plain = f"{plain_name(a)} {verb}es itself; {advice}"
         what = f"{loop_name(a)}: the edges {edge_a} and {edge_b}"
     raise _refusal(plain, f"{what} {verb} at {place(point)}", point)

@@ -18,9 +18,7 @@ class GeometryError(InputError):
     without coordinates and vertex numbers, for use beside such a picture.
     """
 
-    def __init__(
-        self, message: str, point: ArrayLike | None = None, plain: str | None = None
-    ) -> None:
+    def __init__(self, message: str, point: Any = None, plain: str | None = None) -> None:
         super().__init__(message, plain)
         self.point = None if point is None else tuple(map(float, np.asarray(point)))
 

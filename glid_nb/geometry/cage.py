@@ -20,24 +20,18 @@ from glid_nb.geometry._loops import GeometryError, edge_lengths, loop_list, loop
 class Cage:
     """A bounded polygon with any number of holes; the boundary P of the certified domain.
 
-    The constructor checks what the package relies on: finite coordinates, at least three distinct
+    Loops have their vertices in order, either way round; the first is not repeated at the end. The
+    constructor checks what the package relies on: finite coordinates, at least three distinct
     vertices per loop, loops that neither cross nor touch themselves or each other, every hole
-    inside the exterior and outside every other hole. Loops are reversed where needed, keeping
-    vertex 0 first, so that the domain lies to the left of the boundary.
-
-    Parameters
-    ----------
-    exterior
-        (n, 2) vertices in order, either orientation; the first is not repeated at the end. Kept as
-        a read-only float64 array, counter-clockwise.
-    holes
-        Hole loops, each (k, 2), either orientation; kept clockwise.
-
-    If the loops do not bound a domain, a GeometryError names the loop, the vertex and its place.
+    inside the exterior and outside every other hole. If not, a GeometryError names the loop, the
+    vertex and its place. Loops are reversed where needed, keeping vertex 0 first, so that the
+    domain lies to the left of the boundary.
     """
 
     exterior: NDArray[np.float64]
+    """(n, 2) read-only, counter-clockwise."""
     holes: tuple[NDArray[np.float64], ...]
+    """Each (k, 2) read-only, clockwise."""
 
     def __init__(self, exterior: ArrayLike, holes: Iterable[ArrayLike] = ()) -> None:
         loops = [checked_vertices(exterior, loop_name(0))]
@@ -51,9 +45,7 @@ class Cage:
     def from_dict(cls, data: Mapping[str, Any]) -> Cage:
         """The cage of a mapping with the keys ``cage`` and, optionally, ``holes``."""
         if "cage" not in data:
-            raise GeometryError(
-                "the key 'cage' is missing: give the exterior loop's vertices there"
-            )
+            raise GeometryError("the key 'cage' is missing: give the exterior loop there")
         return cls(data["cage"], loop_list(data.get("holes"), "holes"))
 
     def to_dict(self) -> dict[str, Any]:

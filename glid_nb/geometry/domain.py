@@ -25,8 +25,7 @@ _DEFAULT_OFFSET = 0.005
 _LONG, _LONG_SHARE, _VERY_LONG = 3.0, 0.3, 10.0
 # The pieces' length in widths, and their least length as a share of the cage's longer side.
 _PIECE, _LEAST_PIECE = 0.5, 0.02
-# At so many points of an edge the width is taken.
-_SAMPLES = 32
+_SAMPLES = 32  # at so many points of an edge the width is taken
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -35,28 +34,19 @@ class Domain:
 
     The basis is singular at the offset cage's vertices and the hole points, all outside the closed
     domain bounded by `cage`, and smooth on that domain (section 5 and appendix D of Chen & Weber
-    2017). Domains are compared and hashed by identity, so that they can key a cache.
-
-    Parameters
-    ----------
-    cage
-        Boundary P of the certified domain.
-    offset_cage
-        P^, with the exterior loop outside that of `cage` and hole i inside hole i of `cage`.
-        Vertex counts may differ from those of `cage`.
-    hole_points
-        (N, 2), one point strictly inside each hole of `offset_cage`, in the same order; by default
-        they are chosen.
-    notes
-        Sentences about choices made, such as a reduced offset.
-
-    Where the parts do not fit a GeometryError names the loop and the place.
+    2017). Domains are compared and hashed by identity, so that they can key a cache. Where the
+    parts do not fit a GeometryError names the loop and the place.
     """
 
     cage: Cage
+    """Boundary P of the certified domain."""
     offset_cage: Cage
+    """P^, with the exterior loop outside that of `cage` and hole i inside hole i of `cage`. Vertex
+    counts may differ from those of `cage`."""
     hole_points: NDArray[np.float64]
+    """(N, 2), one strictly inside each hole of `offset_cage`, in order; by default chosen."""
     notes: tuple[str, ...]
+    """Sentences about choices made, such as a reduced offset."""
 
     def __init__(
         self,
@@ -100,9 +90,7 @@ class Domain:
                 outer = Cage(data["offset_cage"], holes)
             return cls(cage, outer, points, notes)
         if holes:
-            raise GeometryError(
-                "'offset_holes' is given without 'offset_cage'; give both or neither"
-            )
+            raise GeometryError("'offset_holes' is given without 'offset_cage'; give both or none")
         result = _offset_of(cage, data.get("offset"))
         return cls(cage, _divided(result.cage, cage), points, notes + result.notes)
 
@@ -149,10 +137,8 @@ def _checked_notes(notes: Any) -> tuple[str, ...]:
 def _check_enclosed(cage: Cage, offset_cage: Cage) -> None:
     """The closed domain of `cage` must lie in the open domain of `offset_cage`."""
     if offset_cage.n_holes != cage.n_holes:
-        raise GeometryError(
-            f"the offset cage has {offset_cage.n_holes} holes and the cage {cage.n_holes}; "
-            "give one offset hole per hole, in the same order"
-        )
+        both = f"the offset cage has {offset_cage.n_holes} holes and the cage {cage.n_holes}"
+        raise GeometryError(f"{both}; give one offset hole per hole, in the same order")
     # Loops of different index need no check: the loops of either cage do not meet.
     for i, (loop, offset_loop) in enumerate(zip(cage.loops, offset_cage.loops, strict=True)):
         name = "the exterior loop" if i == 0 else loop_name(i)
@@ -179,27 +165,19 @@ def _check_enclosed(cage: Cage, offset_cage: Cage) -> None:
 
 def _checked_hole_points(points: ArrayLike, offset_cage: Cage) -> NDArray[np.float64]:
     """(N, 2) read-only points, one in each offset hole."""
-    checked = number_pairs(
-        points,
-        "hole points must be pairs of numbers [[x, y], ...]",
-        GeometryError,
-        "hole points must have the shape (N, 2), not",
-    )
+    wanted, shape = "be pairs of numbers [[x, y], ...]", "have the shape (N, 2), not"
+    begin = "hole points must"
+    checked = number_pairs(points, f"{begin} {wanted}", GeometryError, f"{begin} {shape}")
     if len(checked) != offset_cage.n_holes:
-        raise GeometryError(
-            f"{len(checked)} hole points given for a cage with {offset_cage.n_holes} holes; "
-            "give one per hole"
-        )
+        given = f"{len(checked)} hole points given for a cage with {offset_cage.n_holes} holes"
+        raise GeometryError(f"{given}; give one per hole")
     for i, ((x, y), hole) in enumerate(zip(checked, offset_cage.holes, strict=True), start=1):
         if not np.isfinite([x, y]).all():
-            raise GeometryError(
-                f"the point of hole {i} is ({x}, {y}); replace the NaN or infinite coordinate"
-            )
+            raise GeometryError(f"the point of hole {i} is ({x}, {y}); give finite coordinates")
         if not shapely.contains_xy(shapely.Polygon(hole), x, y):
-            raise GeometryError(
-                f"the point of hole {i} at {place([x, y])} does not lie strictly inside offset "
-                f"hole {i}; move it there, or leave hole_points out to have them chosen"
-            )
+            what = f"the point of hole {i} at {place([x, y])} does not lie strictly inside"
+            remedy = "move it there, or leave hole_points out to have them chosen"
+            raise GeometryError(f"{what} offset hole {i}; {remedy}")
     return read_only(checked)
 
 
@@ -210,9 +188,8 @@ def _divided(offset_cage: Cage, cage: Cage) -> Cage:
     two vertices, as a bar of four is, that is too stiff to bend.
     """
     least = _LEAST_PIECE * cage.longer_side
-    start, end = (
-        np.concatenate([np.roll(loop, shift) for loop in cage.loops_complex]) for shift in (0, -1)
-    )
+    start = np.concatenate(cage.loops_complex)
+    end = np.concatenate([np.roll(loop, -1) for loop in cage.loops_complex])
     length = np.abs(end - start)
     shares = [np.zeros(1)] * len(start)
     for i in np.flatnonzero(length > 2 * least):

@@ -26,12 +26,9 @@ from glid_nb.geometry.cage import Cage
 if TYPE_CHECKING:
     import scipy.sparse
 
-# Least distance of lattice points from the boundary, in spacings: closer ones make flat triangles;
-_MARGIN = 0.55
-# and from the wanted points.
-_CLEARANCE = 0.6
-# Points closer than this share of the cage's size count as one.
-_SAME = 1e-9
+# Least distances of lattice points from the boundary (closer ones make flat triangles) and from the
+_MARGIN, _CLEARANCE = 0.55, 0.6  # wanted points, in spacings
+_SAME = 1e-9  # points closer than this share of the cage's size count as one
 _ROW = np.sqrt(3.0) / 2.0  # height of a lattice row, in spacings
 
 
@@ -74,10 +71,7 @@ class Triangulation:
         return triangle
 
     def weights(self, points: ArrayLike) -> Any:
-        """The sparse (k, v) matrix that interpolates linearly at (k, 2) points.
-
-        A point off the mesh belongs to the nearest triangle.
-        """
+        """(k, v) sparse: interpolates at (k, 2) points, off the mesh by the nearest triangle."""
         from scipy.sparse import csr_array  # noqa: PLC0415 - not always needed
 
         points = np.reshape(np.asarray(points, dtype=float), (-1, 2))
@@ -92,21 +86,17 @@ class Triangulation:
 
 @dataclass(frozen=True, eq=False)
 class MeshMap:
-    """A triangle mesh and the images of its vertices.
-
-    The (v, 2) images are in world coordinates.
-    """
+    """A triangle mesh and the images of its vertices."""
 
     triangulation: Triangulation
     images: Array
+    """(v, 2), world coordinates."""
 
     def __post_init__(self) -> None:
         images = read_only(np.array(self.images, dtype=float))
-        if images.shape != self.triangulation.vertices.shape:
-            raise ValueError(
-                f"there are images of shape {images.shape} for vertices of shape "
-                f"{self.triangulation.vertices.shape}; give one image per vertex"
-            )
+        if images.shape != (shape := self.triangulation.vertices.shape):
+            given = f"there are images of shape {images.shape} for vertices of shape {shape}"
+            raise ValueError(f"{given}; give one image per vertex")
         object.__setattr__(self, "images", images)
 
     def __call__(self, points: ArrayLike) -> Array:
@@ -119,7 +109,7 @@ class MeshMap:
     @property
     def areas(self) -> Array:
         """(t,) signed areas of the image triangles."""
-        a, b, c = (self.images[self.triangulation.triangles[:, i]] for i in range(3))
+        a, b, c = np.moveaxis(self.images[self.triangulation.triangles], 1, 0)
         u, v = b - a, c - a
         return 0.5 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
 
@@ -157,15 +147,13 @@ def triangulate(
         subdivided(loop, _parts(edge_lengths(corners), spacing))
         for loop, corners in zip(cage.loops_complex, cage.loops, strict=True)
     ]
-    wanted = number_pairs(
-        [] if points is None else points, "points must be a list of [x, y] pairs", GeometryError
-    )
+    given = [] if points is None else points
+    wanted = number_pairs(given, "points must be a list of [x, y] pairs", GeometryError)
     outside = np.flatnonzero(~cage.contains(wanted))
     if outside.size:
-        raise GeometryError(
-            f"point {outside[0]} at {place(wanted[outside[0]])} is to be a vertex of the "
-            "triangulation but does not lie inside the cage; move it inside or leave it out"
-        )
+        what = f"point {outside[0]} at {place(wanted[outside[0]])} is to be a vertex of the"
+        where = "triangulation but does not lie inside the cage; move it inside or leave it out"
+        raise GeometryError(f"{what} {where}")
     wanted = np.unique(wanted, axis=0)
     loops = [_with_points(loop, wanted, _SAME * cage.longer_side) for loop in loops]
     boundary = np.concatenate(loops)
@@ -200,15 +188,12 @@ def _parts(lengths: Array, spacing: float) -> Array:
 def _spacing(cage: Cage, n_vertices: int) -> float:
     # n = (area - margin * perimeter) / cell + perimeter / spacing with cell = row * spacing^2.
     linear = cage.perimeter * (1.0 - _MARGIN / _ROW)
-    inverse = (np.sqrt(linear**2 + 4.0 * n_vertices * cage.area / _ROW) - linear) / (
-        2.0 * cage.area / _ROW
-    )
-    spacing = 1.0 / float(inverse)
+    root = np.sqrt(linear**2 + 4.0 * n_vertices * cage.area / _ROW)
+    spacing = 1.0 / float((root - linear) / (2.0 * cage.area / _ROW))
     lengths = np.concatenate([edge_lengths(loop) for loop in cage.loops])
     # The formula is inaccurate for many short edges and for slender limbs.
     for _ in range(6):
-        count = int(_parts(lengths, spacing).sum())
-        count += len(_lattice(cage, spacing))
+        count = int(_parts(lengths, spacing).sum()) + len(_lattice(cage, spacing))
         if abs(count - n_vertices) <= 0.02 * n_vertices or spacing > cage.longer_side:
             break
         spacing *= (count / n_vertices) ** 0.6
@@ -222,27 +207,20 @@ def _lattice(cage: Cage, spacing: float) -> Array:
         return np.empty((0, 2))
     shapely.prepare(inner)
     xmin, ymin, xmax, ymax = cage.bounds
-    row, k = np.indices(
-        (int((ymax - ymin) / (_ROW * spacing)) + 1, int((xmax - xmin) / spacing) + 1)
-    )
-    points = np.stack(
-        [xmin + (0.5 * (row % 2) + k) * spacing, ymin + row * _ROW * spacing], axis=-1
-    )
+    rows, columns = (ymax - ymin) / (_ROW * spacing), (xmax - xmin) / spacing
+    row, k = np.indices((int(rows) + 1, int(columns) + 1))
+    points = np.stack((xmin + (0.5 * (row % 2) + k) * spacing, ymin + row * _ROW * spacing), -1)
     return points[shapely.intersects_xy(inner, points[..., 0], points[..., 1])]
 
 
-def _constrained_delaunay(
-    vertices: NDArray[np.float64], loops: list[NDArray[np.complex128]]
-) -> Array:
+def _constrained_delaunay(vertices: Array, loops: list[Array]) -> Array:
     """Triangles of the region bounded by the loops, whose points are the first vertices."""
     following = next_index(np.repeat(np.arange(len(loops)), [len(loop) for loop in loops]))
     # Any: numpy's stubs call an array a buffer from Python 3.12 on only.
     points: Any = np.ascontiguousarray(vertices)
     edges: Any = np.stack([np.arange(len(following)), following], axis=1).astype(np.uintc)
     delaunay = pythoncdt.Triangulation(
-        pythoncdt.VertexInsertionOrder.AUTO,
-        pythoncdt.IntersectingConstraintEdges.NOT_ALLOWED,
-        0.0,
+        pythoncdt.VertexInsertionOrder.AUTO, pythoncdt.IntersectingConstraintEdges.NOT_ALLOWED, 0.0
     )
     delaunay.insert_vertices(points)
     delaunay.insert_edges(edges)

@@ -20,18 +20,15 @@ from glid_nb.geometry.cage import Cage
 
 # Least distance of an offset edge from the cage, as a share of the smaller distance at its ends.
 CLEARANCE = 0.3
-# Longest mitre at an acute convex corner, in distances.
-MITRE_LIMIT = 4.0
+MITRE_LIMIT = 4.0  # longest mitre at an acute convex corner, in distances
 
 # Share of a passage's width that either side's offset may take, so that the clearance remains.
 _PASSAGE_SHARE = 1.0 / (2.0 + CLEARANCE)
 # Passages of at least this ratio of length to width are limited before anything else: offsets that
 # pass through each other along a whole passage are seen to meet only at its ends.
 _PASSAGE_LENGTH = 4.0
-# Greatest change of the distance per unit of arc length.
-_SLOPE = 0.5
-# Least length of an offset edge, as a share of its cage edge.
-_KEPT_LENGTH = 0.1
+_SLOPE = 0.5  # greatest change of the distance per unit of arc length
+_KEPT_LENGTH = 0.1  # least length of an offset edge, as a share of its cage edge
 # Rounds of local shrinking before the whole offset is halved, and rounds of halving.
 _LOCAL_ROUNDS = 60
 _GLOBAL_ROUNDS = 30
@@ -63,9 +60,7 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
     A GeometryError for a distance that is not positive, and for a passage too narrow for float64.
     """
     if not (isinstance(distance, Real) and 0 < distance <= 1e100):
-        raise GeometryError(
-            f"the offset must be a positive number, not {distance!r:.60}; 1e100 is the most"
-        )
+        raise GeometryError(f"the offset must be a positive number, not {distance!r:.60} (≤ 1e100)")
     corners = _Corners(cage, distance)
     local = corners.smoothed(np.minimum(distance, corners.passage_limits(_PASSAGE_LENGTH)))
     for _ in range(1 + _GLOBAL_ROUNDS):
@@ -98,10 +93,7 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
 
 
 def hole_points(cage: Cage) -> NDArray[np.float64]:
-    """(N, 2) points, one strictly inside each hole of an offset cage.
-
-    Each is the centre of the largest inscribed circle; a GeometryError for too narrow a hole.
-    """
+    """(N, 2) centres of the largest circles in holes; a GeometryError for too narrow a hole."""
     points = np.empty((cage.n_holes, 2))
     for i, hole in enumerate(cage.holes):
         region = shapely.Polygon(hole)
@@ -283,9 +275,7 @@ class _Corners:
         """Whether the offset loops, known not to meet the cage, lie outside the domain."""
         pairs = zip(self.split(self.points), self.split(self.moved(local)), strict=True)
         around = [(b, a) if i == 0 else (a, b) for i, (a, b) in enumerate(pairs)]
-        return all(
-            shapely.contains_xy(shapely.Polygon(large), *small[0]) for large, small in around
-        )
+        return all(shapely.contains_xy(shapely.Polygon(a), *b[0]) for a, b in around)
 
 
 def _notes(corners: _Corners, local: Array, distance: float) -> tuple[str, ...]:
@@ -296,10 +286,9 @@ def _notes(corners: _Corners, local: Array, distance: float) -> tuple[str, ...]:
         if reduced:
             least, count = int(np.argmin(distances)), len(distances)
             share = "everywhere" if reduced == count else f"at {reduced} of {count} vertices"
+            where = f"vertex {least} {place(corners.points[corners.starts[loop] + least])}"
             notes.append(
                 f"{loop_name(loop)}: the offset {distance:.4g} was reduced {share}, to "
-                f"{distances[least]:.4g} at vertex {least} "
-                f"{place(corners.points[corners.starts[loop] + least])}, because there is no room "
-                "for more."
+                f"{distances[least]:.4g} at {where}, because there is no room for more."
             )
     return tuple(notes)

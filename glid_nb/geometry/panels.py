@@ -17,10 +17,8 @@ if TYPE_CHECKING:
     from glid_nb.geometry.domain import Domain
 
 
-# Bisecting an edge this often brings it below rounding.
-_MAX_BISECTIONS = 48
-# Relative difference by rounding between the halves of one piece.
-_EVEN = 1e-9
+_MAX_BISECTIONS = 48  # bisecting an edge this often brings it below rounding
+_EVEN = 1e-9  # relative difference by rounding between the halves of one piece
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,10 +66,7 @@ class Panels:
         return (self.middle != self.start) & (self.middle != self.end)
 
     def split(self, chosen: Array) -> tuple[Panels, Array]:
-        """The panels in order, with those of ``chosen`` (p,) bool halved if :attr:`divisible`.
-
-        Beside them the (q,) indices of the panels that they come from.
-        """
+        """With ``chosen`` (p,) bool halved if :attr:`divisible`; (q,) which panel each is of."""
         chosen = chosen & self.divisible
         parent = np.repeat(np.arange(len(self)), np.where(chosen, 2, 1))
         second = np.flatnonzero(np.diff(parent, prepend=-1) == 0)
@@ -162,8 +157,6 @@ def segments_cross(a: Array, b: Array, c: Array, d: Array) -> Array:
 
 def segment_distance(a: Array, b: Array, c: Array, d: Array) -> Array:
     """Distances between the segments from ``a`` to ``b`` and those from ``c`` to ``d``."""
-    ends = np.minimum(
-        np.minimum(point_distance(a, c, d), point_distance(b, c, d)),
-        np.minimum(point_distance(c, a, b), point_distance(d, a, b)),
-    )
-    return np.where(segments_cross(a, b, c, d), 0.0, ends)
+    of_one = np.minimum(point_distance(a, c, d), point_distance(b, c, d))
+    of_other = np.minimum(point_distance(c, a, b), point_distance(d, a, b))
+    return np.where(segments_cross(a, b, c, d), 0.0, np.minimum(of_one, of_other))

@@ -74,10 +74,8 @@ class Basis(NamedTuple):
 @functools.lru_cache(maxsize=64)
 def basis_of(domain: Domain) -> Basis:
     """The basis of a domain, cached: Cauchy coordinates of the offset cage, a log per hole."""
-    loops = domain.offset_cage.loops_complex
-    sizes = [len(loop) for loop in loops]
-    vertices = np.concatenate(loops)
-    rho = domain.hole_points_complex
+    loops, rho = domain.offset_cage.loops_complex, domain.hole_points_complex
+    sizes, vertices = [len(loop) for loop in loops], np.concatenate(loops)
     m, n_holes = len(vertices), len(rho)
 
     least = 4 if n_holes and m + 4 <= 64 else n_holes  # small domains share programs
@@ -100,14 +98,7 @@ def basis_of(domain: Domain) -> Basis:
     psi_free[0] = False
     phi_free[m + padding : m + padding + n_holes] = True
 
-    return Basis(
-        Singularities(
-            np.concatenate([vertices, ring]),
-            following,
-            np.argsort(following),
-            np.concatenate([rho, outside]),
-        ),
-        np.concatenate([np.arange(m), m + padding + np.arange(n_holes)]),
-        phi_free,
-        psi_free,
-    )
+    all_vertices, all_holes = np.concatenate([vertices, ring]), np.concatenate([rho, outside])
+    singularities = Singularities(all_vertices, following, np.argsort(following), all_holes)
+    columns = np.concatenate([np.arange(m), m + padding + np.arange(n_holes)])
+    return Basis(singularities, columns, phi_free, psi_free)

@@ -17,6 +17,8 @@ from glid_nb._jax import AnyArray, Complex, Int
 
 Points = Complex[Array, " k"]
 Matrix = Complex[Array, "k n"]
+Edges = Complex[Array, "k m"]
+Values = Complex[Array, "... m"]
 Rows = Complex[Array, "... n"]
 
 _TWO_PI_I = 2j * np.pi
@@ -85,9 +87,7 @@ def edge_coefficients(coefficients: Rows, singularities: Singularities) -> Rows:
     return xp.concat([slopes[..., singularities.next], coefficients[..., m:]], axis=-1)
 
 
-def edge_slopes(
-    coefficients: Complex[Array, "... m"], singularities: Singularities
-) -> Complex[Array, "... m"]:
+def edge_slopes(coefficients: Values, singularities: Singularities) -> Values:
     """``s_j = (phi_j - phi_{j-1}) / (z_j - z_{j-1})`` (Section 8), cyclic within each loop."""
     vertices, _, preceding, _ = singularities
     return (coefficients - coefficients[..., preceding]) / (vertices - vertices[preceding])
@@ -106,10 +106,7 @@ def slope_jumps(coefficients: Rows, singularities: Singularities) -> Rows:
 
 
 def higher_derivative(
-    z: Points,
-    coefficients: Complex[Array, " n"],
-    singularities: Singularities,
-    order: int,
+    z: Points, coefficients: Complex[Array, " n"], singularities: Singularities, order: int
 ) -> Points:
     """The ``order``-th derivative (``order >= 1``) of ``sum_j D_j(z) coefficients_j``.
 
@@ -118,23 +115,20 @@ def higher_derivative(
     + (-1)^order order! sum_k phi_{m+k} / (z - rho_k)^(order+1)``.
     """
     vertices, _, _, rho = singularities
-    m = vertices.shape[0]
-    jumps = slope_jumps(coefficients, singularities)
+    m, jumps = vertices.shape[0], slope_jumps(coefficients, singularities)
     factorial = float(np.prod(np.arange(1, order)))
     inner = ((vertices - z[:, None]) ** -order) @ jumps[:m] * (-factorial / _TWO_PI_I)
     holes = ((z[:, None] - rho) ** -(order + 1)) @ jumps[m:]
     return inner + (-1) ** order * factorial * order * holes
 
 
-def log_over_edge(
-    b: Complex[AnyArray, "k m"], singularities: Singularities
-) -> Complex[Array, "k m"]:
+def log_over_edge(b: Edges, singularities: Singularities) -> Edges:
     """``Log(B_{j+1} / B_j) / A_{j+1}``, one column per edge from vertex ``j`` to ``j + 1``."""
     vertices, following, _, _ = singularities
     return _logarithms(b, singularities) / (vertices[following] - vertices)
 
 
-def _logarithms(b: Complex[AnyArray, "k m"], singularities: Singularities) -> Complex[Array, "k m"]:
+def _logarithms(b: Edges, singularities: Singularities) -> Edges:
     """``Log(B_{j+1} / B_j)``.
 
     The principal branch is right: an edge subtends an angle below pi at any point off it. XLA's own

@@ -47,13 +47,9 @@ class FixedPoints:
         edges = self._vertices[self._next] - self._vertices
         slopes = (values[self._next] - values) / edges[:, None]
         nothing = np.zeros_like(holes)
-        factors = np.block(
-            [
-                [values - slopes * self._vertices[:, None], slopes, np.zeros_like(values)],
-                [holes, nothing, nothing],
-                [nothing, nothing, holes],
-            ]
-        ).astype(np.complex64)
+        rows = [values - slopes * self._vertices[:, None], slopes, np.zeros_like(values)]
+        rows = [rows, [holes, nothing, nothing], [nothing, nothing, holes]]
+        factors = np.block(rows).astype(np.complex64)
         size = max(1, _CHUNK // len(factors))
         images, derivatives = [], []
         for start in range(0, len(self._z), size):
@@ -66,13 +62,8 @@ class FixedPoints:
         return image, np.concatenate(derivatives).view(np.float32)
 
     def _matrix(self, start: int, z: Array) -> Array:
-        """The matrix of the chunk at ``start``.
-
-        Columns: ``L_e = Log(B_{e+1} / B_e)`` of the edges, then ``ln|z - rho|`` and
-        ``1 / (z - rho)`` of the holes.
-        """
-        known = self._kept.get(start)
-        if known is not None:
+        """Columns ``L_e = Log(B_{e+1} / B_e)``, ``ln|z - rho|``, ``1 / (z - rho)`` of a chunk."""
+        if (known := self._kept.get(start)) is not None:
             return known
         b = self._vertices - z
         # Rounded after the division: a ratio near 1 keeps the absolute accuracy of its logarithm.

@@ -25,8 +25,7 @@ R = TypeVar("R")
 FORMAT = "glid_nb-map"
 FORMAT_VERSION = 1
 
-# Squares of larger coefficients, times those of the basis, overflow.
-_LARGEST = 1e120
+_LARGEST = 1e120  # squares of larger coefficients, times those of the basis, overflow
 
 
 class MapError(InputError):
@@ -95,10 +94,7 @@ class HarmonicMap:
         return cls(domain, phi, np.zeros_like(phi))
 
     def __call__(self, points: ArrayLike) -> Array:
-        """(k, 2) images of (k, 2) points, world coordinates.
-
-        Certificates hold only for points that ``domain.cage.contains``.
-        """
+        """(k, 2) images of points, world coordinates; certified where ``domain.cage.contains``."""
         (f,) = self._evaluate(_values, points)
         return as_points(f)
 
@@ -145,13 +141,8 @@ class HarmonicMap:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON values: format, version, the domain's loops, ``phi`` and ``psi``."""
-        return {
-            "format": FORMAT,
-            "version": FORMAT_VERSION,
-            **self.domain.to_dict(),
-            "phi": as_points(self.phi).tolist(),
-            "psi": as_points(self.psi).tolist(),
-        }
+        parts = {"phi": as_points(self.phi).tolist(), "psi": as_points(self.psi).tolist()}
+        return {"format": FORMAT, "version": FORMAT_VERSION, **self.domain.to_dict(), **parts}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> HarmonicMap:
@@ -191,20 +182,15 @@ class HarmonicMap:
 
 
 def run_on(map: HarmonicMap, program: Callable[..., R], *points: Array) -> R:
-    """``program(*points, coefficients, singularities)`` for a map's (2, c) padded coefficients.
-
-    It takes some of the points, (p,) complex arrays, at a time.
-    """
+    """``program(*points, coefficients, singularities)`` for a map's (2, c) padded coefficients and
+    some of the points, (p,) complex arrays, at a time."""
     basis = basis_of(map.domain)
     coefficients = np.stack([basis.pad(map.phi), basis.pad(map.psi)])
     return in_chunks(program, basis.n_columns, points, coefficients, basis.singularities)
 
 
 def images_under(maps: Sequence[HarmonicMap], points: ArrayLike) -> Array:
-    """(k, 2 m) images x, y of (k, 2) points under m maps of one domain.
-
-    The basis, which takes most of the time, is evaluated once.
-    """
+    """(k, 2 m) images x, y of (k, 2) points under m maps of one domain, its basis computed once."""
     basis = basis_of(maps[0].domain)
     columns = np.stack([basis.pad(c) for map in maps for c in (map.phi, map.psi)], axis=1)
 

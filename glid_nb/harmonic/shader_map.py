@@ -73,6 +73,5 @@ def _padded(vectors: Array, filling: Any) -> Array:
 
 def _vectors(first: Array, second: Array) -> Array:
     """(n, 4) float32: real and imaginary parts of two complex arrays, which must be finite."""
-    return np.stack(
-        [np.real(first), np.imag(first), np.real(second), np.imag(second)], axis=1
-    ).astype(np.float32)
+    parts = [np.real(first), np.imag(first), np.real(second), np.imag(second)]
+    return np.stack(parts, axis=1).astype(np.float32)

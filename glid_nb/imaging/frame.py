@@ -80,18 +80,12 @@ class PixelFrame:
         return (_points(world) - self.centre) / [unit, -unit] + self._middle
 
     def index_at(self, point: tuple[float, float], name: str = "point") -> tuple[int, int]:
-        """(row, column) of the pixel at a point (x, y) in pixel coordinates.
-
-        Raises a TraceError when the point, called ``name`` in the message, lies outside the
-        picture.
-        """
+        """(row, column) of the pixel at a point (x, y); a TraceError, with ``name``, if outside."""
         x, y = point
         if not (0 <= x < self.width and 0 <= y < self.height):
-            raise TraceError(
-                f"{name}: the pixel ({x:g}, {y:g}) lies outside the image of {self.width} x "
-                f"{self.height} pixels",
-                "That place lies outside the picture",
-            )
+            size = f"{self.width} x {self.height} pixels"
+            problem = f"{name}: the pixel ({x:g}, {y:g}) lies outside the image of {size}"
+            raise TraceError(problem, "That place lies outside the picture")
         return int(y), int(x)
 
     @property

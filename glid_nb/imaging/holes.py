@@ -9,7 +9,7 @@ import shapely
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
-from glid_nb._arrays import read_only
+from glid_nb._arrays import Array, read_only
 from glid_nb.imaging.options import Point
 from glid_nb.imaging.outline import Outline, ring_loop, thinned
 
@@ -72,7 +72,7 @@ def choose_holes(
 ) -> tuple[tuple[Hole, ...], HoleRule, tuple[str, ...]]:
     """The holes of an outline, the rule for those that the offset makes later, and notes.
 
-    `method` is the one that found the foreground; the other parameters are those of `TraceOptions`.
+    `method` is the one that found the foreground; the others are as in `TraceOptions`.
     """
     by_color = _LEAST_SHARE_BY_COLOR if method in ("color", "threshold") else _LEAST_SHARE
     least, least_bay = (
@@ -84,16 +84,12 @@ def choose_holes(
     notes = []
     filled = sum(not hole.kept and not _holds_any(hole.loop, drop) for hole in holes)
     if count := filled + outline.n_specks:
-        notes.append(
-            f"{count} small {'hole was' if count == 1 else 'holes were'} filled; the least area is "
-            f"{rule.min_area:.4g} square pixels"
-        )
+        what = "hole was" if count == 1 else "holes were"
+        least_area = f"the least area is {rule.min_area:.4g} square pixels"
+        notes.append(f"{count} small {what} filled; {least_area}")
     for name, points in (("keep_holes", keep), ("drop_holes", drop)):
-        notes += [
-            f"{name}: there is no hole at the pixel ({x:g}, {y:g})"
-            for x, y in points
-            if not any(_holds_any(hole.loop, [(x, y)]) for hole in holes)
-        ]
+        missed = (p for p in points if not any(_holds_any(hole.loop, [p]) for hole in holes))
+        notes += [f"{name}: there is no hole at the pixel ({x:g}, {y:g})" for x, y in missed]
     return holes, rule, tuple(notes)
 
 
@@ -152,18 +148,14 @@ def dilate(
         loops += parts
         least = min(least, used)
         if used < chosen:
-            notes.append(
-                f"the hole at {hole.place} is too narrow for an offset of {chosen:.3g} px; it got "
-                f"{used:.3g} px"
-            )
+            narrow = f"the hole at {hole.place} is too narrow for an offset of {chosen:.3g} px"
+            notes.append(f"{narrow}; it got {used:.3g} px")
         if len(parts) > 1:
             notes.append(f"the offset divided the hole at {hole.place} into {len(parts)}")
     for bay in (bay for bay in bays if bay.kept):
         loops.append(bay.loop)
-        notes.append(
-            f"the offset of {chosen:.3g} px closed a bay at {bay.place}, which became a hole; a "
-            "smaller offset leaves it open"
-        )
+        closed = f"the offset of {chosen:.3g} px closed a bay at {bay.place}, which became a hole"
+        notes.append(f"{closed}; a smaller offset leaves it open")
     exterior = ring_loop(grown.exterior)
     return Dilation(exterior, tuple(loops), chosen, least, (*holes, *bays), tuple(notes))
 
@@ -180,9 +172,7 @@ def _moved(region: shapely.Polygon, offset: float, sign: int) -> list[shapely.Po
     return sorted(parts, key=lambda part: -part.area)
 
 
-def _shrunk(
-    loop: NDArray[np.float64], offset: float, min_area: float
-) -> tuple[list[NDArray[np.float64]], float]:
+def _shrunk(loop: Array, offset: float, min_area: float) -> tuple[list[Array], float]:
     """The parts that a hole shrinks to, and the offset used: less for a hole that would vanish."""
     region = shapely.Polygon(loop)
     for used in (offset, 0.5 * offset, 0.25 * offset):

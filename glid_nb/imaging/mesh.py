@@ -115,10 +115,7 @@ def fine_mesh(
 
 
 def deformed_loops(map: HarmonicMap, tolerance: float = 0.002) -> list[Floats]:
-    """The images of the cage's loops as polylines within ``tolerance`` world units of them.
-
-    Or within 10^-6 of their size, where that is more.
-    """
+    """Images of the cage's loops, polylines within ``tolerance`` units or 1e-6 of their size."""
     loops = []
     for loop in map.domain.cage.loops_complex:
         points = as_points(subdivided(loop, np.full(len(loop), _PER_EDGE)))
@@ -149,10 +146,7 @@ def _halved(
 
 
 def unique_edges(triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], Ints]:
-    """Unique edges (e, 2), and the edge of each side of each triangle (t, 3).
-
-    Side k lies opposite vertex k.
-    """
+    """Unique edges (e, 2), and (t, 3) which one is opposite to each vertex of each triangle."""
     sides = np.stack([np.roll(triangles, -1, axis=1), np.roll(triangles, 1, axis=1)], axis=2)
     sides = np.sort(sides.reshape(-1, 2), axis=1)
     keys = sides @ np.array([1 << 32, 1])

@@ -22,6 +22,7 @@ Method = Literal["auto", "alpha", "threshold", "color", "scribbles"]
 
 Point = tuple[float, float]
 
+_ANY = math.inf
 _PIXEL: Any = {"least": -math.inf, "form": "a pixel (x, y) of finite numbers"}
 _PIXELS: Any = {"least": -math.inf, "form": "a list of pixels (x, y) of finite numbers"}
 
@@ -86,9 +87,7 @@ class TraceOptions:
         form="(red, green, blue), each in [0, 1]",
     )
     """(red, green, blue), each in [0, 1], for ``"color"``; None: estimated from the border."""
-    background_at: Point | None = option(
-        None, "A pixel that shows the background's colour", **_PIXEL
-    )
+    background_at: Point | None = option(None, "A pixel of the background's colour", **_PIXEL)
     """A pixel (x, y) that shows the background's colour, instead of `background`."""
     scribbles: Scribbles | None = option(
         None, "Strokes, lists of [x, y] pixels under the keys foreground, background"
@@ -104,12 +103,8 @@ class TraceOptions:
     min_hole_area: float | None = option(None, "Smaller holes are filled, square pixels")
     """Least area of a hole that is kept. None: 0.2 % of the component, or 0.75 % by colour or
     threshold, where eyes and highlights look like holes; at least 9."""
-    keep_holes: Sequence[Point] = option(
-        (), "A pixel in a hole that is kept whatever its size", **_PIXELS
-    )
-    drop_holes: Sequence[Point] = option(
-        (), "A pixel in a hole that is filled whatever its size", **_PIXELS
-    )
+    keep_holes: Sequence[Point] = option((), "A pixel in a hole to keep, of any size", **_PIXELS)
+    drop_holes: Sequence[Point] = option((), "A pixel in a hole to fill, of any size", **_PIXELS)
     """Pixels (x, y) in holes that are filled whatever their area; wins over `keep_holes`."""
     offset: float | None = option(None, "Distance of the cage from the outline, pixels")
     """From the outline outwards, and into the holes. None: about 1 % of the shape's size, less if
@@ -120,9 +115,7 @@ class TraceOptions:
     max_vertices: int | None = option(None, "Most vertices of the cage", least=3)
     min_edge: float | None = option(None, "Shorter edges are merged, pixels")
     """Least length: short edges make the harmonic basis stiff. None: a fifth of the mean edge."""
-    max_edge: float | None = option(
-        None, "Longer edges are divided evenly, pixels", least=0.5, most=math.inf
-    )
+    max_edge: float | None = option(None, "Longer edges are divided, pixels", least=0.5, most=_ANY)
     """Largest length, so that straight limbs can bend. None: a twenty-fifth of the perimeter;
     `math.inf`: never."""
 
@@ -136,9 +129,7 @@ class TraceOptions:
         if self.background is not None and self.background_at is not None:
             raise TraceError("background and background_at are both given; give one of them")
         if self.method == "scribbles" and self.scribbles is None:
-            raise TraceError(
-                "the method 'scribbles' needs scribbles=Scribbles(foreground, background)"
-            )
+            raise TraceError("method='scribbles' needs scribbles=Scribbles(foreground, background)")
 
 
 def _strokes(
@@ -146,9 +137,8 @@ def _strokes(
 ) -> tuple[NDArray[np.float64], ...] | NDArray[np.bool_]:
     if isinstance(strokes, np.ndarray) and strokes.dtype == np.bool_:
         if strokes.ndim != 2:
-            raise TraceError(
-                f"scribbles: the {name} mask must have the shape (h, w), not {strokes.shape}"
-            )
+            wanted = f"must have the shape (h, w), not {strokes.shape}"
+            raise TraceError(f"scribbles: the {name} mask {wanted}")
         return read_only(strokes.copy())
     lines = []
     for i, stroke in enumerate(strokes):

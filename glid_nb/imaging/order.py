@@ -40,12 +40,18 @@ class Order:
     """
 
     def __init__(self, mesh: Triangulation, limbs: Array, depths: Array) -> None:
-        self._mesh, self._depths = mesh, depths
+        self._mesh, self._limbs, self._depths = mesh, limbs, depths
         self._heights = depths + _TIE * limbs
 
     def __call__(self, points: Any) -> Array:
         """(k,) heights of (k, 2) points of the undeformed shape."""
         return self._mesh.weights(points) @ self._heights
+
+    def towards(self, other: "Order", share: float) -> "Order":
+        """The order at a share of the way to another one of this shape."""
+        if other is self:
+            return self
+        return Order(self._mesh, self._limbs, self._depths + share * (other._depths - self._depths))
 
     def depths(self, points: Any) -> Array:
         """(k,) depths that the handles' depths give to (k, 2) points."""
@@ -109,9 +115,7 @@ class Sheets:
     Where the picture (h, w, 4) is transparent, if it is given, what lies below is seen.
     """
 
-    def __init__(
-        self, map: DeformationMap, order: Order, image: NDArray[np.uint8] | None = None
-    ) -> None:
+    def __init__(self, map: DeformationMap, order: Order, image: Array | None = None) -> None:
         self._map, self._order, self._image = map, order, image
         if isinstance(map, MeshMap):
             self._mesh, images = map.triangulation, map.images

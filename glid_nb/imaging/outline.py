@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import find_objects, label
 from skimage.measure import block_reduce, find_contours
 
-from glid_nb._arrays import read_only
+from glid_nb._arrays import Array, read_only
 from glid_nb.geometry._loops import signed_area
 from glid_nb.imaging.errors import TraceError
 from glid_nb.imaging.foreground import Foreground
@@ -80,9 +80,9 @@ class Components:
         row, column = PixelFrame(width=width, height=height).index_at(point, "component_at")
         found = self.found[row, column]
         if found == 0:
+            where = f"component_at: the pixel ({point[0]:g}, {point[1]:g})"
             raise TraceError(
-                f"component_at: the pixel ({point[0]:g}, {point[1]:g}) is background; pick a pixel "
-                "of the shape",
+                f"{where} is background; pick a pixel of the shape",
                 "There is only background at the place that was picked; pick a place on the shape",
             )
         return int(np.flatnonzero(self.labels == found)[0])
@@ -152,11 +152,9 @@ def find_outline(
     inside = np.zeros(components.found.shape, dtype=bool)
     inside[crop] = part
     n_specks = specks + len(loops) - len(chosen)
-    notes = (
-        f"the outline is very rough: it was traced in blocks of {block} x {block} pixels; more "
-        "smoothing, or another way to find the foreground, may help",
-    )
-    notes = notes if block > 1 else ()
+    rough = f"the outline is very rough: it was traced in blocks of {block} x {block} pixels"
+    help = "more smoothing, or another way to find the foreground, may help"
+    notes = (f"{rough}; {help}",) if block > 1 else ()
     return Outline(component, exterior, tuple(holes), n_specks, least, notes, inside)
 
 
@@ -180,9 +178,7 @@ def _fill_specks(inside: NDArray[np.bool_], least: float) -> int:
     return int(np.count_nonzero(fill))
 
 
-def _field(
-    score: NDArray[np.float32], level: float, inside: NDArray[np.bool_]
-) -> NDArray[np.float32]:
+def _field(score: NDArray[np.float32], level: float, inside: Array) -> NDArray[np.float32]:
     """Score minus level, positive exactly in the component, with a frame of one pixel.
 
     Values near 0 are moved away from it: a level set through the centre of a pixel could touch

@@ -15,8 +15,7 @@ from glid_nb.imaging.texture import Sampler, Texture, gradients
 
 _BAND = 1 << 17  # pixels drawn at a time, to bound the memory
 
-# Rows and columns of the samples in an outline pixel.
-SUBSAMPLES = 8
+SUBSAMPLES = 8  # rows and columns of the samples in an outline pixel
 
 Ints = NDArray[np.integer]
 Floats = NDArray[np.float64]
@@ -35,8 +34,7 @@ def render_mesh(
 
     The vertices lie at ``places`` (v, 2) in the picture and go to ``positions`` (v, 2) in the
     output, which has the ``size`` (w, h): continuous pixels, x right, y down, (0, 0) the top left
-    corner. Parts of a triangle beyond the picture are transparent. Pass a :class:`Texture` to draw
-    one picture many times.
+    corner. Parts beyond the picture are transparent. Pass a :class:`Texture` to draw it many times.
 
     Where triangles overlap, the higher one by the ``heights`` (v,) of the vertices, or of equally
     high ones the later, is composed over the other; intersecting sheets meet along a line.
@@ -96,9 +94,8 @@ class ScanConverter:
     def samples(self, top: int, chosen: NDArray[np.bool_], n: int) -> Samples:
         """Samples in the chosen pixels of a band, (rows, width) from the row ``top`` on.
 
-        A pixel has n rows of n samples. Each row is shifted against the next, so that a vertical
-        edge has n^2 levels of coverage. The samples of the p-th chosen pixel are numbered from
-        p n^2, row by row.
+        A pixel has n rows of n samples, each row shifted against the next, so that a vertical edge
+        has n^2 levels of coverage. The p-th chosen pixel's are numbered from p n^2, row by row.
         """
         rows, width = chosen.shape
         shift = ((np.arange(n) * 3) % n + 0.5) / n
@@ -161,10 +158,9 @@ class _Sheets(NamedTuple):
         return canvas.reshape(-1, n**2, 4), count.reshape(-1, n**2)
 
     def _shaded(self, samples: Samples, n: int) -> Colours:
-        """(k, 4) colours: one look-up for all samples of a triangle in a pixel.
+        """(k, 4) colours: one look-up for all samples of a triangle in a pixel, at their centroid.
 
-        It is made at their centroid: a look-up filters over a whole pixel, so one at each sample
-        would blur the outline.
+        A look-up filters over a whole pixel, so one at each sample would blur the outline.
         """
         pixel, n_triangles = samples.place // n**2, len(self.level)
         keys = pixel * n_triangles + samples.triangle

@@ -68,20 +68,16 @@ def as_rgba(image: ArrayLike) -> RGBA:
 
     The array is (h, w) or (h, w, 1) grey, (h, w, 2) grey and alpha, (h, w, 3) RGB or (h, w, 4)
     RGBA; bool, uint8, uint16, or float in [0, 1]. The result is uint8 for bool and uint8 (the array
-    itself if it is RGBA already), uint16 for the other types.
-
-    Raises a TraceError for what is empty, too large, of another shape or type, NaN, or outside [0,
-    1].
+    itself if it is RGBA already), uint16 for the other types. Raises a TraceError for what is
+    empty, too large, of another shape or type, NaN, or outside [0, 1].
     """
     try:
         array: NDArray[Any] = np.asarray(image)
     except ValueError as error:  # rows of different lengths
         raise TraceError(f"the image is no array: {error}") from None
     if array.ndim not in (2, 3) or (array.ndim == 3 and not 0 <= array.shape[2] <= 4):
-        raise TraceError(
-            "an image must have the shape (h, w) or (h, w, c) with 1 to 4 channels (grey, "
-            f"grey + alpha, RGB, RGBA), not {array.shape}"
-        )
+        wanted = "(h, w) or (h, w, c) with 1 to 4 channels (grey, grey + alpha, RGB, RGBA)"
+        raise TraceError(f"an image must have the shape {wanted}, not {array.shape}")
     if array.size == 0:
         raise TraceError(f"the image is empty: its shape is {array.shape}")
     height, width = array.shape[:2]
@@ -94,10 +90,8 @@ def as_rgba(image: ArrayLike) -> RGBA:
         array = _from_float(array)
     array = array.astype(array.dtype.newbyteorder("="), copy=False)
     if array.dtype not in (np.uint8, np.uint16):
-        raise TraceError(
-            f"the image has the type {array.dtype}; convert it to uint8, uint16, bool or to float "
-            "in [0, 1]"
-        )
+        wanted = "convert it to uint8, uint16, bool or to float in [0, 1]"
+        raise TraceError(f"the image has the type {array.dtype}; {wanted}")
     channels = array.shape[2]
     if channels == 4:
         return array
@@ -125,26 +119,21 @@ def as_rgba8(image: ArrayLike) -> NDArray[np.uint8]:
 def check_size(width: int, height: int, name: str = "the image") -> None:
     """Raise a TraceError about ``name`` if a side is longer than `MAX_SIDE`."""
     if max(width, height) > MAX_SIDE:
-        raise TraceError(
-            f"{name} is too large, {width} x {height} pixels; a side may have at most "
-            f"{MAX_SIDE}: scale it down first"
-        )
+        most = f"a side may have at most {MAX_SIDE}: scale it down first"
+        raise TraceError(f"{name} is too large, {width} x {height} pixels; {most}")
 
 
 def _from_float(array: NDArray[Any]) -> NDArray[np.uint16]:
     low, high = float(array.min()), float(array.max())
     if not (np.isfinite(low) and np.isfinite(high)):
         row, column, *_ = place = tuple(np.argwhere(~np.isfinite(array))[0])
-        raise TraceError(
-            f"the image holds {array[place]} in row {row}, column {column}; "
-            "replace NaN and infinite values"
-        )
+        where = f"the image holds {array[place]} in row {row}, column {column}"
+        raise TraceError(f"{where}; replace NaN and infinite values")
     # Interpolation may overshoot by rounding errors.
     if low < -1e-6 or high > 1 + 1e-6:
-        raise TraceError(
-            f"a float image must lie in [0, 1], this one holds {low if low < -1e-6 else high:.6g}; "
-            "divide it by its largest possible value"
-        )
+        worst = f"this one holds {low if low < -1e-6 else high:.6g}"
+        remedy = "divide it by its largest possible value"
+        raise TraceError(f"a float image must lie in [0, 1], {worst}; {remedy}")
     result = np.empty(array.shape, dtype=np.uint16)
     for start in range(0, len(array), _ROWS):
         block = array[start : start + _ROWS].astype(np.float64)
@@ -176,10 +165,9 @@ def _decode(data: bytes, name: str) -> RGBA:
     except UnidentifiedImageError:
         if data.startswith(_TIFF_STARTS):
             return _from_tifffile(data, name)  # formats that Pillow does not know
+        advice = "not in a picture format that can be read; save it as PNG or JPEG first"
         if data.startswith(b"PK"):
             advice = "a session or another zip file; open a session by its path"
-        else:
-            advice = "not in a picture format that can be read; save it as PNG or JPEG first"
         raise TraceError(f"{name} is {advice}") from None
     with picture:
         tags = picture.tag_v2 if isinstance(picture, TiffImageFile) else {}
@@ -222,9 +210,7 @@ def _from_array(array: NDArray[Any], name: str) -> RGBA:
     if array.dtype in (np.int32, np.uint16):
         low, high = int(array.min()), int(array.max())
         if low < 0 or high > 65535:
-            raise TraceError(
-                f"{name}: the grey values run from {low} to {high}; only 8 and 16 bit are supported"
-            )
+            raise TraceError(f"{name}: values run from {low} to {high}; only 8 and 16 bit are read")
         array = array.astype(np.uint16)
     with about(name, TraceError):
         return as_rgba(array)

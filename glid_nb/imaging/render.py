@@ -7,6 +7,7 @@ import shapely
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._arguments import plain, unmet
+from glid_nb.geometry import place
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.errors import RenderError
 from glid_nb.imaging.frame import PixelFrame
@@ -96,9 +97,7 @@ def rendering(
         exterior = deformed_loops(map)[0]
         shown, margin = np.stack([exterior.min(axis=0), exterior.max(axis=0)]), _MARGIN
     if np.ptp(shown, axis=0).min() <= 0:
-        raise RenderError(
-            "the map collapses the shape to a point or a line; there is nothing to show"
-        )
+        raise RenderError("the map collapses the shape to a point or a line; nothing is to be seen")
     frame = PixelFrame(width, height).showing(shown, margin)
     if n_vertices is None:
         even = int(np.clip(width * height / _PIXELS_PER_VERTEX, *_EVEN_VERTICES))
@@ -115,10 +114,9 @@ def check_fits(frame: PixelFrame, map: HarmonicMap) -> None:
     beyond = max(xmin - low[0], ymin - low[1], high[0] - xmax, high[1] - ymax)
     if beyond > _OVERHANG:
         raise RenderError(
-            f"the map's cage spans ({low[0]:.4g}, {low[1]:.4g}) to ({high[0]:.4g}, {high[1]:.4g}) "
-            f"but the picture, {frame.width} x {frame.height} pixels, only ({xmin:.4g}, "
-            f"{ymin:.4g}) to ({xmax:.4g}, {ymax:.4g}); take the picture that the cage was traced "
-            "from"
+            f"the map's cage spans {place(low, 4)} to {place(high, 4)} but the picture, "
+            f"{frame.width} x {frame.height} pixels, only {place((xmin, ymin), 4)} to "
+            f"{place((xmax, ymax), 4)}; take the picture that the cage was traced from"
         )
 
 

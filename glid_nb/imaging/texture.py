@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._jax import jax, jit, jnp, lax
+from glid_nb._arrays import Array
 from glid_nb.imaging.read import as_rgba
 
-_CHUNK = 1 << 12  # points per call of the compiled program: little padding, little memory
+_CHUNK = 1 << 14  # look-ups at a time, whose arrays stay in the cache
 _MOST_PROBES = 16  # look-ups along an axis of a pixel's footprint
 _MOST_BLUR = 1.5  # by which nearly all of a minified picture may lose resolution
-# Smaller pictures and meshes are padded, so that they share one compiled program.
-_LEAST_TEXELS = 1 << 16
-_LEAST_TRIANGLES = 1 << 12
 _ROWS = 256  # rows of a picture that are converted at a time, to bound the memory
+
+# Weights of four neighbours by the powers 0 to 3 of the place between the middle two.
+_CATMULL_ROM = np.array([[0, -1, 2, -1], [2, 0, -5, 3], [0, 1, 4, -3], [0, 0, -1, 1]]) / 2
 
 Floats = NDArray[np.float64]
 
@@ -62,12 +63,6 @@ class Texture:
         return self._reduced[n]
 
 
-def _bucket(n: int, least: int) -> int:
-    """``n`` rounded up to one of eight sizes per octave: similar inputs share a program."""
-    grain = 1 << max(n.bit_length() - 4, 0)
-    return max(-(-n // grain) * grain, least)
-
-
 def gradients(corners: Floats, values: Floats) -> Floats:
     """Slopes along x and y, (t, k, 2), of linear functions on triangles.
 
@@ -101,23 +96,13 @@ class Sampler:
         shorter = np.append(radii[:, 1][radii[:, 1] > 0], max(texture.size))
         stretched, typical = np.quantile(shorter, [0.05, 0.5])
         scale = max(1, int(min(_MOST_BLUR * stretched, typical)))
-        pixels = texture.reduced(scale)
-        jacobian, radii = jacobian / scale, radii / scale
-        probes = np.ceil(radii - 0.25).clip(1, _MOST_PROBES)
-        steps = axes * (radii / probes)[:, None]
-        # The anchor is rounded to single precision first, so that its own place stays exact.
-        anchor = positions.mean(axis=1).astype(np.float32).astype(np.float64)
-        offset = np.einsum("tka,ta->tk", jacobian, anchor - positions[:, 0])
-        maps = (anchor, places[:, 0] / scale + offset, jacobian, steps, probes)
-        columns = np.column_stack([part.reshape(len(positions), -1) for part in maps])
-        table = np.zeros((_bucket(len(positions), _LEAST_TRIANGLES), 14), np.float32)
-        table[: len(positions)] = columns
-        n_texels = pixels.shape[0] * pixels.shape[1]
-        texels = np.zeros((_bucket(n_texels, _LEAST_TEXELS), 4), np.uint16)
-        texels[:n_texels] = pixels.reshape(-1, 4)
-        size = np.array(pixels.shape[1::-1], np.int32)
-        self._n_lookups = probes.prod(axis=1).astype(np.uint16)
-        self._arrays = jnp.asarray(texels), jnp.asarray(size), jnp.asarray(table)
+        self._pixels = texture.reduced(scale)
+        self._size = np.array(self._pixels.shape[1::-1])
+        self._anchor, self._origin = positions[:, 0], places[:, 0] / scale
+        self._jacobian, radii = jacobian / scale, radii / scale
+        self._radius = radii[:, 0]
+        self._probes = np.ceil(radii - 0.25).clip(1, _MOST_PROBES).astype(int)
+        self._steps = axes * (radii / self._probes)[:, None]
 
     def __call__(self, triangle: NDArray[np.integer], x: Floats, y: Floats) -> NDArray[np.float32]:
         """(k, 4) premultiplied RGBA in [0, 1] at points of the output.
@@ -126,74 +111,50 @@ class Sampler:
         output pixels.
         """
         result = np.empty((len(triangle), 4), np.float32)
-        n_lookups = self._n_lookups[triangle]
-        # Sorted, because all points of a chunk take as many look-ups as its last one.
-        order = np.argsort(n_lookups, kind="stable")
-        for start in range(0, len(order), _CHUNK):
-            part = order[start : start + _CHUNK]
-            index = np.zeros(_CHUNK, np.int32)
-            points = np.zeros((2, _CHUNK), np.float32)
-            index[: len(part)] = triangle[part]
-            points[:, : len(part)] = x[part], y[part]
-            colours = _colours(*self._arrays, index, points, int(n_lookups[part[-1]]))
-            result[part] = np.asarray(colours)[: len(part)]
+        lookups = np.cumsum(self._probes[triangle].prod(axis=1))
+        cuts = np.flatnonzero(np.diff(lookups // _CHUNK)) + 1
+        for low, high in itertools.pairwise([0, *cuts.tolist(), len(triangle)]):
+            chunk = slice(low, high)
+            result[chunk] = self._colours(triangle[chunk], np.stack([x[chunk], y[chunk]], axis=1))
         return result
 
-
-@jit
-def _colours(
-    texels: jax.Array,
-    size: jax.Array,
-    table: jax.Array,
-    triangle: jax.Array,
-    points: jax.Array,
-    n_lookups: int,
-) -> jax.Array:
-    """(c, 4) premultiplied colours in single precision, with any JAX configuration."""
-    row = table[triangle]
-    offset = points.T - row[:, :2]
-    place = row[:, 2:4] + row[:, 4:8:2] * offset[:, :1] + row[:, 5:8:2] * offset[:, 1:]
-    long, short, probes = row[:, 8:12:2], row[:, 9:12:2], row[:, 12:]
-    n_long, n_short = probes[:, :1], probes[:, 1:]
-
-    def lookup(i: jax.Array, total: jax.Array) -> jax.Array:
-        along = jnp.floor(i.astype(jnp.float32) / n_short)
-        across = i.astype(jnp.float32) - along * n_short
-        at = place + (along - (n_long - 1) / 2) * long + (across - (n_short - 1) / 2) * short
-        colour = _bicubic(texels, size, at - 0.5)
-        return total + jnp.where(along < n_long, colour / (n_long * n_short), 0.0)
-
-    total = jnp.zeros((points.shape[1], 4), jnp.float32)
-    total = lax.fori_loop(0, n_lookups, lookup, total) * np.float32(1 / 65535)
-    # Distance from the picture, in output pixels.
-    outside = jnp.maximum(-place, place - size.astype(jnp.float32)[None]).max(axis=1)
-    radius = n_long[:, 0] * jnp.hypot(long[:, 0], long[:, 1])
-    total = total * jnp.clip(1 - outside / jnp.maximum(radius, 1e-6), 0, 1)[:, None]
-    # Cubics overshoot: restore 0 <= colour <= alpha <= 1, keeping the hue where alpha exceeds 1.
-    total = total / jnp.maximum(total[:, 3:], 1)
-    alpha = jnp.maximum(total[:, 3:], 0)
-    return jnp.concatenate([jnp.clip(total[:, :3], 0, alpha), alpha], axis=1)
+    def _colours(self, triangle: Array, points: Floats) -> Array:
+        place = self._origin[triangle]
+        place = place + _times(self._jacobian[triangle], points - self._anchor[triangle])
+        n_lookups = self._probes[triangle].prod(axis=1)
+        point = np.repeat(np.arange(len(points)), n_lookups)
+        first, seen = np.cumsum(n_lookups) - n_lookups, triangle[point]
+        number = np.divmod(np.arange(len(point)) - first[point], self._probes[seen, 1])
+        share = np.stack(number, axis=1) - (self._probes[seen] - 1) / 2
+        colours = _bicubic(self._pixels, place[point] + _times(self._steps[seen], share) - 0.5)
+        total = np.add.reduceat(colours, first) / (65535 * n_lookups[:, None])
+        # Distance from the picture, in output pixels.
+        outside = np.maximum(-place, place - self._size).max(axis=1)
+        total *= (1 - outside / np.maximum(self._radius[triangle], 1e-6)).clip(0, 1)[:, None]
+        # Cubics overshoot: restore 0 <= colour <= alpha <= 1, with the hue where alpha exceeds 1.
+        total /= np.maximum(total[:, 3:], 1)
+        alpha = np.maximum(total[:, 3:], 0)
+        return np.concatenate([np.clip(total[:, :3], 0, alpha), alpha], axis=1)
 
 
-def _bicubic(texels: jax.Array, size: jax.Array, at: jax.Array) -> jax.Array:
-    """(c, 4) Catmull-Rom interpolation at places (c, 2) in texels from the first one's centre."""
-    column, across = _neighbours(at[:, :1], size[0])
-    row, down = _neighbours(at[:, 1:], size[1])
-    index = (row * size[0])[:, :, None] + column[:, None, :]
-    weight = down[:, :, None] * across[:, None, :]
-    return jnp.sum(weight[..., None] * texels[index].astype(jnp.float32), axis=(1, 2))
+def _times(matrices: Floats, vectors: Floats) -> Floats:
+    """(k, 2) products of (k, 2, 2) and (k, 2)."""
+    return matrices[:, :, 0] * vectors[:, :1] + matrices[:, :, 1] * vectors[:, 1:]
 
 
-def _neighbours(t: jax.Array, n: jax.Array) -> tuple[jax.Array, jax.Array]:
-    """The four of n texels around places t (c, 1), and their weights."""
-    middle = jnp.floor(t)
-    index = middle.astype(jnp.int32) + jnp.arange(-1, 3, dtype=jnp.int32)[None]
-    t = t - middle
-    t2, t3 = t * t, t * t * t
-    weights = (
-        -0.5 * t3 + t2 - 0.5 * t,
-        1.5 * t3 - 2.5 * t2 + 1.0,
-        -1.5 * t3 + 2.0 * t2 + 0.5 * t,
-        0.5 * t3 - 0.5 * t2,
-    )
-    return jnp.clip(index, 0, n - 1), jnp.concatenate(weights, axis=1)
+def _bicubic(pixels: NDArray[np.uint16], at: Floats) -> NDArray[np.float32]:
+    """(k, 4) Catmull-Rom interpolation at places (k, 2) in pixels from the first one's centre."""
+    height, width, _ = pixels.shape
+    (column, across), (row, down) = _neighbours(at[:, 0], width), _neighbours(at[:, 1], height)
+    texels, total = pixels.reshape(-1, 4), np.zeros((len(at), 4), np.float32)
+    for i, j in np.ndindex(4, 4):
+        total += (down[i] * across[j])[:, None] * texels.take(row[i] * width + column[j], axis=0)
+    return total
+
+
+def _neighbours(t: Floats, n: int) -> tuple[Array, NDArray[np.float32]]:
+    """(4, k) the pixels of n around places t (k,), and their weights."""
+    middle = np.floor(t)
+    index = middle.astype(np.intp) + np.arange(-1, 3)[:, None]
+    powers = (t - middle) ** np.arange(4)[:, None]
+    return index.clip(0, n - 1), (_CATMULL_ROM @ powers).astype(np.float32)

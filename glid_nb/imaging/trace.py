@@ -205,9 +205,6 @@ def _coverage_notes(outline: Outline, holes: tuple[Hole, ...], simplified: Simpl
     shape = shapely.Polygon(outline.exterior, [hole.loop for hole in holes if hole.kept])
     cage = shapely.Polygon(simplified.exterior, simplified.holes)
     share = shape.difference(cage).area / shape.area
-    if share < _CUT_OFF:
-        return []
-    return [
-        f"{share:.1%} of the shape lies outside the cage and is cut off; a larger offset or a "
-        "smaller simplify keeps more"
-    ]
+    cut = f"{share:.1%} of the shape lies outside the cage and is cut off"
+    keeps = "a larger offset or a smaller simplify keeps more"
+    return [f"{cut}; {keeps}"] if share >= _CUT_OFF else []

@@ -34,25 +34,10 @@ from glid_nb.solvers import Method, MethodError, Newton
 METHODS: Mapping[str, type[Method]] = {
     method.name: method
     for method in (
-        Newton,
-        NewtonPaper,
-        NewtonStaged,
-        NewtonUnmodified,
-        NewtonEigen,
-        NewtonShift,
-        GaussNewton,
-        LevenbergMarquardt,
-        LBFGS,
-        GradientDescent,
-        BDHM,
-        SLIM,
-        AQP,
-        ARAPLocalGlobal,
-        MovingLeastSquares,
-        BoundedBiharmonicWeights,
-        HarmonicWeights,
-        MeanValueCoordinates,
-        CauchyCoordinates,
+        *(Newton, NewtonPaper, NewtonStaged, NewtonUnmodified, NewtonEigen, NewtonShift),
+        *(GaussNewton, LevenbergMarquardt, LBFGS, GradientDescent, BDHM, SLIM, AQP),
+        *(ARAPLocalGlobal, MovingLeastSquares, BoundedBiharmonicWeights, HarmonicWeights),
+        *(MeanValueCoordinates, CauchyCoordinates),
     )
 }
 """All methods by name, in the order in which a list of them should show them."""
@@ -66,10 +51,7 @@ def available() -> dict[str, type[Method]]:
 def by_name(name: str, /, **settings: Any) -> Method:
     """The method of a name with some settings, as a file or a menu gives them.
 
-    Raises
-    ------
-    MethodError
-        For an unknown method, an unknown setting, or one out of its range.
+    A MethodError for an unknown method, an unknown setting, or one out of its range.
     """
     if not isinstance(name, str) or name not in METHODS:
         hint = did_you_mean(name, METHODS) if isinstance(name, str) else ""

@@ -21,6 +21,7 @@ Kind = Literal["rigid", "similarity"]
 
 # A point this close to an edge, relative to its ends' distances, is on it.
 _ON_EDGE = 1e-12
+_TAKEN = "mean value coordinates take the handles as their cage"
 _FLAT = 1e-12  # an area relative to the square of the shape's longer side: none
 
 
@@ -46,10 +47,7 @@ class LinearMethod(MeshMethod):
 
 @dataclass(frozen=True)
 class MovingLeastSquares(LinearMethod):
-    """At each point the rigid motion that fits the handles best; it may fold.
-
-    Schaefer, McPhail & Warren 2006.
-    """
+    """The rigid motion that fits the handles best; it may fold (Schaefer et al. 2006)."""
 
     name = "mls"
     label = "Moving least squares"
@@ -65,10 +63,7 @@ class MovingLeastSquares(LinearMethod):
 
 @dataclass(frozen=True)
 class BoundedBiharmonicWeights(LinearMethod):
-    """Translations blended by bounded biharmonic weights; it may fold (libigl).
-
-    Jacobson et al. 2011.
-    """
+    """Translations blended by bounded biharmonic weights (Jacobson 2011); it may fold (libigl)."""
 
     name = "bbw"
     label = "Bounded biharmonic weights"
@@ -99,10 +94,7 @@ class HarmonicWeights(LinearMethod):
 
 @dataclass(frozen=True)
 class MeanValueCoordinates(LinearMethod):
-    """Mean value coordinates with the handles as cage; it may fold.
-
-    Floater 2003.
-    """
+    """Mean value coordinates with the handles as cage; it may fold (Floater 2003)."""
 
     name = "mean-value"
     label = "Mean value coordinates"
@@ -110,30 +102,20 @@ class MeanValueCoordinates(LinearMethod):
     def check_handles(self, inputs: Inputs) -> None:
         points = inputs.pose.handles
         if len(points) < 3:
-            raise MethodError(
-                f"mean value coordinates take the handles as their cage and need at least 3 of "
-                f"them; there are {len(points)}"
-            )
+            raise MethodError(f"{_TAKEN} and need at least 3 of them; there are {len(points)}")
         polygon = points[_around(as_complex(points))]
         if abs(signed_area(polygon)) <= _FLAT * inputs.domain.cage.longer_side**2:
-            raise MethodError(
-                "mean value coordinates take the handles as their cage, and these lie on one line; "
-                "add a handle beside it"
-            )
+            raise MethodError(f"{_TAKEN}, and these lie on one line; add a handle beside it")
 
     def images(self, problem: MeshProblem) -> Array:
-        rest = problem.operators.rest
-        order = _around(as_complex(problem.inputs.pose.handles))
+        rest, order = problem.operators.rest, _around(as_complex(problem.inputs.pose.handles))
         polygon = rest[problem.handles][order]
         return mean_value_coordinates(rest, polygon) @ problem.targets[order]
 
 
 @dataclass(frozen=True)
 class CauchyCoordinates(LinearMethod):
-    """The smoothest conformal map through the handles; it may fold.
-
-    Point to point by Cauchy coordinates (Weber, Ben-Chen & Gotsman 2009).
-    """
+    """The smoothest conformal map through the handles; it may fold (Weber et al. 2009)."""
 
     name = "cauchy"
     label = "Cauchy coordinates"
@@ -159,10 +141,7 @@ def _around(handles: Array) -> Array:
 def moving_least_squares(
     z: Array, handles: Array, targets: Array, kind: Kind = "rigid", alpha: float = 1.0
 ) -> Array:
-    """(k,) images: the motion that fits the handles best with the weights ``|p_i - z|^(-2 alpha)``.
-
-    Handles go to their targets exactly.
-    """
+    """(k,) images, handles at their targets, by motions of the weights ``|p_i - z|^(-2 alpha)``."""
     if not len(handles):
         return z.copy()
     distance = np.abs(z[:, None] - handles)
@@ -182,8 +161,7 @@ def mean_value_coordinates(z: Array, polygon: Array) -> Array:
     """(k, n) coordinates with respect to a simple polygon (Hormann & Floater 2006)."""
     s = polygon - z[:, None]
     after = np.roll(s, -1, axis=1)
-    r = np.abs(s)
-    r_after = np.abs(after)
+    r, r_after = np.abs(s), np.abs(after)
     cross, dot = np.imag(s.conj() * after), np.real(s.conj() * after)
     scale = r * r_after
     flat = np.abs(cross) <= _ON_EDGE * scale
@@ -215,12 +193,10 @@ def cauchy_point_to_point(domain: Domain, pose: Pose, p2p_weight: float) -> Harm
         rows = complex_basis(cauchy.cauchy_coordinates, handles, basis)[:, columns]
         normal = normal + p2p_weight / 2 * rows.conj().T @ rows
         right = p2p_weight / 2 * rows.conj().T @ targets
-    identity = HarmonicMap.identity(domain)
-    base = basis.pad(identity.phi)[columns]
+    padded = basis.pad(HarmonicMap.identity(domain).phi)
+    base = padded[columns]
     # Relative to the identity, so that what the handles leave open stays as it is.
-    change = np.linalg.lstsq(normal, right - normal @ base, rcond=1e-14)[0]
-    padded = basis.pad(identity.phi)
-    padded[columns] = base + change
+    padded[columns] = base + np.linalg.lstsq(normal, right - normal @ base, rcond=1e-14)[0]
     return HarmonicMap(domain, padded[basis.columns], np.zeros(domain.n_coefficients))
 
 

@@ -111,9 +111,7 @@ def boundary_of(domain: Domain) -> Boundary:
     return Boundary(domain, points, values, first, mean, branches, *fit)
 
 
-def _fit(
-    first: Array, mean: Array, t: Array, n_padded: int, n_holes: int
-) -> tuple[Array, Array, Array]:
+def _fit(first: Array, mean: Array, t: Array, n_padded: int, n_holes: int) -> tuple[Array, ...]:
     """The matrices of the best fit, in whitened coordinates ``t``, where it is well conditioned."""
     root = np.sqrt(mean)[:, None]
     end = t.shape[1] - n_padded

@@ -91,10 +91,8 @@ class Bounded:
         before, after = (_row(self.frames[piece + i]) for i in (0, 1))
         span = self.times[piece + 1] - self.times[piece]
         out, into = span * self.tangents[piece], span * self.tangents[piece + 1]
-        change = after - before
-        return before + s * (
-            out + s * (3 * change - 2 * out - into + s * (out + into - 2 * change))
-        )
+        d = after - before
+        return before + s * (out + s * (3 * d - 2 * out - into + s * (out + into - 2 * d)))
 
     def _shortened(self, closed: bool) -> Bounded:
         """With tangents short enough that no piece exceeds its worse end."""

@@ -71,10 +71,8 @@ def load(path: str | Path, cls: type[Motion]) -> Motion:
         if not isinstance(data, dict) or data.get("format") != FORMAT:
             raise MotionError(f'this is no glid_nb motion: the key "format" is not "{FORMAT}"')
         if data.get("version") != FORMAT_VERSION:
-            raise MotionError(
-                f"motion version {data.get('version')!r:.20} is not supported; "
-                f"expected {FORMAT_VERSION}"
-            )
+            given = f"motion version {data.get('version')!r:.20} is not supported"
+            raise MotionError(f"{given}; expected {FORMAT_VERSION}")
         _json.check_fields(data, "the motion", _REQUIRED, _OPTIONAL)
         times, knots = _knots(data)
         closed = data["repeat"] == "loop"

@@ -157,10 +157,8 @@ class Motion:
         if failing is not None:
             piece, proof = forth[failing], proofs[failing]
             until = piece.start + proof.until * (piece.end - piece.start)
-            reason = (
-                f"Certified up to t = {rounded_down(until)}; "
-                f"the panel near {place(proof.place)} fails."
-            )
+            fails = f"the panel near {place(proof.place)} fails"
+            reason = f"Certified up to t = {rounded_down(until)}; {fails}."
         back = proofs[::-1] if self.repeat == "ping-pong" else ()
         return MotionCertificate(
             failing is None,

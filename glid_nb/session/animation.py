@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import bisect
 import itertools
 import time
 from collections.abc import Iterator
@@ -11,6 +12,7 @@ import numpy as np
 
 from glid_nb.certificate import certificate_of
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging.order import Order
 from glid_nb.motion import Motion
 from glid_nb.motion.curve import Piece
 from glid_nb.motion.settings import MotionError, unlike_turns
@@ -101,6 +103,14 @@ class Animation(Observed):
             return span.map
         piece = next((p for p in span.pieces if time <= p.end), span.pieces[-1])
         return piece.at(min(time, piece.end))
+
+    def order(self, time: float) -> Order:
+        """Which part is in front at a time: on the way between two keyframes."""
+        state = self.deformation.state
+        orders, times = state.orders, state.timeline.closed_times
+        i = max(min(bisect.bisect_right(times, time), len(times) - 1) - 1, 0)
+        first, last = orders[i], orders[(i + 1) % len(orders)]
+        return first.towards(last, (time - times[i]) / (times[i + 1] - times[i]))
 
     def keep(self, time: float) -> None:
         """Keep the map at a time as a pose; between poses, where that is proved."""

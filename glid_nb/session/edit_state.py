@@ -79,6 +79,11 @@ class EditState:
         return order_of(self.domain.cage, self.pose)
 
     @functools.cached_property
+    def orders(self) -> tuple[Order, ...]:
+        """The same for each pose."""
+        return tuple(order_of(self.domain.cage, pose.pose) for pose in self.poses)
+
+    @functools.cached_property
     def identity(self) -> HarmonicMap:
         """The map that moves nothing."""
         return HarmonicMap.identity(self.domain)

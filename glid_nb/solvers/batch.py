@@ -58,7 +58,10 @@ def solve_batch(
     """Deform one shape into many poses.
 
     The same as calling :func:`glid_nb.solve` for each row of targets, up to rounding, and faster
-    where there are several devices or one wide one. Every result is certified on its own.
+    where there are several devices or one wide one. Every result is certified on its own; they come
+    in the order of the poses. Raises a TypeError when the domain or the options are of the wrong
+    type, or the devices are not one or more different ones of one platform; a PoseError when a
+    handle lies outside the domain, or the targets have another shape.
 
     Parameters
     ----------
@@ -76,19 +79,6 @@ def solve_batch(
         Of the handles in every pose, as in :class:`glid_nb.Pose`.
     stiffness : optional
         What is stiff in every pose, as there.
-
-    Returns
-    -------
-    tuple of Result
-        In the order of the poses.
-
-    Raises
-    ------
-    TypeError
-        When the domain or the options are of the wrong type, or the devices are not one or more
-        different ones of one platform.
-    PoseError
-        When a handle lies outside the domain, or the targets have another shape.
     """
     check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
     check_type("options", options, Options | None, "write Options(p2p_weight=...)")
@@ -144,10 +134,8 @@ def _checked_devices(devices: Any) -> tuple[Any, ...]:
     given = tuple(devices) if isinstance(devices, Iterable) else ()
     are = bool(given) and all(isinstance(device, jax.Device) for device in given)
     if not are or len(set(given)) < len(given) or len({one.platform for one in given}) > 1:
-        raise TypeError(
-            "devices must be one or more of jax.local_devices(), each of them once and all of one "
-            f"platform, not {devices!r:.200}"
-        )
+        wanted = "one or more of jax.local_devices(), each of them once and all of one platform"
+        raise TypeError(f"devices must be {wanted}, not {devices!r:.200}")
     return given
 
 
@@ -253,11 +241,6 @@ def _program(devices: tuple[Any, ...]) -> Any:
 
         return jax.vmap(one)(aims, coefficients, limits)
 
-    sharded = jax.shard_map(
-        together,
-        mesh=mesh,
-        in_specs=(shared, shared, each, each, each),
-        out_specs=each,
-        check_vma=False,
-    )
+    specs: Any = {"in_specs": (shared, shared, each, each, each), "out_specs": each}
+    sharded = jax.shard_map(together, mesh=mesh, check_vma=False, **specs)
     return jax.jit(sharded, compiler_options=COMPILER_OPTIONS)

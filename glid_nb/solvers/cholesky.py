@@ -15,6 +15,7 @@ import numpy as np
 from glid_nb._jax import Array, Float, jax, jnp, lax
 
 _FACTORISE, _SOLVE = "lapack_dpotrf_ffi", "lapack_dtrsm_ffi"
+_VMAP = "broadcast_all"
 # What JAX's own calls must look like for ours to be understood.
 _EXPECTED = (
     f"@{_FACTORISE}(",
@@ -53,30 +54,18 @@ def _by_platform(lapack: Callable, portable: Callable, *arguments: Array) -> Arr
 
 def _lapack_factor(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
     outputs = jax.ShapeDtypeStruct(h.shape, h.dtype), jax.ShapeDtypeStruct((), np.int32)
-    call = jax.ffi.ffi_call(
-        _FACTORISE, outputs, input_output_aliases={0: 0}, vmap_method="broadcast_all"
-    )
+    call = jax.ffi.ffi_call(_FACTORISE, outputs, input_output_aliases={0: 0}, vmap_method=_VMAP)
     factor, info = call(h, uplo=_letter("L"))
     return factor.at[-1, -1].set(jnp.where(info == 0, factor[-1, -1], jnp.nan))
 
 
 def _lapack_solve(factor: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
     column = b[:, None]
-    call = jax.ffi.ffi_call(
-        _SOLVE,
-        jax.ShapeDtypeStruct(column.shape, column.dtype),
-        input_output_aliases={1: 0},
-        vmap_method="broadcast_all",
-    )
+    output = jax.ShapeDtypeStruct(column.shape, column.dtype)
+    call = jax.ffi.ffi_call(_SOLVE, output, input_output_aliases={1: 0}, vmap_method=_VMAP)
+    how = {"side": _letter("L"), "uplo": _letter("L"), "diag": _letter("N")}
     for transposed in ("N", "T"):
-        column = call(
-            factor,
-            column,
-            side=_letter("L"),
-            uplo=_letter("L"),
-            trans_x=_letter(transposed),
-            diag=_letter("N"),
-        )
+        column = call(factor, column, trans_x=_letter(transposed), **how)
     return column[:, 0]
 
 

@@ -141,9 +141,8 @@ class Discretisation:
             # unless the padding would cost more than that. Few sizes serve all ways to a minimum.
             small = basis.n_columns <= _LARGE
             size = _rung(len(panels)) if small else bucket(int(_GROWTH_OF_LARGE * len(panels)))
-        return _assembled(
-            self.domain, "graded", self.certificate, panels, rows, size, self.matrices.whitening
-        )
+        t = self.matrices.whitening
+        return _assembled(self.domain, "graded", self.certificate, panels, rows, size, t)
 
     def _rows(self) -> _Rows:
         """The rows that the matrices of a graded sampling were made of."""
@@ -182,11 +181,7 @@ def discretise(
 
 
 def _evaluated(
-    basis: Basis,
-    certificate: CertificateKind,
-    start: np.ndarray,
-    end: np.ndarray,
-    graded: bool = True,
+    basis: Basis, certificate: CertificateKind, start: Any, end: Any, graded: bool = True
 ) -> _Rows:
     """The rows of some panels; the uniform sampling has no midpoints."""
 
@@ -290,10 +285,9 @@ def real_columns(rows: np.ndarray) -> np.ndarray:
 
 
 def bucket(count: int) -> int:
-    """The padded size for ``count`` items.
+    """The padded size for ``count`` items: multiples of 128, from 512 on 16 sizes an octave.
 
-    Multiples of 128, from 512 on 16 sizes an octave: compiling another program takes longer than
-    hundreds of iterations of a small problem.
+    Compiling another program takes longer than hundreds of iterations of a small problem.
     """
     wanted = count + count // 64
     step = 128 if wanted <= 512 else 1 << (wanted.bit_length() - 5)

@@ -128,10 +128,8 @@ def bounds(problem: Problem, point: Point) -> PanelBounds:
 
 
 def tightened_by_splitting(problem: Problem, point: Point) -> Bool[np.ndarray, " p"]:
-    """Panels whose bounds are loose by more than rounding, which no splitting lessens.
-
-    Computed on the host, for it is rarely asked.
-    """
+    """Panels whose bounds are loose by more than rounding, which no splitting lessens; on the host,
+    for it is rarely asked."""
     matrices: Matrices = jax.tree.map(np.asarray, problem.matrices)
     re, im = np.moveaxis(np.asarray(point.coefficients).reshape(2, 2, -1), 1, 0)
     truncation = matrices.proof.remainder(re + 1j * im, problem.singularities)

@@ -18,7 +18,7 @@ Columns = Float[Array, "u h"]
 Square = Float[Array, "u u"]
 
 Samples = Float[Array, " h"]
-
+Pair = tuple[Columns, Columns]
 
 # Elements of a basis matrix that are assembled at once: with more, copies of the matrix would need
 # more memory than the Hessian.
@@ -77,8 +77,7 @@ def _in_pieces(assembled: Callable[..., Array]) -> Callable[..., Array]:
 
     @functools.wraps(assembled)
     def summed(*arguments: Any) -> Array:
-        nodes = arguments[0]
-        count = nodes.shape[1]
+        nodes, count = arguments[0], arguments[0].shape[1]
         pieces = -(-nodes.size // (2 * _PIECE))
         if pieces == 1:
             return assembled(*arguments)
@@ -150,18 +149,14 @@ def assemble_across_f(
     return jnp.block([[(w * v) @ v.T, corner.T], [corner, (w * u) @ u.T]])
 
 
-def _rotated(
-    re: Columns, im: Columns, direction: tuple[Samples, Samples]
-) -> tuple[Columns, Columns]:
+def _rotated(re: Columns, im: Columns, direction: tuple[Samples, Samples]) -> Pair:
     """``conj(direction) D`` as real and imaginary part."""
     c, s = direction
     return c * re + s * im, c * im - s * re
 
 
-def _hermitian_products(
-    re: Columns, im: Columns, weights: Float[Array, "2 h"]
-) -> tuple[Float[Array, "2 u u"], Float[Array, "2 u u"]]:
-    """``(re + im) w (re + im)^T`` and ``re w im^T`` for two sets of weights.
+def _hermitian_products(re: Columns, im: Columns, weights: Array) -> tuple[Array, Array]:
+    """``(re + im) w (re + im)^T`` and ``re w im^T``, each (2, u, u), for (2, h) weights.
 
     ``re w re^T + im w im^T``, the real part of ``(re + i im)^H w (re + i im)``, is the first less
     the second and its transpose; the imaginary part is the second less its transpose.
@@ -183,16 +178,6 @@ def _symmetric_product(u: Columns, v: Columns, weights: Samples) -> tuple[Square
     return (real + real.T) / 2, imaginary + imaginary.T
 
 
-def _embedded(
-    hermitian_re: Square,
-    hermitian_im: Square,
-    symmetric_re: Square,
-    symmetric_im: Square,
-) -> Float[Array, "2u 2u"]:
+def _embedded(a_re: Square, a_im: Square, s_re: Square, s_im: Square) -> Float[Array, "2u 2u"]:
     """The real quadratic form ``Re(z^H A z + z^T S z)`` over ``[Re z, Im z]``."""
-    return jnp.block(
-        [
-            [hermitian_re + symmetric_re, -hermitian_im - symmetric_im],
-            [hermitian_im - symmetric_im, hermitian_re - symmetric_re],
-        ]
-    )
+    return jnp.block([[a_re + s_re, -a_im - s_im], [a_im - s_im, a_re - s_re]])

@@ -18,8 +18,7 @@ RATIO = 0.8
 # A Newton direction may be too short while the Hessian is modified; trying up to twice its length
 # costs nothing and saved up to a tenth of the iterations on the reference shapes.
 LONGEST_STEP = 2.0
-# Sufficient decrease, the constant c of Algorithm 1.
-ARMIJO = 1e-4
+ARMIJO = 1e-4  # sufficient decrease, the constant c of Algorithm 1
 # Closest that a step may come to the first inversion at a sample. Going further lowers the energy
 # more at once, but leaves the next iterations next to the barrier (0.95 took 12 instead of 8
 # iterations on one reference shape).
@@ -38,10 +37,8 @@ class Search(NamedTuple):
 
 
 def largest_step(nodes: Nodes, change: Nodes) -> Number:
-    """The step at which the first sample becomes inverted, or infinity, in closed form.
-
-    ``|f + t df|^2 - |g + t dg|^2`` is a quadratic in ``t`` that is positive at 0.
-    """
+    """The step at which the first sample becomes inverted, or infinity: the first zero of
+    ``|f + t df|^2 - |g + t dg|^2``, a quadratic in ``t`` that is positive at 0."""
     a = _difference_of_squares(change, change)
     b = 2 * _difference_of_squares(nodes, change)
     c = _difference_of_squares(nodes, nodes)
@@ -143,7 +140,6 @@ def backtrack(
         PanelBounds(blank, blank, blank, real, blank),
         jnp.zeros_like(real),
     )
-    outcome, index, there, panel, refused = lax.while_loop(
-        lambda c: c[0] == PENDING, attempt, start
-    )
+    ended = lax.while_loop(lambda carry: carry[0] == PENDING, attempt, start)
+    outcome, index, there, panel, refused = ended
     return Backtracking(outcome, found.steps[index], there, panel, refused)

@@ -112,14 +112,9 @@ class Descent:
         self.history.append(replace(entry, iteration=len(self.history) + 1))
 
     def _course(self, entry: Iteration) -> dict[str, Any]:
-        return {
-            "method": self.method,
-            "initial": self.initial,
-            "history": tuple(self.history),
-            "energy_iso": entry.energy_iso,
-            "energy_p2p": entry.energy_p2p,
-            "discretisation": self.discretisation,
-        }
+        course = {"method": self.method, "initial": self.initial, "history": tuple(self.history)}
+        energies = {"energy_iso": entry.energy_iso, "energy_p2p": entry.energy_p2p}
+        return {**course, **energies, "discretisation": self.discretisation}
 
     def progress(self) -> Progress:
         now = self.reached()
@@ -153,11 +148,9 @@ class Descent:
         first, last = energies[0], energies[-1]
         if len(energies) <= window or not abs(first - last) <= tolerance * abs(last):
             return None
-        return Ending(
-            Status.CONVERGED,
-            f"The solver converged: {window} iterations together change the energy by less than "
-            f"{tolerance:g} of it.",
-        )
+        change = f"change the energy by less than {tolerance:g} of it"
+        detail = f"The solver converged: {window} iterations together {change}."
+        return Ending(Status.CONVERGED, detail)
 
 
 def follow(make: Callable[[], Descent]) -> Result:
@@ -218,8 +211,7 @@ class GeneratedDescent(Descent):
 
     def _step(self) -> Iteration:
         watch = Stopwatch()
-        now = next(self._steps)
-        seconds = watch.seconds
+        now, seconds = next(self._steps), watch.seconds
         self._now = now()
         return replace(self._now.entry, time=seconds)
 

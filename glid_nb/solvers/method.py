@@ -46,12 +46,8 @@ class Inputs:
 class Method:
     """A way to deform a domain, for the argument ``method`` of :func:`glid_nb.solve`.
 
-    Subclasses are frozen dataclasses; their fields are the method's own settings.
-
-    Raises
-    ------
-    MethodError
-        When a setting is of another kind than its annotation says, or out of its range.
+    Subclasses are frozen dataclasses; their fields are the method's own settings. A MethodError
+    says which setting is of another kind than its annotation says, or out of its range.
     """
 
     name: ClassVar[str]
@@ -87,10 +83,8 @@ class Method:
             name, value, least = known.name, getattr(self, known.name), known.metadata.get("least")
             expected = unmet(kinds[name], value)
             if expected:
-                raise MethodError(
-                    f"the setting {name!r} of the method {self.name!r} must be {expected}, "
-                    f"got {value!r:.60}"
-                )
+                which = f"the setting {name!r} of the method {self.name!r}"
+                raise MethodError(f"{which} must be {expected}, got {value!r:.60}")
             if least is not None and value < least:
                 why = known.metadata.get("why", "")
                 raise MethodError(f"{name} must be at least {least}{why}, got {value!r}")
@@ -153,18 +147,15 @@ class Method:
     def check_energy(self, energy: Energy) -> None:
         """Raise :class:`MethodError` if it cannot minimise this energy."""
         if self.energies is not None and energy.name not in self.energies:
-            raise MethodError(
-                f"the method {self.name!r} cannot minimise the energy {energy.name!r}; "
-                f"choose one of {', '.join(self.energies)}"
-            )
+            cannot = f"the method {self.name!r} cannot minimise the energy {energy.name!r}"
+            raise MethodError(f"{cannot}; choose one of {', '.join(self.energies)}")
 
     def _import(self, package: str) -> None:
         distribution = _DISTRIBUTIONS.get(package, package)
         needs = f"the method {self.name!r} needs the package {distribution}"
         if not self.available():
-            raise MethodError(
-                f"{needs}, which is not installed; install it with: pip install 'glid-nb[{_EXTRA}]'"
-            )
+            install = f"install it with: pip install 'glid-nb[{_EXTRA}]'"
+            raise MethodError(f"{needs}, which is not installed; {install}")
         try:
             importlib.import_module(package)
         except ImportError as error:

@@ -34,8 +34,7 @@ _SLOW_STEP, _SLOW_GAIN = 0.5, 0.05
 _STALLED, _STALL_GAIN = 4, 1e-10
 # If all of them are shorter than this, it need only be less than this.
 _CREEPING = 1e-6
-# A decrease promised by the Newton decrement that rounding of the energy can hide.
-_ROUNDING = 1e-8
+_ROUNDING = 1e-8  # a decrease promised by the Newton decrement that rounding of the energy can hide
 
 
 @dataclass(frozen=True)

@@ -111,12 +111,6 @@ class Options:
 
         They start at the identity itself and try no other way.
         """
-        settings: dict[str, Any] = {
-            "sampling": "uniform",
-            "certificate": "lipschitz",
-            "hessian": "projected",
-            "align": False,
-            "restarts": 0,
-            "corrections": 0,
-        }
+        kinds = {"sampling": "uniform", "certificate": "lipschitz", "hessian": "projected"}
+        settings: dict[str, Any] = {**kinds, "align": False, "restarts": 0, "corrections": 0}
         return cls(**{**settings, **changes})

@@ -27,27 +27,10 @@ def refine(result: Result, gain: float = 0.01, callback: Callback | None = None)
     from the map of the one before, and no energy is above it. The certified domain stays the same;
     ``map.domain`` has the new offset cage. An iteration takes about 4 to 8 times as long each time.
 
-    Parameters
-    ----------
-    result : Result
-        Of a solve by a method in the harmonic subspace.
-    gain : float
-        Between 0 and 1.
-    callback : callable, optional
-        As in :func:`glid_nb.solve`.
-
-    Returns
-    -------
-    Result
-        Of the last solve; ``refinements`` tell the sizes, energies and times of all, that of the
-        given result first.
-
-    Raises
-    ------
-    MethodError
-        When the method has no unknowns in the harmonic subspace: a mesh's, or BDHM.
-    ValueError
-        When ``gain`` is not between 0 and 1.
+    Returns the last solve's result, whose ``refinements`` tell the sizes, energies and times of
+    all, that of the given one first. The callback is as in :func:`glid_nb.solve`. Raises a
+    MethodError when the method has no unknowns in the harmonic subspace (a mesh's, or BDHM), a
+    ValueError when ``gain`` is not between 0 and 1.
     """
     check_type("result", result, Result, "what glid_nb.solve returns")
     if not isinstance(result.map, HarmonicMap) or result.n_unknowns is None:
@@ -61,15 +44,8 @@ def refine(result: Result, gain: float = 0.01, callback: Callback | None = None)
         if start is last.map:
             break
         options = replace(result.options, align=False)
-        finer = solve(
-            start.domain,
-            result.pose,
-            result.energy_measure,
-            options,
-            start,
-            callback,
-            method=result.method,
-        )
+        problem = start.domain, result.pose, result.energy_measure, options, start, callback
+        finer = solve(*problem, method=result.method)
         steps.append(_summary(finer))
         before, last = last.energy, finer
         if before - last.energy < gain * before:

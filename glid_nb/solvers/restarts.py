@@ -33,15 +33,11 @@ SAME_ENERGY = 1e-6
 STAGES = (1e-5, 1e-3, 1e-1)
 STAGE_ITERATIONS, STAGE_TOLERANCE = 8, 1e-3
 TURNING_ITERATIONS = 4
-# Fewer most iterations than these ask for a look at them, not for the minimum.
-FEW_ITERATIONS = 20
+FEW_ITERATIONS = 20  # fewer most iterations than these ask for a look at them, not for the minimum
 
 
 def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
-    """The best of ``first`` and, if it is poor, of ``options.restarts`` other attempts.
-
-    ``inputs`` are those of ``first``.
-    """
+    """The best of ``first``, of ``inputs``, and if it is poor of ``options.restarts`` others."""
     if not (inputs.options.restarts and len(inputs.pose)) or not _is_poor(first, 1):
         return first
     best, tried = first, [("direct", first)]
@@ -61,9 +57,8 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
         Attempt(name, r.status, r.energy, r.iterations, given_up=r.pose is not inputs.pose)
         for name, r in tried
     )
-    return replace(
-        best, options=inputs.options, attempts=attempts, **_times([result for _, result in tried])
-    )
+    times = _times([result for _, result in tried])
+    return replace(best, options=inputs.options, attempts=attempts, **times)
 
 
 def _ways(inputs: Inputs) -> list[tuple[str, list[Inputs], int]]:
@@ -142,10 +137,7 @@ def _with(inputs: Inputs, **changes: Any) -> Inputs:
 
 
 def _times(results: list[Result]) -> dict[str, float]:
-    return {
-        "compile_time": sum(result.compile_time for result in results),
-        "solve_time": sum(result.solve_time for result in results),
-    }
+    return {key: sum(getattr(r, key) for r in results) for key in ("compile_time", "solve_time")}
 
 
 def _joined(stages: list[Result]) -> Result:

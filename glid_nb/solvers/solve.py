@@ -1,6 +1,7 @@
 """Solving for a deformation."""
 
 from collections.abc import Callable
+from typing import Any
 
 from glid_nb._arguments import check_type
 from glid_nb._runtime import double_precision
@@ -58,17 +59,15 @@ def solve(
     Raises
     ------
     TypeError
-        When an argument is of the wrong type; the message names it.
-    PoseError
-        When a handle lies outside the domain.
-    EnergyError
-        When the energy's name is unknown, or it is no energy at all.
+        An argument is of the wrong type; the message names it.
+    PoseError, EnergyError
+        A handle lies outside the domain; the energy is unknown, or no energy at all.
     StartError
-        When the starting map belongs to another domain, is not conformal though the options ask
-        for it, or is not proved locally injective.
+        The starting map belongs to another domain, is not conformal though the options ask for it,
+        or is not proved locally injective.
     MethodError
-        When the method cannot minimise the energy, hold an angle or take the start, or lacks an
-        optional package (the message says which extra to install).
+        The method cannot minimise the energy, hold an angle or take the start, or lacks an optional
+        package (the message says which extra to install).
 
     Examples
     --------
@@ -81,8 +80,8 @@ def solve(
     check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
     check_type("pose", pose, Pose, "make one with Pose(handles, targets)")
     check_type("options", options, Options | None, "write Options(p2p_weight=...)")
-    earlier = HarmonicMap | MeshMap | Result | None
-    check_type("start", start, earlier, "an earlier result or its map")
+    starts = HarmonicMap | MeshMap | Result | None
+    check_type("start", start, starts, "an earlier result or its map")
     check_type("callback", callback, Callable | None, "a function of a Progress")
     check_type("method", method, Method | None, "one of glid_nb.methods, such as LBFGS()")
     method = Newton() if method is None else method
@@ -92,14 +91,9 @@ def solve(
     method.check(energy)
     method.check_pose(pose)
     pose.check_inside(domain)
-    inputs = Inputs(
-        domain=domain,
-        pose=pose,
-        energy=energy,
-        options=Options() if options is None else options,
-        start=start,
-        callback=callback,
-    )
+    what: Any = {"domain": domain, "pose": pose, "energy": energy}
+    options = Options() if options is None else options
+    inputs = Inputs(options=options, start=start, callback=callback, **what)
     if isinstance(inputs.start_map, HarmonicMap):
         check_belongs(inputs.start_map, domain)
     return method.run(inputs)

@@ -22,11 +22,8 @@ _CONTRACTION = 0.3
 # creep along the valley that the next Hessian would cross.
 _CLOSE = 0.1
 LEAST_ENERGY = 1e-6
-"""What a decrease is compared with where the energy is less.
-
-Energies are means over the boundary. ARAP's vanish at rigid motions, where nothing is relative to
-them; below this one nobody sees a distortion.
-"""
+"""What a decrease is compared with where the energy is less: ARAP's vanish at rigid motions, where
+nothing is relative to them; below this one, a mean over the boundary, nobody sees a distortion."""
 
 
 class Settings(NamedTuple):
@@ -87,10 +84,7 @@ class State(NamedTuple):
 
 
 def iterations(
-    problem: Problem,
-    coefficients: Coefficients,
-    factor: Factor,
-    settings: Settings,
+    problem: Problem, coefficients: Coefficients, factor: Factor, settings: Settings
 ) -> State:
     """Up to ``settings.iterations`` (at most `MOST_PER_CALL`) Newton iterations, to be compiled.
 
@@ -193,9 +187,7 @@ def _recorded(known: Record, first: Record, corrects: Bool[Array, ""]) -> Float[
     return jnp.where(corrects, jnp.stack(corrected), jnp.stack(first))
 
 
-def _factorised(
-    problem: Problem, settings: Settings, state: State
-) -> tuple[Factor, Bool[Array, ""]]:
+def _factorised(problem: Problem, settings: Settings, state: State) -> tuple[Factor, Array]:
     """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected.
 
     The factor that the call was given, where its first iteration is to take that. A loop, for its

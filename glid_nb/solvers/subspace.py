@@ -63,14 +63,11 @@ class SubspaceDescent(Descent):
         options, pose = inputs.options, inputs.pose
         map_, self.given, self.discretisation = _starting_point(method, inputs)
         basis = self.discretisation.basis
+        whitening = self.discretisation.matrices.whitening if reduced else None
         self.problem = Problem(
             matrices=self.matrices,
             singularities=basis.singularities,
-            unknowns=unknowns_of(
-                basis,
-                options.conformal,
-                self.discretisation.matrices.whitening if reduced else None,
-            ),
+            unknowns=unknowns_of(basis, options.conformal, whitening),
             positional=problem.positional_energy(inputs.domain, pose, options.p2p_weight),
             energy=inputs.energy,
         )
@@ -108,12 +105,9 @@ class SubspaceDescent(Descent):
         entry = Iteration(energy_iso=iso, energy_p2p=p2p)
         if self.proved is None:
             return Reached(entry, lambda: self.start_proof)
-        proved, kind = self.proved, self.discretisation.certificate
-        return Reached(
-            entry,
-            lambda: proved_by(map_from(domain, point.coefficients), *proved, kind),
-            self.sigma2_lower,
-        )
+        proof = *self.proved, self.discretisation.certificate
+        make = lambda: proved_by(map_from(domain, point.coefficients), *proof)  # noqa: E731
+        return Reached(entry, make, self.sigma2_lower)
 
     @property
     def sigma2_lower(self) -> Array | None:

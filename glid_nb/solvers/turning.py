@@ -25,14 +25,11 @@ from glid_nb.harmonic import as_complex
 from glid_nb.solvers.pose import Pose, rigid_motion
 
 _VERTICES = 300
-# Handles of one part stray by less than this share of the extent from a rigid motion.
-_RIGID = 0.02
-# Parts that turn by less are not led the other way round.
-_LEAST_TURN = np.deg2rad(10)
+_RIGID = 0.02  # handles of one part stray by less than this share of the extent from a rigid motion
+_LEAST_TURN = np.deg2rad(10)  # parts that turn by less are not led the other way round
 _STAGE = np.deg2rad(40)
 _JOINT, _BEND, _CLOSE = np.deg2rad(100), np.deg2rad(60), 0.5
-# Where two targets of one line nearly coincide, of its length.
-_LEAST_STRETCH = 1e-3
+_LEAST_STRETCH = 1e-3  # where two targets of one line nearly coincide, of its length
 _WAYS = {
     0: {"staged targets": (1,)},
     1: {"staged targets, left": (1,), "staged targets, right": (-1,)},
@@ -127,9 +124,8 @@ def turning_of(pose: Pose, cage: Cage) -> Turning:
         parents.append(j)
         turns.append(turn)
         stretches.append(max(abs(ratio), _LEAST_STRETCH))
-    return Turning(
-        pose, tuple(order.tolist()), tuple(parents), whole, tuple(turns), tuple(stretches)
-    )
+    lists = tuple(order.tolist()), tuple(parents), whole, tuple(turns), tuple(stretches)
+    return Turning(pose, *lists)
 
 
 def _distances(cage: Cage, points: Array) -> Array:

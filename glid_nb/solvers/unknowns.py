@@ -28,10 +28,8 @@ class Unknowns(NamedTuple):
     """One entry per padded hole column (its length is what matters)."""
 
 
-def unknowns_of(
-    basis: Basis, conformal: bool, whitening: Float[AnyArray, "2 c u"] | None = None
-) -> Unknowns:
-    """The unknowns among all columns, or among the coordinates of a whitening.
+def unknowns_of(basis: Basis, conformal: bool, whitening: Array | None = None) -> Unknowns:
+    """The unknowns among all columns, or among the coordinates of a whitening (2, c, u).
 
     ``conformal`` drops ``psi`` and the logarithms.
     """
@@ -106,11 +104,9 @@ def _hole_slices(size: int, unknowns: Unknowns) -> tuple:
     n_holes = unknowns.holes.shape[0]
     if n_holes == 0:
         return None, None, None
-    c = size // 4
-    last = np.arange(c - n_holes, c)
+    c, last = size // 4, np.arange(size // 4 - n_holes, size // 4)
     phi = np.concatenate([last, c + last])
-    psi = phi + 2 * c
-    return phi, psi, np.repeat([1.0, -1.0], n_holes)
+    return phi, phi + 2 * c, np.repeat([1.0, -1.0], n_holes)
 
 
 def canonical(map: HarmonicMap) -> HarmonicMap:

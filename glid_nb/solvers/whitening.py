@@ -43,8 +43,7 @@ def whitening(
     ``rows`` are ``D`` at samples of the boundary, whose quadrature has the ``weights``; ``anchor``
     is ``C`` where all new functions but the translation vanish.
     """
-    c = basis.n_columns
-    scaled = np.sqrt(weights)[:, None] * rows
+    c, scaled = basis.n_columns, np.sqrt(weights)[:, None] * rows
     single_valued = np.flatnonzero(basis.psi_free)
     # The exterior's first is no unknown of psi either.
     logarithms = np.flatnonzero(basis.phi_free & ~basis.psi_free)[1:]

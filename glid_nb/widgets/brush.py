@@ -92,8 +92,8 @@ class BrushBar(EditControls):
     While the brush has a tool it is shown in place of ``other``.
     """
 
-    def __init__(self, deformation: Deformation, brush: Brush, other: ipywidgets.Widget) -> None:
-        style = {"description_width": "56px"}
+    def __init__(self, deformation: Deformation, brush: Brush, other: ipywidgets.DOMWidget) -> None:
+        style = {"description_width": "68px"}
         look: dict[str, Any] = {"layout": {"width": "210px"}, "style": style}
         most = _LARGEST_RADIUS * deformation.state.domain.cage.longer_side
         size = {"min": most / 50, "max": most, "step": most / 50, "readout": False}

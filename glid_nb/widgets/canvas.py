@@ -15,6 +15,7 @@ from glid_nb.figures.style import BLUE, ORANGE
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.mesh import deformed_loops
+from glid_nb.imaging.order import Order
 from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session.actions import turned_now
 from glid_nb.session.deformation import Deformation
@@ -225,7 +226,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 self._hidden = ()
             elif color_range != "keep" or len(pose) != len(self._hidden):  # as often as that
                 self._hidden = self.deformation.sheets(self.image).hidden(pose.handles)
-            cages: dict[str, Any] = {"cage": self.show_cage, "offset_cage": self.show_offset_cage}
+            cages = self._cages
             drawing = Drawing(
                 moment.map,
                 moment.comparison,
@@ -250,17 +251,22 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             if (what == "legend" or (what == "frame" and moment.solved)) and not moment.dragged:
                 self.pane.place_legend()
 
-    def show_between(self, map: HarmonicMap | None) -> None:
+    @property
+    def _cages(self) -> dict[str, Any]:
+        return {"cage": self.show_cage, "offset_cage": self.show_offset_cage}
+
+    def show_between(self, map: HarmonicMap | None, order: Order | None = None) -> None:
         """Draw a map of the motion in place of the pose that is edited; None ends that."""
         with self.deformation.locked():
             if map is None:
                 self._draw("state")
             elif not self._closed:
-                state = self.deformation.state
-                cages: dict[str, Any] = {"cage": self.show_cage}
-                drawing = Drawing(map, order=state.order, overlay=self.overlay, **cages)
-                energy = state.current.energy
-                self.pane.show(replace(drawing, energy=energy, color_range="keep"))
+                moment = self.deformation.moment
+                drawing = Drawing(map, order=order, overlay=self.overlay, **self._cages)
+                panels = self._panels_of(moment) if self.show_panels else None
+                energy = moment.state.current.energy
+                drawing = replace(drawing, energy=energy, color_range="keep", panels=panels)
+                self.pane.show(drawing)
 
     def _onion(self, state: EditState) -> list[Any]:
         """Outlines of the poses beside the one that is edited, rounded to what a screen shows."""

@@ -18,7 +18,7 @@ _Task = tuple[str, Callable[[dict[str, bytes]], str]]
 
 
 class MotionExport(ipywidgets.HBox):
-    """What a moving picture is like, how far drawing it has come, and a button that stops it.
+    """What a moving picture is like, how far proving and then drawing it are, and a stop button.
 
     ``say(text, style)`` shows what was done, or why it was not.
     """
@@ -66,6 +66,9 @@ class MotionExport(ipywidgets.HBox):
 
         try:
             motion, document = self._animation.motion, self._model.document
+            count = len(motion.times) - 1
+            if any(report(i, count) or not motion.interval(i) for i in range(count)):
+                return self._say("Stopped; nothing was written.", "")
             if not motion.certificate.certified:
                 raise InputError(f"{motion.certificate.reason} Nothing uncertified is exported.")
             name, deliver = task

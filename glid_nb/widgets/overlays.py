@@ -27,6 +27,7 @@ FULL_MARGIN = 0.5
 
 PANEL_LEGEND = {
     "title": "Certified σ₂ on the boundary",
+    "moving": "σ₂ on the boundary now",
     "colors": list(MARGIN_COLORS),
     "ticks": [f"≥ {FULL_MARGIN:g}", f"{FULL_MARGIN / 2:g}", "0"],
     "about": "What is proved on each panel of the boundary: where it is 0 the map might fold",

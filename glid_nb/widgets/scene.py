@@ -1,5 +1,6 @@
 """What is drawn of one domain: the picture on its mesh, and lines along the boundary."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -143,6 +144,10 @@ class Scene:
         for layer in self.layers:
             layer.show(drawing.map)
 
+    def heights(self, orders: Sequence[Order]) -> bytes:
+        """The heights of the picture's vertices by each order, float32, one after the other."""
+        return _scaled(orders, self._mesh).astype("<f4").tobytes()
+
     def close(self) -> None:
         """Free what the page holds."""
         for layer in {*self.layers, *self.drawn, *self._replaced}:
@@ -207,7 +212,8 @@ class Scene:
             pixel=0.02,
             half_width=half_width,
             line_color=[*rgb([color])[0], opacity],
-            by_margin=0.0 if margins is None else 1.0,
+            by_margin=0.0 if margins is None else 1.0,  # the page makes it 2 in a motion
+            full_margin=FULL_MARGIN,
             colors=rgb(MARGIN_COLORS).ravel().tolist(),
         )
         margin = plain if margins is None else margins
@@ -250,12 +256,17 @@ def _stacked(mesh: Triangulation, order: Order) -> tuple[Array, Array]:
     The depth test orders them within a level; between levels, what is behind has to be drawn first
     to be seen through the soft edges of what is in front.
     """
-    z = order(mesh.vertices)
-    z = 2 * _HIGHEST * ((z - z.min()) / (np.ptp(z) or 1.0) - 0.5)
+    (z,) = _scaled([order], mesh)
     triangles = drawing_order(mesh)
     rank = np.argsort(np.argsort(z[triangles].mean(axis=1), kind="stable"))
     levels = rank * _LEVELS // len(rank)
     return np.column_stack([mesh.vertices, z]), triangles[np.argsort(levels, kind="stable")]
+
+
+def _scaled(orders: Sequence[Order], mesh: Triangulation) -> Array:
+    """(n, v) heights of the vertices by each order, within what the camera sees."""
+    z = np.stack([order(mesh.vertices) for order in orders])
+    return 2 * _HIGHEST * ((z - z.min()) / (np.ptp(z) or 1.0) - 0.5)
 
 
 def drawing_order(mesh: Triangulation) -> Array:

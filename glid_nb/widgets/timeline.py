@@ -18,6 +18,7 @@ from glid_nb.imaging.render import render
 from glid_nb.imaging.texture import Texture
 from glid_nb.session.animation import Animation, Span
 from glid_nb.session.document import NamedPose
+from glid_nb.session.edit_state import EditState
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.canvas import DeformCanvas
 from glid_nb.widgets.gestures import Event, Gestures
@@ -55,8 +56,11 @@ class _Actions(Gestures):
         self._canvas.show_onion = event["on"]
 
     def _frame(self, event: Event) -> None:
-        time = event["time"]
-        self._canvas.show_between(None if time is None else self._animation.at(time))
+        time, animation = event["time"], self._animation
+        if time is None or (map := animation.at(time)) is None:
+            self._canvas.show_between(None)
+        else:
+            self._canvas.show_between(map, animation.order(time))
 
 
 class TimelinePanel(Pad):
@@ -85,6 +89,9 @@ class TimelinePanel(Pad):
     motion = traitlets.Dict({"spans": []}).tag(sync=True)
     """``spans`` from keyframe to keyframe: ``start``, ``end``, ``status``, ``reason``; ``times`` of
     the knots and ``floats``, their coefficients, as far as proved; ``sigma2`` between them."""
+    heights = traitlets.Dict({"times": []}).tag(sync=True)
+    """``times`` of the keyframes and ``floats``, the picture's heights then, if poses' depths
+    differ; where the kernel evaluates it sends them with its frames."""
     thumbnails = traitlets.Dict({}).tag(sync=True)
     """Pictures as data URIs, by their keys."""
 
@@ -97,6 +104,7 @@ class TimelinePanel(Pad):
         self._pictures = weakref.WeakKeyDictionary[HarmonicMap, tuple[str, str]]()
         self._latest: dict[str, tuple[str, str]] = {}  # by the poses' names
         self._texture: Texture | None = None
+        self._stacked: tuple[Any, ...] = ()
         self._worker: LatestWins[tuple[NamedPose, ...]] = LatestWins(
             weakly(self._draw_thumbnails), self, "thumbnails"
         )
@@ -136,6 +144,8 @@ class TimelinePanel(Pad):
             at_rest = moment.solved and not moment.dragged and self.canvas.drawn
             if what in ("state", "frame") and at_rest:
                 self._worker.submit(moment.state.poses)
+            if not moment.dragged:
+                self._show_heights(moment.state)
 
     def _show_state(self) -> None:
         state = self.canvas.deformation.state
@@ -163,6 +173,16 @@ class TimelinePanel(Pad):
             "kernel": self.canvas.pane.scene.evaluated_in == "kernel",
             "exports": self.on_export is not None,
         }
+
+    def _show_heights(self, state: EditState) -> None:
+        scene, times = self.canvas.pane.scene, state.timeline.closed_times
+        orders = [state.orders[i % len(state.orders)] for i in range(len(times))]
+        moves = scene.evaluated_in == "shader" and any(o is not orders[0] for o in orders)
+        stacked = (scene, times, *orders) if moves else ()
+        if stacked != self._stacked:
+            self._stacked = stacked
+            floats = {"floats": scene.heights(orders)} if moves else {}
+            self.heights = {"times": times if moves else [], **floats}
 
     def _span(self, span: Span) -> dict[str, Any]:
         """A span as the page takes it; one of which nothing is proved stays at its keyframe."""

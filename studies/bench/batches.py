@@ -4,8 +4,6 @@ XLA shows a CPU as two devices when the process is started with
 ``XLA_FLAGS=--xla_force_host_platform_device_count=2``.
 """
 
-from __future__ import annotations
-
 import jax
 import numpy as np
 

@@ -3,8 +3,6 @@
 As a script it measures one size: a process of its own, whose peak memory is that size's.
 """
 
-from __future__ import annotations
-
 import functools
 import json
 import resource

@@ -1,7 +1,5 @@
 """Time per iteration, to convergence and of a drag step: the paper's settings and ours."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -28,11 +26,7 @@ DRAG = 0.01
 """How far a target moves in a drag step, in diagonals of the shape's bounding box."""
 
 PAPER, DEFAULT, ALIGNED = "paper", "default", "paper-aligned"
-MODES = {
-    PAPER: Options.paper(),
-    DEFAULT: Options(restarts=0),
-    ALIGNED: Options.paper(align=True),
-}
+MODES = {PAPER: Options.paper(), DEFAULT: Options(restarts=0), ALIGNED: Options.paper(align=True)}
 """``paper-aligned`` begins where ``default`` does, and differs in the method alone."""
 
 _MAKING_REPEATS = 3

@@ -1,7 +1,5 @@
 """Where the time of an iteration goes: its stages, each run by itself (paper Figure 9)."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Cold and warm starts: a first solve in a new process, without and with compiled programs kept."""
 
-from __future__ import annotations
-
 import tempfile
 
 from studies.processes import in_new_process

@@ -1,7 +1,5 @@
 """Where linear methods fold, beside ours, which does not."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -43,11 +41,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
     rest = MeshMap(mesh, mesh.vertices).areas
     known = available()
     measured: dict[str, Any] = {}
-    arrays = {
-        "mesh": mesh.vertices,
-        "triangles": mesh.triangles,
-        "targets": problem.pose.targets,
-    }
+    arrays = {"mesh": mesh.vertices, "triangles": mesh.triangles, "targets": problem.pose.targets}
     for name, (title, method, settings) in METHODS.items():
         if method not in known:
             continue
@@ -62,11 +56,7 @@ def measure(case: Case, plan: Plan) -> Measurement:
             "proved": result.certificate.certified if result.certificate else None,
         }
         arrays[f"images_{name}"] = map_.images
-    return {
-        "triangles": len(mesh.triangles),
-        "methods": measured,
-        "arrays": arrays,
-    }
+    return {"triangles": len(mesh.triangles), "methods": measured, "arrays": arrays}
 
 
 def draw(cases: list[Measurement], folder: Path) -> None:
@@ -90,17 +80,14 @@ def _draw_folds(axes: Any, data: Measurement, name: str) -> None:
     map_ = MeshMap(Triangulation(arrays["mesh"], triangles, 0), images)
     corners = images[triangles]
     # Sheets show through one another; the turned-over ones lie on top, dark in grey as in colour.
-    axes.add_collection(
-        PolyCollection(list(corners[~map_.flipped]), facecolors=SKY, lw=0, alpha=0.45)
-    )
+    upright = list(corners[~map_.flipped])
+    axes.add_collection(PolyCollection(upright, facecolors=SKY, lw=0, alpha=0.45))
     if map_.flipped.any():
         # Folds can be slivers: their edges are wide enough not to be overlooked.
         turned = list(corners[map_.flipped])
         axes.add_collection(PolyCollection(turned, facecolors=INK, edgecolors=VERMILION, lw=1.2))
-    outline = _outline(triangles)
-    axes.add_collection(
-        PolyCollection(list(images[outline]), facecolors="none", edgecolors=INK, lw=HAIRLINE)
-    )
+    outline = list(images[_outline(triangles)])
+    axes.add_collection(PolyCollection(outline, facecolors="none", edgecolors=INK, lw=HAIRLINE))
     targets = arrays["targets"]
     axes.scatter(targets[:, 0], targets[:, 1], s=9, color=CYAN, edgecolors=INK, lw=0.4, zorder=3)
     # The box stays as it is, so that titles stand in a line.

@@ -1,7 +1,5 @@
 """Newton's method with fewer and fewer Hessian samples (Figure 8)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from studies.cases import Case

@@ -1,7 +1,5 @@
 """Milliseconds of one iteration of every method (Table 2)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

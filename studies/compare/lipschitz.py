@@ -1,7 +1,5 @@
 """The paper's Lipschitz constants and BDHM's, and Newton's method under either (Figure 7)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import jax.numpy as jnp
@@ -102,8 +100,4 @@ def tables(found: list[Measurement]) -> dict[str, list[Row]]:
     return {"lipschitz": rows}
 
 
-STUDY = Study(
-    "lipschitz",
-    on_cases(some(("raptor", "giraffe"), "gecko-extreme"), measure),
-    tables,
-)
+STUDY = Study("lipschitz", on_cases(some(("raptor", "giraffe"), "gecko-extreme"), measure), tables)

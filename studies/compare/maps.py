@@ -1,7 +1,5 @@
 """Maps of one pose by different settings, side by side (Figures 2, 5 and 6)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path

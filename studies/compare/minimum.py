@@ -6,8 +6,6 @@ the harmonic subspace it takes the exact Hessian where that is positive definite
 one that is projected triangle by triangle (paper Section 7): the entries of ``K`` are the same.
 """
 
-from __future__ import annotations
-
 from typing import Any, Literal, NamedTuple
 
 import jax
@@ -45,11 +43,7 @@ class Minimum(NamedTuple):
 
 @double_precision
 def mesh_minimum(
-    start: MeshMap,
-    pose: Pose,
-    energy: Energy,
-    constraints: Constraints,
-    p2p_weight: float = 1e5,
+    start: MeshMap, pose: Pose, energy: Energy, constraints: Constraints, p2p_weight: float = 1e5
 ) -> Minimum:
     """The minimum of a mesh method's own energy below one of its maps.
 

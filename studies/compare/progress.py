@@ -1,7 +1,5 @@
 """How the solvers get to their minimum, by iterations and by time (Figures 1, 10 and 11)."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from typing import Any
 
@@ -89,13 +87,11 @@ def measure(case: Case, plan: Plan) -> Measurement:
 
 def _variants(case: Case) -> dict[str, Any]:
     """Runs that tell why the others end as they do."""
-    lbfgs = run(
-        "lbfgs", case, initial="dirichlet", max_iterations=LIMITS["lbfgs"], p2p_weight=LIGHT_WEIGHT
-    )
+    limits: dict[str, Any] = {"max_iterations": LIMITS["lbfgs"], "p2p_weight": LIGHT_WEIGHT}
+    staged = run("newton-staged", case, sampling="graded", certificate="hermite")
+    lbfgs = run("lbfgs", case, initial="dirichlet", **limits)
     return {
-        "projected Hessian, our samples": outcome(
-            run("newton-staged", case, sampling="graded", certificate="hermite")
-        ),
+        "projected Hessian, our samples": outcome(staged),
         "L-BFGS, light targets": outcome(lbfgs),
     }
 

@@ -1,7 +1,5 @@
 """Rows of intermediate maps of each solver, and its energy against iterations and time."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

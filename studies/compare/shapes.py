@@ -1,7 +1,5 @@
 """Which shapes a comparison takes: the paper's where they are given, else our own."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from studies.study import Plan

@@ -14,8 +14,6 @@ The kernel notes for which target each frame was solved, the page when it was dr
 joined by the frame's own numbers.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 import tempfile

@@ -7,8 +7,6 @@ acknowledged batches do. Prints milliseconds (median and 95th percentile), the s
 the bytes of a frame.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import threading

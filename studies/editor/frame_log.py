@@ -1,7 +1,5 @@
 """What the kernel does for each frame of a canvas, noted down for a benchmark."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from typing import Any

@@ -8,8 +8,6 @@ page is told included. Prints the median and the slowest in milliseconds, and th
 processor's time, which other programs on the machine do not lengthen.
 """
 
-from __future__ import annotations
-
 import argparse
 import time
 from collections.abc import Callable

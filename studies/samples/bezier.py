@@ -4,8 +4,6 @@ Every function takes world coordinates (y up, longer image side 20 units) and gi
 geometry, so that shapes can be united, cut and inset before they are inked.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import TypeAlias
 

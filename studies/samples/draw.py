@@ -4,8 +4,6 @@ On the same versions of the libraries the files come out the same to the last bi
 of the rasteriser may move a pixel on an edge by a few grey levels.
 """
 
-from __future__ import annotations
-
 import argparse
 import importlib
 import io

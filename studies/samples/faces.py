@@ -1,7 +1,5 @@
 """Eyes and cheeks, the same on every character."""
 
-from __future__ import annotations
-
 from studies.samples import palette as hue
 from studies.samples.bezier import Shape, disc, ellipse
 from studies.samples.ink import Colour, Linear, Sheet

@@ -4,8 +4,6 @@ Coverage comes from matplotlib's Agg rasteriser, the composition is plain NumPy.
 the upper left; shades, highlights and the weight of the outline all follow it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias

@@ -219,6 +219,22 @@ def test_progress_is_told_and_stops(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["walk.gif"]
 
 
+@pytest.mark.parametrize(("kind", "stages"), [("html", 3), ("glb", 2)])
+def test_page_and_mesh_tell_their_stages_and_stop(kind: str, stages: int) -> None:
+    told = []
+    name = f"walk.{kind}"
+    for last in (None, 0, 1, stages):
+        told.clear()
+
+        def progress(done: int, total: int, last: int | None = last) -> bool:
+            told.append((done, total))
+            return done == last
+
+        files = motion_files(name, picture(), motion(), progress=progress)
+        assert bool(files) == (last is None)
+        assert told == [(i, stages) for i in range((stages if last is None else last) + 1)]
+
+
 @pytest.mark.parametrize(
     ("name", "changes", "message"),
     [

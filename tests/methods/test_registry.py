@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 
 from glid_nb import methods
-from glid_nb.energies import ARAP, SymmetricDirichlet
-from glid_nb.energies.energy import EnergyError
+from glid_nb.energies import ARAP, EnergyError, SymmetricDirichlet
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import METHODS, available, by_name

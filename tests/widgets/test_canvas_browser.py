@@ -108,7 +108,8 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
         about.click()
         page.locator(".glid-guide p", has_text=place).wait_for()
         book.screenshot(f"editor-about-{name}")
-    about.click()
+        about.click()
+        page.locator(".glid-guide p", has_text=place).wait_for(state="hidden")
     page.locator(".lm-TabBar-tabLabel", has_text="Solver").click()
     # Single steps say what each did.
     page.get_by_title("Let the solver wait").click()
@@ -116,7 +117,9 @@ def test_controls_and_overlays(open_notebook: OpenNotebook) -> None:
     page.get_by_title("One frame's iterations").click()
     told = page.locator(".glid-solver-panel").get_by_text("panels split").first
     told.wait_for()
-    assert "Hessian projected · step length" in told.inner_text()
+    projected = book.value("model.moment.frame.history[-1].hessian_modified")
+    words = f"Hessian {'projected' if projected else 'exact'} · step length"
+    assert words in told.inner_text()
     book.screenshot("editor-single-step")
     page.get_by_title("Let the solver wait").click()
     told.wait_for(state="hidden")
@@ -362,7 +365,8 @@ def test_what_is_beside_the_canvas_neither_takes_undo_nor_moves_it(
         book.value(
             "None", setup="stage.notice = 'So it is. ' * 9; stage.legend_corner = 'top left'"
         )
-        book.value("None", setup="editor._parts['pins'].refusal.value = '<div>Refused. </div>' * 9")
+        refusal = "editor._parts['pins'].children[0].refusal"
+        book.value("None", setup=f"{refusal}.value = '<div>Refused. </div>' * 9")
         page.locator(".glid-column .glid-refusal").get_by_text("Refused.").first.wait_for()
         notice = page.locator(".glid-notice", has_text="So it is.")
         notice.wait_for()

@@ -11,6 +11,7 @@ from playwright.sync_api import Locator
 
 from .conftest import OpenNotebook
 from .editor_page import Hand
+from .test_timeline_browser import Timeline
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -115,3 +116,52 @@ def test_canvas_picture_page_and_clicks_agree(open_notebook: OpenNotebook, tmp_p
     hand.page.keyboard.press("Control+z")
     book.wait_for("not model.pose.depths.any()")
     assert seen_on_canvas() == [True] * 60
+
+
+_TIMELINE = """
+import ipywidgets
+from glid_nb.widgets import TimelinePanel
+panel = TimelinePanel(canvas)
+box = ipywidgets.VBox([canvas, panel])
+box
+"""
+_DEPTHS = """
+before, behind = (glid.Pose(handles, curled(handles), [0, 0, d]) for d in (1, -1))
+model.apply(lambda state: state.changed(pose=before, map=curled))
+model.save_pose()
+model.apply(lambda state: state.changed(pose=behind, map=curled))
+canvas.show_panels = True
+"""
+
+
+def test_in_a_motion_the_order_and_the_boundary_are_those_of_its_time(
+    open_notebook: OpenNotebook,
+) -> None:
+    book = open_notebook([_CANVAS.removesuffix("canvas\n") + _TIMELINE])
+    hand = Hand(book)
+    book.value("None", _CURL + _DEPTHS)
+    book.wait_for("[s.status for s in panel.animation.spans] == ['proved']", 60)
+    book.page.wait_for_function("() => document.querySelectorAll('.glid-computing').length === 0")
+    timeline, drawn = Timeline(hand), hand.pane.locator(".jupyter-threejs canvas")
+    legend = hand.pane.locator(".glid-legend-title")
+
+    def seen() -> list[bool]:
+        hand.wait_until_drawn()
+        (x, y, unit), places = book.value("[canvas.pane.stage.view, places.tolist()]")
+        shares = (np.array(places) - [x, y]) / unit * [1, -1] / [500, 400] + 0.5
+        return in_front(drawn, shares.tolist())
+
+    assert seen() == [False] * 60
+    assert legend.inner_text() == "Certified σ₂ on the boundary"
+    for time, right_in_front in ((0.1, True), (0.9, False), (0.2, True)):
+        timeline.root.scroll_into_view_if_needed()
+        timeline.scrub([time])
+        assert timeline.time == pytest.approx(time, abs=0.02)
+        hand.page.wait_for_timeout(300)
+        assert seen() == [right_in_front] * 60
+        assert legend.inner_text() == "σ₂ on the boundary now"
+        book.screenshot(f"order-at-{time}")
+    hand.page.keyboard.press("Escape")
+    hand.page.wait_for_timeout(300)
+    assert seen() == [False] * 60
+    assert legend.inner_text() == "Certified σ₂ on the boundary"

@@ -54,7 +54,7 @@ def test_a_hand_paints_a_stiff_head_erases_undoes_and_clears(open_notebook: Open
     book.screenshot("editor-stiff-erased")
     page.keyboard.press("Control+z")
     book.wait_for("len(model.pose.stiffness.strokes) == 1")
-    page.get_by_role("button", name="Clear", exact=True).click()
+    page.get_by_title("Erase all stiff areas").click()
     book.wait_for("not model.pose.stiffness")
     hand.settle()
     np.testing.assert_allclose(book.value("ratio()"), free, rtol=1e-3)

@@ -50,9 +50,8 @@ def find_foreground(
         score, more = scribble_score(small, scribbles, (image.shape[0], image.shape[1]))
     elif method == "threshold":
         score = measure.brightness(image)
-        threshold = measure.otsu(
-            measure.histogram(score if alpha.all() else score[alpha > 0][np.newaxis])
-        )
+        seen = score if alpha.all() else score[alpha > 0][np.newaxis]
+        threshold = measure.otsu(measure.histogram(seen))
         if invert is None:
             inverted = measure.border_is_bright(image, score, threshold)
             side = "darker" if inverted else "brighter"
@@ -66,11 +65,8 @@ def find_foreground(
         score = score * alpha  # transparent pixels are background in any case
     if method == "color":
         # Inverted, the colour is the shape's, so the spread of the border's colours is irrelevant.
-        threshold = (
-            measure.otsu(measure.histogram(1 - score))
-            if inverted
-            else measure.color_threshold(score, spread)
-        )
+        threshold = measure.otsu(measure.histogram(1 - score)) if inverted else None
+        threshold = measure.color_threshold(score, spread) if threshold is None else threshold
     return Foreground(read_only(score.view()), method, threshold, inverted, (*notes, *more))
 
 
@@ -80,10 +76,8 @@ def _check_not_uniform(image: RGBA) -> None:
     if (image[::37, ::37] != first).any() or (image != first).any():
         return
     red, green, blue, opacity = (f"{value * (255 / full(image)):.4g}" for value in first)
-    raise TraceError(
-        f"the image has one colour only: red {red}, green {green}, blue {blue}, alpha {opacity} "
-        "(of 255) everywhere; there is nothing to trace"
-    )
+    color = f"red {red}, green {green}, blue {blue}, alpha {opacity} (of 255) everywhere"
+    raise TraceError(f"the image has one colour only: {color}; there is nothing to trace")
 
 
 def _check_alpha(alpha: NDArray[np.float32]) -> None:

@@ -135,13 +135,10 @@ def color_threshold(distance: NDArray[np.float32], spread: float) -> float:
     spread allows.
     """
     shares = histogram(distance)
-    middle = otsu(shares)
-    floor = min(1.5 * spread + 0.02, 0.9)
+    middle, floor = otsu(shares), min(1.5 * spread + 0.02, 0.9)
     if middle <= floor:
         return middle if middle > spread else floor
     edges = np.arange(len(shares)) / len(shares)
     between = shares[(edges >= floor) & (edges < middle)].sum()
     above = shares[edges >= middle].sum()
-    if between <= _BETWEEN * above:
-        return middle
-    return max(floor, min(0.5 * middle, _INCLUSIVE))
+    return middle if between <= _BETWEEN * above else max(floor, min(0.5 * middle, _INCLUSIVE))

@@ -44,9 +44,8 @@ class Foreground:
         if mask.any() and not mask.all():
             return mask
         empty, measure = not mask.any(), _MEASURES.get(self.method, self.method)
-        if empty:
-            problem, seen = "the image has no foreground", "finds no shape in the picture"
-        else:
+        problem, seen = "the image has no foreground", "finds no shape in the picture"
+        if not empty:
             problem = "the foreground covers the whole image"
             seen = "takes the whole picture for the shape"
         change = "raise" if empty == self.inverted else "lower"

@@ -20,10 +20,7 @@ _BETA = 1000.0
 
 
 def scaled_picture(image: NDArray[np.unsignedinteger]) -> NDArray[np.float64]:
-    """The picture scaled down to 40,000 pixels.
-
-    (h, w, 3) in [0, 1]; (h, w, 4) with premultiplied colours where alpha varies.
-    """
+    """40,000 pixels (h, w, 3) in [0, 1]; (h, w, 4) with premultiplied colours if alpha varies."""
     small = Image.fromarray(as_rgba8(image))
     scale = np.sqrt(_WALKED_PIXELS / (small.width * small.height))
     if scale < 1:
@@ -40,8 +37,7 @@ def scribble_score(
 ) -> tuple[NDArray[np.float32], tuple[str, ...]]:
     """Probability that a random walker from a pixel meets the foreground strokes first, and notes.
 
-    Computed on ``scaled``, the picture's `scaled_picture`, and interpolated to the picture's
-    ``shape`` (h, w).
+    Computed on ``scaled``, a `scaled_picture`, and interpolated to the picture's ``shape`` (h, w).
     """
     from skimage.segmentation import random_walker  # noqa: PLC0415  (slow to import)
 
@@ -52,12 +48,10 @@ def scribble_score(
         if np.ptp(scaled) == 0:  # scikit-image divides by the contrast
             scaled = scaled.copy()
             scaled[0, 0] += 1e-9
-        probability = random_walker(
-            scaled, labels, beta=_BETA, mode="bf", channel_axis=-1, return_full_prob=True
-        )[0].clip(0, 1)
+        how = {"beta": _BETA, "mode": "bf", "channel_axis": -1, "return_full_prob": True}
+        probability = random_walker(scaled, labels, **how)[0].clip(0, 1)
     field = Image.fromarray(probability.astype(np.float32))
-    size = shape[1], shape[0]
-    return np.array(field.resize(size, Image.Resampling.BILINEAR)), notes
+    return np.array(field.resize((shape[1], shape[0]), Image.Resampling.BILINEAR)), notes
 
 
 def _labels(
@@ -106,10 +100,8 @@ def _drawn(
     factor = np.array(size) / np.array(shape)
     if isinstance(strokes, np.ndarray):
         if strokes.shape != shape:
-            raise TraceError(
-                f"scribbles: the {name} mask has the shape {strokes.shape} and the image {shape}; "
-                "they must be equal"
-            )
+            both = f"the {name} mask has the shape {strokes.shape} and the image {shape}"
+            raise TraceError(f"scribbles: {both}; they must be equal")
         drawn = np.zeros(size, dtype=bool)
         rows, columns = ((np.argwhere(strokes) + 0.5) * factor).astype(np.intp).T
         drawn[rows, columns] = True

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._arrays import read_only
+from glid_nb._arrays import Array, read_only
 from glid_nb.geometry._loops import signed_area
 from glid_nb.imaging.simplify.edges import divide_long_edges, enclosing, merge_short_edges
 from glid_nb.imaging.simplify.loops import Loops, Points, repair, significance
@@ -86,18 +86,15 @@ def simplify(
             if excess <= 0 or aim == fewest:
                 break
         if excess > 0:
-            notes.append(
-                f"max_vertices={max_vertices} is too few: the loops need {kept.sum()} to stay apart"
-            )
+            needed = f"the loops need {kept.sum()} to stay apart"
+            notes.append(f"max_vertices={max_vertices} is too few: {needed}")
     moved = enclosing(whole, kept, _MARGIN * offset, gap)
     divided = divide_long_edges(moved, max_edge, max_vertices)
     exterior, *holes = divided.split(read_only(divided.points))
     return Simplified(exterior, tuple(holes), float(tolerance), tuple(notes))
 
 
-def _automatic_tolerance(
-    importance: NDArray[np.float64], n_holes: int, area: float, offset: float
-) -> float:
+def _automatic_tolerance(importance: Array, n_holes: int, area: float, offset: float) -> float:
     ranked = np.sort(importance)[::-1]
 
     def for_count(count: int) -> float:

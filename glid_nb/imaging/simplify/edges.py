@@ -4,6 +4,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb.geometry._loops import signed_area
 from glid_nb.imaging.simplify.loops import Loops, Points, edges_in_conflict, passed_over
 
@@ -13,9 +14,7 @@ _PER_LOOP = 12  # edges longer than a loop's perimeter over this are never short
 _FEWEST, _LEAST_ANGLE = 4, 0.05  # edges of a loop, and angles in it, that merging leaves
 
 
-def merge_short_edges(
-    loops: Loops, kept: NDArray[np.bool_], min_edge: float | None, gap: float
-) -> None:
+def merge_short_edges(loops: Loops, kept: Array, min_edge: float | None, gap: float) -> None:
     """Drop an end of every edge shorter than `min_edge` from `kept` where nothing is in the way."""
     length = loops[kept].lengths
     if min_edge is None:
@@ -34,9 +33,7 @@ def merge_short_edges(
         blocked[index[chosen[~clear]]] = True
 
 
-def _droppable(
-    loops: Loops, blocked: NDArray[np.bool_], shortest: NDArray[np.float64]
-) -> NDArray[np.intp]:
+def _droppable(loops: Loops, blocked: Array, shortest: Array) -> Array:
     """Vertices at short edges, one per edge, so far apart that dropping them is independent."""
     length, around = loops.lengths, _around(loops)
     bases = shapely.linestrings(loops.points[around[:, [1, 3]]])
@@ -126,9 +123,7 @@ def _areas(loops: Loops) -> NDArray[np.float64]:
     return np.array([signed_area(loop) for loop in loops.split(loops.points)])
 
 
-def _shifts(
-    loops: Loops, kept: NDArray[np.bool_], areas: NDArray[np.float64], margin: float
-) -> Points:
+def _shifts(loops: Loops, kept: Array, areas: Array, margin: float) -> Points:
     """(k, 2) shifts of the kept vertices after which no edge cuts off more than `margin`."""
     corners = loops[kept]
     outwards = np.where((areas > 0) == (np.arange(len(areas)) == 0), 1.0, -1.0)[corners.number]

@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb.geometry._loops import next_index
 
 Points = NDArray[np.float64]
@@ -75,9 +76,7 @@ def passed_over(loops: Loops, kept: NDArray[np.bool_]) -> list[NDArray[np.intp]]
     ]
 
 
-def repair(
-    loops: Loops, importance: NDArray[np.float64], kept: NDArray[np.bool_], gap: float
-) -> list[str]:
+def repair(loops: Loops, importance: Array, kept: Array, gap: float) -> list[str]:
     """Put vertices back into `kept` where simplified loops meet or nearly meet; notes."""
     before = np.count_nonzero(kept)
     place = loops.points[0]
@@ -93,11 +92,8 @@ def repair(
         place = loops.points[back[-1]]
     count = np.count_nonzero(kept) - before
     vertices = "vertex was" if count == 1 else "vertices were"
-    note = (
-        f"simplification would have made the cage meet itself; {count} {vertices} kept, near "
-        f"({place[0]:.0f}, {place[1]:.0f}) among others"
-    )
-    return [note] if count else []
+    where = f"{count} {vertices} kept, near ({place[0]:.0f}, {place[1]:.0f}) among others"
+    return [f"simplification would have made the cage meet itself; {where}"] if count else []
 
 
 def edges_in_conflict(loops: Loops, gap: float) -> NDArray[np.intp]:

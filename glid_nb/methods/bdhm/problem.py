@@ -17,8 +17,7 @@ from glid_nb.solvers.problem import map_from, positional_energy, real_coefficien
 from glid_nb.solvers.subspace import aligned
 from glid_nb.solvers.unknowns import canonical, expand, unknowns_of
 
-# Panels this long relative to their distance from the singularities carry the samples.
-_RATIO = 0.5
+_RATIO = 0.5  # panels this long relative to their distance from the singularities carry the samples
 # What a step costs, beside the energy, while fewer than two handles hold the map's rotation.
 _RIDGE = 1e-6
 

@@ -29,10 +29,7 @@ _JOIN, _LEAVE = 0.10, 0.15
 class DistortionBounds:
     """``k(z) <= k``, ``sigma_1(z) <= sigma1`` and ``sigma_2(z) >= sigma2`` (Theorem 4.2).
 
-    Raises
-    ------
-    MethodError
-        When an isometry does not satisfy them with room to spare.
+    A MethodError where an isometry does not satisfy them with room to spare.
     """
 
     k: float = 0.8
@@ -44,10 +41,9 @@ class DistortionBounds:
         for name, (low, high) in ranges.items():
             value = getattr(self, name)
             if not isinstance(value, numbers.Real) or not low < float(value) < high:
-                raise MethodError(
-                    f"the bound {name} must lie between {low} and {high}, ends excluded, for the "
-                    f"method starts at an isometry; got {value!r}"
-                )
+                wanted = f"must lie between {low} and {high}, ends excluded"
+                why = f"for the method starts at an isometry; got {value!r}"
+                raise MethodError(f"the bound {name} {wanted}, {why}")
 
     def hold(self, certificate: Certificate) -> bool:
         return (
@@ -64,9 +60,8 @@ class DistortionBounds:
 
     def used(self, k: Array, sigma1: Array, sigma2: Array) -> Array:
         """(3, n) shares of the way from an isometry to each bound."""
-        return np.stack(
-            [k / self.k, (sigma1 - 1) / (self.sigma1 - 1), (1 - sigma2) / (1 - self.sigma2)]
-        )
+        most, least = self.sigma1 - 1, 1 - self.sigma2
+        return np.stack([k / self.k, (sigma1 - 1) / most, (1 - sigma2) / least])
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,14 +108,9 @@ class ActiveSet:
         failed = (used > 1) & _peaks(used)
         at = np.flatnonzero(failed.any(axis=0))
         places = np.concatenate([panels.start[at], panels.end[at], panels.middle[at]])
-        more = self.problem.samples_at(places)
-        return replace(
-            self,
-            samples=Samples(
-                *(np.concatenate([a, b]) for a, b in zip(self.samples, more, strict=True))
-            ),
-            chosen=np.concatenate([self.chosen, *[failed[:, at]] * 3], axis=1),
-        )
+        parts = zip(self.samples, self.problem.samples_at(places), strict=True)
+        chosen = np.concatenate([self.chosen, *[failed[:, at]] * 3], axis=1)
+        return replace(self, samples=Samples(*map(np.concatenate, parts)), chosen=chosen)
 
     def _peaks(self, used: Array) -> Array:
         """Local extremes; samples that were added are taken for such."""

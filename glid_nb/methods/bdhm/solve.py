@@ -25,8 +25,7 @@ from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.problem import measured_apart
 from glid_nb.solvers.subspace import KEPT, MOST_PINS
 
-# How much of the margin the proof may take.
-_PROOF = 0.4
+_PROOF = 0.4  # how much of the margin the proof may take
 # How often one program is solved again with more samples.
 _ROUNDS = 10
 _HALVINGS = 12
@@ -35,8 +34,7 @@ _INWARD = 0.9
 # Before the first full step one program is enough, whose solution is cut short anyway, unless it
 # is cut shorter than this.
 _SHORT = 1 / 64
-# An energy as good as none, to which the tolerance is not relative any more.
-_NOTHING = 1e-10
+_NOTHING = 1e-10  # an energy as good as none, to which the tolerance is not relative any more
 # What a program's duality gap may be: relative to the decrease that counts as none, and in itself.
 _GAP, _LEAST_GAP, _MOST_GAP = 0.01, 1e-12, 1e-6
 
@@ -139,10 +137,7 @@ class _Descent:
     def reached(self, now: Iterate) -> Reached:
         iso, p2p = self.problem.energies(now.v)
         entry = Iteration(
-            energy_iso=iso,
-            energy_p2p=p2p,
-            step=now.step,
-            sigma2_lower=now.certificate.sigma2_lower,
+            energy_iso=iso, energy_p2p=p2p, step=now.step, sigma2_lower=now.certificate.sigma2_lower
         )
         return Reached(entry, lambda: now.certificate)
 
@@ -175,11 +170,9 @@ class _Descent:
             if program.decrease <= none and program.status == "Solved":
                 if self.active.excess < 1:
                     return _blocked("giving back some of the margin costs more than it gains")
-                return Ending(
-                    Status.CONVERGED,
-                    "The solver converged: with the frames held fixed no map within the bounds has "
-                    f"an energy that is lower by more than {self.method.tolerance:g} of it.",
-                )
+                least = f"an energy that is lower by more than {self.method.tolerance:g} of it"
+                none = f"with the frames held fixed no map within the bounds has {least}"
+                return Ending(Status.CONVERGED, f"The solver converged: {none}.")
             reached = now.v + program.change
             wider = self.active.and_violated(reached)
             if wider is self.active:
@@ -214,19 +207,15 @@ class _Descent:
                 accepted = self._accepted(now, v, step)
                 if isinstance(accepted, Iterate):
                     return accepted
-        return _blocked(
-            f"no step toward the cone program's solution ({program.status}), which promises to "
-            f"lower the energy by {program.decrease / now.energy:.1g} of it, both lowers it and is "
-            "proved to keep the bounds"
-        )
+        solution = f"the cone program's solution ({program.status}), which promises to lower"
+        share = f"the energy by {program.decrease / now.energy:.1g} of it"
+        missed = "both lowers it and is proved to keep the bounds"
+        return _blocked(f"no step toward {solution} {share}, {missed}")
 
     def _proved(self, v: Array) -> Certificate:
         return self.problem.certified(v, _PROOF * MARGIN * self.method.narrowest)
 
 
 def _blocked(why: str) -> Ending:
-    return Ending(
-        Status.BLOCKED,
-        f"The solver did not converge: {why}. The last map, which keeps the bounds and has the "
-        "least energy, is returned.",
-    )
+    last = "The last map, which keeps the bounds and has the least energy, is returned."
+    return Ending(Status.BLOCKED, f"The solver did not converge: {why}. {last}")

@@ -67,8 +67,7 @@ class AQP(MeshMethod):
     )
 
     def steps(self, problem: MeshProblem) -> Steps:
-        # Hard constraints: a positional part that is 0 but for rounding would be noise times
-        # lambda.
+        # Hard constraints: a positional part of rounding alone would be noise times lambda.
         problem = replace(problem, p2p_weight=1.0)
         theta = (1 - np.sqrt(1 / self.kappa)) / (1 + np.sqrt(1 / self.kappa))
         pinned = Pinned(problem.operators, problem.handles)
@@ -77,11 +76,9 @@ class AQP(MeshMethod):
         yield problem.at(start.w)
         if not np.isfinite(start.energy):
             left = flips(start.fz, start.fzb)
-            return Ending(
-                Status.BLOCKED,
-                f"No start was found: the projection left {left} triangles turned over or nearly "
-                "flat, where the energy is not finite.",
-            )
+            what = f"the projection left {left} triangles turned over or nearly flat"
+            why = f"No start was found: {what}, where the energy is not finite."
+            return Ending(Status.BLOCKED, why)
         for now, step in proxy.path(start):
             yield problem.at(now.w, step)
         return proxy.without_decrease(now)
@@ -132,11 +129,9 @@ class _Proxy:
         promised = float(np.real(np.vdot(gradient, self.pinned.solve(gradient))))
         if promised <= _ROUNDING * abs(now.energy):
             return Ending(Status.STATIONARY)
-        return Ending(
-            Status.BLOCKED,
-            "No step along the search direction lowers the energy, though its gradient is not "
-            "zero: triangles are too close to flat for this method.",
-        )
+        stuck = "No step along the search direction lowers the energy, though its gradient is"
+        why = "not zero: triangles are too close to flat for this method."
+        return Ending(Status.BLOCKED, f"{stuck} {why}")
 
     def _extrapolated(self, now: _State, before: _State) -> _State:
         if before is now:

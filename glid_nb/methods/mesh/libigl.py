@@ -80,10 +80,7 @@ class SLIM(MeshMethod):
 
 @dataclass(frozen=True)
 class ARAPLocalGlobal(MeshMethod):
-    """As-rigid-as-possible on a triangle mesh, hard constraints; it may fold (libigl).
-
-    Local and global steps (Liu et al. 2008).
-    """
+    """As-rigid-as-possible on a triangle mesh, hard constraints; it may fold (libigl; Liu 2008)."""
 
     name = "arap-mesh"
     label = "ARAP, local/global"

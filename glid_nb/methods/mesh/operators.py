@@ -27,9 +27,8 @@ _AT_VERTEX = 1e-9  # of the shape's longer side
 class MeshOperators:
     """A mesh as the solvers see it; images of vertices are (v,) complex.
 
-    On a triangle the map is linear, ``f_z = sum_i conj(G_i) w_i / 2`` and
-    ``f_zbar = sum_i G_i w_i / 2`` with ``G_i`` the gradient of the hat function of corner ``i`` as
-    a complex number.
+    On a triangle the map is linear, ``f_z = sum_i conj(G_i) w_i / 2`` and ``f_zbar = sum_i G_i w_i
+    / 2`` with ``G_i`` the complex gradient of the hat function of corner ``i``.
     """
 
     def __init__(self, mesh: Triangulation) -> None:
@@ -39,13 +38,11 @@ class MeshOperators:
         opposite = np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)
         e1, e2 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
         area = 0.5 * np.imag(np.conj(e1) * e2)
-        self.area = float(area.sum())
-        self.weights = area / area.sum()
+        self.area, self.weights = float(area.sum()), area / area.sum()
         """(t,) shares of the area."""
         hats = 1j * opposite / (2 * area[:, None])
-        rows = np.repeat(np.arange(len(area)), 3)
         shape = (len(area), len(z))
-        entries = (rows, mesh.triangles.ravel())
+        entries = (np.repeat(np.arange(len(area)), 3), mesh.triangles.ravel())
         self.to_fz = scipy.sparse.csr_matrix((np.conj(hats).ravel() / 2, entries), shape)
         self.to_fzb = scipy.sparse.csr_matrix((hats.ravel() / 2, entries), shape)
         self._back = tuple(a.conj().T.tocsr() for a in (self.to_fz, self.to_fzb))
@@ -90,8 +87,7 @@ class Pinned:
     def __init__(self, operators: MeshOperators, held: Array) -> None:
         free = np.ones(len(operators.rest), dtype=bool)
         free[held] = False
-        self.free = np.flatnonzero(free)
-        self.held = held
+        self.free, self.held = np.flatnonzero(free), held
         k = operators.laplacian
         self._coupling = k[self.free][:, held]
         from scipy.sparse.linalg import splu  # noqa: PLC0415 - slow to import

@@ -26,8 +26,7 @@ from glid_nb.solvers.unknowns import expand, restrict_gradient, restrict_hessian
 
 Curvature = Literal["exact", "projected", "gauss-newton", "dirichlet"]
 
-# A decrease promised by the direction that rounding of the energy can hide.
-_ROUNDING = 1e-8
+_ROUNDING = 1e-8  # a decrease promised by the direction that rounding of the energy can hide
 # The same for a first-order direction, which promises far more than a step can hold.
 _SMALL_SLOPE = 1e-4
 # A direction longer than this multiple of the coefficients is shortened: the line search works on
@@ -238,10 +237,8 @@ def _evaluate(problem: Problem, coefficients: Coefficients) -> tuple[Point, Coef
 
 
 @functools.partial(jit, static_argnames="curvature", compiler_options=COMPILER_OPTIONS)
-def _hessian(
-    problem: Problem, point: Point, *, curvature: Curvature
-) -> Float[DeviceArray, "4c 4c"]:
-    """Hessian of the isometric energy alone with respect to the unknowns (33).
+def _hessian(problem: Problem, point: Point, *, curvature: Curvature) -> DeviceArray:
+    """(4c, 4c) Hessian of the isometric energy with respect to the unknowns (33).
 
     ``gauss-newton`` is for ARAP, whose density is ``2 (|f_z| - 1)^2 + 2 |f_zbar|^2``, a sum of
     squares: second derivatives of the residuals are left out. ``dirichlet`` is the Hessian of the

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections import deque
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Literal
@@ -61,14 +62,12 @@ class LBFGS(SubspaceMethod):
             if self.initial == "dirichlet":
                 # Handles in one place leave the Dirichlet Hessian singular.
                 iso = at.hessian("dirichlet") + 1e-9 * np.eye(len(iso))
-            at.memory = Pairs(
-                self.memory, scipy.linalg.cho_factor(at.p2p_hessian + iso, lower=True)
-            )
+            factor = scipy.linalg.cho_factor(at.p2p_hessian + iso, lower=True)
+            at.memory = Pairs(self.memory, factor)
         pairs: Pairs = at.memory
         pairs.add(np.asarray(at.point.coefficients) * at.free, at.gradient)
-        return -two_loop(
-            at.gradient, list(pairs.pairs), lambda v: scipy.linalg.cho_solve(pairs.factor, v)
-        )
+        solve = functools.partial(scipy.linalg.cho_solve, pairs.factor)
+        return -two_loop(at.gradient, list(pairs.pairs), solve)
 
 
 @dataclass(frozen=True)
@@ -181,8 +180,7 @@ class NewtonStaged(SecondOrderMethod):
         return at
 
     def direction(self, at: DirectedDescent) -> Array | Ending:
-        h = at.hessian("projected") + at.p2p_hessian
-        return _solve_semidefinite(h, at.gradient)
+        return _solve_semidefinite(at.hessian("projected") + at.p2p_hessian, at.gradient)
 
 
 @dataclass(frozen=True)
@@ -223,9 +221,7 @@ class NewtonShift(SecondOrderMethod):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.beta <= 0:
-            raise MethodError(
-                f"beta, the least multiple of the identity, must be positive; got {self.beta!r}"
-            )
+            raise MethodError(f"beta, the least shift, must be positive; got {self.beta!r}")
 
     def direction(self, at: DirectedDescent) -> Array:
         iso = at.hessian("exact")

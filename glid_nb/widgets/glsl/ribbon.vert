@@ -5,6 +5,8 @@ attribute float margin;
 
 uniform float pixel;
 uniform float half_width;  // pixels
+uniform float by_margin;   // 2: by the sigma_2 of the map that is shown
+uniform float full_margin;
 
 varying float v_side;
 varying float v_margin;
@@ -17,6 +19,6 @@ void main() {
   float reach = half_width + 0.75;  // room for the soft edge
   vec2 shifted = f + vec2(-along.y, along.x) * ribbon.z * reach * pixel;
   v_side = ribbon.z * reach;
-  v_margin = margin;
+  v_margin = by_margin > 1.5 ? 1.0 - clamp((length(fz) - length(fzb_conj)) / full_margin, 0.0, 1.0) : margin;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(shifted, 0.0, 1.0);
 }

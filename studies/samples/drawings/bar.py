@@ -1,7 +1,5 @@
 """A checkered bar with draughtsmen on it: no holes, the plainest thing to bend."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from shapely import box

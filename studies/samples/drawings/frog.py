@@ -1,7 +1,5 @@
 """A frog in a striped bathing suit, hands on hips: two holes."""
 
-from __future__ import annotations
-
 import numpy as np
 import shapely
 from numpy.typing import NDArray

@@ -1,7 +1,5 @@
 """A gecko seen from above: no holes, four legs and a tail that curls."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

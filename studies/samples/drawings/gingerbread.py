@@ -1,7 +1,5 @@
 """A gingerbread man in a checked waistcoat: no holes, and squares that show the distortion."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from shapely import Polygon, box

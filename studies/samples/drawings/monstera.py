@@ -1,7 +1,5 @@
 """A monstera leaf on its stem, with a ladybird on it: eight holes between the veins."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A teapot with a face: its handle makes one hole."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

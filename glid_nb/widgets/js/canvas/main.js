@@ -208,9 +208,11 @@ function render({ model, el }) {
 
   // While the timeline shows a motion, the first touch goes back to the pose that is edited.
   let back = null;
-  const showMotion = (motion, release) => {
+  const showMotion = (motion, release, heights) => {
     back = release;
     shapes.motion = motion;
+    shapes.lift(heights);
+    showLegend();
     shapes.refresh();
     soon();
   };
@@ -278,7 +280,8 @@ function render({ model, el }) {
     prepared.style.backgroundSize = `${100 * share}% 100%, auto`;
   };
   const showLegend = () => {
-    const shown = [model.get("legend"), model.get("panel_legend")].filter((bar) => bar.title);
+    const shown = [model.get("legend"), model.get("panel_legend")].filter((bar) => bar.title)
+      .map((bar) => ({ ...bar, title: (shapes.motion && bar.moving) || bar.title }));
     bars.replaceChildren(...shown.map(colorBar));
     bars.hidden = !shown.length;
     bars.dataset.corner = model.get("legend_corner");

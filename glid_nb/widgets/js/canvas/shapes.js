@@ -39,7 +39,8 @@ export class Shapes {
       ? new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength))
       : null;
     for (const { obj } of this.materials) {
-      const { cage, coefficients, holes } = obj?.uniforms ?? {};
+      const { cage, coefficients, holes, by_margin } = obj?.uniforms ?? {};
+      if (by_margin?.value) by_margin.value = this.motion ? 2 : 1;
       if (!floats || !coefficients) continue;
       const chain = cage.value.length;
       // Another domain's coefficients may arrive before its materials.
@@ -49,6 +50,19 @@ export class Shapes {
     }
     this.see();
     this.redraw();
+  }
+
+  // Gives the picture's vertices the heights of a motion's time; null gives back those of the pose.
+  lift(heights) {
+    const position = this.renderer?.get("scene").obj?.children[0]?.geometry.attributes.position;
+    if (!position) return;
+    if (position.array !== this.lifted) this.resting = position.array; // the kernel's
+    const moves = heights?.length === position.count;
+    if (!moves && position.array === this.resting) return;
+    if (!moves) position.setArray(this.resting);
+    else if (position.array === this.resting) position.setArray(this.lifted = this.resting.slice());
+    if (moves) heights.forEach((z, i) => { this.lifted[3 * i + 2] = z; });
+    position.needsUpdate = true;
   }
 
   look({ x, y, unit, width, height }) {

@@ -2,6 +2,7 @@
 
 import { follow, make } from "../pad/dom.js";
 import { icon, iconButton } from "../pad/icons.js";
+import { Motion } from "../motion/motion.js";
 import { Link } from "../pad/link.js";
 import { isUndo, undoOrRedo } from "../pad/pad.js";
 import { Player } from "./player.js";
@@ -26,7 +27,7 @@ function toFloats(view) {
 
 function render({ model, el }) {
   const shown = () => model.get("shown");
-  let stage = null, refusal = "", hovered = "", span = 1, drag = null, gone = false;
+  let stage = null, refusal = "", hovered = "", span = 1, drag = null, gone = false, layers = null;
   const link = new Link(model, el, ({ refusal: text }) => {
     refusal = text || "";
     tell();
@@ -34,7 +35,7 @@ function render({ model, el }) {
   const act = (type, content = {}) => link.put({ type, ...content });
   const player = new Player((floats, time) => {
     const shows = time === undefined ? null : floats ?? true;
-    stage?.trigger("glid:motion", shows, release);
+    stage?.trigger("glid:motion", shows, release, shows && (layers?.at(time) ?? null));
     if (shown().kernel && stage) return act("frame", { time: time ?? null, replaces: "frame" });
   }, () => showHead());
   const active = () => shown().keyframes[shown().active];
@@ -176,6 +177,11 @@ function render({ model, el }) {
     showHead();
   }
 
+  function showHeights() {
+    const { times, floats } = model.get("heights");
+    layers = times.length ? new Motion({ times, repeat: "once" }, toFloats(floats)) : null;
+  }
+
   // A keyframe is dragged along time, or clicked.
   function grab(e, index) {
     if (e.button !== 0) return;
@@ -252,7 +258,7 @@ function render({ model, el }) {
   window.addEventListener("glid:play", tapped);
 
   const edited = () => player.seen && release();
-  const unfollow = follow(model, { "change:shown": showState, "change:motion": showMotion, "change:thumbnails": showKeys });
+  const unfollow = follow(model, { "change:shown": showState, "change:motion": showMotion, "change:heights": showHeights, "change:thumbnails": showKeys });
   model.widget_manager.get_model(model.get("stage")).then((found) => {
     if (gone) return;
     stage = found;
