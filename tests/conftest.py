@@ -56,7 +56,7 @@ def pytest_configure(config: pytest.Config) -> None:
 @pytest.fixture
 def minutes(request: pytest.FixtureRequest) -> float:
     """How long a test marked `long` may take."""
-    return request.config.getoption("--minutes")
+    return float(request.config.getoption("--minutes") or 0)
 
 
 @pytest.fixture(scope="session", autouse=True)
