@@ -25,56 +25,70 @@ class PinBar(EditControls):
     """
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
-        model = deformation
+        self._add_fields()
+        self._add_buttons(deformation)
+        turned = self.angle, self.scale, self.weight
+        self._numbers = [self.x, self.y, *turned, self.depth, self.back, self.front, self.release]
+        row = [self.list, *self._numbers, self.mirror]
+        wrapping = ipywidgets.HBox(row, layout={"flex_flow": "row wrap"})
+        super().__init__(deformation, [wrapping], **kwargs)
+
+    def _add_fields(self) -> None:
+        tooltip = "The selected pin"
         self.list = ipywidgets.Dropdown(
-            options=[("No pin", -1)], tooltip="The selected pin", layout={"width": "92px"}
+            options=[("No pin", -1)], tooltip=tooltip, layout={"width": "92px"}
         )
-        look: dict[str, Any] = {
-            "layout": ipywidgets.Layout(width="92px"),
-            "style": {"description_width": "initial"},
-        }
+        self.list.observe(self._select, ["value"])
+        style = {"description_width": "initial"}
+        look: dict[str, Any] = {"layout": ipywidgets.Layout(width="92px"), "style": style}
         self.x = ipywidgets.FloatText(description="x", step=0.1, tooltip="Target", **look)
         self.y = ipywidgets.FloatText(description="y", step=0.1, tooltip="Target", **look)
-        self.depth = ipywidgets.BoundedFloatText(
-            description="Depth",
-            tooltip="Where parts overlap, those near pins of greater depth are in front",
-            min=-DEEPEST,
-            max=DEEPEST,
-            **look,
-        )
-
         self.angle, self.scale = (
             ipywidgets.Text(
                 description=name,
                 placeholder="free",
                 continuous_update=False,
-                tooltip=f"{what} at the pin; empty: free ({keys})",
+                tooltip=f"By how much the shape is {what} at the pin; empty: free ({keys})",
                 layout={"width": "112px"},
-                style=look["style"],
+                style=style,
             )
             for name, what, keys in (
-                ("Angle °", "By how much the shape is turned", "< and >, X"),
-                ("Scale", "By how much the shape is scaled", "+ and -, X"),
+                ("Angle °", "turned", "< and >, X"),
+                ("Scale", "scaled", "+ and -, X"),
             )
         )
         self.weight = ipywidgets.FloatLogSlider(
+            1,
             description="Weight",
             tooltip="How firmly the pin is held: soft to the left, firm to the right",
-            base=10,
             min=-6,
             max=2,
             step=0.25,
-            value=1,
             readout_format=".2g",
             continuous_update=False,
             layout={"width": "186px"},
-            style={"description_width": "initial"},
+            style=style,
         )
+        tooltip = "Where parts overlap, those near pins of greater depth are in front"
+        self.depth = ipywidgets.BoundedFloatText(
+            description="Depth", tooltip=tooltip, min=-DEEPEST, max=DEEPEST, **look
+        )
+        for fields, act in (
+            ((self.x, self.y), self._move),
+            ((self.angle,), self._set_angle),
+            ((self.scale,), self._set_scale),
+            ((self.weight,), self._set_weight),
+            ((self.depth,), self._set_depth),
+        ):
+            for field in fields:
+                field.observe(lambda _, act=act: self._act(act), ["value"])
+
+    def _add_buttons(self, model: Deformation) -> None:
+        narrow = ipywidgets.Layout(width="38px")
 
         def acting(icon: str, tooltip: str, act: Any) -> ipywidgets.Button:
             return button("", icon, tooltip, lambda: self._act(act), narrow)
 
-        narrow = ipywidgets.Layout(width="38px")
         self.back, self.front = (
             acting(icon, tip, lambda steps=steps: model.bring_forward(model.selection, steps))
             for icon, tip, steps in (
@@ -87,20 +101,7 @@ class PinBar(EditControls):
             "Remove selected pins and keep the shape until the next change",
             lambda: model.remove_handles(*model.selection, keep_shape=True),
         )
-        self.list.observe(self._select, ["value"])
-        for field in (self.x, self.y):
-            field.observe(lambda _: self._act(self._move), ["value"])
-        self.angle.observe(lambda _: self._act(self._set_angle), ["value"])
-        self.scale.observe(lambda _: self._act(self._set_scale), ["value"])
-        self.weight.observe(lambda _: self._act(self._set_weight), ["value"])
-        self.depth.observe(lambda _: self._act(self._set_depth), ["value"])
         self.mirror = acting("exchange", "Swap left and right of the pose (M)", model.mirror_pose)
-        turned = self.angle, self.scale, self.weight
-        self._numbers = [self.x, self.y, *turned, self.depth, self.back, self.front, self.release]
-        row = ipywidgets.HBox(
-            [self.list, *self._numbers, self.mirror], layout={"flex_flow": "row wrap"}
-        )
-        super().__init__(deformation, [row], **kwargs)
 
     def _on_model(self, what: str) -> None:
         super()._on_model("state" if what == "selection" else what)
