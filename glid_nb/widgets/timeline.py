@@ -34,14 +34,8 @@ class TimelinePanel(Pad):
 
     Poses are kept, named, moved along time, duplicated and deleted; the motion is proved in the
     background, and what is proved is played by the page itself, from the maps at which the motion
-    bends. The strip's height is the certified bound on sigma_2.
-
-    Parameters
-    ----------
-    canvas : DeformCanvas
-        Where the motion is shown; its model has the poses.
-    on_export : callable, optional
-        What the export button does; there is none without it.
+    bends. The strip's height is the certified bound on sigma_2. ``on_export()`` is what the export
+    button does; there is none without it.
     """
 
     _esm = bundle("timeline/main.js")
