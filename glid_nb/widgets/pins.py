@@ -1,6 +1,5 @@
 """The pins of a deformation as numbers to read and type."""
 
-from functools import partial
 from typing import Any
 
 import ipywidgets
@@ -17,30 +16,24 @@ class PinBar(EditControls):
     """The list of pins; the numbers of the one selected last; what to do with all selected.
 
     Target, angle (degrees), scale, weight and depth; an empty angle or scale is free.
-
-    Parameters
-    ----------
-    deformation : Deformation
-        The model that the bar shows and changes.
     """
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
         self._add_fields()
-        self._add_buttons(deformation)
-        turned = self.angle, self.scale, self.weight
-        self._numbers = [self.x, self.y, *turned, self.depth, self.back, self.front, self.release]
+        self._bind_fields(deformation)
+        buttons = self._add_buttons(deformation)
+        fields = [self.x, self.y, self.angle, self.scale, self.weight, self.depth]
+        self._numbers: list[Any] = [*fields, *buttons]
         row = [self.list, *self._numbers, self.mirror]
-        wrapping = ipywidgets.HBox(row, layout={"flex_flow": "row wrap"})
-        super().__init__(deformation, [wrapping], **kwargs)
+        layout = {"flex_flow": "row wrap"}
+        super().__init__(deformation, [ipywidgets.HBox(row, layout=layout)], **kwargs)
 
     def _add_fields(self) -> None:
-        tooltip = "The selected pin"
-        self.list = ipywidgets.Dropdown(
-            options=[("No pin", -1)], tooltip=tooltip, layout={"width": "92px"}
-        )
-        self.list.observe(self._select, ["value"])
         style = {"description_width": "initial"}
         look: dict[str, Any] = {"layout": ipywidgets.Layout(width="92px"), "style": style}
+        self.list = ipywidgets.Dropdown(
+            options=[("No pin", -1)], tooltip="The selected pin", layout={"width": "92px"}
+        )
         self.x = ipywidgets.FloatText(description="x", step=0.1, tooltip="Target", **look)
         self.y = ipywidgets.FloatText(description="y", step=0.1, tooltip="Target", **look)
         self.angle, self.scale = (
@@ -48,22 +41,23 @@ class PinBar(EditControls):
                 description=name,
                 placeholder="free",
                 continuous_update=False,
-                tooltip=f"By how much the shape is {what} at the pin; empty: free ({keys})",
+                tooltip=f"{what} at the pin; empty: free ({keys})",
                 layout={"width": "112px"},
                 style=style,
             )
             for name, what, keys in (
-                ("Angle °", "turned", "< and >, X"),
-                ("Scale", "scaled", "+ and -, X"),
+                ("Angle °", "By how much the shape is turned", "< and >, X"),
+                ("Scale", "By how much the shape is scaled", "+ and -, X"),
             )
         )
         self.weight = ipywidgets.FloatLogSlider(
-            1,
             description="Weight",
             tooltip="How firmly the pin is held: soft to the left, firm to the right",
+            base=10,
             min=-6,
             max=2,
             step=0.25,
+            value=1,
             readout_format=".2g",
             continuous_update=False,
             layout={"width": "186px"},
@@ -73,17 +67,21 @@ class PinBar(EditControls):
         self.depth = ipywidgets.BoundedFloatText(
             description="Depth", tooltip=tooltip, min=-DEEPEST, max=DEEPEST, **look
         )
-        for fields, act in (
-            ((self.x, self.y), self._move),
-            ((self.angle,), self._set_angle),
-            ((self.scale,), self._set_scale),
-            ((self.weight,), self._set_weight),
-            ((self.depth,), self._set_depth),
-        ):
-            for field in fields:
-                field.observe(lambda _, act=act: self._act(act), ["value"])
 
-    def _add_buttons(self, model: Deformation) -> None:
+    def _bind_fields(self, model: Deformation) -> None:
+        def set_pins(**numbers: Any) -> None:
+            model.set_pins(model.selection, **numbers)
+
+        self._bind(self.list, lambda chosen: model.select([] if chosen == -1 else [chosen]))
+        self._bind(self.x, lambda x: model.move_target(model.selection[-1], (x, self.y.value)))
+        self._bind(self.y, lambda y: model.move_target(model.selection[-1], (self.x.value, y)))
+        self._bind(self.angle, lambda text: set_pins(angles=_radians(text)))
+        self._bind(self.scale, lambda text: set_pins(scales=_number(text, "a scale, such as 1.5")))
+        self._bind(self.weight, lambda weight: set_pins(weights=weight))
+        self._bind(self.depth, lambda depth: model.set_depths(model.selection, depth))
+
+    def _add_buttons(self, model: Deformation) -> list[ipywidgets.Button]:
+        """Those that need a selected pin."""
         narrow = ipywidgets.Layout(width="38px")
 
         def acting(icon: str, tooltip: str, act: Any) -> ipywidgets.Button:
@@ -102,6 +100,7 @@ class PinBar(EditControls):
             lambda: model.remove_handles(*model.selection, keep_shape=True),
         )
         self.mirror = acting("exchange", "Swap left and right of the pose (M)", model.mirror_pose)
+        return [self.back, self.front, self.release]
 
     def _on_model(self, what: str) -> None:
         super()._on_model("state" if what == "selection" else what)
@@ -124,31 +123,14 @@ class PinBar(EditControls):
             self.weight.value = float(pose.weights[last])
             self.depth.value = float(pose.depths[last])
 
-    def _select(self, change: Any) -> None:
-        chosen = [] if change["new"] == -1 else [change["new"]]
-        self._act(partial(self.deformation.select, chosen))
-
-    def _move(self) -> None:
-        self.deformation.move_target(self.deformation.selection[-1], (self.x.value, self.y.value))
-
-    def _set_angle(self) -> None:
-        degrees = _number(self.angle.value, "an angle in degrees, such as 30")
-        angle = None if degrees is None else float(wrapped(np.radians(degrees)))
-        self.deformation.set_pins(self.deformation.selection, angles=angle)
-
-    def _set_scale(self) -> None:
-        scale = _number(self.scale.value, "a scale, such as 1.5")
-        self.deformation.set_pins(self.deformation.selection, scales=scale)
-
-    def _set_weight(self) -> None:
-        self.deformation.set_pins(self.deformation.selection, weights=self.weight.value)
-
-    def _set_depth(self) -> None:
-        self.deformation.set_depths(self.deformation.selection, self.depth.value)
-
 
 def _free_or(number: float) -> str:
     return "" if np.isnan(number) else f"{number:.4g}"
+
+
+def _radians(text: str) -> float | None:
+    degrees = _number(text, "an angle in degrees, such as 30")
+    return None if degrees is None else float(wrapped(np.radians(degrees)))
 
 
 def _number(text: str, wanted: str) -> float | None:
