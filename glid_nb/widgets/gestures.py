@@ -231,6 +231,8 @@ class PinGestures(Gestures):
 
     def _key(self, event: Event) -> None:
         key, model = event["key"], self.deformation
+        plain = {"undo": model.undo, "redo": model.redo, "0": model.reset}
+        plain |= {"m": model.mirror_pose, "f": self._fit}
         if key in ARROWS:
             self._arrow(event)
         elif key == "Enter":
@@ -244,10 +246,8 @@ class PinGestures(Gestures):
             else:
                 model.select([])
                 self.cursor = None
-        elif key in ("undo", "redo"):
-            getattr(model, key)()
-        elif key == "0":
-            model.reset()
+        elif act := plain.get(key.lower()):
+            act()
         elif key in DEPTHS:
             model.bring_forward(model.selection, DEPTHS[key])
         elif key in TURNS:
@@ -256,12 +256,8 @@ class PinGestures(Gestures):
             model.turn(model.selection, scale=SCALES[key])
         elif key in ("x", "X"):
             model.set_pins(model.selection, angles=None, scales=None)
-        elif key in ("m", "M"):
-            model.mirror_pose()
         elif key == "copy":
             self.copy(pose_text(model.state))
-        elif key in ("f", "F"):
-            self._fit()
         elif key in (",", "."):
             self._next(1 if key == "." else -1)
         elif key in ("a", "A"):
