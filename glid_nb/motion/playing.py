@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from glid_nb.harmonic import HarmonicMap
-from glid_nb.harmonic.shader_map import ShaderMap
+from glid_nb.harmonic import HarmonicMap, ShaderMap
 
 if TYPE_CHECKING:
     from glid_nb.motion.motion import Motion

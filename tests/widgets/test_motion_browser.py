@@ -12,7 +12,7 @@ from playwright.sync_api import Page
 
 from glid_nb import Motion
 from glid_nb._scripts import bundle
-from glid_nb.harmonic.shader_map import ShaderMap
+from glid_nb.harmonic import ShaderMap
 from glid_nb.motion.playing import playing
 
 from ..domains import random_map
