@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 import shapely
@@ -16,7 +16,10 @@ from glid_nb.session.model import Observed
 from glid_nb.session.pose_text import pose_text
 
 Event = Mapping[str, Any]
+Action = Callable[[Event], Any]
 
+OF_A_HAND = ("down", "move", "up", "cancel", "key")
+"""The types of events of pointers and keys."""
 LEFT, RIGHT = 0, 2
 _SLOP, _SLOP_ON_SHAPE = 2.0, 5.0  # pixels that a pressed pointer may move without dragging
 _NUDGE, _NUDGE_SHIFT = 0.1, 0.5  # world units
@@ -32,18 +35,13 @@ _LEAST_SCALE, _LARGEST_SCALE = 0.05, 20.0  # that a hand gives
 class Gestures:
     """Turns events of the page into actions on a model.
 
-    An event is a mapping with its ``type``, the place ``x``, ``y``, the radius ``reach`` that the
-    pointer hits and the size ``unit`` of a CSS pixel, all in the canvas's units, ``button``,
-    ``shift``, ``key`` and ``time`` in ms. A subclass has a method ``_<type>`` for each type.
+    An event is a mapping with its ``type``, which ``actions`` has. Those of a hand have the place
+    ``x``, ``y``, the radius ``reach`` that the pointer hits and the size ``unit`` of a CSS pixel,
+    all in the canvas's units, ``button``, ``shift``, ``key`` and ``time`` in ms.
     """
 
-    takes: ClassVar[frozenset[str]] = frozenset({"down", "move", "up", "cancel", "key"})
-    """The types of events that are handled."""
-    asks: ClassVar[dict[str, tuple[str, ...]]] = {}
-    """Further types: actions of the model by name, with the items of the event that they take."""
-
-    def __init__(self, model: Observed) -> None:
-        self._model = model
+    def __init__(self, model: Observed, actions: Mapping[str, Action]) -> None:
+        self._model, self._actions = model, actions
         self._press: Any = None
 
     def handle(self, events: Iterable[Event]) -> str | None:
@@ -52,13 +50,10 @@ class Gestures:
         with self._model.locked():  # one change, drawn once
             for event in events:
                 kind = event["type"]
-                if kind not in self.takes and kind not in self.asks:
+                if (act := self._actions.get(kind)) is None:
                     return f"the page asked for {kind!r}, which this canvas cannot do"
                 try:
-                    if kind in self.asks:
-                        getattr(self._model, kind)(*(event[item] for item in self.asks[kind]))
-                    else:
-                        getattr(self, f"_{kind}")(event)
+                    act(event)
                     if kind not in ("move", "up", "cancel"):
                         refusal = None
                 except InputError as error:
@@ -87,13 +82,12 @@ class PinGestures(Gestures):
     Where the picture (h, w, 4) is transparent, what lies below is pinned.
     """
 
-    takes = Gestures.takes | {"pin"}
-    asks: ClassVar[dict[str, tuple[str, ...]]] = {"paste_pose": ("text",)}
-
     def __init__(
         self, deformation: Deformation, fit: Callable[[], None], image: Array | None = None
     ) -> None:
-        super().__init__(deformation)
+        actions = {kind: getattr(self, f"_{kind}") for kind in (*OF_A_HAND, "pin")}
+        actions["paste_pose"] = asked(deformation.paste_pose, "text")
+        super().__init__(deformation, actions)
         self.deformation, self._image = deformation, image
         self._fit = fit
         self._press: _Press | None = None
@@ -134,7 +128,9 @@ class PinGestures(Gestures):
             return
         if hit is None and (part := event.get("part")) and model.selection:
             turned = turned_now(model.state, model.selection)
-            self._press = _Press(point, None, None, part=part, turned=turned)
+            # A click on the ring's line that turns nothing pins what is below it.
+            source = self._source(point) if part == "turn" else None
+            self._press = _Press(point, source, None, part=part, turned=turned)
         elif hit is None:
             source = None if event["shift"] else self._source(point)
             self._press = _Press(point, source, None)
@@ -152,37 +148,40 @@ class PinGestures(Gestures):
             return
         moved = float(np.linalg.norm(point - press.start))
         if press.part:
-            self._turn(press, point)
+            if press.dragging or moved > _SLOP * event["unit"]:
+                self._turn(press, point)
             return
         if press.targets is None:
             if press.source is None or moved <= _SLOP_ON_SHAPE * event["unit"]:
                 return
             # Dragging the shape itself pins the point below the pointer.
             press.targets = self._pin_at(press.source)
-        if not press.dragging:
-            if moved <= _SLOP * event["unit"]:
-                return
-            model.begin_drag(model.selection)
-            press.dragging = True
-        elif not model.dragged:  # undone, or the handle was removed
-            self._press = None
+        if not press.dragging and moved <= _SLOP * event["unit"]:
+            return
+        if not self._drags(press):
             return
         held = list(model.dragged)
         if len(held) != len(press.targets):
             press.start, press.targets = point, model.pose.targets[held]
         model.drag_to(press.targets + (point - press.start))
 
+    def _drags(self, press: _Press) -> bool:
+        """Begin or go on to drag the selected handles; not once that is undone, or none is left."""
+        model = self.deformation
+        if not press.dragging and model.selection:
+            model.begin_drag(model.selection)
+            press.dragging = True
+        elif not model.dragged:
+            self._press = None
+        return self._press is not None
+
     def _turn(self, press: _Press, point: Array) -> None:
         """Turn or scale the shape at the selected handles as the pointer moves around the last."""
         model = self.deformation
-        if not model.selection or (press.dragging and not model.dragged):  # undone, or removed
-            self._press = None
+        if not self._drags(press):
             return
-        if not press.dragging:
-            model.begin_drag(model.selection)
-            press.dragging = True
         assert press.turned is not None
-        centre, (angles, scales) = model.pose.targets[model.selection[-1]], press.turned
+        centre, (angles, scales) = model.pose.targets[model.dragged[-1]], press.turned
         before, now = ((place - centre) @ [1, 1j] for place in (press.start, point))
         if abs(now) == 0 or len(angles) != len(model.dragged):
             return
@@ -204,14 +203,14 @@ class PinGestures(Gestures):
             chosen = np.flatnonzero(shapely.contains_xy(inside, *self.deformation.pose.targets.T))
             self.deformation.select([*self.deformation.selection, *chosen.tolist()])
             return
-        if press is None or (press.part and not press.dragging):
+        if press is None:
             return
         if press.dragging:
             self.deformation.end_drag()
         elif press.targets is None:
             if press.source is not None:
                 self._pin_at(press.source)
-            elif not event["shift"]:
+            elif not event["shift"] and not press.part:
                 self.deformation.select([])
 
     def _cancel(self, _: Event) -> None:
@@ -232,6 +231,8 @@ class PinGestures(Gestures):
 
     def _key(self, event: Event) -> None:
         key, model = event["key"], self.deformation
+        plain = {"undo": model.undo, "redo": model.redo, "0": model.reset}
+        plain |= {"m": model.mirror_pose, "f": self._fit}
         if key in ARROWS:
             self._arrow(event)
         elif key == "Enter":
@@ -245,10 +246,8 @@ class PinGestures(Gestures):
             else:
                 model.select([])
                 self.cursor = None
-        elif key in ("undo", "redo"):
-            getattr(model, key)()
-        elif key == "0":
-            model.reset()
+        elif act := plain.get(key.lower()):
+            act()
         elif key in DEPTHS:
             model.bring_forward(model.selection, DEPTHS[key])
         elif key in TURNS:
@@ -257,12 +256,8 @@ class PinGestures(Gestures):
             model.turn(model.selection, scale=SCALES[key])
         elif key in ("x", "X"):
             model.set_pins(model.selection, angles=None, scales=None)
-        elif key in ("m", "M"):
-            model.mirror_pose()
         elif key == "copy":
             self.copy(pose_text(model.state))
-        elif key in ("f", "F"):
-            self._fit()
         elif key in (",", "."):
             self._next(1 if key == "." else -1)
         elif key in ("a", "A"):
@@ -295,6 +290,11 @@ class PinGestures(Gestures):
             last = model.selection[-1] if model.selection else (-1 if step > 0 else count)
             model.select([(last + step) % count])
             self.cursor = None
+
+
+def asked(act: Callable[..., Any], *items: str) -> Action:
+    """An action that passes these items of an event on."""
+    return lambda event: act(*(event[item] for item in items))
 
 
 def place(event: Event) -> Array:
