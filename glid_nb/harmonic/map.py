@@ -38,19 +38,13 @@ class HarmonicMap:
 
     ``f(z) = sum_j C_j(z) phi_j + conj(sum_j C_j(z) psi_j)``, with the offset cage's vertices in
     the order of its loops first, then one logarithm per hole.
-
-    Parameters
-    ----------
-    domain : Domain
-        Where the map lives.
-    phi, psi : (n,) complex array_like
-        Coefficients up to 1e120, ``n`` = offset-cage vertices + holes, including those fixed to 0.
-        For the holes ``phi_j = conj(psi_j)`` must hold (Section 5), up to rounding, which is
-        evened out; else a MapError says which.
     """
 
     domain: Domain
+    """Where the map lives."""
     phi: Array = field(repr=False)
+    """(n,) complex coefficients up to 1e120, also those fixed to 0. For the holes ``phi_j =
+    conj(psi_j)`` (Section 5) up to rounding, which is evened out; else a MapError says which."""
     psi: Array = field(repr=False)
 
     def __init__(self, domain: Domain, phi: ArrayLike, psi: ArrayLike) -> None:
