@@ -190,7 +190,7 @@ def _run(poses: list[_Pose]) -> float:
 def _call(chosen: list[_Pose], size: int) -> float:
     """One call for the chosen poses; the seconds of compiling."""
     first, watch = chosen[0], Stopwatch()
-    limits = [pose.settings().iterations for pose in chosen]
+    limits = [int(pose.settings().iterations) for pose in chosen]
     # What only fills the batch up stays where it is.
     filled = [*chosen, *[first] * (size - len(chosen))]
     state = _together(

@@ -77,8 +77,8 @@ class Pose:
         n_handles, n_targets = len(self.handles), len(self.targets)
         if n_handles != n_targets:
             raise PoseError(
-                f"there {_counted(n_handles, 'handle')} but {n_targets} "
-                f"target{'' if n_targets == 1 else 's'}; give one target per handle"
+                f"there {'is 1 handle' if n_handles == 1 else f'are {n_handles} handles'} but "
+                f"{n_targets} target{'' if n_targets == 1 else 's'}; give one target per handle"
             )
         more = {"depths": depths, "angles": angles, "scales": scales, "weights": weights}
         for name, values in more.items():
@@ -196,7 +196,3 @@ def _checked_numbers(name: str, values: ArrayLike | None, count: int) -> Array:
     if array.shape != (count,) or not within.all():
         raise PoseError(f"{wanted}, not {values!r:.60}")
     return read_only(array)
-
-
-def _counted(count: int, noun: str) -> str:
-    return f"is 1 {noun}" if count == 1 else f"are {count} {noun}s"

@@ -121,7 +121,7 @@ def turning_of(pose: Pose, cage: Cage) -> Turning:
         ratio = (w[i] - w[j]) / (z[i] - z[j])
         turn = float(np.angle(ratio * np.exp(-1j * angles[j])))
         angles[i] = angles[j] + turn
-        found.append(Line(i, j, turn, max(abs(ratio), _LEAST_STRETCH)))
+        found.append(Line(i, j, turn, max(float(abs(ratio)), _LEAST_STRETCH)))
     return Turning(pose, root, whole, tuple(found))
 
 
