@@ -57,10 +57,9 @@ class Domain:
     ) -> None:
         _check_enclosed(cage, offset_cage)
         chosen = choose_hole_points(offset_cage) if hole_points is None else hole_points
-        object.__setattr__(self, "cage", cage)
-        object.__setattr__(self, "offset_cage", offset_cage)
-        object.__setattr__(self, "hole_points", _checked_hole_points(chosen, offset_cage))
-        object.__setattr__(self, "notes", tuple(notes))
+        points = _checked_hole_points(chosen, offset_cage)
+        made = {"cage": cage, "offset_cage": offset_cage, "hole_points": points}
+        vars(self).update(made, notes=tuple(notes))
 
     @classmethod
     def from_cage(cls, cage: Cage, offset: float | None = None) -> Domain:
@@ -122,8 +121,8 @@ class Domain:
 
 def _chosen_offset(cage: Cage, distance: float | None) -> tuple[Cage, tuple[str, ...]]:
     distance = _DEFAULT_OFFSET * cage.longer_side if distance is None else distance
-    offset = offset_cage(cage, distance)
-    return _divided(offset.cage, cage), offset.notes
+    outer, notes = offset_cage(cage, distance)
+    return _divided(outer, cage), notes
 
 
 def _checked_notes(notes: Any) -> tuple[str, ...]:

@@ -179,8 +179,7 @@ def run_on(map: HarmonicMap, program: Callable[..., R], *points: Array) -> R:
     """``program(*points, coefficients, singularities)`` for a map's (2, c) padded coefficients and
     some of the points, (p,) complex arrays, at a time."""
     basis = basis_of(map.domain)
-    coefficients = np.stack([basis.pad(map.phi), basis.pad(map.psi)])
-    return in_chunks(program, basis.n_columns, points, coefficients, basis.singularities)
+    return in_chunks(program, basis.n_columns, points, basis.rows(map), basis.singularities)
 
 
 def images_under(maps: Sequence[HarmonicMap], points: ArrayLike) -> Array:

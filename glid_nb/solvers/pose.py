@@ -72,8 +72,8 @@ class Pose:
         weights: ArrayLike | None = None,
         stiffness: Stiffness | Sequence[Mapping[str, Any]] | None = None,
     ) -> None:
-        object.__setattr__(self, "handles", _checked_points(handles, "handles"))
-        object.__setattr__(self, "targets", _checked_points(targets, "targets"))
+        points = {"handles": handles, "targets": targets}
+        vars(self).update({name: _checked_points(xy, name) for name, xy in points.items()})
         n_handles, n_targets = len(self.handles), len(self.targets)
         if n_handles != n_targets:
             raise PoseError(
@@ -81,9 +81,8 @@ class Pose:
                 f"{n_targets} target{'' if n_targets == 1 else 's'}; give one target per handle"
             )
         more = {"depths": depths, "angles": angles, "scales": scales, "weights": weights}
-        for name, values in more.items():
-            object.__setattr__(self, name, _checked_numbers(name, values, n_handles))
-        object.__setattr__(self, "stiffness", Stiffness.of(stiffness))
+        vars(self).update({name: _checked_numbers(name, v, n_handles) for name, v in more.items()})
+        vars(self)["stiffness"] = Stiffness.of(stiffness)
         _, first, inverse = np.unique(self.handles, axis=0, return_index=True, return_inverse=True)
         repeated = np.flatnonzero(first[inverse.ravel()] != np.arange(n_handles))
         if repeated.size:

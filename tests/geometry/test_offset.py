@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from glid_nb.geometry import Cage, GeometryError, Offset, hole_points, offset_cage
+from glid_nb import geometry
+from glid_nb.geometry import Cage, GeometryError, hole_points
 from glid_nb.geometry.offset import CLEARANCE, MITRE_LIMIT
 
 from .shapes import (
@@ -23,6 +26,23 @@ from .shapes import (
     spiral,
     star_loop,
 )
+
+
+class Offset(NamedTuple):
+    cage: Cage
+    notes: tuple[str, ...]
+    distances: list[np.ndarray]
+    """Of each vertex from the line of the cage's edge that begins at its own."""
+
+
+def offset_cage(cage: Cage, distance: float) -> Offset:
+    outer, notes = geometry.offset_cage(cage, distance)
+    distances = []
+    for loop, moved in zip(cage.loops, outer.loops, strict=True):
+        along = np.roll(loop, -1, axis=0) - loop
+        outward = np.stack([along[:, 1], -along[:, 0]], axis=1) / np.hypot(*along.T)[:, None]
+        distances.append(np.sum((moved - loop) * outward, axis=1))
+    return Offset(outer, notes, distances)
 
 
 def closed(loop: np.ndarray) -> np.ndarray:
