@@ -118,6 +118,21 @@ def find_foreground(
     return Foreground(read_only(score.view()), method, threshold, inverted, tuple(notes))
 
 
+def smoothed(foreground: Foreground, sigma: float | None) -> Foreground:
+    """The field after a Gaussian filter of standard deviation ``sigma`` in pixels.
+
+    None: 0.1 % of the longer side, or 0 for alpha and scribbles.
+    """
+    score = foreground.score
+    if sigma is None:
+        own = 0.0 if foreground.method in ("alpha", "scribbles") else _SMOOTHING * max(score.shape)
+        sigma = own if own >= _LEAST_SMOOTHING else 0.0
+    if sigma == 0:
+        return foreground
+    score = np.asarray(gaussian_filter(score, sigma, mode="nearest", truncate=3.0), np.float32)
+    return replace(foreground, score=read_only(score))
+
+
 def _check_not_uniform(image: RGBA) -> None:
     first = image[0, 0]
     # A coarse sample suffices for nearly every picture.
