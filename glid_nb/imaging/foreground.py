@@ -1,10 +1,11 @@
 """Tell the foreground of a picture from its background: choose a method and run it."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter
 
 from glid_nb._arrays import read_only
 from glid_nb.imaging import measure
