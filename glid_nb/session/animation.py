@@ -20,7 +20,7 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import NamedPose
 from glid_nb.session.edit_state import EditError, EditState, Moment
 from glid_nb.session.model import Observed
-from glid_nb.session.timeline import Timeline, thinned
+from glid_nb.session.timeline import thinned
 from glid_nb.session.worker import LatestWins, weakly
 
 _THINNED = 0.02  # how far a recorded target may be off, as a share of the cage's longer side
@@ -44,29 +44,6 @@ class Span(NamedTuple):
     """The certified bound on each piece."""
 
 
-class _Task(NamedTuple):
-    timeline: Timeline
-    poses: tuple[NamedPose, ...]
-
-    @classmethod
-    def of(cls, state: EditState) -> _Task:
-        return cls(state.timeline, state.poses)
-
-    def asks_the_same(self, other: _Task) -> bool:
-        """Whether the motions are the same, whatever the poses are called."""
-        maps = ([pose.map for pose in task.poses] for task in (self, other))
-        return self.timeline == other.timeline and all(
-            a is b for a, b in itertools.zip_longest(*maps)
-        )
-
-    @property
-    def spans(self) -> tuple[Span, ...]:
-        """The intervals, still to be computed."""
-        times = self.timeline.closed_times if len(self.poses) > 1 else ()
-        ends = itertools.pairwise(times)
-        return tuple(Span(*e, p.map) for e, p in zip(ends, self.poses, strict=False))
-
-
 class Animation(Observed):
     """The motion through the poses of a deformation, and the recording of a drag.
 
@@ -81,18 +58,18 @@ class Animation(Observed):
         """From each keyframe to the next, and from the last to the first of a loop."""
         self.recording = False
         """Whether the next drag, or the present one, is kept as keyframes."""
-        self._task = _Task(Timeline(), ())
+        self._task: EditState | None = None
         self._asked = False
         self._began: tuple[float, EditState] | None = None
         self._samples: list[tuple[float, NamedPose]] = []  # of the drag that is recorded
-        self._worker: LatestWins[_Task] = LatestWins(weakly(self._prove), self, "motion")
+        self._worker: LatestWins[EditState] = LatestWins(weakly(self._prove), self, "motion")
         self._stop = deformation.observe(weakly(self._on_model))
         self._on_model("state")
 
     @property
     def motion(self) -> Motion:
         """The motion as a value, whether proved or not; MotionError where it cannot be made."""
-        return _motion(_Task.of(self.deformation.state))
+        return _motion(self.deformation.state)
 
     def at(self, time: float) -> HarmonicMap | None:
         """The proved map at a time, or the last proved one before it; None outside the motion."""
@@ -153,11 +130,11 @@ class Animation(Observed):
 
     def _follow(self, moment: Moment) -> None:
         """Ask for what is to be proved, once the pose that is edited has come to rest."""
-        task, settled = _Task.of(moment.state), moment.solved or moment.error is not None
-        if not task.asks_the_same(self._task):
+        task, settled = moment.state, moment.solved or moment.error is not None
+        if not _same_motion(task, self._task):
             self._worker.cancel()
             self._asked = False
-            spans = task.spans
+            spans = _spans(task)
             if [(*s[:2], "computing") for s in spans] != [(*s[:2], s.status) for s in self.spans]:
                 self.spans = spans
                 self._tell("motion")
@@ -197,8 +174,8 @@ class Animation(Observed):
 
     # Proving
 
-    def _prove(self, task: _Task, worker: LatestWins[_Task]) -> None:
-        spans, told = list(task.spans), time.monotonic()
+    def _prove(self, task: EditState, worker: LatestWins[EditState]) -> None:
+        spans, told = list(_spans(task)), time.monotonic()
         for i, span in _proved(task, worker):
             spans[i] = span
             if time.monotonic() - told > _INTERVAL:
@@ -207,14 +184,29 @@ class Animation(Observed):
         if not worker.overtaken:
             self._publish(task, spans)
 
-    def _publish(self, task: _Task, spans: list[Span]) -> None:
+    def _publish(self, task: EditState, spans: list[Span]) -> None:
         with self.locked():
-            if task.asks_the_same(self._task):
+            if _same_motion(task, self._task):
                 self.spans = tuple(spans)
                 self._tell("motion")
 
 
-def _motion(task: _Task, first: int = 0, last: int | None = None) -> Motion:
+def _same_motion(task: EditState, other: EditState | None) -> bool:
+    """Whether the motions are the same, whatever the poses are called."""
+    if other is None or task.timeline != other.timeline:
+        return False
+    pairs = zip(task.poses, other.poses, strict=True)
+    return all(pose.map is its.map for pose, its in pairs)
+
+
+def _spans(task: EditState) -> tuple[Span, ...]:
+    """The intervals, still to be computed."""
+    times = task.timeline.closed_times if len(task.poses) > 1 else ()
+    ends = itertools.pairwise(times)
+    return tuple(Span(*e, p.map) for e, p in zip(ends, task.poses, strict=False))
+
+
+def _motion(task: EditState, first: int = 0, last: int | None = None) -> Motion:
     """The motion through the poses from the first to the last, or through all and back."""
     timeline, maps = task.timeline, [pose.map for pose in task.poses]
     if last is None:
@@ -224,9 +216,9 @@ def _motion(task: _Task, first: int = 0, last: int | None = None) -> Motion:
     return Motion(chosen, times, easing=timeline.easing[first:last])
 
 
-def _proved(task: _Task, worker: LatestWins[_Task]) -> Iterator[tuple[int, Span]]:
+def _proved(task: EditState, worker: LatestWins[EditState]) -> Iterator[tuple[int, Span]]:
     """Interval after interval; where poses turn otherwise around holes, motions end and begin."""
-    spans = task.spans
+    spans = _spans(task)
     poses = [*task.poses, task.poses[0]][: len(spans) + 1]
     refused = {}
     for i, pair in enumerate(itertools.pairwise(poses)):

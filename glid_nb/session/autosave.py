@@ -67,20 +67,18 @@ class SavedFile:
         """What went wrong with the last save; None when it went well."""
         self.n_saved = 0
         """Number of saves that succeeded."""
-        self._writing = threading.Lock()
+        self._writing = threading.RLock()
         own.note_session(path)
 
     def save(self, document: Document, _: object) -> None:
         """Write the file, or one beside it where another program has changed it."""
         with self._writing:
-            self.error = None
             try:
                 if self.own.strangers([self.path], self.path):
                     self.left, self.path = self.path, free_sibling(self.path)
-                save_document(document, self.path)
+                self.write(document)
                 if self.own.session == self.left:
                     self.own.session = self.path
-                self.own.note([self.path], self.path)
                 self.n_saved += 1
             except Exception as error:  # reported; the next submission tries again
                 self.error = error

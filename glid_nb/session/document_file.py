@@ -47,6 +47,7 @@ _POSE_KEYS = {
     "handles": _json.check_points,
     "targets": _json.check_points,
 }
+_ADDED = {3: ("depths",), 4: ("angles", "scales", "weights", "stiffness")}  # by versions, to poses
 _DOMAIN_KEYS = ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "notes")
 _MOST_ITERATIONS = 200  # was written where max_iterations is None, the method's own limit
 _MASK = "mask"  # written instead of strokes; the pixels are in another member
@@ -97,12 +98,10 @@ def load_document(path: str | Path) -> Document:
                 raise DocumentError(f"{name} is missing; this is no glid_nb document")
         data = _json.parse_json(members[_JSON], _JSON, "JSON", nan=False)
         version = _checked_version(data)
-        since_2 = {"method": _json.anything} if version > 1 else {}
-        since_3 = {"depths": _json.anything} if version > 2 else {}
-        since_4 = {"timeline": _json.check_object} if version > 3 else {}
+        optional = {"scribbles": _json.check_object}
         if version > 3:
-            since_3 |= dict.fromkeys(("angles", "scales", "weights", "stiffness"), _json.anything)
-        _json.check_fields(data, _JSON, _KEYS, {"scribbles": _json.check_object, **since_4})
+            optional["timeline"] = _json.check_object
+        _json.check_fields(data, _JSON, _KEYS, optional)
         size = _checked_size(data["image_size_px"])
         image = np.asarray(read_png(members[_IMAGE], size, "RGBA", _IMAGE), dtype=np.uint8)
         scribbles = _scribbles_from_members(data.get("scribbles"), members, size)
@@ -110,7 +109,7 @@ def load_document(path: str | Path) -> Document:
         options = _trace_options_from_dict(data["trace_options"], scribbles)
         check_count(data["poses"])
         poses = tuple(
-            _pose_from_dict(f"poses[{i}]", pose, domain, {**_POSE_KEYS, **since_2}, since_3)
+            _pose_from_dict(f"poses[{i}]", pose, domain, version)
             for i, pose in enumerate(data["poses"])
         )
         timeline = None
@@ -159,11 +158,11 @@ def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
     }
 
 
-def _pose_from_dict(
-    where: str, data: Any, domain: Domain, keys: Mapping[str, Any], optional: Mapping[str, Any]
-) -> NamedPose:
+def _pose_from_dict(where: str, data: Any, domain: Domain, version: int) -> NamedPose:
+    keys = _POSE_KEYS if version == 1 else {**_POSE_KEYS, "method": _json.anything}
+    optional = [key for since, added in _ADDED.items() if since <= version for key in added]
     with about(where, DocumentError):
-        _json.check_fields(data, where, keys, optional)
+        _json.check_fields(data, where, keys, dict.fromkeys(optional, _json.anything))
     with about(f"{where} ({data['name']!r:.60})", DocumentError):
         phi, psi = (complex_from_pairs(data[key], key) for key in ("phi", "psi"))
         energy, named = data["energy"], {"name": _json.check_text}

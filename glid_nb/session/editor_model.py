@@ -349,7 +349,7 @@ class EditorModel(Observed):
         self._end_keeping()
         old, self._session = self._session, self._session_of(deformation)
         if old is not None:
-            self._afterwards(old.deformation.close)  # its thread may wait for the lock
+            old.deformation.close()  # without waiting for its thread, which may want this lock
         self._tell("replaced")
         deformation.observe(functools.partial(self._on_change, deformation))
 

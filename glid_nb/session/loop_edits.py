@@ -34,10 +34,7 @@ def insert_vertex(loops: Loops, loop: int, edge: int, at: ArrayLike) -> Loops:
 def delete_vertices(loops: Loops, vertices: Iterable[tuple[int, int]]) -> Loops:
     """The loops without some vertices (loop, index); holes with fewer than three left are removed.
 
-    Raises
-    ------
-    GeometryError
-        When the exterior would have fewer than three left.
+    A GeometryError when the exterior would have fewer than three left.
     """
     gone: dict[int, set[int]] = {}
     for loop, index in vertices:
@@ -57,12 +54,8 @@ def drawn(points: ArrayLike, size: tuple[int, int]) -> Loop:
     """An outline drawn by hand over a picture of ``size``, as (n, 2) vertices of a cage in pixels.
 
     What crosses itself keeps its largest part; what lies beside the picture is cut off. Edges are
-    at most 4 % of the whole long, as in a traced cage, so that all of it can bend.
-
-    Raises
-    ------
-    GeometryError
-        When it encloses nothing of the picture.
+    at most 4 % of the whole long, as in a traced cage, so that all of it can bend. A GeometryError
+    when it encloses nothing of the picture.
     """
     line = number_pairs(points, "an outline must be a list of pixels (x, y)", GeometryError)
     region = shapely.make_valid(shapely.Polygon(line if len(line) > 2 else None))

@@ -79,7 +79,6 @@ class Observed:
         self._lock = threading.RLock()
         self._depth = 0
         self._observers: list[Observer] = []
-        self._actions: list[Callable[[], None]] = []
         self._changes: dict[str, None] = {}  # in order, each once
 
     @contextmanager
@@ -87,18 +86,14 @@ class Observed:
         """Hold the lock, so that what is read belongs to one moment."""
         self._lock.acquire()
         self._depth += 1
-        actions: list[Callable[[], None]] = []
         changes: tuple[str, ...] = ()
         try:
             yield
         finally:
             self._depth -= 1
             if not self._depth:
-                actions, self._actions = self._actions, []
                 changes, self._changes = tuple(self._changes), {}
             self._lock.release()
-            for act in actions:
-                act()
             self._announce(*changes)
 
     def observe(self, observer: Observer) -> Callable[[], None]:
@@ -123,8 +118,3 @@ class Observed:
         for observer in tuple(self._observers) if names else ():
             for name in names:
                 observer(name)
-
-    def _afterwards(self, act: Callable[[], None]) -> None:
-        """Call ``act`` once the lock, which must be held, is released, before observers."""
-        assert self._depth
-        self._actions.append(act)

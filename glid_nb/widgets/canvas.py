@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import ipywidgets
@@ -226,7 +225,6 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 self._hidden = ()
             elif color_range != "keep" or len(pose) != len(self._hidden):  # as often as that
                 self._hidden = self.deformation.sheets(self.image).hidden(pose.handles)
-            cages = self._cages
             drawing = Drawing(
                 moment.map,
                 moment.comparison,
@@ -236,24 +234,31 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 _ring(moment),
                 self._hidden,
                 state.order,
-                self.overlay,
-                state.current.energy,
-                color_range,
-                panels=self._panels_of(moment) if self.show_panels else None,
-                **cages,
+                **self._look(moment, color_range),
             )
             self.pane.show(drawing)
             self.pane.stage.onion = self._onion(state) if self.show_onion else []
             self.pane.stage.brush = self.brush.shown
             self.pane.stage.stiff = painted_areas(moment) if self.brush.tool else []
             if self.source is not None:
-                self.source.show(Drawing(state.identity, images=pose.handles, **cages))
+                cage, offset_cage = drawing.cage, drawing.offset_cage
+                rest = Drawing(
+                    state.identity, images=pose.handles, cage=cage, offset_cage=offset_cage
+                )
+                self.source.show(rest)
             if (what == "legend" or (what == "frame" and moment.solved)) and not moment.dragged:
                 self.pane.place_legend()
 
-    @property
-    def _cages(self) -> dict[str, Any]:
-        return {"cage": self.show_cage, "offset_cage": self.show_offset_cage}
+    def _look(self, moment: Moment, color_range: Range) -> dict[str, Any]:
+        """What is drawn of any map."""
+        return {
+            "overlay": self.overlay,
+            "energy": moment.state.current.energy,
+            "color_range": color_range,
+            "cage": self.show_cage,
+            "offset_cage": self.show_offset_cage,
+            "panels": self._panels_of(moment) if self.show_panels else None,
+        }
 
     def show_between(self, map: HarmonicMap | None, order: Order | None = None) -> None:
         """Draw a map of the motion in place of the pose that is edited; None ends that."""
@@ -261,12 +266,8 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             if map is None:
                 self._draw("state")
             elif not self._closed:
-                moment = self.deformation.moment
-                drawing = Drawing(map, order=order, overlay=self.overlay, **self._cages)
-                panels = self._panels_of(moment) if self.show_panels else None
-                energy = moment.state.current.energy
-                drawing = replace(drawing, energy=energy, color_range="keep", panels=panels)
-                self.pane.show(drawing)
+                look = self._look(self.deformation.moment, "keep")
+                self.pane.show(Drawing(map, order=order, **look))
 
     def _onion(self, state: EditState) -> list[Any]:
         """Outlines of the poses beside the one that is edited, rounded to what a screen shows."""

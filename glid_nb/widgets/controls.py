@@ -65,6 +65,10 @@ class EditControls(ClosingWidget, ipywidgets.VBox):
         finally:
             self._following.now = False
 
+    def _bind(self, control: ipywidgets.Widget, act: Callable[[Any], None]) -> None:
+        """Have the new value of a control change the model."""
+        control.observe(lambda change: self._act(lambda: act(change["new"])), ["value"])
+
     def _act(self, act: Callable[[], None]) -> None:
         """Change the model, unless the control follows it."""
         if getattr(self._following, "now", False):

@@ -84,43 +84,61 @@ def check_free(model: EditorModel, paths: Sequence[Path], owner: Path) -> None:
 
 
 def export(
-    model: EditorModel,
-    path: str | Path,
-    size: tuple[int, int] | None = None,
-    view: View = "source",
-    *,
-    replace: bool = False,
+    model: EditorModel, path: str | Path, size: tuple[int, int] | None = None, view: View = "source"
 ) -> tuple[Path, ...]:
-    """Export what is shown in the format of the suffix; returns the written files.
+    """Write `exported` files; returns them, the one of the given name first.
 
-    A file of the given name is replaced. The files that come with it, ``.mtl`` and ``-texture.png``
-    of an OBJ mesh or the ``-source.png`` that a script reads, replace only those of an earlier
-    export under this name, unless ``replace`` says so. ``size`` in pixels and ``view`` of a picture
-    are as in `glid_nb.render`.
+    A file of that name is replaced. The files that come with it, ``.mtl`` and ``-texture.png`` of
+    an OBJ mesh or the ``-source.png`` that a script reads, replace only those of an earlier export
+    under this name.
 
-    Raises
-    ------
-    ExportError
-        For another suffix; as `OccupiedError` when a file that comes with it would replace another.
-    OSError
-        When a file cannot be written.
+    Raises `ExportError` for another suffix, as `OccupiedError` when a file that comes with it would
+    replace another; an OSError when a file cannot be written.
     """
     path = Path(path)
-    files = files_of(path)
-    first, *others = _contents(model, path, size, view)
+    (name, data), *others = exported(model, path, size, view).items()
     # If the file exists, those beside it came with it.
-    _write(model, path, dict(zip(files[1:], others, strict=True)), replace or path.exists())
-    _write(model, path, {path: first}, replace=True)
-    return files
+    beside = write(model, path, dict(others), replace=path.exists())
+    return (*write(model, path, {name: data}, replace=True), *beside)
 
 
-def download(
-    model: EditorModel, path: Path, size: tuple[int, int] | None = None, view: View = "source"
-) -> tuple[str, bytes]:
-    """What `export` writes for this name as one file: its name and content, a zip of several."""
-    contents = _contents(model, path, size, view)
-    files = dict(zip((file.name for file in files_of(path)), contents, strict=True))
-    return as_one(files, path.name[: -len(_suffix(path))])
+def exported(
+    model: EditorModel, path: Path, size: tuple[int, int] | None, view: View
+) -> dict[str, bytes]:
+    """The contents of `files_of` the path by their names: what is shown, in the suffix's format.
+
+    ``size`` in pixels and ``view`` of a picture are as in `glid_nb.render`.
+    """
+    from glid_nb import export as to  # noqa: PLC0415 - the first canvas does not need it
+
+    document, state = model.document, model.deformation.state
+    image, map_, pose = document.image, state.map, state.pose
+    names = [file.name for file in files_of(path)]
+    match _suffix(path):
+        case ".png":
+            contents = [to.picture_png(image, map_, size, view, pose)]
+        case ".obj":
+            files = to.mesh_obj(to.textured_mesh(image, map_, pose=pose), path.stem)
+            contents = [files[path.stem + rest] for rest in (".obj", *_BESIDE[".obj"])]
+        case ".glb":
+            contents = [to.mesh_glb(to.textured_mesh(image, map_, pose=pose))]
+        case ".svg":
+            height, width = image.shape[:2]
+            contents = [to.cage_svg(map_, (width, height), source=True, pose=pose).encode()]
+        case ".html":
+            proof = model.deformation.certificate
+            contents = [to.page_html(image, map_, proof, path.stem, pose=pose).encode()]
+        case ".glid":
+            contents = [document_bytes(document)]
+        case ".proof.json":
+            depths = pose.to_dict() if pose.depths.any() else {}
+            contents = [
+                proof_text(model.deformation.certificate).encode(),
+                json_text({**map_.to_dict(), **depths}).encode(),
+            ]
+        case _:
+            contents = [python_code(document, names[1]).encode(), png(image)]
+    return dict(zip(names, contents, strict=True))
 
 
 def as_one(files: Mapping[str, bytes], stem: str) -> tuple[str, bytes]:
@@ -130,63 +148,21 @@ def as_one(files: Mapping[str, bytes], stem: str) -> tuple[str, bytes]:
     return f"{stem}.zip", zipped(files)
 
 
-def write_beside(model: EditorModel, path: Path, files: Mapping[str, bytes]) -> list[Path]:
-    """Write files that belong to a path into its folder; those that are there are replaced."""
-    contents = {path.parent / name: data for name, data in files.items()}
-    _write(model, path, contents, replace=True)
-    return list(contents)
+def write(
+    model: EditorModel, owner: Path, files: Mapping[str, bytes], *, replace: bool
+) -> list[Path]:
+    """Write files that belong to a path into its folder, where they are not there yet.
 
-
-def export_source(model: EditorModel, script: Path, *, replace: bool = False) -> None:
-    """Write the picture that a script of this name reads, where it is not there yet.
-
-    Raises as `export` when another file is there.
+    Unless ``replace`` says so, an `OccupiedError` if that would replace another's.
     """
-    _write(model, script, {files_of(script)[1]: png(model.document.image)}, replace)
-
-
-def _contents(
-    model: EditorModel, path: Path, size: tuple[int, int] | None, view: View
-) -> list[bytes]:
-    """The contents of `files_of` the path, in that order."""
-    from glid_nb import export as to  # noqa: PLC0415 - the first canvas does not need it
-
-    document, state = model.document, model.deformation.state
-    image, map_, pose = document.image, state.map, state.pose
-    match _suffix(path):
-        case ".png":
-            return [to.picture_png(image, map_, size, view, pose)]
-        case ".obj":
-            files = to.mesh_obj(to.textured_mesh(image, map_, pose=pose), path.stem)
-            return [files[path.stem + rest] for rest in (".obj", *_BESIDE[".obj"])]
-        case ".glb":
-            return [to.mesh_glb(to.textured_mesh(image, map_, pose=pose))]
-        case ".svg":
-            height, width = image.shape[:2]
-            return [to.cage_svg(map_, (width, height), source=True, pose=pose).encode()]
-        case ".html":
-            proof = model.deformation.certificate
-            return [to.page_html(image, map_, proof, path.stem, pose=pose).encode()]
-        case ".glid":
-            return [document_bytes(document)]
-        case ".proof.json":
-            depths = pose.to_dict() if pose.depths.any() else {}
-            return [
-                proof_text(model.deformation.certificate).encode(),
-                json_text({**map_.to_dict(), **depths}).encode(),
-            ]
-        case _:
-            return [python_code(document, files_of(path)[1].name).encode(), png(image)]
-
-
-def _write(model: EditorModel, owner: Path, contents: Mapping[Path, bytes], replace: bool) -> None:
-    """Write files that belong to ``owner``."""
+    contents = {owner.parent / name: data for name, data in files.items()}
     new = {path: data for path, data in contents.items() if not _holds(path, data)}
     if not replace:
         check_free(model, list(new), owner)
     for path, data in new.items():
         write_bytes_atomically(path, data)
     model.own_files.note(contents, owner)
+    return list(contents)
 
 
 def _holds(path: Path, data: bytes) -> bool:

@@ -2,7 +2,7 @@
 
 import contextlib
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ import traitlets
 
 from glid_nb._errors import InputError
 from glid_nb._scripts import bundle
-from glid_nb.imaging.read import MAX_SIDE
+from glid_nb.imaging.read import MAX_SIDE, png
 from glid_nb.session.animation import Animation
 from glid_nb.session.document import DocumentError
 from glid_nb.session.editor_model import EditorModel
@@ -23,14 +23,12 @@ from glid_nb.widgets.exporting import (
     OccupiedError,
     as_one,
     check_free,
-    download,
-    export,
-    export_source,
+    exported,
     files_of,
     last_export,
     names_of,
     remember_export,
-    write_beside,
+    write,
 )
 
 _SUFFIX = ".glid"
@@ -285,33 +283,32 @@ class FilePanel(ipywidgets.VBox):
         return path, chosen.startswith(_MOTION)
 
     def _export(self, sure: bool) -> str:
-        path, moving = self._remember()
+        path, moving = self._chosen
         if not sure:
             from glid_nb.export.motion import motion_file_names  # noqa: PLC0415 - as above
 
             files = map(path.with_name, motion_file_names(path.name)) if moving else files_of(path)
             check_free(self.model, tuple(files), path)
-        if moving and self.motion is not None:
-            return self.motion.start(
-                path.name, lambda files: self._wrote(write_beside(self.model, path, files))
-            )
-        view: Any = self.view.value
-        return self._wrote(export(self.model, path, self.size, view, replace=True))
 
-    def _wrote(self, files: Sequence[Path]) -> str:
-        return f"Wrote {names_of(files)} to {files[0].parent.absolute()}"
+        def deliver(files: Mapping[str, bytes]) -> str:
+            written = write(self.model, path, files, replace=True)
+            return f"Wrote {names_of(written)} to {written[0].parent.absolute()}"
 
-    def _remember(self) -> tuple[Path, bool]:
-        """What is chosen, for this export and the next session."""
-        remember_export({name: control.value for name, control in self._remembered.items()})
-        return self._chosen
+        return self._made(deliver)
 
     def _download(self, _: bool) -> str:
-        path, moving = self._remember()
+        path, moving = self._chosen
+        stem = path.stem if moving else path.name.removesuffix(str(self.format.value))
+        return self._made(lambda files: self._sent(*as_one(files, stem)))
+
+    def _made(self, deliver: Callable[[Mapping[str, bytes]], str]) -> str:
+        """Make the files that are chosen, those of a motion in the background, and deliver them."""
+        remember_export({name: control.value for name, control in self._remembered.items()})
+        path, moving = self._chosen
         if moving and self.motion is not None:
-            return self.motion.start(path.name, lambda files: self._sent(*as_one(files, path.stem)))
+            return self.motion.start(path.name, deliver)
         view: Any = self.view.value
-        return self._sent(*download(self.model, path, self.size, view))
+        return deliver(exported(self.model, path, self.size, view))
 
     def _sent(self, name: str, data: bytes) -> str:
         self.clipboard.download(name, data)
@@ -323,7 +320,8 @@ class FilePanel(ipywidgets.VBox):
         lines = python_code(self.model.document, str(picture))
         needed = ""
         if "glid.read_image" in lines:  # not where the cage was edited by hand
-            export_source(self.model, script, replace=sure)
+            source = {picture.name: png(self.model.document.image)}
+            write(self.model, script, source, replace=sure)
             needed = f" They read {picture}, which was written for them."
         self.code.value = lines
         self.code.layout.display = "flex"

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 import shapely
@@ -16,7 +16,10 @@ from glid_nb.session.model import Observed
 from glid_nb.session.pose_text import pose_text
 
 Event = Mapping[str, Any]
+Action = Callable[[Event], Any]
 
+OF_A_HAND = ("down", "move", "up", "cancel", "key")
+"""The types of events of pointers and keys."""
 LEFT, RIGHT = 0, 2
 _SLOP, _SLOP_ON_SHAPE = 2.0, 5.0  # pixels that a pressed pointer may move without dragging
 _NUDGE, _NUDGE_SHIFT = 0.1, 0.5  # world units
@@ -32,18 +35,13 @@ _LEAST_SCALE, _LARGEST_SCALE = 0.05, 20.0  # that a hand gives
 class Gestures:
     """Turns events of the page into actions on a model.
 
-    An event is a mapping with its ``type``, the place ``x``, ``y``, the radius ``reach`` that the
-    pointer hits and the size ``unit`` of a CSS pixel, all in the canvas's units, ``button``,
-    ``shift``, ``key`` and ``time`` in ms. A subclass has a method ``_<type>`` for each type.
+    An event is a mapping with its ``type``, which ``actions`` has. Those of a hand have the place
+    ``x``, ``y``, the radius ``reach`` that the pointer hits and the size ``unit`` of a CSS pixel,
+    all in the canvas's units, ``button``, ``shift``, ``key`` and ``time`` in ms.
     """
 
-    takes: ClassVar[frozenset[str]] = frozenset({"down", "move", "up", "cancel", "key"})
-    """The types of events that are handled."""
-    asks: ClassVar[dict[str, tuple[str, ...]]] = {}
-    """Further types: actions of the model by name, with the items of the event that they take."""
-
-    def __init__(self, model: Observed) -> None:
-        self._model = model
+    def __init__(self, model: Observed, actions: Mapping[str, Action]) -> None:
+        self._model, self._actions = model, actions
         self._press: Any = None
 
     def handle(self, events: Iterable[Event]) -> str | None:
@@ -52,13 +50,10 @@ class Gestures:
         with self._model.locked():  # one change, drawn once
             for event in events:
                 kind = event["type"]
-                if kind not in self.takes and kind not in self.asks:
+                if (act := self._actions.get(kind)) is None:
                     return f"the page asked for {kind!r}, which this canvas cannot do"
                 try:
-                    if kind in self.asks:
-                        getattr(self._model, kind)(*(event[item] for item in self.asks[kind]))
-                    else:
-                        getattr(self, f"_{kind}")(event)
+                    act(event)
                     if kind not in ("move", "up", "cancel"):
                         refusal = None
                 except InputError as error:
@@ -87,13 +82,12 @@ class PinGestures(Gestures):
     Where the picture (h, w, 4) is transparent, what lies below is pinned.
     """
 
-    takes = Gestures.takes | {"pin"}
-    asks: ClassVar[dict[str, tuple[str, ...]]] = {"paste_pose": ("text",)}
-
     def __init__(
         self, deformation: Deformation, fit: Callable[[], None], image: Array | None = None
     ) -> None:
-        super().__init__(deformation)
+        actions = {kind: getattr(self, f"_{kind}") for kind in (*OF_A_HAND, "pin")}
+        actions["paste_pose"] = asked(deformation.paste_pose, "text")
+        super().__init__(deformation, actions)
         self.deformation, self._image = deformation, image
         self._fit = fit
         self._press: _Press | None = None
@@ -159,30 +153,32 @@ class PinGestures(Gestures):
                 return
             # Dragging the shape itself pins the point below the pointer.
             press.targets = self._pin_at(press.source)
-        if not press.dragging:
-            if moved <= _SLOP * event["unit"]:
-                return
-            model.begin_drag(model.selection)
-            press.dragging = True
-        elif not model.dragged:  # undone, or the handle was removed
-            self._press = None
+        if not press.dragging and moved <= _SLOP * event["unit"]:
+            return
+        if not self._drags(press):
             return
         held = list(model.dragged)
         if len(held) != len(press.targets):
             press.start, press.targets = point, model.pose.targets[held]
         model.drag_to(press.targets + (point - press.start))
 
+    def _drags(self, press: _Press) -> bool:
+        """Begin or go on to drag the selected handles; not once that is undone, or none is left."""
+        model = self.deformation
+        if not press.dragging and model.selection:
+            model.begin_drag(model.selection)
+            press.dragging = True
+        elif not model.dragged:
+            self._press = None
+        return self._press is not None
+
     def _turn(self, press: _Press, point: Array) -> None:
         """Turn or scale the shape at the selected handles as the pointer moves around the last."""
         model = self.deformation
-        if not model.selection or (press.dragging and not model.dragged):  # undone, or removed
-            self._press = None
+        if not self._drags(press):
             return
-        if not press.dragging:
-            model.begin_drag(model.selection)
-            press.dragging = True
         assert press.turned is not None
-        centre, (angles, scales) = model.pose.targets[model.selection[-1]], press.turned
+        centre, (angles, scales) = model.pose.targets[model.dragged[-1]], press.turned
         before, now = ((place - centre) @ [1, 1j] for place in (press.start, point))
         if abs(now) == 0 or len(angles) != len(model.dragged):
             return
@@ -295,6 +291,11 @@ class PinGestures(Gestures):
             last = model.selection[-1] if model.selection else (-1 if step > 0 else count)
             model.select([(last + step) % count])
             self.cursor = None
+
+
+def asked(act: Callable[..., Any], *items: str) -> Action:
+    """An action that passes these items of an event on."""
+    return lambda event: act(*(event[item] for item in items))
 
 
 def place(event: Event) -> Array:

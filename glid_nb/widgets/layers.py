@@ -15,13 +15,13 @@ from PIL import Image
 
 from glid_nb._arrays import Array
 from glid_nb._scripts import glsl
+from glid_nb.energies import ENERGIES
 from glid_nb.figures.style import VERMILION, rgb
 from glid_nb.geometry import MeshMap, Triangulation
 from glid_nb.harmonic import as_complex
 from glid_nb.harmonic.shader_map import ShaderMap
 from glid_nb.methods.mesh.operators import MeshOperators
 from glid_nb.widgets.overlays import N_COLORS
-from glid_nb.widgets.shader import energy_defines
 
 Uniforms = dict[str, dict[str, Any]]
 EvaluatedIn = Literal["shader", "kernel"]
@@ -156,6 +156,13 @@ def _evaluation_on(mesh: Triangulation) -> Evaluation:
         return map.images.astype(np.float32), derivatives.astype(np.float32)
 
     return evaluate
+
+
+def energy_defines() -> str:
+    """What stands before ``energy.glsl``: the density of every energy, chosen by its number."""
+    known = [energy.shader for energy in ENERGIES.values()]
+    choices = [f"energy.x < {i + 0.5} ? ({text}) : " for i, text in enumerate(known) if text]
+    return f"#define ENERGY_DENSITY {''.join(choices)}0.0\n"
 
 
 def picture_texture(image: NDArray[np.uint8]) -> Any:

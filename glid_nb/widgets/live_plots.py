@@ -13,13 +13,9 @@ from glid_nb.geometry import Cage
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import png
 from glid_nb.solvers import Iteration
-from glid_nb.widgets.monitor import PLOTS
+from glid_nb.widgets.monitor import PLOTS, places
 
 _DPI, _SCALE = 100, 1.5  # pixels of the picture for each of CSS
-# CSS pixels. A plot's legend is above it; ticks and the axis's name are below.
-_LEFT, _RIGHT, _ABOVE, _BELOW = 44, 8, 31, 32
-_BETWEEN_COLUMNS, _BETWEEN_ROWS, _ABOVE_TIMES = 46, 64, 17
-_ROWS, _STEPS_AND_TIMES = (0.56, 0.44), (0.68, 0.32)  # shares of the height
 
 
 class LivePlots:
@@ -34,24 +30,14 @@ class LivePlots:
         self.cage = cage
         figure = Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI * _SCALE)
         self._canvas = FigureCanvasAgg(figure)
-        room = height - _ABOVE - _BELOW - _BETWEEN_ROWS
-        rows = figure.add_gridspec(2, 1, height_ratios=_ROWS, hspace=2 * _BETWEEN_ROWS / room)
-        rows.update(
-            left=_LEFT / width,
-            right=1 - _RIGHT / width,
-            bottom=_BELOW / height,
-            top=1 - _ABOVE / height,
+        energy, steps, times, certificate = (
+            figure.add_axes((left / width, 1 - (top + high) / height, wide / width, high / height))
+            for left, top, wide, high in places(width, height).values()
         )
-        column = (width - _LEFT - _RIGHT - _BETWEEN_COLUMNS) / 2
-        columns = rows[0].subgridspec(1, 2, wspace=_BETWEEN_COLUMNS / column)
-        upper = _ROWS[0] * room - _ABOVE_TIMES
-        right = columns[1].subgridspec(
-            2, 1, height_ratios=_STEPS_AND_TIMES, hspace=2 * _ABOVE_TIMES / upper
-        )
-        self._energy = EnergyPlot(figure.add_subplot(columns[0]), animated=True)
-        self._step = StepPlot(figure.add_subplot(right[0]), animated=True)
-        self._time = TimePlot(figure.add_subplot(right[1]), animated=True)
-        self._certificate = CertificatePlot(figure.add_subplot(rows[1]), cage, animated=True)
+        self._energy = EnergyPlot(energy, animated=True)
+        self._step = StepPlot(steps, animated=True)
+        self._time = TimePlot(times, animated=True)
+        self._certificate = CertificatePlot(certificate, cage, animated=True)
         self._plots: tuple[Plot, ...] = self._energy, self._step, self._time, self._certificate
         for plot, name in zip(self._plots, PLOTS, strict=True):
             plot.entitle(name, *((2.0,) if plot is self._time else ()))

@@ -27,32 +27,45 @@ _TONES = dict(zip(("idle", "working", "good", "blocked", "error"), _COLORS, stri
 _RATE_WINDOW = 1.0  # seconds over which frames are counted
 PLOTS = {
     "Energy": (
-        (9.6, 8.1, 39.3, 37.4),
         "How far the shape is from undeformed, on a logarithmic axis: the energy's mean along the "
         "boundary above its least value, 2 for the symmetric Dirichlet energy (blue, Section 6), "
-        "what the pins miss (orange), and the sum (20). Lines join the ends of solves.",
+        "what the pins miss (orange), and the sum (20). Lines join the ends of solves."
     ),
     "Steps": (
-        (58.9, 8.1, 39.3, 22.4),
         "The Newton decrement, which falls to 0 as a minimum comes near, and the share of each "
         "Newton step that was taken, 1 for all of it. The Hessian is projected as in Section 7 if "
         "it has to be, and the line search shortens a step until the energy falls and the map is "
-        "certified (Section 9.2, Algorithm 1).",
+        "certified (Section 9.2, Algorithm 1)."
     ),
     "Time": (
-        (58.9, 35.0, 39.3, 10.5),
         "How long each iteration took: energy, gradient, Hessian, factor, line search and "
-        "certificate together. Section 10 compares such times (Figure 9, Table 2).",
+        "certificate together. Section 10 compares such times (Figure 9, Table 2)."
     ),
     "Certificate": (
-        (9.6, 62.3, 88.7, 29.3),
         "The certified lower bound on σ₂ along the boundary (blue), loop by loop, and σ₂ itself at "
         "samples (dark): while the bound is above 0 and the winding number is 0, the map folds "
-        "nowhere, also inside (Theorem 4.2). Section 8 has such bounds; ours are sharper.",
+        "nowhere, also inside (Theorem 4.2). Section 8 has such bounds; ours are sharper."
     ),
 }
-"""By a plot's name: left, top, width and height in percent; what it shows, and where in the paper
-that is."""
+"""By a plot's name what it shows, and where in the paper that is."""
+
+# CSS pixels. A plot's legend is above it; ticks and the axis's name are below.
+_LEFT, _RIGHT, _ABOVE, _BELOW = 44, 8, 31, 32
+_BETWEEN_COLUMNS, _BETWEEN_ROWS, _ABOVE_TIMES = 46, 64, 17
+_UPPER_ROW, _STEPS = 0.56, 0.68  # shares of the height
+
+
+def places(width: int, height: int) -> dict[str, tuple[float, float, float, float]]:
+    """Left, top, width and height of each of the `PLOTS` in a picture of this size, CSS pixels."""
+    across, room = width - _LEFT - _RIGHT, height - _ABOVE - _BELOW - _BETWEEN_ROWS
+    column, upper = (across - _BETWEEN_COLUMNS) / 2, _UPPER_ROW * room
+    right, steps = _LEFT + column + _BETWEEN_COLUMNS, _STEPS * (upper - _ABOVE_TIMES)
+    return {
+        "Energy": (_LEFT, _ABOVE, column, upper),
+        "Steps": (right, _ABOVE, column, steps),
+        "Time": (right, _ABOVE + steps + _ABOVE_TIMES, column, upper - steps - _ABOVE_TIMES),
+        "Certificate": (_LEFT, _ABOVE + upper + _BETWEEN_ROWS, across, room - upper),
+    }
 
 
 class SolverMonitor(ClosingWidget, ipywidgets.VBox):
@@ -171,10 +184,10 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
 def _placeholder(width: int, height: int) -> bytes:
     """Empty axes with their names, as an SVG of this size in CSS pixels."""
     axes = "".join(
-        f'<svg x="{left}%" y="{top}%" width="{wide}%" height="{high}%" stroke="{FAINT}">'
+        f'<svg x="{left}" y="{top}" width="{wide}" height="{high}" stroke="{FAINT}">'
         '<line y2="100%"/><line y1="100%" x2="100%" y2="100%"/>'
         f'<text x="50%" y="50%" dy="4" fill="{GREY}" stroke="none">{name}</text></svg>'
-        for name, ((left, top, wide, high), _) in PLOTS.items()
+        for name, (left, top, wide, high) in places(width, height).items()
     )
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
@@ -199,18 +212,17 @@ _GUIDE = """<style>
 def _guide(width: int, height: int) -> ipywidgets.HTML:
     """Lies over the plots, of this size in CSS pixels, and explains each on hover and by a "?"."""
 
-    def about(name: str) -> str:
-        (left, top, wide, high), text = PLOTS[name]
-        y, above = top * height / 100, 14 if name == "Time" else 28
-        beside, side = 9 + 5.2 * len(name), "left" if left < 50 else "right"
+    def about(name: str, left: float, top: float, wide: float, high: float) -> str:
+        text, above = PLOTS[name], 14 if name == "Time" else 28
+        beside, side = left + 9 + 5.2 * len(name), "left" if left < width / 2 else "right"
         return (
-            f'<div title="{text}" style="left:{left}%;top:{y:.0f}px;width:{wide}%;'
-            f'height:{high * height / 100:.0f}px"></div>'
-            f'<details name="glid-guide" style="left:calc({left}% + {beside:.0f}px);'
-            f'top:{y - above:.0f}px"><summary title="{text}" aria-label="About the plot: {name}">'
+            f'<div title="{text}" style="left:{left:.0f}px;top:{top:.0f}px;width:{wide:.0f}px;'
+            f'height:{high:.0f}px"></div>'
+            f'<details name="glid-guide" style="left:{beside:.0f}px;top:{top - above:.0f}px">'
+            f'<summary title="{text}" aria-label="About the plot: {name}">'
             f'?</summary><p style="{side}:0"><b>{name}.</b> {text}</p></details>'
         )
 
-    parts = "".join(map(about, PLOTS))
+    parts = "".join(about(name, *place) for name, place in places(width, height).items())
     value = f'{_GUIDE}<div class="glid-guide" style="width:{width}px">{parts}</div>'
     return ipywidgets.HTML(value, layout={"height": "0", "margin": "0", "overflow": "visible"})

@@ -14,8 +14,7 @@ from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import PANEL_LEGEND, legend
 from glid_nb.widgets.pad import Pad
-from glid_nb.widgets.scene import N_VERTICES, Drawing, Scene, renderer
-from glid_nb.widgets.shader import UNIFORM_VECTORS
+from glid_nb.widgets.scene import N_VERTICES, UNIFORM_VECTORS, Drawing, Scene, renderer
 
 CORNERS = ("bottom right", "bottom left", "top right", "top left")  # the usual place first
 
@@ -121,12 +120,8 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
             materials=self.scene.materials,
             coefficients=self._wire(),
         )
-        for part in (self._renderer, self.stage):
-            part.layout.grid_area = "a"
         super().__init__([self._renderer, self.stage])
         self.add_class("glid-pane")
-        self.layout.grid_template_areas = "'a'"
-        self.layout.flex = "0 0 auto"
         self._resize()
         self.stage.observe(self._resize, ["width", "height"])
         self.fit(map, ())
@@ -225,10 +220,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
     def _resize(self, _: Any = None) -> None:
         width, height = self.stage.width, self.stage.height
         self._renderer.width, self._renderer.height = width, height
-        for part in (self, self._renderer, self.stage):
-            part.layout.width, part.layout.height = f"{width}px", f"{height}px"
-        self.layout.grid_template_columns = f"{width}px"
-        self.layout.grid_template_rows = f"{height}px"
+        self.layout.width, self.layout.height = f"{width}px", f"{height}px"
 
 
 def emptiest_corner(points: Any, width: int, height: int, bars: int = 1) -> str:

@@ -1,6 +1,5 @@
 """The pins of a deformation as numbers to read and type."""
 
-from functools import partial
 from typing import Any
 
 import ipywidgets
@@ -17,11 +16,6 @@ class PinBar(EditControls):
     """The list of pins; the numbers of the one selected last; what to do with all selected.
 
     Target, angle (degrees), scale, weight and depth; an empty angle or scale is free.
-
-    Parameters
-    ----------
-    deformation : Deformation
-        The model that the bar shows and changes.
     """
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
@@ -68,7 +62,7 @@ class PinBar(EditControls):
             readout_format=".2g",
             continuous_update=False,
             layout={"width": "186px"},
-            style={"description_width": "initial"},
+            style=look["style"],
         )
 
         def acting(icon: str, tooltip: str, act: Any) -> ipywidgets.Button:
@@ -87,13 +81,17 @@ class PinBar(EditControls):
             "Remove selected pins and keep the shape until the next change",
             lambda: model.remove_handles(*model.selection, keep_shape=True),
         )
-        self.list.observe(self._select, ["value"])
-        for field in (self.x, self.y):
-            field.observe(lambda _: self._act(self._move), ["value"])
-        self.angle.observe(lambda _: self._act(self._set_angle), ["value"])
-        self.scale.observe(lambda _: self._act(self._set_scale), ["value"])
-        self.weight.observe(lambda _: self._act(self._set_weight), ["value"])
-        self.depth.observe(lambda _: self._act(self._set_depth), ["value"])
+
+        def set_pins(**numbers: Any) -> None:
+            model.set_pins(model.selection, **numbers)
+
+        self._bind(self.list, lambda chosen: model.select([] if chosen == -1 else [chosen]))
+        self._bind(self.x, lambda x: model.move_target(model.selection[-1], (x, self.y.value)))
+        self._bind(self.y, lambda y: model.move_target(model.selection[-1], (self.x.value, y)))
+        self._bind(self.angle, lambda text: set_pins(angles=_radians(text)))
+        self._bind(self.scale, lambda text: set_pins(scales=_number(text, "a scale, such as 1.5")))
+        self._bind(self.weight, lambda weight: set_pins(weights=weight))
+        self._bind(self.depth, lambda depth: model.set_depths(model.selection, depth))
         self.mirror = acting("exchange", "Swap left and right of the pose (M)", model.mirror_pose)
         turned = self.angle, self.scale, self.weight
         self._numbers = [self.x, self.y, *turned, self.depth, self.back, self.front, self.release]
@@ -123,31 +121,14 @@ class PinBar(EditControls):
             self.weight.value = float(pose.weights[last])
             self.depth.value = float(pose.depths[last])
 
-    def _select(self, change: Any) -> None:
-        chosen = [] if change["new"] == -1 else [change["new"]]
-        self._act(partial(self.deformation.select, chosen))
-
-    def _move(self) -> None:
-        self.deformation.move_target(self.deformation.selection[-1], (self.x.value, self.y.value))
-
-    def _set_angle(self) -> None:
-        degrees = _number(self.angle.value, "an angle in degrees, such as 30")
-        angle = None if degrees is None else float(wrapped(np.radians(degrees)))
-        self.deformation.set_pins(self.deformation.selection, angles=angle)
-
-    def _set_scale(self) -> None:
-        scale = _number(self.scale.value, "a scale, such as 1.5")
-        self.deformation.set_pins(self.deformation.selection, scales=scale)
-
-    def _set_weight(self) -> None:
-        self.deformation.set_pins(self.deformation.selection, weights=self.weight.value)
-
-    def _set_depth(self) -> None:
-        self.deformation.set_depths(self.deformation.selection, self.depth.value)
-
 
 def _free_or(number: float) -> str:
     return "" if np.isnan(number) else f"{number:.4g}"
+
+
+def _radians(text: str) -> float | None:
+    degrees = _number(text, "an angle in degrees, such as 30")
+    return None if degrees is None else float(wrapped(np.radians(degrees)))
 
 
 def _number(text: str, wanted: str) -> float | None:

@@ -8,7 +8,7 @@ import numpy as np
 import pythreejs as three
 
 from glid_nb._arrays import Array
-from glid_nb.energies import Energy, SymmetricDirichlet
+from glid_nb.energies import ENERGIES, Energy, SymmetricDirichlet
 from glid_nb.figures.style import BLUE, COLORS, GREY, rgb
 from glid_nb.geometry import MeshMap, Triangulation, triangulate, uniform_panels
 from glid_nb.geometry.panels import Panels
@@ -19,12 +19,14 @@ from glid_nb.imaging.order import Order, order_of
 from glid_nb.widgets.layers import EvaluatedIn, Layer, Uniforms, comparison_layer, picture_texture
 from glid_nb.widgets.overlays import FULL_MARGIN, MARGIN_COLORS, OVERLAYS, color_range
 from glid_nb.widgets.ribbons import PANEL_VERTICES, cage_ribbon, offset_ribbon, panel_ribbon
-from glid_nb.widgets.shader import UNIFORM_VECTORS, energy_uniform
 
 Range = Literal["keep", "widen", "fit"]
 
 N_VERTICES = 10_000
 """Vertices of the picture's mesh, by default."""
+
+UNIFORM_VECTORS = 1024
+"""Vectors of uniforms that a vertex shader is assumed to hold until the page says otherwise."""
 
 _RANGE_SAMPLES = 256  # of the boundary, where distortion is largest
 _GRID_LINES = 40  # along the longer side
@@ -244,6 +246,12 @@ class Scene:
             pixel=0.02,
             grid_spacing=self.domain.cage.longer_side / _GRID_LINES,
         )
+
+
+def energy_uniform(energy: Energy) -> list[float]:
+    """The number of an energy and its parameter, as ``energy.glsl`` takes them."""
+    number = list(ENERGIES).index(energy.name) if energy.shader else -1
+    return [float(number), float(getattr(energy, "s", 1.0))]
 
 
 def _uniforms(**values: Any) -> Uniforms:

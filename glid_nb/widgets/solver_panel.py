@@ -109,12 +109,10 @@ class SolverPanel(EditControls):
         self.pause = ipywidgets.ToggleButton(
             description="Pause", icon="pause", tooltip="Let the solver wait", layout=_FULL
         )
-        self.pause.observe(
-            lambda change: act(lambda: setattr(model, "paused", change["new"])), ["value"]
-        )
-        self.step = button("Step", "step-forward", "One frame's iterations", deformation.step)
-        self.reset = button("Reset", "refresh", "The undeformed shape (0)", deformation.reset)
-        free = deformation.clear_handles
+        self._bind(self.pause, lambda paused: setattr(model, "paused", paused))
+        self.step = button("Step", "step-forward", "One frame's iterations", model.step)
+        self.reset = button("Reset", "refresh", "The undeformed shape (0)", model.reset)
+        free = model.clear_handles
         self.clear = button("Clear handles", "eraser", "Let go of all handles", free)
         self.steps = ipywidgets.HTML(layout={"height": "96px", "overflow": "hidden auto"})
         """What single steps did, the last one first; hidden while the solver is not paused."""

@@ -6,7 +6,7 @@ import base64
 import io
 import weakref
 from collections.abc import Callable, Sequence
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 import traitlets
@@ -21,46 +21,12 @@ from glid_nb.session.document import NamedPose
 from glid_nb.session.edit_state import EditState
 from glid_nb.session.worker import LatestWins, weakly
 from glid_nb.widgets.canvas import DeformCanvas
-from glid_nb.widgets.gestures import Event, Gestures
+from glid_nb.widgets.gestures import Event, Gestures, asked
 from glid_nb.widgets.pad import Pad
 
 _THUMBNAIL, _SMALL = (104, 80), 512  # pixels, drawn from the picture at this size
 _COLORS, _VERTICES = 64, 300
-
-
-class _Actions(Gestures):
-    """What the timeline's buttons and keys do."""
-
-    takes = frozenset({"keep", "record", "onion", "frame"})
-    asks: ClassVar = {
-        **dict.fromkeys(("duplicate_pose", "delete_pose", "go_to_pose"), ("index",)),
-        "rename_pose": ("index", "name"),
-        "move_pose": ("index", "time"),
-        "set_easing": ("index", "easing"),
-        "set_repeat": ("repeat",),
-        "undo": (),
-        "redo": (),
-    }
-
-    def __init__(self, panel: TimelinePanel) -> None:
-        super().__init__(panel.canvas.deformation)
-        self._canvas, self._animation = panel.canvas, panel.animation
-
-    def _keep(self, event: Event) -> None:
-        self._animation.keep(event["time"])
-
-    def _record(self, event: Event) -> None:
-        self._animation.record(event["on"])
-
-    def _onion(self, event: Event) -> None:
-        self._canvas.show_onion = event["on"]
-
-    def _frame(self, event: Event) -> None:
-        time, animation = event["time"], self._animation
-        if time is None or (map := animation.at(time)) is None:
-            self._canvas.show_between(None)
-        else:
-            self._canvas.show_between(map, animation.order(time))
+_OF_A_POSE = ("duplicate_pose", "delete_pose", "go_to_pose")
 
 
 class TimelinePanel(Pad):
@@ -68,14 +34,8 @@ class TimelinePanel(Pad):
 
     Poses are kept, named, moved along time, duplicated and deleted; the motion is proved in the
     background, and what is proved is played by the page itself, from the maps at which the motion
-    bends. The strip's height is the certified bound on sigma_2.
-
-    Parameters
-    ----------
-    canvas : DeformCanvas
-        Where the motion is shown; its model has the poses.
-    on_export : callable, optional
-        What the export button does; there is none without it.
+    bends. The strip's height is the certified bound on sigma_2. ``on_export()`` is what the export
+    button does; there is none without it.
     """
 
     _esm = bundle("timeline/main.js")
@@ -110,7 +70,19 @@ class TimelinePanel(Pad):
         )
         super().__init__(stage=canvas.pane.stage.model_id, **kwargs)
         model = canvas.deformation
-        self._actions = _Actions(self)
+        actions = {
+            "keep": asked(self.animation.keep, "time"),
+            "record": asked(self.animation.record, "on"),
+            "onion": lambda event: canvas.set_trait("show_onion", event["on"]),
+            "frame": asked(self._show_between, "time"),
+            "rename_pose": asked(model.rename_pose, "index", "name"),
+            "move_pose": asked(model.move_pose, "index", "time"),
+            "set_easing": asked(model.set_easing, "index", "easing"),
+            "set_repeat": asked(model.set_repeat, "repeat"),
+        }
+        actions |= {k: asked(getattr(model, k), "index") for k in _OF_A_POSE}
+        actions |= {"undo": asked(model.undo), "redo": asked(model.redo)}
+        self._gestures = Gestures(model, actions)
         self.serve(model, self._on_events)
         canvas.observe(lambda _: self._show("state"), ["show_onion"])
         canvas.pane.stage.observe(lambda _: self._show("motion"), ["materials"])
@@ -126,10 +98,17 @@ class TimelinePanel(Pad):
 
     def _on_events(self, events: Sequence[Event]) -> str | None:
         rest = [event for event in events if event["type"] != "export"]
-        refusal = self._actions.handle(rest)
+        refusal = self._gestures.handle(rest)
         if self.on_export is not None and len(rest) < len(events):
             self.on_export()  # without the model's lock
         return refusal
+
+    def _show_between(self, time: float | None) -> None:
+        """Have the canvas draw the motion at a time; None or no motion then: the edited pose."""
+        if time is None or (map_ := self.animation.at(time)) is None:
+            self.canvas.show_between(None)
+        else:
+            self.canvas.show_between(map_, self.animation.order(time))
 
     def _show(self, what: str) -> None:
         with self.canvas.deformation.locked():

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from glid_nb._arrays import Array
 from glid_nb.imaging import TraceError, read_image
 from glid_nb.session import loop_edits
 from glid_nb.session.tracing import TracingModel
-from glid_nb.widgets.gestures import ARROWS, LEFT, RIGHT, Event, Gestures, place
+from glid_nb.widgets.gestures import ARROWS, LEFT, OF_A_HAND, RIGHT, Event, Gestures, asked, place
 
 Vertex = tuple[int, int]
 """Which loop, and which of its vertices."""
@@ -50,14 +50,16 @@ class _Press:
 class TraceGestures(Gestures):
     """Edits and paints a tracing, also for the panel; places are in pixels of the picture."""
 
-    takes = Gestures.takes | {"tool", "upload", "set_options", "undo"}
-    asks: ClassVar = {
-        "toggle_hole": ("number",),
-        **dict.fromkeys(("clear_scribbles", "discard_edits", "redo", "draw"), ()),
-    }
-
     def __init__(self, model: TracingModel) -> None:
-        super().__init__(model)
+        own = (*OF_A_HAND, "tool", "upload", "undo")
+        plain = ("clear_scribbles", "discard_edits", "redo", "draw")
+        actions = {kind: getattr(self, f"_{kind}") for kind in own}
+        actions |= {kind: asked(getattr(model, kind)) for kind in plain}
+        actions["toggle_hole"] = asked(model.toggle_hole, "number")
+        actions["set_options"] = lambda event: model.set_options(
+            event.get("gesture"), **event["changes"]
+        )
+        super().__init__(model, actions)
         self.model = model
         self.tool = "edit"
         """What the left button does: "edit", "foreground", "background", "color", "component",
@@ -234,9 +236,6 @@ class TraceGestures(Gestures):
         if event["name"] not in _TOOLS.values():
             raise TraceError(f"there is no tool {event['name']!r}")
         self.tool, self.corners = event["name"], ()
-
-    def _set_options(self, event: Event) -> None:
-        self.model.set_options(event.get("gesture"), **event["changes"])
 
     def _undo(self, event: Event) -> None:
         """Undo one step; during a drag, the drag; of a polygon, its last corner."""

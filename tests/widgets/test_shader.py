@@ -14,8 +14,8 @@ from glid_nb.energies import ENERGIES
 from glid_nb.geometry import triangulate
 from glid_nb.harmonic.shader_map import ShaderMap
 from glid_nb.imaging.order import order_of
-from glid_nb.widgets.scene import Drawing, Scene, _stacked, drawing_order
-from glid_nb.widgets.shader import energy_defines, energy_uniform
+from glid_nb.widgets.layers import energy_defines
+from glid_nb.widgets.scene import Drawing, Scene, _stacked, drawing_order, energy_uniform
 
 from ..domains import NAMES, domain, random_map
 

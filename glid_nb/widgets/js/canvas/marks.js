@@ -2,7 +2,7 @@
 // they are, and a line between the two. Those that another part of the shape covers are faint rings.
 
 import { make } from "../pad/dom.js";
-import { disk, strokePath, tracePath } from "../pad/pen.js";
+import { disk, fillPath, strokePath, tracePath } from "../pad/pen.js";
 
 const TARGET = 7.5, IMAGE = 3.5, RING = 12; // radii, CSS pixels
 const DIAL = 42, KNOB = 6, EDGE = 14; // of a scale of 1; CSS pixels
@@ -18,7 +18,7 @@ function lines(pen, pairs, styles) {
 // A dashed ring with a border.
 function ring(pen, place) {
   pen.setLineDash([3.5, 2.4]);
-  disk(pen, place, TARGET, null, "rgba(255,255,255,0.85)", 3.4);
+  disk(pen, place, TARGET, null, BORDER, 3.4);
   disk(pen, place, TARGET, null, "#067a82", 1.6);
   pen.setLineDash([]);
 }
@@ -26,10 +26,8 @@ function ring(pen, place) {
 // Outlines of other poses: colour, and loops of points.
 export function drawOnion(pen, view, outlines) {
   for (const [color, loops] of outlines) {
-    tracePath(pen, loops.map((loop) => loop.map((p) => view.toScreen(p))));
     pen.globalAlpha = 0.13;
-    pen.fillStyle = color;
-    pen.fill("evenodd");
+    fillPath(pen, loops.map((loop) => view.line(loop)), color);
     pen.globalAlpha = 0.8;
     strokePath(pen, [[1.4, color]]);
   }
@@ -49,10 +47,8 @@ function hatching(pen, strength) {
 // Painted areas: strength, and loops of points.
 export function drawStiff(pen, view, areas) {
   for (const [strength, loops] of areas) {
-    tracePath(pen, loops.map((loop) => loop.map((p) => view.toScreen(p))));
-    pen.fillStyle = hatching(pen, strength);
-    pen.fill();
-    strokePath(pen, [[3.4, "rgba(255,255,255,0.85)"], [1.5, STIFF]]);
+    fillPath(pen, loops.map((loop) => view.line(loop)), hatching(pen, strength), "nonzero");
+    strokePath(pen, [[3.4, BORDER], [1.5, STIFF]]);
   }
 }
 
@@ -60,13 +56,13 @@ export function drawStiff(pen, view, areas) {
 export function drawBrush(pen, view, { radius, strength }, { path, rests }) {
   const wide = radius / view.unit, color = strength ? STIFF : "#ffffff";
   if (path.length) {
-    tracePath(pen, [[...path, path.at(-1)].map((p) => view.toScreen(p))], false);
+    tracePath(pen, [view.line([...path, path.at(-1)])], false);
     Object.assign(pen, { lineCap: "round", lineJoin: "round", globalAlpha: 0.45 });
     strokePath(pen, [[2 * wide, color]]);
     pen.globalAlpha = 1;
   }
   if (!rests) return;
-  disk(pen, rests, wide, null, "rgba(255,255,255,0.85)", 3.4);
+  disk(pen, rests, wide, null, BORDER, 3.4);
   disk(pen, rests, wide, null, STIFF, 1.4);
 }
 
@@ -97,10 +93,8 @@ function drawRing(pen, view, marks, held) {
   disk(pen, [ring.x, ring.y], ring.radius, null, turned ? WANTED : FREE, 2);
   pen.setLineDash([]);
   lines(pen, [[[ring.x, ring.y], ring.knob]], [[3, BORDER], [1.2, turned ? WANTED : FREE]]);
-  pen.beginPath();
-  pen.rect(ring.knob[0] - KNOB, ring.knob[1] - KNOB, 2 * KNOB, 2 * KNOB);
-  pen.fillStyle = scaled ? WANTED : "#fff";
-  pen.fill();
+  const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => [ring.knob[0] + x * KNOB, ring.knob[1] + y * KNOB]);
+  fillPath(pen, [corners], scaled ? WANTED : "#fff");
   strokePath(pen, [[1.6, scaled ? "#fff" : FREE]]);
 }
 
@@ -118,18 +112,14 @@ export function lostMarks(view, marks) {
 function drawLost(pen, view, marks) {
   for (const { at: [x, y], angle } of lostMarks(view, marks)) {
     const corner = (turn, r) => [x + r * Math.cos(angle + turn), y + r * Math.sin(angle + turn)];
-    tracePath(pen, [[corner(0, 11), corner(2.4, 9), corner(-2.4, 9)]]);
-    pen.fillStyle = "#00d5e0";
-    pen.fill();
+    fillPath(pen, [[corner(0, 11), corner(2.4, 9), corner(-2.4, 9)]], "#00d5e0");
     strokePath(pen, [[1.6, "#063f45"]]);
   }
 }
 
 // The box or lasso that selects.
 export function drawLasso(pen, view, path) {
-  tracePath(pen, [path.map((p) => view.toScreen(p))]);
-  pen.fillStyle = "rgba(0,114,178,0.12)";
-  pen.fill("evenodd");
+  fillPath(pen, [view.line(path)], "rgba(0,114,178,0.12)");
   pen.setLineDash([5, 3]);
   strokePath(pen, [[3, BORDER], [1.4, "#0072b2"]]);
   pen.setLineDash([]);
@@ -137,11 +127,10 @@ export function drawLasso(pen, view, path) {
 
 // held: where the pointer holds targets, by index.
 export function drawMarks(pen, view, marks, { hovered, held, cursor }) {
-  const targets = marks.targets.map((p, i) => view.toScreen(held.get(i) || p));
-  const images = marks.images.map((p) => view.toScreen(p));
+  const targets = view.line(marks.targets.map((p, i) => held.get(i) || p)), images = view.line(marks.images);
   const apart = targets.map((target, i) => [images[i], target])
     .filter(([a, b]) => a && Math.hypot(a[0] - b[0], a[1] - b[1]) >= 2);
-  lines(pen, apart, [[3.6, "rgba(255,255,255,0.85)"], [1.6, "#2b2b2b"]]);
+  lines(pen, apart, [[3.6, BORDER], [1.6, "#2b2b2b"]]);
   targets.forEach((target, i) => {
     if (marks.selected.includes(i)) disk(pen, target, RING, "rgba(0,114,178,0.28)", "#0072b2", 2);
     else if (i === hovered) disk(pen, target, RING, "rgba(0,114,178,0.14)");

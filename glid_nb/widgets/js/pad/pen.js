@@ -32,6 +32,13 @@ export function tracePath(ctx, lines, closed = true) {
   }
 }
 
+// Fills the inside of lines of points, by default with their holes left out, and keeps their path.
+export function fillPath(ctx, lines, style, rule = "evenodd") {
+  tracePath(ctx, lines);
+  ctx.fillStyle = style;
+  ctx.fill(rule);
+}
+
 // Strokes the present path in widths and colours, the lowest first.
 export function strokePath(ctx, styles) {
   for (const [lineWidth, strokeStyle] of styles) {

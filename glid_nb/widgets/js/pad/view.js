@@ -16,6 +16,10 @@ export class View {
     return [(x - this.x) / unit + this.width / 2, (up * (this.y - y)) / unit + this.height / 2];
   }
 
+  line(points) {
+    return points.map((point) => this.toScreen(point));
+  }
+
   pan(dx, dy) {
     this.x -= dx * this.unit;
     this.y += this.up * dy * this.unit;

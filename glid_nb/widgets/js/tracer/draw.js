@@ -1,7 +1,7 @@
 // Draws the stage: picture, cage, vertices, holes, strokes and the places of problems.
 
 import { make } from "../pad/dom.js";
-import { disk, strokePath, tracePath } from "../pad/pen.js";
+import { disk, fillPath, strokePath, tracePath } from "../pad/pen.js";
 
 const HALO = "rgba(255, 255, 255, 0.9)";
 const SPECK = 12; // CSS pixels; dropped holes smaller than this show under the pointer only
@@ -19,14 +19,14 @@ export function drawStage(ctx, scene) {
     ctx.imageSmoothingQuality = "high";
     ctx.drawImage(scene.bitmap, ...corner, ...extent);
   }
-  const loops = scene.loops.map((loop) => loop.map((p) => view.toScreen(p)));
+  const loops = scene.loops.map((loop) => view.line(loop));
   if (loops.length && scene.showVertices) {
     const [[left, top], [w, h]] = [corner, extent];
     const frame = [[left, top], [left + w, top], [left + w, top + h], [left, top + h]];
     fillPath(ctx, [...loops, frame], colors.veil); // what lies outside the cage fades
   }
   scene.holes.forEach((hole, i) => {
-    const loop = hole.loop.map((p) => view.toScreen(p));
+    const loop = view.line(hole.loop);
     const hovered = scene.hover?.hole === i;
     if (hovered) fillPath(ctx, [loop], hole.kept ? colors.warnSoft : colors.accentSoft);
     const visible = Math.sqrt(hole.area) > SPECK * view.unit;
@@ -52,12 +52,6 @@ function checks(ctx, { checkLight, checkDark }) {
   return ctx.createPattern(tile, "repeat");
 }
 
-function fillPath(ctx, loops, style) {
-  tracePath(ctx, loops);
-  ctx.fillStyle = style;
-  ctx.fill("evenodd");
-}
-
 // Strokes loops over wider pale lines, which are seen on dark pictures.
 function strokeLoops(ctx, loops, style, width, dash = []) {
   ctx.lineJoin = "round";
@@ -76,14 +70,14 @@ function drawStrokes(ctx, scene) {
   ctx.lineCap = ctx.lineJoin = "round";
   for (const [lines, color] of pairs) {
     for (const line of lines) {
-      tracePath(ctx, [[...line, line.at(-1)].map((p) => view.toScreen(p))], false); // a dot too
+      tracePath(ctx, [view.line([...line, line.at(-1)])], false); // a dot too
       strokePath(ctx, [[8, HALO], [5, color]]);
     }
   }
 }
 
 function drawOutline(ctx, { outline, corners, colors, view }) {
-  tracePath(ctx, [outline.map((p) => view.toScreen(p))], false);
+  tracePath(ctx, [view.line(outline)], false);
   strokePath(ctx, [[4.5, HALO], [2, colors.foreground]]);
   for (const corner of corners) disk(ctx, view.toScreen(corner), 4, "white", colors.foreground, 2);
 }
