@@ -239,11 +239,8 @@ class Deformation(Observed):
         """Make ``action(state, ...)`` the present state, as one step for undo.
 
         A drag under way ends before it and begins again after it, with the handles that are left.
-
-        Raises
-        ------
-        EditError, PoseError, OptionError, EnergyError, MethodError, GeometryError
-            When the action is refused, or this is closed; nothing has changed then.
+        Raises EditError, PoseError, OptionError, EnergyError, MethodError or GeometryError when the
+        action is refused, or this is closed; nothing has changed then.
         """
         with self.locked():
             self._check_open()

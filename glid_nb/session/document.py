@@ -51,36 +51,23 @@ class Solution:
 class NamedPose:
     """A pose with a name and the certified map that was found for it.
 
-    Parameters
-    ----------
-    name : str
-        What the list of poses shows, 1 to 200 characters.
-    pose : Pose
-        Handles inside the map's domain, and targets.
-    energy : Energy
-        What was minimised.
-    options : Options
-        How.
-    map : HarmonicMap
-        The result; certified.
-    method : Method
-        What solves it. The result of a method on a mesh is not kept.
-    solution : Solution, optional
-        How the solve of all that ended with ``map``; not saved.
-
-    Raises
-    ------
-    DocumentError
-        For a bad name, or a handle outside the domain.
+    Raises DocumentError for a bad name, or a handle outside the domain.
     """
 
     name: str
+    """What the list of poses shows, 1 to 200 characters."""
     pose: Pose
+    """Handles inside the map's domain, and targets."""
     energy: Energy
+    """What was minimised."""
     options: Options
+    """How."""
     map: HarmonicMap
+    """The result; certified."""
     method: Method = field(default_factory=Newton)
+    """What solves it. The result of a method on a mesh is not kept."""
     solution: Solution | None = None
+    """How the solve of all that ended with ``map``; not saved."""
 
     def __post_init__(self) -> None:
         _check_kind("the name of a pose", self.name, str)
@@ -112,48 +99,32 @@ class NamedPose:
 class Document:
     """A picture, its cage, and the poses that it was given.
 
-    Parameters
-    ----------
-    image : (h, w, 4) uint8 array
-        RGBA, straight alpha. Kept read-only; copied if it was writeable.
-    cage : Cage
-        As traced, with the edits by hand.
-    domain : Domain
-        The domain that all the maps share; ``domain.cage`` is ``cage``.
-    trace_options : TraceOptions
-        How the cage was traced. Its ``scribbles`` are None or this document's.
-    scribbles : Scribbles or None
-        What was painted, whether the tracing uses it or not.
-    poses : tuple of NamedPose
-        At most a thousand.
-    active : int
-        Which pose is shown; 0 when there are none.
-    timeline : Timeline, optional
-        When the poses are shown in an animation; by default a second apart.
-
-    Raises
-    ------
-    DocumentError
-        When the parts do not fit together; the message names the culprit.
+    Raises DocumentError when the parts do not fit together; the message names the culprit.
     """
 
     image: NDArray[np.uint8]
+    """(h, w, 4) RGBA, straight alpha. Kept read-only; copied if it was writeable."""
     cage: Cage
+    """As traced, with the edits by hand."""
     domain: Domain
+    """The domain that all the maps share; ``domain.cage`` is ``cage``."""
     trace_options: TraceOptions
+    """How the cage was traced. Its ``scribbles`` are None or this document's."""
     scribbles: Scribbles | None
+    """What was painted, whether the tracing uses it or not."""
     poses: tuple[NamedPose, ...]
+    """At most a thousand."""
     active: int
+    """Which pose is shown; 0 when there are none."""
     timeline: Timeline | None = None
+    """When the poses are shown in an animation; by default a second apart."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "image", _checked_image(self.image))
-        object.__setattr__(self, "poses", tuple(self.poses))
-        _check_kind("cage", self.cage, Cage)
-        _check_kind("domain", self.domain, Domain)
-        _check_kind("trace_options", self.trace_options, TraceOptions)
-        if self.scribbles is not None:
-            _check_kind("scribbles", self.scribbles, Scribbles)
+        vars(self).update(image=_checked_image(self.image), poses=tuple(self.poses))
+        kinds = {"cage": Cage, "domain": Domain, "trace_options": TraceOptions}
+        kinds |= {} if self.scribbles is None else {"scribbles": Scribbles}
+        for key, kind in kinds.items():
+            _check_kind(key, getattr(self, key), kind)
         if not self.cage.equals(self.domain.cage):
             raise DocumentError("cage: it is not the cage of the domain")
         if self.trace_options.scribbles not in (None, self.scribbles):

@@ -26,20 +26,12 @@ _CHOSEN_WHEN_MISSING = {
 class Problem:
     """What a solver is given: where the map lives and what it should do.
 
-    Parameters
-    ----------
-    domain : Domain
-    pose : Pose
-        Handles inside the domain, and their targets.
-
-    Raises
-    ------
-    PoseError
-        When a handle lies outside the domain.
+    Raises PoseError when a handle lies outside the domain.
     """
 
     domain: Domain
     pose: Pose
+    """Handles inside the domain, and their targets."""
 
     def __post_init__(self) -> None:
         self.pose.check_inside(self.domain)
@@ -53,10 +45,8 @@ class Problem:
         ``hole_points`` are chosen when missing; ``depths``, ``angles``, ``scales`` and ``weights``
         are as in :class:`~glid_nb.Pose`. Other keys are ignored.
 
-        Raises
-        ------
-        InputFileError, GeometryError, PoseError
-            When something is missing or not valid; the message names the key or the place.
+        Raises InputFileError, GeometryError or PoseError when something is missing or not valid;
+        the message names the key or the place.
         """
         required = {"cage": _json.check_points, **_POSE}
         _json.check_fields(data, "a problem", required, _CHOSEN_WHEN_MISSING, others=True)

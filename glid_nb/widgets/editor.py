@@ -258,12 +258,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def trace(self, **options: Any) -> None:
         """Trace with changed options, fields of `glid_nb.TraceOptions`, and deform what is found.
 
-        Raises
-        ------
-        TraceError
-            An unknown option or a value out of its range.
-        EditError
-            The editor is closed.
+        Raises TraceError for an unknown option or a value out of its range, EditError if the editor
+        is closed.
         """
         if self._closed:
             raise EditError("the editor is closed")
@@ -281,10 +277,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def set_method(self, method: Method | str, **settings: Any) -> None:
         """Solve by another of `glid_nb.methods`, or its name; those on a mesh are for comparison.
 
-        Raises
-        ------
-        MethodError
-            It is unknown, cannot minimise the energy, or its package is not installed.
+        Raises MethodError if it is unknown, cannot minimise the energy, or its package is not
+        installed.
         """
         self.deformation.set_method(method, **settings)
 
@@ -299,12 +293,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
         ``size`` and ``view`` of a picture are as in `glid_nb.render`. Returns the written files:
         ``path``, then those that come with it, such as ``-texture.png`` with a mesh, or
-        ``.map.json`` with a proof (``glid-check x.map.json x.proof.json``).
-
-        Raises
-        ------
-        ExportError
-            For another suffix, or if a file that comes with ``path`` would replace another.
+        ``.map.json`` with a proof (``glid-check x.map.json x.proof.json``). Raises ExportError for
+        another suffix, or if a file that comes with ``path`` would replace another.
         """
         return export(self.model, path, size, view)
 

@@ -128,7 +128,9 @@ class PinGestures(Gestures):
             return
         if hit is None and (part := event.get("part")) and model.selection:
             turned = turned_now(model.state, model.selection)
-            self._press = _Press(point, None, None, part=part, turned=turned)
+            # A click on the ring's line that turns nothing pins what is below it.
+            source = self._source(point) if part == "turn" else None
+            self._press = _Press(point, source, None, part=part, turned=turned)
         elif hit is None:
             source = None if event["shift"] else self._source(point)
             self._press = _Press(point, source, None)
@@ -146,7 +148,8 @@ class PinGestures(Gestures):
             return
         moved = float(np.linalg.norm(point - press.start))
         if press.part:
-            self._turn(press, point)
+            if press.dragging or moved > _SLOP * event["unit"]:
+                self._turn(press, point)
             return
         if press.targets is None:
             if press.source is None or moved <= _SLOP_ON_SHAPE * event["unit"]:
@@ -200,14 +203,14 @@ class PinGestures(Gestures):
             chosen = np.flatnonzero(shapely.contains_xy(inside, *self.deformation.pose.targets.T))
             self.deformation.select([*self.deformation.selection, *chosen.tolist()])
             return
-        if press is None or (press.part and not press.dragging):
+        if press is None:
             return
         if press.dragging:
             self.deformation.end_drag()
         elif press.targets is None:
             if press.source is not None:
                 self._pin_at(press.source)
-            elif not event["shift"]:
+            elif not event["shift"] and not press.part:
                 self.deformation.select([])
 
     def _cancel(self, _: Event) -> None:
@@ -228,6 +231,8 @@ class PinGestures(Gestures):
 
     def _key(self, event: Event) -> None:
         key, model = event["key"], self.deformation
+        plain = {"undo": model.undo, "redo": model.redo, "0": model.reset}
+        plain |= {"m": model.mirror_pose, "f": self._fit}
         if key in ARROWS:
             self._arrow(event)
         elif key == "Enter":
@@ -241,10 +246,8 @@ class PinGestures(Gestures):
             else:
                 model.select([])
                 self.cursor = None
-        elif key in ("undo", "redo"):
-            getattr(model, key)()
-        elif key == "0":
-            model.reset()
+        elif act := plain.get(key.lower()):
+            act()
         elif key in DEPTHS:
             model.bring_forward(model.selection, DEPTHS[key])
         elif key in TURNS:
@@ -253,12 +256,8 @@ class PinGestures(Gestures):
             model.turn(model.selection, scale=SCALES[key])
         elif key in ("x", "X"):
             model.set_pins(model.selection, angles=None, scales=None)
-        elif key in ("m", "M"):
-            model.mirror_pose()
         elif key == "copy":
             self.copy(pose_text(model.state))
-        elif key in ("f", "F"):
-            self._fit()
         elif key in (",", "."):
             self._next(1 if key == "." else -1)
         elif key in ("a", "A"):

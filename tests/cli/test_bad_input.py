@@ -70,9 +70,9 @@ def test_a_problem_that_is_no_json_object(run, problem: Path, text: str) -> None
         (["--p2p-weight", "0"], "p2p_weight must be a finite number greater than 0"),
         (["--p2p-weight", "nan"], "p2p_weight must be a finite number greater than 0"),
         (["--max-iterations", "-1"], "max_iterations must be a whole number of at least 0"),
-        (["--sampling", "random"], "unknown sampling 'random'; choose one of graded, uniform"),
-        (["--certificate", "none"], "unknown certificate 'none'; choose one of"),
-        (["--hessian", "none"], "unknown hessian 'none'; choose one of"),
+        (["--sampling", "random"], "sampling must be one of graded, uniform, got 'random'"),
+        (["--certificate", "none"], "certificate must be one of hermite, lipschitz, bdhm"),
+        (["--hessian", "none"], "hessian must be one of adaptive, projected, exact"),
     ],
 )
 def test_a_bad_option(run, problem: Path, words: list[str], message: str) -> None:

@@ -13,7 +13,7 @@ from playwright.sync_api import Page
 from glid_nb import Motion
 from glid_nb._scripts import bundle
 from glid_nb.export.page import playing
-from glid_nb.harmonic.shader_map import ShaderMap
+from glid_nb.harmonic import ShaderMap
 
 from ..domains import random_map
 
