@@ -8,6 +8,7 @@ with few colours, so that they are small.
 
 import argparse
 import io
+import os
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -23,7 +24,7 @@ DOCS = Path(__file__).parent.parent / "docs"
 DENSITY = 1.5  # pixels of the screenshot per CSS pixel
 CELL = """
 import glid_nb as glid
-editor = glid.Editor(glid.samples.image({sample!r}), width=600, height=470)
+editor = glid.Editor(glid.samples.image({sample!r}), width=640, height=480)
 canvas, model = editor.canvas, editor.deformation
 editor
 """
@@ -34,6 +35,7 @@ def main() -> None:
     parser.add_argument("names", nargs="*", metavar="NAME", help="by default all pictures")
     chosen = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder, launched_chromium() as browser:
+        os.environ["GLID_NB_DATA"] = folder  # nobody's kept work is offered
         server = JupyterServer(Path(folder) / "jupyter")
         try:
             for name in chosen.names or PICTURES:
@@ -105,7 +107,7 @@ def pictured(
     browser: Browser, server: JupyterServer, sample: str, use: Callable[[LabNotebook], None]
 ) -> bytes:
     """The editor with a bundled sample, as PNG, after somebody used it."""
-    settings = {"viewport": {"width": 1360, "height": 980}, "device_scale_factor": DENSITY}
+    settings = {"viewport": {"width": 1360, "height": 1080}, "device_scale_factor": DENSITY}
     with watched_page(browser, **settings) as page:
         book = LabNotebook(page, server, [CELL.format(sample=sample)])
         try:

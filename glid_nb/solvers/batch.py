@@ -24,6 +24,7 @@ from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Domain
 from glid_nb.solvers import step
 from glid_nb.solvers.discretisation import discretise
+from glid_nb.solvers.line_search import RUNNING
 from glid_nb.solvers.loop import Advance, Stopwatch, followed
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import SLOW_ITERATIONS, Newton, NewtonDescent, descend
@@ -32,7 +33,6 @@ from glid_nb.solvers.pose import Pose, PoseError
 from glid_nb.solvers.problem import Problem
 from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Result
-from glid_nb.solvers.status import RUNNING
 from glid_nb.solvers.stiffness import Stiffness
 
 # Poses per device and call; few sizes, for each compiles a program of its own.

@@ -13,9 +13,9 @@ from glid_nb._arrays import Array
 from glid_nb._runtime import compilation_clock, single_blas_thread
 from glid_nb.certificate import Certificate
 from glid_nb.solvers.discretisation import Discretisation
+from glid_nb.solvers.line_search import BLOCKED, REFUSED, RUNNING
 from glid_nb.solvers.method import Inputs, Method
-from glid_nb.solvers.result import Iteration, Make, Progress, Result
-from glid_nb.solvers.status import BLOCKED, REFUSED, RUNNING, Status
+from glid_nb.solvers.result import Iteration, Make, Progress, Result, Status
 
 # How often panels are split in a row before a shorter step is tried instead, and in all before a
 # solve that gets nowhere ends.

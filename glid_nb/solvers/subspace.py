@@ -18,8 +18,7 @@ from glid_nb.solvers.loop import Descent, Ending, Reached
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.pose import Pose, rigid_motion
 from glid_nb.solvers.problem import Problem, map_from
-from glid_nb.solvers.result import Iteration, Result
-from glid_nb.solvers.status import Status
+from glid_nb.solvers.result import Iteration, Result, Status
 from glid_nb.solvers.stiff_matrices import stiff_matrices
 from glid_nb.solvers.unknowns import canonical, unknowns_of
 

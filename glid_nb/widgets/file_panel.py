@@ -193,13 +193,17 @@ class FilePanel(ipywidgets.VBox):
         self.add_class("glid-files")
         for control in (self.path, self.format, self.width):
             control.observe(self._show, ["value"])
+        self._choose_last()
+        self._show()
+
+    def _choose_last(self) -> None:
+        """Choose what was exported last."""
         self._remembered: dict[str, Any] = {"format": self.format, "view": self.view}
         if self.motion is not None:
             self._remembered |= {"size": self.motion.size, "rate": self.motion.rate}
         for name, value in last_export().items():
             with contextlib.suppress(KeyError, traitlets.TraitError):  # no choice here, or no more
                 self._remembered[name].value = value
-        self._show()
 
     def _add_buttons(self) -> None:
         made = self._button

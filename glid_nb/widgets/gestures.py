@@ -128,7 +128,9 @@ class PinGestures(Gestures):
             return
         if hit is None and (part := event.get("part")) and model.selection:
             turned = turned_now(model.state, model.selection)
-            self._press = _Press(point, None, None, part=part, turned=turned)
+            # A click on the ring's line that turns nothing pins what is below it.
+            source = self._source(point) if part == "turn" else None
+            self._press = _Press(point, source, None, part=part, turned=turned)
         elif hit is None:
             source = None if event["shift"] else self._source(point)
             self._press = _Press(point, source, None)
@@ -146,7 +148,8 @@ class PinGestures(Gestures):
             return
         moved = float(np.linalg.norm(point - press.start))
         if press.part:
-            self._turn(press, point)
+            if press.dragging or moved > _SLOP * event["unit"]:
+                self._turn(press, point)
             return
         if press.targets is None:
             if press.source is None or moved <= _SLOP_ON_SHAPE * event["unit"]:
@@ -200,14 +203,14 @@ class PinGestures(Gestures):
             chosen = np.flatnonzero(shapely.contains_xy(inside, *self.deformation.pose.targets.T))
             self.deformation.select([*self.deformation.selection, *chosen.tolist()])
             return
-        if press is None or (press.part and not press.dragging):
+        if press is None:
             return
         if press.dragging:
             self.deformation.end_drag()
         elif press.targets is None:
             if press.source is not None:
                 self._pin_at(press.source)
-            elif not event["shift"]:
+            elif not event["shift"] and not press.part:
                 self.deformation.select([])
 
     def _cancel(self, _: Event) -> None:

@@ -19,24 +19,23 @@ class PinBar(EditControls):
     """
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
-        model = deformation
+        self._add_fields()
+        self._bind_fields(deformation)
+        buttons = self._add_buttons(deformation)
+        fields = [self.x, self.y, self.angle, self.scale, self.weight, self.depth]
+        self._numbers: list[Any] = [*fields, *buttons]
+        row = [self.list, *self._numbers, self.mirror]
+        layout = {"flex_flow": "row wrap"}
+        super().__init__(deformation, [ipywidgets.HBox(row, layout=layout)], **kwargs)
+
+    def _add_fields(self) -> None:
+        style = {"description_width": "initial"}
+        look: dict[str, Any] = {"layout": ipywidgets.Layout(width="92px"), "style": style}
         self.list = ipywidgets.Dropdown(
             options=[("No pin", -1)], tooltip="The selected pin", layout={"width": "92px"}
         )
-        look: dict[str, Any] = {
-            "layout": ipywidgets.Layout(width="92px"),
-            "style": {"description_width": "initial"},
-        }
         self.x = ipywidgets.FloatText(description="x", step=0.1, tooltip="Target", **look)
         self.y = ipywidgets.FloatText(description="y", step=0.1, tooltip="Target", **look)
-        self.depth = ipywidgets.BoundedFloatText(
-            description="Depth",
-            tooltip="Where parts overlap, those near pins of greater depth are in front",
-            min=-DEEPEST,
-            max=DEEPEST,
-            **look,
-        )
-
         self.angle, self.scale = (
             ipywidgets.Text(
                 description=name,
@@ -44,7 +43,7 @@ class PinBar(EditControls):
                 continuous_update=False,
                 tooltip=f"{what} at the pin; empty: free ({keys})",
                 layout={"width": "112px"},
-                style=look["style"],
+                style=style,
             )
             for name, what, keys in (
                 ("Angle °", "By how much the shape is turned", "< and >, X"),
@@ -62,13 +61,32 @@ class PinBar(EditControls):
             readout_format=".2g",
             continuous_update=False,
             layout={"width": "186px"},
-            style=look["style"],
+            style=style,
         )
+        tooltip = "Where parts overlap, those near pins of greater depth are in front"
+        self.depth = ipywidgets.BoundedFloatText(
+            description="Depth", tooltip=tooltip, min=-DEEPEST, max=DEEPEST, **look
+        )
+
+    def _bind_fields(self, model: Deformation) -> None:
+        def set_pins(**numbers: Any) -> None:
+            model.set_pins(model.selection, **numbers)
+
+        self._bind(self.list, lambda chosen: model.select([] if chosen == -1 else [chosen]))
+        self._bind(self.x, lambda x: model.move_target(model.selection[-1], (x, self.y.value)))
+        self._bind(self.y, lambda y: model.move_target(model.selection[-1], (self.x.value, y)))
+        self._bind(self.angle, lambda text: set_pins(angles=_radians(text)))
+        self._bind(self.scale, lambda text: set_pins(scales=_number(text, "a scale, such as 1.5")))
+        self._bind(self.weight, lambda weight: set_pins(weights=weight))
+        self._bind(self.depth, lambda depth: model.set_depths(model.selection, depth))
+
+    def _add_buttons(self, model: Deformation) -> list[ipywidgets.Button]:
+        """Those that need a selected pin."""
+        narrow = ipywidgets.Layout(width="38px")
 
         def acting(icon: str, tooltip: str, act: Any) -> ipywidgets.Button:
             return button("", icon, tooltip, lambda: self._act(act), narrow)
 
-        narrow = ipywidgets.Layout(width="38px")
         self.back, self.front = (
             acting(icon, tip, lambda steps=steps: model.bring_forward(model.selection, steps))
             for icon, tip, steps in (
@@ -81,24 +99,8 @@ class PinBar(EditControls):
             "Remove selected pins and keep the shape until the next change",
             lambda: model.remove_handles(*model.selection, keep_shape=True),
         )
-
-        def set_pins(**numbers: Any) -> None:
-            model.set_pins(model.selection, **numbers)
-
-        self._bind(self.list, lambda chosen: model.select([] if chosen == -1 else [chosen]))
-        self._bind(self.x, lambda x: model.move_target(model.selection[-1], (x, self.y.value)))
-        self._bind(self.y, lambda y: model.move_target(model.selection[-1], (self.x.value, y)))
-        self._bind(self.angle, lambda text: set_pins(angles=_radians(text)))
-        self._bind(self.scale, lambda text: set_pins(scales=_number(text, "a scale, such as 1.5")))
-        self._bind(self.weight, lambda weight: set_pins(weights=weight))
-        self._bind(self.depth, lambda depth: model.set_depths(model.selection, depth))
         self.mirror = acting("exchange", "Swap left and right of the pose (M)", model.mirror_pose)
-        turned = self.angle, self.scale, self.weight
-        self._numbers = [self.x, self.y, *turned, self.depth, self.back, self.front, self.release]
-        row = ipywidgets.HBox(
-            [self.list, *self._numbers, self.mirror], layout={"flex_flow": "row wrap"}
-        )
-        super().__init__(deformation, [row], **kwargs)
+        return [self.back, self.front, self.release]
 
     def _on_model(self, what: str) -> None:
         super()._on_model("state" if what == "selection" else what)

@@ -17,8 +17,14 @@ from glid_nb._arrays import Array
 from glid_nb._runtime import single_blas_thread
 from glid_nb.certificate import Certificate
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods.bdhm.problem import BoundedProblem
-from glid_nb.methods.bdhm.program import MARGIN, ActiveSet, DistortionBounds, Step, solve_program
+from glid_nb.methods.bdhm.program import (
+    MARGIN,
+    ActiveSet,
+    BoundedProblem,
+    DistortionBounds,
+    Step,
+    solve_program,
+)
 from glid_nb.solvers import Iteration, Method, MethodError, Result, Status
 from glid_nb.solvers.loop import Ending, GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.method import Inputs
@@ -65,10 +71,6 @@ class BDHM(DistortionBounds, Method):
     stiffens = False
 
     tolerance: float = TOLERANCE
-
-    def __post_init__(self) -> None:
-        DistortionBounds.__post_init__(self)
-        Method.__post_init__(self)
 
     def run(self, inputs: Inputs) -> Result:
         return follow(lambda: GeneratedDescent(self, inputs, _Descent(self, inputs).steps()))

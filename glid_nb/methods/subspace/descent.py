@@ -16,10 +16,10 @@ from glid_nb.certificate import PanelBounds
 from glid_nb.solvers import Method, Result, Status, evaluation, line_search
 from glid_nb.solvers.evaluation import Coefficients, Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
+from glid_nb.solvers.line_search import NO_DECREASE, RUNNING
 from glid_nb.solvers.loop import Advance, Ending, Reached, Stopwatch, follow
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.problem import Problem, map_from
-from glid_nb.solvers.status import NO_DECREASE, RUNNING
 from glid_nb.solvers.step import LEAST_ENERGY
 from glid_nb.solvers.subspace import SubspaceDescent
 from glid_nb.solvers.unknowns import expand, restrict_gradient, restrict_hessian

@@ -151,7 +151,7 @@ export class Panel {
 
   updateHoles({ holes, n_holes: count, n_filled: filled, loops }) {
     const kept = Math.max(loops.length - 1, 0) || "no";
-    this.holesTitle.textContent = `${kept} ${kept === 1 ? "hole" : "holes"} in the cage${filled ? `, ${filled} small ones filled` : ""}`;
+    this.holesTitle.textContent = `${kept} ${kept === 1 ? "hole" : "holes"} in the cage${filled ? `, ${filled} small filled` : ""}`;
     const rows = holes.map((hole, i) => {
       const box = make("input", { type: "checkbox", checked: hole.kept, onchange: () => this.act("toggle_hole", { number: i }) });
       const area = hole.area >= 1e4 ? `${(hole.area / 1e3).toFixed(0)}k px²` : `${hole.area.toFixed(0)} px²`;

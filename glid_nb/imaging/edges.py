@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from glid_nb._arrays import Array
 from glid_nb.geometry._loops import signed_area
-from glid_nb.imaging.simplify.loops import Loops, Points, edges_in_conflict, passed_over
+from glid_nb.imaging.loops import Loops, Points, edges_in_conflict, passed_over
 
 _MIN_EDGE = 0.2  # of the mean edge
 _MAX_EDGE = 0.04  # of the perimeter

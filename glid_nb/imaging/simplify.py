@@ -1,4 +1,8 @@
-"""Choose how many vertices a cage has, and which."""
+"""Simplify the loops of an outline together, so that they stay disjoint: which vertices a cage has.
+
+They are those that the algorithm of Ramer, Douglas and Peucker keeps. Libraries were tried and
+lost: shapely lets loops come close and cuts off more; scikit-image takes one loop at a time.
+"""
 
 from dataclasses import dataclass
 
@@ -7,8 +11,8 @@ from numpy.typing import NDArray
 
 from glid_nb._arrays import Array, read_only
 from glid_nb.geometry._loops import signed_area
-from glid_nb.imaging.simplify.edges import divide_long_edges, enclosing, merge_short_edges
-from glid_nb.imaging.simplify.loops import Loops, Points, repair, significance
+from glid_nb.imaging.edges import divide_long_edges, enclosing, merge_short_edges
+from glid_nb.imaging.loops import Loops, Points, repair, significance
 
 # Numbers of vertices for the automatic tolerance: about _VERTICES while it is below the offset, not
 # many more than _MANY while it is below a few times the offset, and never more than _MOST.
@@ -39,12 +43,12 @@ class Simplified:
 def simplify(
     loops: tuple[Points, ...],
     tolerance: float | None = None,
-    *,
-    offset: float = 0.0,
-    room: float = 0.0,
     max_vertices: int | None = None,
     min_edge: float | None = None,
     max_edge: float | None = None,
+    *,
+    offset: float = 0.0,
+    room: float = 0.0,
 ) -> Simplified:
     """Drop vertices without making a loop meet itself or another one.
 
