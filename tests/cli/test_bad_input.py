@@ -11,6 +11,7 @@ import pytest
 from PIL import Image
 
 import glid_nb
+from glid_nb._files import write_bytes_atomically
 
 
 def assert_refused(outcome, *parts: object) -> None:
@@ -225,8 +226,6 @@ def test_what_was_there_stays_when_the_run_fails(
 
 
 def test_an_interrupted_write_leaves_what_was_there(tmp_path: Path, monkeypatch) -> None:
-    from glid_nb.cli import output
-
     path = tmp_path / "map.json"
     path.write_text("precious")
 
@@ -235,7 +234,7 @@ def test_an_interrupted_write_leaves_what_was_there(tmp_path: Path, monkeypatch)
 
     monkeypatch.setattr(Path, "replace", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        output.write_all({path: "new"})
+        write_bytes_atomically(path, b"new")
     assert path.read_text() == "precious"
     assert list(tmp_path.iterdir()) == [path]
 
