@@ -2,7 +2,7 @@
 
 import functools
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import field, fields
 from numbers import Integral, Real
 from types import NoneType
@@ -73,12 +73,27 @@ def field_kinds(cls: type) -> dict[str, Any]:
     return {field.name: hints[field.name] for field in fields(cls)}
 
 
+def check_fields(
+    settings: Any, error: type[Exception], called: Callable[[str], str] = lambda name: name
+) -> None:
+    """Raise ``error`` for a dataclass's field that its annotation or its metadata do not allow.
+
+    The message calls it ``called(name)`` and gives the field's "why" after what it must be.
+    """
+    kinds = field_kinds(type(settings))
+    for known in fields(settings):
+        value = getattr(settings, known.name)
+        if expected := unmet(kinds[known.name], value, known.metadata):
+            wanted = f"must be {expected}{known.metadata.get('why', '')}"
+            raise error(f"{called(known.name)} {wanted}, got {value!r:.60}")
+
+
 def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str:
     """What a value of an annotated kind must be, if this one is not; empty if it is.
 
     ``limits``, such as a field's metadata, may hold the ends of a number's range: "least" and
-    "most", or "above". By default numbers are at least 0. For a tuple of numbers or a sequence they
-    say in "form" how it is written.
+    "most", or "above" and "below". By default numbers are at least 0. For a tuple of numbers or a
+    sequence they say in "form" how it is written.
     """
     limits, allowed = limits or {}, get_args(kind)
     if get_origin(kind) is Literal:
@@ -96,6 +111,7 @@ def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str
     if kind not in (int, float):
         return "" if isinstance(value, kind) else f"a {kind.__name__}"
     least, most, above = limits.get("least", 0), limits.get("most"), limits.get("above", -math.inf)
+    below = limits.get("below")
     if (
         isinstance(value, Integral if kind is int else Real)
         and not isinstance(value, bool)
@@ -103,12 +119,14 @@ def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str
         and least <= value
         and above < value
         and (most is None or value <= most)
+        and (below is None or value < below)
     ):
         return ""
     if kind is int:
         return f"a whole number {f'from {least} to' if most else 'of at least'} {most or least}"
     number = "a number" if most == math.inf else "a finite number"
     end = "" if most in (None, math.inf) else f" and at most {most:g}"
+    end = end if below is None else f" and less than {below:g}"
     if "above" in limits:
         return f"{number} greater than {above:g}{end}"
     return f"{number} {'' if 'least' in limits else 'of '}at least {least:g}{end}"

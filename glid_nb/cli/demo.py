@@ -11,15 +11,13 @@ from pathlib import Path
 from typing import cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 import glid_nb
 from glid_nb._errors import InputFileError, about
 from glid_nb._json import json_text
 from glid_nb.cli import flags
-from glid_nb.cli.output import check_files, check_folder
-from glid_nb.cli.progress import step
-from glid_nb.cli.solving import finish, map_text, run_solver
+from glid_nb.cli.output import check_files, check_folder, finish, map_text
+from glid_nb.cli.progress import run_solver, step
 from glid_nb.cli.trace import cage_data, size_in_words
 
 DEFAULT_SAMPLE = "gecko"
@@ -58,7 +56,12 @@ def run(chosen: argparse.Namespace) -> None:
     result, report = run_solver(domain, pose, energy, options)
     assert isinstance(result.map, glid_nb.HarmonicMap)
     with step("rendering"):
-        deformed, cropped = _deformed(image, result.map, pose)
+        # Slow to import, and --help does not need it.
+        from glid_nb.imaging.render import share_outside  # noqa: PLC0415
+
+        cropped = share_outside(result.map, tracing.frame) > _CROPPED
+        view = "fit" if cropped else "source"
+        deformed = glid_nb.export.picture_png(image, result.map, view=view, pose=pose)
     with step("drawing the overview"):
         figure = glid_nb.figures.figure_png(glid_nb.figures.overview(image, result, pose))
 
@@ -109,17 +112,3 @@ def _pose(
     with about(path):
         pose.check_inside(domain)
     return pose, origin
-
-
-def _deformed(
-    image: NDArray[np.unsignedinteger], harmonic_map: glid_nb.HarmonicMap, pose: glid_nb.Pose
-) -> tuple[bytes, bool]:
-    """The deformed picture as PNG, and whether it was zoomed out to show all of it."""
-    # Slow to import, and --help does not need them.
-    from glid_nb.imaging.read import png  # noqa: PLC0415
-    from glid_nb.imaging.render import rendering  # noqa: PLC0415
-
-    in_place = rendering(image, harmonic_map, pose=pose)
-    if in_place.outside <= _CROPPED:
-        return png(in_place.picture), False
-    return glid_nb.export.picture_png(image, harmonic_map, view="fit", pose=pose), True

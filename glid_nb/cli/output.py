@@ -2,13 +2,15 @@
 
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from glid_nb._errors import InputFileError
+import glid_nb
+from glid_nb._errors import InputError, InputFileError
 from glid_nb._files import write_bytes_atomically
+from glid_nb._json import json_text
 from glid_nb.certificate.rounding import rounded_down, rounded_up
 
 _TIMES = {"compile": 2, "solve": 3, "certify": 3}
@@ -48,10 +50,32 @@ def check_folder(path: Path) -> None:
         raise NotADirectoryError(20, "is a file; name a folder", str(first))
 
 
-def write_all(files: dict[Path, bytes | str]) -> None:
-    """Write several files, each atomically."""
+def map_text(map: glid_nb.HarmonicMap, image_size: Sequence[int] | None, pose: glid_nb.Pose) -> str:
+    """The content of map.json, with the picture's size if known and depths for `glid-nb render`."""
+    size = {} if image_size is None else {"image_size_px": image_size}
+    return json_text({**map.to_dict(), **size, **(pose.to_dict() if pose.depths.any() else {})})
+
+
+def finish(
+    result: glid_nb.Result,
+    report: dict[str, Any],
+    files: dict[Path, bytes | str],
+    json: bool,
+    rows: list[tuple[str, str]] | None = None,
+    **extra: Any,
+) -> None:
+    """Write the files and print the summary, with ``extra`` as JSON or with ``rows`` as text.
+
+    Raises KeyboardInterrupt after a solve that Ctrl-C stopped, and an InputError where nothing that
+    the solver reached could be proved.
+    """
     for path, data in files.items():
         write_bytes_atomically(path, data.encode() if isinstance(data, str) else data)
+    print(summary_json(report, files, **extra) if json else summary_text(report, files, rows or []))
+    if result.status is glid_nb.Status.STOPPED:
+        raise KeyboardInterrupt
+    if result.status is glid_nb.Status.UNPROVED or not report["certified"]:
+        raise InputError(f"{result.message} ({report['proof']})")
 
 
 def summary_json(report: Mapping[str, Any], files: Iterable[Path], **extra: Any) -> str:

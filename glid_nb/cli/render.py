@@ -10,8 +10,9 @@ from pathlib import Path
 
 import glid_nb
 from glid_nb._errors import InputFileError, about
+from glid_nb._files import write_bytes_atomically
 from glid_nb._json import read_object
-from glid_nb.cli.output import check_files, write_all
+from glid_nb.cli.output import check_files
 from glid_nb.cli.progress import step
 
 MAX_SIDE = 20_000
@@ -47,7 +48,7 @@ def run(chosen: argparse.Namespace) -> None:
     size = tuple(chosen.size or own)
     with about(chosen.map), step("rendering"):
         picture = glid_nb.export.picture_png(image, harmonic_map, size, chosen.view, pose)
-    write_all({chosen.out: picture})
+    write_bytes_atomically(chosen.out, picture)
     print(f"{chosen.out}: {size[0]} x {size[1]} pixels")
 
 

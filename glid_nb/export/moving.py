@@ -51,7 +51,6 @@ class MovingMesh:
     images: Array  # (n, v, 2)
     height_times: Array  # (m,) of the keyframes, and a loop's return
     heights: Array  # (m, v) then, or one row for all; see `order_of`
-    error: float  # as in `DeformedMesh`, for every map of the motion: it is convex in time
 
     @classmethod
     def of(
@@ -78,22 +77,21 @@ class MovingMesh:
             poses += poses[: shown.repeat == "loop"]
         cage = shown.domain.cage
         image = functools.partial(images_under, maps)
-        vertices, images, triangles, error = fine_mesh(cage, image, n_vertices, tolerance)
+        vertices, images, triangles = fine_mesh(cage, image, n_vertices, tolerance)
         orders = [order_of(cage, one) for one in poses]
         if all(order is orders[0] for order in orders):
             del orders[1:]
         heights = np.stack([order(vertices) for order in orders])
         images = np.moveaxis(images.reshape(len(vertices), -1, 2), 1, 0)
         triangles = triangles[np.argsort(heights[0][triangles].mean(axis=1), kind="stable")]
-        both = np.array(times), np.array(pose_times)
-        return cls(vertices, triangles, both[0], images, both[1], heights, error)
+        return cls(vertices, triangles, np.array(times), images, np.array(pose_times), heights)
 
     def at(self, time: float) -> DeformedMesh:
         """The mesh at a time from the motion's start to its end."""
         time = min(time, 2 * self.times[-1] - time)  # a ping-pong's way back
         images, heights = between(self.times, self.images, time), self.heights_at(time)
         order = np.argsort(heights[self.triangles].mean(axis=1), kind="stable")
-        return DeformedMesh(self.vertices, images, self.triangles[order], heights, self.error)
+        return DeformedMesh(self.vertices, images, self.triangles[order], heights)
 
     def heights_at(self, time: float, heights: Array | None = None) -> Array:
         """(v,) heights, or the likes of them, at a time of the way there."""

@@ -5,7 +5,7 @@ import html
 import json
 import re
 import zlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,12 +19,10 @@ from glid_nb.certificate.rounding import rounded_down, rounded_up
 from glid_nb.export.moving import MovingMesh, Progress, report
 from glid_nb.figures.style import COLORS, rgb
 from glid_nb.geometry import Domain
-from glid_nb.harmonic import FixedPoints, HarmonicMap
-from glid_nb.harmonic.shader_map import ShaderMap
+from glid_nb.harmonic import FixedPoints, HarmonicMap, ShaderMap
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.read import png
 from glid_nb.motion import Motion, MotionCertificate
-from glid_nb.motion.playing import playing
 from glid_nb.solvers import Pose
 
 _FOLDER = Path(__file__).parent
@@ -87,12 +85,11 @@ def page_html(
     report(progress, 1, 3)
     proof = map.certificate if isinstance(map, Motion) else certificate
     texture = as_rgba8(image)
-    height, width = texture.shape[:2]
     step = _STEP * map.domain.cage.longer_side
     data = {
         **_shape(mesh, step),
         **_shaders(mesh, map, step),
-        "frame": [*PixelFrame(width, height).bounds],
+        "frame": [*PixelFrame(*texture.shape[1::-1]).bounds],
         "margin": _MARGIN,
         "grid": map.domain.cage.longer_side / _GRID_LINES,
         "colors": rgb(COLORS).ravel().round(4).tolist(),
@@ -158,8 +155,33 @@ def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion, step: float) -> dict
         "motion": motion,
         "coefficients": _packed(rows, step),
         "width": rows.shape[1],
-        "cage": "" if in_kernel else _floats(shader.cage),
+        "cage": "" if in_kernel else _base64(shader.cage.astype("<f4")),
     }
+
+
+def playing(motion: Motion, wire: Callable[[HarmonicMap], bytes]) -> tuple[dict[str, Any], bytes]:
+    """What ``widgets/js/motion/motion.js`` plays: JSON values, and the float32 arrays of knots.
+
+    ``wire`` writes the array of a map, on which it depends linearly; between two knots all moves on
+    straight lines. ``times`` are the knots', of a ping-pong's way there only, with the easing in
+    them, and ``keyframes`` some of these. ``sigma2``, ``sigma1`` and ``k`` are the bounds on each
+    piece between two knots, None where it is not proved; all is proved before the time ``until``.
+    """
+    pieces, certificate = motion.pieces_forth, motion.certificate
+    maps = [pieces[0].start_map, *(piece.end_map for piece in pieces)]
+    proofs = certificate.pieces[: len(pieces)]
+    values = {
+        "times": [pieces[0].start, *(piece.end for piece in pieces)],
+        "keyframes": list(motion.times[: len(motion.keyframes)]),
+        "repeat": motion.repeat,
+        "easing": list(motion.easing),
+        "sigma2": [proof.sigma2_lower if proof.certified else None for proof in proofs],
+        "sigma1": [proof.sigma1_upper if proof.certified else None for proof in proofs],
+        "k": [proof.k_upper if proof.certified else None for proof in proofs],
+        "certified": certificate.certified,
+        "until": certificate.until,
+    }
+    return values, b"".join(map(wire, maps))
 
 
 def _spread(domain: Domain, points: Array) -> float:
@@ -213,10 +235,6 @@ def _packed(values: Array, step: float) -> dict[str, Any]:
     fresh = np.diff(whole, 2, axis=0, prepend=np.zeros((2, whole.shape[1]), np.int64))
     folded = ((fresh << 1) ^ (fresh >> 63)).astype("<u4").reshape(-1, 1)
     return {"step": step, "bytes": _base64(zlib.compress(folded.view("u1").T.tobytes(), 9))}
-
-
-def _floats(values: Array) -> str:
-    return _base64(values.astype("<f4"))
 
 
 def _base64(data: Any) -> str:

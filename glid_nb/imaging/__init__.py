@@ -1,7 +1,6 @@
 """Pictures to cages, maps to pictures."""
 
-from glid_nb.imaging.errors import RenderError, TraceError
-from glid_nb.imaging.frame import PixelFrame
+from glid_nb.imaging.frame import PixelFrame, TraceError
 from glid_nb.imaging.holes import Hole
 from glid_nb.imaging.options import Scribbles, TraceOptions
 from glid_nb.imaging.outline import Component

@@ -8,10 +8,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._arguments import unmet
-from glid_nb.imaging.errors import TraceError
+from glid_nb._errors import InputError
 
 LONGER_SIDE = 20.0
 """Length of a picture's longer side in world units."""
+
+
+class TraceError(InputError):
+    """No cage can be traced from a picture with these options; the message says why."""
 
 
 @dataclass(frozen=True)

@@ -50,9 +50,6 @@ class DeformedMesh:
     """(t, 3) counter-clockwise, the lower ones first."""
     heights: Floats
     """(v,) where the image overlaps itself the higher part lies over the lower; see `order_of`."""
-    error: float
-    """Largest distance between the image of an edge's midpoint and the middle of the edge's end
-    points, world units: how far straight edges stray from the map."""
 
     def __post_init__(self) -> None:
         for array in (self.vertices, self.images, self.triangles, self.heights):
@@ -72,16 +69,16 @@ def deformed_mesh(
     million vertices. The depths of a ``pose`` order the parts that overlap. ValueError when the
     tolerance is not positive or there are fewer than 3 vertices.
     """
-    vertices, images, triangles, error = fine_mesh(map.domain.cage, map, n_vertices, tolerance)
+    vertices, images, triangles = fine_mesh(map.domain.cage, map, n_vertices, tolerance)
     heights = order_of(map.domain.cage, pose)(vertices)
     triangles = triangles[np.argsort(heights[triangles].mean(axis=1), kind="stable")]
-    return DeformedMesh(vertices, images, triangles, heights, error)
+    return DeformedMesh(vertices, images, triangles, heights)
 
 
 def fine_mesh(
-    cage: Cage, image: Evaluation, n_vertices: int, tolerance: float | None = None
-) -> tuple[Floats, Floats, Ints, float]:
-    """Vertices (v, 2), their images (v, 2 m), triangles and the error as in `DeformedMesh`.
+    cage: Cage, image: Evaluation, n_vertices: int, tolerance: float | None
+) -> tuple[Floats, Floats, Ints]:
+    """Vertices (v, 2), their images (v, 2 m) and triangles, as in `DeformedMesh`.
 
     ``image`` takes (k, 2) points to (k, 2 m): their images under m maps. The mesh is as fine as
     the one that bends most needs it.
@@ -94,7 +91,7 @@ def fine_mesh(
     # Below this share of its size rounding bends an edge too.
     least = 1e-9 * float(np.ptp(images, axis=0).max())
     tolerance = np.inf if tolerance is None else max(tolerance, least)
-    first, error = 0, 0.0
+    first = 0
     for _ in range(_MOST_ROUNDS):
         edges, edge_of = unique_edges(triangles)
         # All others were straight enough in an earlier round.
@@ -103,15 +100,13 @@ def fine_mesh(
         bent = bend > tolerance
         if not bent.any() or len(vertices) + bent.sum() > _MOST_VERTICES:
             break
-        error = max(error, float(bend[~bent].max(initial=0.0)))
         first = len(vertices)
         new_vertex = np.full(len(edges), -1, np.int32)
         new_vertex[fresh[bent]] = first + np.arange(bent.sum(), dtype=np.int32)
         vertices = np.concatenate([vertices, middles[bent]])
         images = np.concatenate([images, middle_images[bent]])
         triangles = _split(triangles, new_vertex[edge_of])
-    error = max(error, float(bend.max(initial=0.0)))
-    return vertices, images, triangles, error
+    return vertices, images, triangles
 
 
 def deformed_loops(map: HarmonicMap, tolerance: float = 0.002) -> list[Floats]:

@@ -15,7 +15,7 @@ from glid_nb._arguments import field_kinds, option, plain, unmet
 from glid_nb._arrays import number_pairs, read_only
 from glid_nb._errors import about
 from glid_nb._json import check_fields, check_strokes, read_object
-from glid_nb.imaging.errors import TraceError
+from glid_nb.imaging.frame import TraceError
 
 Method = Literal["auto", "alpha", "threshold", "color", "scribbles"]
 """Ways to tell the foreground from the background."""

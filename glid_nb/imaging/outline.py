@@ -11,9 +11,8 @@ from skimage.measure import block_reduce, find_contours
 
 from glid_nb._arrays import Array, read_only
 from glid_nb.geometry._loops import signed_area
-from glid_nb.imaging.errors import TraceError
 from glid_nb.imaging.foreground import Foreground
-from glid_nb.imaging.frame import PixelFrame
+from glid_nb.imaging.frame import PixelFrame, TraceError
 from glid_nb.imaging.options import Point
 
 _LISTED = 50  # components that are described
@@ -76,9 +75,7 @@ class Components:
 
     def rank_at(self, point: Point) -> int:
         """Rank of the component at a point (x, y) in pixel coordinates; a TraceError if none."""
-        height, width = self.found.shape
-        row, column = PixelFrame(width=width, height=height).index_at(point, "component_at")
-        found = self.found[row, column]
+        found = self.found[PixelFrame(*self.found.shape[::-1]).index_at(point, "component_at")]
         if found == 0:
             where = f"component_at: the pixel ({point[0]:g}, {point[1]:g})"
             raise TraceError(

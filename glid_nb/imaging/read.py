@@ -12,7 +12,7 @@ from PIL import Image, ImageOps, UnidentifiedImageError
 from PIL.TiffImagePlugin import TiffImageFile
 
 from glid_nb._errors import about
-from glid_nb.imaging.errors import TraceError
+from glid_nb.imaging.frame import TraceError
 
 MAX_SIDE = 8000
 """Longest side in pixels that is accepted."""

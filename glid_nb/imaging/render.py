@@ -1,15 +1,15 @@
 """Warp a picture through a harmonic map."""
 
-from typing import Literal, NamedTuple, get_args
+from typing import Literal, get_args
 
 import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._arguments import plain, unmet
+from glid_nb._errors import InputError
 from glid_nb.geometry import place
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.errors import RenderError
 from glid_nb.imaging.frame import PixelFrame
 from glid_nb.imaging.mesh import DeformedMesh, deformed_loops, deformed_mesh
 from glid_nb.imaging.rasterise import render_mesh
@@ -27,20 +27,8 @@ _MARGIN = 0.04  # room around the shape with view="fit", as a share of the outpu
 _OVERHANG = 2.0  # world units by which a cage may reach beyond its picture, due to its offset
 
 
-class Rendering(NamedTuple):
-    """A warped picture, its frame, and the mesh that was drawn."""
-
-    picture: NDArray[np.uint8]
-    frame: PixelFrame
-    mesh: DeformedMesh
-
-    @property
-    def outside(self) -> float:
-        """Share of the deformed shape's area outside the frame, from 0 to 1."""
-        triangles = shapely.polygons(self.mesh.images[self.mesh.triangles])
-        area = shapely.area(triangles)
-        inside = shapely.area(shapely.clip_by_rect(triangles, *self.frame.bounds))
-        return float(np.maximum(area - inside, 0).sum() / area.sum())
+class RenderError(InputError):
+    """A picture cannot be warped as asked; the message says why."""
 
 
 def render(
@@ -67,23 +55,22 @@ def render(
     Raises a RenderError that says which argument is out of range, or that the map's cage does not
     fit the picture or the map collapses the shape.
     """
-    return rendering(image, map, size, n_vertices, view, pose).picture
+    texture = Texture.from_image(image)
+    frame = frame_of(PixelFrame(*texture.size), map, size, view)
+    tolerance = None
+    if n_vertices is None:
+        tolerance = _TOLERANCE_PX * frame.units_per_pixel
+        n_vertices = int(np.clip(frame.width * frame.height / _PIXELS_PER_VERTEX, *_EVEN_VERTICES))
+    return draw_mesh(texture, deformed_mesh(map, n_vertices, tolerance, pose), frame)
 
 
-def rendering(
-    image: ArrayLike | Texture,
-    map: HarmonicMap,
-    size: tuple[int, int] | None = None,
-    n_vertices: int | None = None,
-    view: View = "source",
-    pose: Pose | None = None,
-) -> Rendering:
-    """`render`, with the frame and the mesh too."""
+def frame_of(
+    source: PixelFrame, map: HarmonicMap, size: tuple[int, int] | None, view: View
+) -> PixelFrame:
+    """The frame of what `render` draws of a picture with the frame ``source``."""
     if view not in get_args(View):
         raise RenderError(f"unknown view {view!r}; choose one of {', '.join(get_args(View))}")
-    texture = Texture.from_image(image)
-    source = PixelFrame(*texture.size)
-    sides = texture.size if size is None else plain(size)
+    sides = (source.width, source.height) if size is None else plain(size)
     if wanted := unmet(tuple[int, int], sides, _SIZE):
         raise RenderError(f"size must be {wanted}, not {size!r:.60}")
     width, height = sides
@@ -98,13 +85,16 @@ def rendering(
         shown, margin = np.stack([exterior.min(axis=0), exterior.max(axis=0)]), _MARGIN
     if np.ptp(shown, axis=0).min() <= 0:
         raise RenderError("the map collapses the shape to a point or a line; nothing is to be seen")
-    frame = PixelFrame(width, height).showing(shown, margin)
-    if n_vertices is None:
-        even = int(np.clip(width * height / _PIXELS_PER_VERTEX, *_EVEN_VERTICES))
-        mesh = deformed_mesh(map, even, _TOLERANCE_PX * frame.units_per_pixel, pose)
-    else:
-        mesh = deformed_mesh(map, n_vertices, pose=pose)
-    return Rendering(draw_mesh(texture, mesh, frame), frame, mesh)
+    return PixelFrame(width, height).showing(shown, margin)
+
+
+def share_outside(map: HarmonicMap, frame: PixelFrame) -> float:
+    """Share of the deformed shape's area outside a frame, from 0 to 1."""
+    mesh = deformed_mesh(map)
+    triangles = shapely.polygons(mesh.images[mesh.triangles])
+    area = shapely.area(triangles)
+    inside = shapely.area(shapely.clip_by_rect(triangles, *frame.bounds))
+    return float(np.maximum(area - inside, 0).sum() / area.sum())
 
 
 def check_fits(frame: PixelFrame, map: HarmonicMap) -> None:

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from glid_nb._arguments import check_keywords
 from glid_nb.geometry import Cage
-from glid_nb.imaging.errors import TraceError
-from glid_nb.imaging.foreground import Foreground, find_foreground, scaled_picture, smoothed
-from glid_nb.imaging.frame import PixelFrame
+from glid_nb.imaging.foreground import Foreground, find_foreground, smoothed
+from glid_nb.imaging.frame import PixelFrame, TraceError
 from glid_nb.imaging.holes import Dilation, Hole, choose_holes, dilate, filled_mask
 from glid_nb.imaging.options import TraceOptions
 from glid_nb.imaging.outline import Component, Components, Outline, find_components, find_outline
-from glid_nb.imaging.read import ImageSource, read_image
+from glid_nb.imaging.read import RGBA, ImageSource, read_image
+from glid_nb.imaging.scribbles import scaled_picture
 from glid_nb.imaging.simplify import Simplified, simplify
 
 _CUT_OFF = 0.002  # share of the shape's area outside the cage that is worth a note
@@ -101,8 +101,7 @@ class Tracer:
     def __init__(self, image: ImageSource) -> None:
         self.image = read_image(image)
         """The picture, (h, w, 4)."""
-        height, width = self.image.shape[:2]
-        self.frame = PixelFrame(width=width, height=height)
+        self.frame = PixelFrame(*self.image.shape[1::-1])
         """Conversion between pixel and world coordinates."""
         self._stages: dict[str, tuple[tuple[Any, ...], Any]] = {}
 
@@ -119,8 +118,8 @@ class Tracer:
         holes, rule, hole_notes = self._stage("holes", choose_holes, outline, *hole_options)
         mask = self._stage("mask", filled_mask, outline, holes)
         dilation = self._stage("dilation", dilate, outline, holes, rule, o.offset)
-        sizes = tuple((name, getattr(o, name)) for name in ("max_vertices", "min_edge", "max_edge"))
-        simplified, cage = self._stage("cage", self._cage, dilation, o.simplify, sizes)
+        sizes = o.max_vertices, o.min_edge, o.max_edge
+        simplified, cage = self._stage("cage", self._cage, dilation, o.simplify, *sizes)
         notes = (
             *foreground.notes,
             *_component_notes(components, rank, o),
@@ -155,14 +154,12 @@ class Tracer:
         rated = self._stage("rated", find_foreground, self.image, *how)
         return self._stage("foreground", smoothed, rated, o.smoothing)
 
-    def _scaled(self) -> NDArray[np.float64]:
-        return self._stage("scaled", scaled_picture, self.image)
+    def _scaled(self, image: RGBA) -> NDArray[np.float64]:
+        return self._stage("scaled", scaled_picture, image)
 
-    def _cage(
-        self, dilation: Dilation, tolerance: float | None, sizes: tuple[tuple[str, Any], ...]
-    ) -> tuple[Simplified, Cage]:
+    def _cage(self, dilation: Dilation, *how: Any) -> tuple[Simplified, Cage]:
         loops, room = (dilation.exterior, *dilation.holes), dilation.least_offset
-        simplified = simplify(loops, tolerance, offset=dilation.offset, room=room, **dict(sizes))
+        simplified = simplify(loops, *how, offset=dilation.offset, room=room)
         to_world = self.frame.to_world
         return simplified, Cage(to_world(simplified.exterior), map(to_world, simplified.holes))
 

@@ -29,7 +29,7 @@ class Boundary:
     values: Array
     """(k, n) ``C`` there."""
     first: Array
-    """(s, n) ``D`` at the nodes."""
+    """(s, n) ``D`` at the nodes: ``f_z`` of phi, ``conj(f_zbar)`` of psi."""
     mean: Array
     """(s,) weights of the nodes, which add up to 1."""
     branches: tuple[Branch, ...]
@@ -40,10 +40,6 @@ class Boundary:
     """(N, s) likewise, scaled coefficients of the logarithms of the best fits to two functions."""
     with_logarithms: Array
     """(n, N) what these add to the coefficients."""
-
-    def derivatives(self, phi: Array, psi: Array) -> tuple[Array, Array]:
-        """``f_z`` and ``conj(f_zbar)`` at the nodes."""
-        return self.first @ phi, self.first @ psi
 
     def images(self, phi: Array, psi: Array) -> Array:
         """(k,) images of the even points."""

@@ -9,8 +9,7 @@ and what the projection on the basis loses at the keyframes is added back evenly
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import NamedTuple
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -28,17 +27,6 @@ Coefficients = tuple[Array, Array]
 """phi and psi."""
 
 
-class _Frame(NamedTuple):
-    """A keyframe without its rigid motion ``z -> exp(i angle) z + mean``."""
-
-    angle: float
-    mean: complex
-    fields: Array
-    """(2 s,) ``log f_z`` and ``nu`` at the nodes."""
-    lost: Array
-    """(2, n) what the projection loses of phi and psi."""
-
-
 @dataclass(frozen=True, eq=False)
 class Bounded:
     """A smooth curve through keyframes; two keyframes are joined by the plain interpolation.
@@ -50,29 +38,31 @@ class Bounded:
     boundary: Boundary
     maps: tuple[HarmonicMap, ...]
     times: tuple[float, ...]
-    frames: tuple[_Frame, ...]
+    rows: Array
+    """(k, 2 s + 2) of the keyframes: ``log f_z`` and ``nu`` at the nodes, then angle and mean of
+    the rigid motion ``z -> exp(i angle) z + mean`` that they are freed from."""
+    lost: Array
+    """(k, 2, n) what the projection loses of phi and psi."""
     tangents: Array
-    """(k, 2 s + 2) of the fields, the angle and the mean."""
+    """(k, 2 s + 2) slopes of the rows."""
 
     @classmethod
     def through(
-        cls,
-        maps: Sequence[HarmonicMap],
-        times: Sequence[float],
-        turns: Sequence[int],
-        closed: bool = False,
+        cls, maps: Sequence[HarmonicMap], times: Sequence[float], turns: Sequence[int], closed: bool
     ) -> Bounded:
         """Through maps of one domain whose ``f_z`` turn alike; ``turns`` more ways round a piece.
 
         Where ``closed``, the last map is the first one again.
         """
         boundary = boundary_of(maps[0].domain)
-        frames: list[_Frame] = []
+        rows, lost = [], []
         for i, map in enumerate(maps):
-            frames.append(_frame(boundary, map, frames[-1:], turns[i - 1] if i else 0))
-        rows = np.stack([_row(frame) for frame in frames])
+            row, missed = _freed(boundary, map, rows[-1:], turns[i - 1] if i else 0)
+            rows.append(row)
+            lost.append(missed)
+        rows = np.stack(rows)
         rough = _tangents(rows, np.asarray(times), closed)
-        curve = cls(boundary, tuple(maps), tuple(times), tuple(frames), rough)
+        curve = cls(boundary, tuple(maps), tuple(times), rows, np.stack(lost), rough)
         return curve if len(maps) == 2 else curve._shortened(closed)
 
     def __call__(self, piece: int, s: float) -> Coefficients:
@@ -81,14 +71,14 @@ class Bounded:
             at = self.maps[piece + int(s)]
             return at.phi, at.psi
         row = self._row(piece, s)
-        lost = [self.frames[piece + i].lost for i in (0, 1)]
-        phi, psi = _fitted(self.boundary, row[:-2]) + lost[0] + s * (lost[1] - lost[0])
+        first, last = self.lost[piece : piece + 2]
+        phi, psi = _fitted(self.boundary, row[:-2]) + first + s * (last - first)
         turn = np.exp(1j * row[-2].real)
         return self.boundary.translated(turn * phi, row[-1]), psi / turn
 
     def _row(self, piece: int, s: float) -> Array:
         """The fields, the angle and the mean by cubic Hermite interpolation."""
-        before, after = (_row(self.frames[piece + i]) for i in (0, 1))
+        before, after = self.rows[piece : piece + 2]
         span = self.times[piece + 1] - self.times[piece]
         out, into = span * self.tangents[piece], span * self.tangents[piece + 1]
         d = after - before
@@ -97,7 +87,7 @@ class Bounded:
     def _shortened(self, closed: bool) -> Bounded:
         """With tangents short enough that no piece exceeds its worse end."""
         size, tangents = np.ones(len(self.maps)), self.tangents
-        ends = [_extremes(frame.fields) for frame in self.frames]
+        ends = [_extremes(row) for row in self.rows]
         curve = self
         for halving in range(_MOST_HALVINGS + 1):
             wild = [i for i in range(len(size) - 1) if curve._exceeds(i, ends[i], ends[i + 1])]
@@ -109,32 +99,35 @@ class Bounded:
                 size[[0, -1]] = min(size[0], size[-1])
             new = size[:, None] * tangents
             new[:, -2:] = tangents[:, -2:]  # the rigid motion distorts nothing
-            curve = Bounded(self.boundary, self.maps, self.times, self.frames, new)
+            curve = replace(self, tangents=new)
         return curve
 
     def _exceeds(self, piece: int, *ends: tuple[float, float]) -> bool:
-        within = [_extremes(self._row(piece, s)[:-2]) for s in _PROBES]
+        within = [_extremes(self._row(piece, s)) for s in _PROBES]
         (least, most), (least_within, most_within) = (
             (min(sigma2 for sigma2, _ in each), max(k for _, k in each)) for each in (ends, within)
         )
         return least_within < least * (1 - _EXCESS) or most_within > most * (1 + _EXCESS)
 
 
-def _frame(boundary: Boundary, map: HarmonicMap, before: list[_Frame], turns: int) -> _Frame:
-    """A keyframe, turned and with its logarithm of the branch nearest to the one before."""
+def _freed(
+    boundary: Boundary, map: HarmonicMap, before: list[Array], turns: int
+) -> tuple[Array, Array]:
+    """A keyframe's row, turned and with the logarithm's branch nearest to the one before."""
     turn, _, mean = rigid_motion(boundary.points, boundary.images(map.phi, map.psi))
     angle = float(np.angle(turn))
     if before:
-        angle = _nearest(angle, before[0].angle) + 2 * np.pi * turns
+        angle = _nearest(angle, before[0][-2].real) + 2 * np.pi * turns
     turn = np.exp(1j * angle)
     phi, psi = boundary.translated(map.phi, -mean) / turn, map.psi * turn
-    fz, fzb_conj = boundary.derivatives(phi, psi)
+    fz, fzb_conj = boundary.first @ phi, boundary.first @ psi
     log = boundary.logarithm(phi, fz)
     middle = float(boundary.mean @ np.imag(log))
-    wanted = float(boundary.mean @ np.imag(before[0].fields[: len(log)])) if before else 0.0
+    wanted = float(boundary.mean @ np.imag(before[0][: len(log)])) if before else 0.0
     log += 1j * (_nearest(middle, wanted) - middle)
     fields = np.concatenate([log, fzb_conj / fz])
-    return _Frame(angle, mean, fields, np.stack([phi, psi]) - _fitted(boundary, fields))
+    lost = np.stack([phi, psi]) - _fitted(boundary, fields)
+    return np.concatenate([fields, [angle, mean]]), lost
 
 
 def _fitted(boundary: Boundary, fields: Array) -> Array:
@@ -145,13 +138,9 @@ def _fitted(boundary: Boundary, fields: Array) -> Array:
     return np.stack([boundary.translated(phi, -boundary.images(phi, psi).mean()), psi])
 
 
-def _row(frame: _Frame) -> Array:
-    return np.concatenate([frame.fields, [frame.angle, frame.mean]])
-
-
-def _extremes(fields: Array) -> tuple[float, float]:
+def _extremes(row: Array) -> tuple[float, float]:
     """The least sigma_2 and the largest k at the nodes."""
-    log, nu = np.split(fields, 2)
+    log, nu = np.split(row[:-2], 2)
     k = np.abs(nu)
     return float((np.exp(np.real(log)) * (1 - k)).min()), float(k.max())
 

@@ -1,4 +1,4 @@
-"""The smooth motion through keyframes, and linear pieces that follow it."""
+"""The smooth motion through keyframes, also through maps solved on the way, and linear pieces."""
 
 from __future__ import annotations
 
@@ -12,17 +12,21 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from glid_nb._arrays import Array
+from glid_nb.certificate import certificate_of
+from glid_nb.geometry import triangulate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion.boundary import boundary_of
 from glid_nb.motion.bounded import Bounded, Coefficients
 from glid_nb.motion.settings import EASINGS
-from glid_nb.motion.solved import through_solved
+from glid_nb.solvers import Options, Pose, solve
 
 if TYPE_CHECKING:
     from glid_nb.motion.motion import Motion
 
 _SAMPLES = 24  # of each interval, to see how it bends
 _MOST_PIECES = 256
+_STAGES = 5  # of an interval whose maps are solved for
+_POINTS = 40
 
 
 class Piece(NamedTuple):
@@ -106,3 +110,39 @@ class Curve:
 def _blended(maps: Sequence[HarmonicMap], piece: int, s: float) -> Coefficients:
     a, b = maps[piece], maps[piece + 1]
     return a.phi + s * (b.phi - a.phi), a.psi + s * (b.psi - a.psi)
+
+
+def through_solved(
+    maps: Sequence[HarmonicMap],
+    times: Sequence[float],
+    turns: Sequence[int],
+    handles: Array | None,
+    closed: bool,
+) -> Callable[[int, float], Coefficients]:
+    """The bounded interpolation through keyframes and what is solved for on the way.
+
+    Handles follow the bounded motion, along which parts turn as rigid bodies do. Each solve starts
+    from its map, or where that is not certified from what the solve before has found.
+    """
+    domain, follow = maps[0].domain, Bounded.through(maps, times, turns, closed)
+    points = triangulate(domain.cage, _POINTS).vertices if handles is None else handles
+    options = Options(align=False, restarts=0)
+    all_maps, all_times = [maps[0]], [times[0]]
+    for i, (start, end) in enumerate(itertools.pairwise(times)):
+        count = _STAGES * (1 + abs(turns[i]))
+        for j in range(1, count):
+            map = HarmonicMap(domain, *follow(i, j / count))
+            first = map if certificate_of(map).certified else all_maps[-1]
+            found = solve(domain, Pose(points, map(points)), options=options, start=first).map
+            all_maps.append(found if isinstance(found, HarmonicMap) else first)
+            all_times.append(start + (end - start) * j / count)
+        all_maps.append(maps[i + 1])
+        all_times.append(end)
+    curve = Bounded.through(all_maps, all_times, [0] * (len(all_maps) - 1), closed)
+
+    def between(piece: int, s: float) -> Coefficients:
+        time = times[piece] + s * (times[piece + 1] - times[piece])
+        i = min(bisect.bisect_right(all_times, time), len(all_times) - 1) - 1
+        return curve(i, (time - all_times[i]) / (all_times[i + 1] - all_times[i]))
+
+    return between

@@ -11,7 +11,9 @@ from glid_nb.certificate import PanelBounds, fz_vanishes
 from glid_nb.solvers import evaluation
 from glid_nb.solvers.evaluation import Line, Nodes, Number, Point
 from glid_nb.solvers.problem import Problem
-from glid_nb.solvers.status import BLOCKED, NO_DECREASE, PENDING, REFUSED, RUNNING
+
+# How a compiled call can end.
+RUNNING, CONVERGED, NO_DECREASE, REFUSED, INDEFINITE, BLOCKED, PENDING = range(7)
 
 CANDIDATES = 24
 RATIO = 0.8

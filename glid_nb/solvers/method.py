@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, fields
 from typing import Any, ClassVar, Literal
 
-from glid_nb._arguments import field_kinds, unmet
+from glid_nb._arguments import check_fields, field_kinds
 from glid_nb._errors import InputError
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
@@ -78,16 +78,8 @@ class Method:
         cls.summary = " ".join((cls.__doc__ or "").split("\n\n")[0].split())
 
     def __post_init__(self) -> None:
-        kinds = self.kinds()
-        for known in fields(self):
-            name, value, least = known.name, getattr(self, known.name), known.metadata.get("least")
-            expected = unmet(kinds[name], value)
-            if expected:
-                which = f"the setting {name!r} of the method {self.name!r}"
-                raise MethodError(f"{which} must be {expected}, got {value!r:.60}")
-            if least is not None and value < least:
-                why = known.metadata.get("why", "")
-                raise MethodError(f"{name} must be at least {least}{why}, got {value!r}")
+        method = f"of the method {self.name!r}"
+        check_fields(self, MethodError, lambda name: f"the setting {name!r} {method}")
 
     def run(self, inputs: Inputs) -> Result:
         """Deform; :func:`glid_nb.solve` has checked what it gives."""

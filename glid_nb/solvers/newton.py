@@ -10,14 +10,13 @@ from glid_nb._arrays import Array
 from glid_nb._jax import jit, jnp
 from glid_nb._runtime import double_precision
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.solvers import evaluation, status, step
+from glid_nb.solvers import evaluation, line_search, step
 from glid_nb.solvers.loop import Advance, Ending, Stopwatch, follow
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.problem import Problem, map_from
 from glid_nb.solvers.restarts import improve
-from glid_nb.solvers.result import Iteration, Result
-from glid_nb.solvers.status import Status
+from glid_nb.solvers.result import Iteration, Result, Status
 from glid_nb.solvers.subspace import SubspaceDescent
 from glid_nb.solvers.unknowns import restrict_rows
 from glid_nb.solvers.whitening import pulled_back
@@ -131,12 +130,12 @@ class NewtonDescent(SubspaceDescent):
         if refused.any():
             refused = refused & evaluation.tightened_by_splitting(self.problem, self.point)
         # After a split the map is still where its Hessian was taken.
-        self.reuse = end == status.REFUSED and bool(self.inputs.options.corrections)
+        self.reuse = end == line_search.REFUSED and bool(self.inputs.options.corrections)
         return Advance(end, taken, refused)
 
     def adapt(self, done: Advance) -> Ending | None:
         """Take the full Hessian or another ridge where that may help; else end."""
-        if done.outcome == status.CONVERGED:
+        if done.outcome == line_search.CONVERGED:
             now = map_from(self.inputs.domain, self.point.coefficients)
             return None if self.pin(now) else Ending(Status.CONVERGED)
         if done.iterations:
@@ -145,11 +144,11 @@ class NewtonDescent(SubspaceDescent):
             coarse = self.discretisation.can_refine and self.inputs.options.hessian != "projected"
             if coarse and _is_slow(self.history):
                 self._take_full_hessian()
-        if done.outcome == status.INDEFINITE:
+        if done.outcome == line_search.INDEFINITE:
             # Rounding or the nodes may have made it so.
             return None if self._take_full_hessian() else self._raise_ridge()
         stalled = done.iterations and _has_stalled(self.history[self.full_since or 0 :])
-        if not (done.outcome == status.NO_DECREASE or stalled) or self._take_full_hessian():
+        if not (done.outcome == line_search.NO_DECREASE or stalled) or self._take_full_hessian():
             return None
         hidden = _ROUNDING * abs(float(self.point.energy))
         return Ending(Status.STATIONARY if self.decrement**2 / 2 <= hidden else Status.BLOCKED)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any, Literal
 
-from glid_nb._arguments import field_kinds, option, unmet
+from glid_nb._arguments import check_fields, option
 from glid_nb._errors import InputError
 from glid_nb.certificate.rounding import CARRIED_STEPS
 from glid_nb.solvers.discretisation import CertificateKind, Sampling
@@ -95,15 +95,7 @@ class Options:
     """Newton iterations that one compiled call runs before the host sees the state, 1 to 7."""
 
     def __post_init__(self) -> None:
-        kinds = field_kinds(Options)
-        for known in fields(self):
-            value, choices = getattr(self, known.name), known.metadata["choices"]
-            if choices and value not in tuple(choices):
-                names = ", ".join(choices)
-                raise OptionError(f"unknown {known.name} {value!r}; choose one of {names}")
-            expected = unmet(kinds[known.name], value, known.metadata)
-            if expected:
-                raise OptionError(f"{known.name} must be {expected}, got {value!r}")
+        check_fields(self, OptionError)
 
     @classmethod
     def paper(cls, **changes: Any) -> Options:

@@ -10,9 +10,8 @@ from glid_nb.geometry import Cage, Domain, as_points
 from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers.method import MethodError
-from glid_nb.solvers.result import Callback, Refinement, Result
+from glid_nb.solvers.result import Callback, Refinement, Result, Status
 from glid_nb.solvers.solve import solve
-from glid_nb.solvers.status import Status
 
 # Offset edges shorter than so many times their distance from the cage are not divided: the cage
 # does not see their ends apart.

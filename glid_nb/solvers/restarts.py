@@ -18,8 +18,7 @@ from glid_nb._jax import jnp
 from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy, SymmetricDirichlet
 from glid_nb.solvers.method import Inputs
-from glid_nb.solvers.result import Attempt, Result
-from glid_nb.solvers.status import Status
+from glid_nb.solvers.result import Attempt, Result, Status
 from glid_nb.solvers.turning import turning_of
 
 Descend = Callable[[Inputs], Result]

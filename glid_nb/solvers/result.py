@@ -5,7 +5,8 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from enum import Enum
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -17,7 +18,6 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers.discretisation import Discretisation
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose
-from glid_nb.solvers.status import Status
 
 if TYPE_CHECKING:
     from glid_nb.solvers.method import Method
@@ -27,8 +27,62 @@ Make = Callable[[], Certificate | MeshMap]
 """Makes the map of a moment: a harmonic one with its proof, which holds it, or one of a mesh."""
 
 
+class Status(Enum):
+    """Outcome of a solve; every member's value is a word and its ``message`` a full sentence."""
+
+    CONVERGED = ("converged", "The solver converged: the Newton decrement is below the tolerance.")
+    STATIONARY = (
+        "stationary",
+        "The solver converged as far as double precision allows: no step lowers the energy.",
+    )
+    MAX_ITERATIONS = "max_iterations", "The solver stopped at the maximal number of iterations."
+    STOPPED = "stopped", "The solver was stopped from outside."
+    BLOCKED = (
+        "blocked",
+        "No further step could be proved locally injective; the last certified map is returned.",
+    )
+    INDEFINITE = (
+        "indefinite",
+        "The Hessian is not positive definite and modifying it was not allowed; the last "
+        "certified map is returned.",
+    )
+
+    UNPROVED = (
+        "unproved",
+        "No map that the solver reached could be proved locally injective; the certified map that "
+        "it was to start from is returned.",
+    )
+
+    message: str
+
+    def __new__(cls, value: str, message: str) -> Self:
+        member = object.__new__(cls)
+        member._value_, member.message = value, message
+        return member
+
+    @property
+    def ok(self) -> bool:
+        """Whether a local minimum was reached."""
+        return self in (Status.CONVERGED, Status.STATIONARY)
+
+
 @dataclass(frozen=True, kw_only=True)
-class Iteration:
+class Energies:
+    """The energy of a map."""
+
+    energy_iso: float
+    """Isometric part."""
+    energy_p2p: float
+    """Positional part, ``lambda / 2`` times the sum of squared distances."""
+
+    @property
+    def energy(self) -> float:
+        """Total energy, (20)."""
+        return self.energy_iso + self.energy_p2p
+
+
+@dataclass(frozen=True, kw_only=True)
+class Iteration(Energies):
     """One iteration of a method, as it was after its step; None for what the method does not have.
 
     Energies are means: of the density over the boundary, or over the area of a mesh.
@@ -36,10 +90,6 @@ class Iteration:
 
     iteration: int = 0
     """1 for the first; 0 for the start."""
-    energy_iso: float
-    """Isometric part."""
-    energy_p2p: float
-    """Positional part, ``lambda / 2`` times the sum of squared distances."""
     time: float = 0.0
     """Seconds without compilation, shared evenly within one compiled call, and without what only
     serves this record; for the start, what its making took beyond preparing the domain."""
@@ -60,14 +110,9 @@ class Iteration:
     flips: int | None = None
     """Triangles of a mesh that are turned over or flat."""
 
-    @property
-    def energy(self) -> float:
-        """Total energy, (20)."""
-        return self.energy_iso + self.energy_p2p
-
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Course:
+class Course(Energies):
     """What a method has come to."""
 
     method: Method
@@ -75,17 +120,8 @@ class Course:
     """The start, as iteration 0."""
     history: tuple[Iteration, ...]
     """All iterations so far. Empty at the start, and while panels are split before the first."""
-    energy_iso: float
-    """Isometric part of :attr:`energy`."""
-    energy_p2p: float
-    """Positional part of :attr:`energy`."""
     discretisation: Discretisation | None = field(default=None, repr=False)
     """Panels and matrices of a method in the harmonic subspace, to go on from."""
-
-    @property
-    def energy(self) -> float:
-        """Total energy of the map, (20)."""
-        return self.energy_iso + self.energy_p2p
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

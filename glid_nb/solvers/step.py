@@ -1,6 +1,7 @@
 """Newton's method on the device: one compiled call runs several iterations (paper Algorithm 1)."""
 
 import functools
+from collections import namedtuple
 from typing import Any, NamedTuple
 
 from glid_nb._jax import AnyArray, Array, Bool, Float, Int, jax, jnp, lax
@@ -8,9 +9,9 @@ from glid_nb._programs import Program
 from glid_nb.energies import table1
 from glid_nb.solvers import cholesky, evaluation, hessian, line_search, whitening
 from glid_nb.solvers.evaluation import Coefficients, Line, Number, Point
+from glid_nb.solvers.line_search import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.options import MOST_PER_CALL
 from glid_nb.solvers.problem import Problem
-from glid_nb.solvers.status import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.unknowns import expand, restrict_gradient, restrict_hessian
 
 Factor = Float[Array, "4u 4u"]
@@ -45,17 +46,10 @@ class Settings(NamedTuple):
     """Factorisations of one iteration; the second is of the projected Hessian."""
 
 
-class Record(NamedTuple):
-    """History of one iteration, the state after its step, all as one row of numbers."""
-
-    energy_iso: Float[AnyArray, ""]
-    energy_p2p: Float[AnyArray, ""]
-    step: Float[AnyArray, ""]
-    decrement: Float[AnyArray, ""]
-    sigma2_lower: Float[AnyArray, ""]
-    hessian_modified: Float[AnyArray, ""]
-    """1 where it was."""
-    corrections: Float[AnyArray, ""]
+Record = namedtuple(
+    "Record", "energy_iso energy_p2p step decrement sigma2_lower hessian_modified corrections"
+)
+"""One iteration, the state after its step, as a row of numbers named as in ``Iteration``."""
 
 
 class State(NamedTuple):

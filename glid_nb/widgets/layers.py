@@ -18,8 +18,7 @@ from glid_nb._scripts import glsl
 from glid_nb.energies import ENERGIES
 from glid_nb.figures.style import VERMILION, rgb
 from glid_nb.geometry import MeshMap, Triangulation
-from glid_nb.harmonic import as_complex
-from glid_nb.harmonic.shader_map import ShaderMap
+from glid_nb.harmonic import ShaderMap, as_complex
 from glid_nb.methods.mesh.operators import MeshOperators
 from glid_nb.widgets.overlays import N_COLORS
 

@@ -12,8 +12,7 @@ from glid_nb.energies import ENERGIES, Energy, SymmetricDirichlet
 from glid_nb.figures.style import BLUE, COLORS, GREY, rgb
 from glid_nb.geometry import MeshMap, Triangulation, triangulate, uniform_panels
 from glid_nb.geometry.panels import Panels
-from glid_nb.harmonic import FixedPoints, HarmonicMap
-from glid_nb.harmonic.shader_map import ShaderMap
+from glid_nb.harmonic import FixedPoints, HarmonicMap, ShaderMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.order import Order, order_of
 from glid_nb.widgets.layers import EvaluatedIn, Layer, Uniforms, comparison_layer, picture_texture

@@ -2,12 +2,26 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import threading
+from collections.abc import Callable, Iterator
+from unittest import mock
 
 import pytest
 
-from glid_nb.cli.progress import step
+from glid_nb.cli import progress
+
+
+@contextlib.contextmanager
+def step(doing: str, stream: io.StringIO, patience: float) -> Iterator[Callable[[str], None]]:
+    """A step that is told on a stream."""
+    with (
+        mock.patch.object(progress, "PATIENCE", patience),
+        contextlib.redirect_stderr(stream),
+        progress.step(doing) as detail,
+    ):
+        yield detail
 
 
 class Terminal(io.StringIO):

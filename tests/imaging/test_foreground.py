@@ -13,7 +13,7 @@ from skimage import data
 from glid_nb import samples
 from glid_nb.imaging import Scribbles, TraceError, TraceOptions, as_rgba, trace
 from glid_nb.imaging.foreground import Foreground, find_foreground, smoothed
-from glid_nb.imaging.foreground.measure import border_color, histogram, otsu
+from glid_nb.imaging.measure import border_color, histogram, otsu
 from glid_nb.imaging.options import Method
 
 SIZE = 80

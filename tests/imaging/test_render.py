@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.frame import PixelFrame
-from glid_nb.imaging.mesh import deformed_mesh
+from glid_nb.imaging.mesh import DeformedMesh, deformed_mesh
 from glid_nb.imaging.order import order_of
-from glid_nb.imaging.render import render, rendering
+from glid_nb.imaging.render import frame_of, render, share_outside
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -102,25 +102,25 @@ def test_a_similarity_moves_every_pixel(domain: Domain):
 def test_the_size_is_free_and_other_proportions_are_letter_boxed(domain: Domain):
     image = coordinates_as_colours(160, 128)
     identity = HarmonicMap.identity(domain)
-    tall = rendering(image, identity, size=(80, 164))
-    assert tall.picture.shape == (164, 80, 4)
-    assert tall.frame.units_per_pixel == pytest.approx(20 / 80)
-    np.testing.assert_allclose(tall.frame.to_pixel([[0.0, 0.0]]), [[40, 82]])
-    filled = tall.picture[..., 3] > 0
+    tall = render(image, identity, size=(80, 164))
+    frame = frame_of(PixelFrame(160, 128), identity, (80, 164), "source")
+    assert tall.shape == (164, 80, 4)
+    assert frame.units_per_pixel == pytest.approx(20 / 80)
+    np.testing.assert_allclose(frame.to_pixel([[0.0, 0.0]]), [[40, 82]])
+    filled = tall[..., 3] > 0
     rows = np.flatnonzero(filled.any(axis=1))
     assert (rows[0], rows[-1]) == (82 - 16, 82 + 15)
-    doubled = rendering(image, identity, size=(320, 256)).picture
+    doubled = render(image, identity, size=(320, 256))
     np.testing.assert_allclose(doubled[128, 80, :2], [80 * 255 / 320, 128 * 255 / 256], atol=2)
 
 
 def test_fit_shows_all_of_a_shape_that_left_the_picture(domain: Domain):
     image = coordinates_as_colours(160, 128)
     away = affine(domain, 1.7, 15 + 9j)
-    lost = rendering(image, away)
-    assert lost.outside > 0.6
-    fitted = rendering(image, away, view="fit")
-    assert fitted.outside == 0.0
-    alpha = fitted.picture[..., 3]
+    source = PixelFrame(160, 128)
+    assert share_outside(away, source) > 0.6
+    assert share_outside(away, frame_of(source, away, None, "fit")) == 0.0
+    alpha = render(image, away, view="fit")[..., 3]
     assert not alpha[0].any()
     assert not alpha[-1].any()
     assert not alpha[:, 0].any()
@@ -130,20 +130,26 @@ def test_fit_shows_all_of_a_shape_that_left_the_picture(domain: Domain):
 
 
 def test_the_share_outside_is_an_area(domain: Domain):
-    image = coordinates_as_colours(100, 100)
+    frame = PixelFrame(100, 100)
     # 12 x 8 with a hole of 3 x 3; the hole's and the shape's left parts are cut off at x = -10.
-    moved = rendering(image, affine(domain, 1, -7.0), n_vertices=300)
+    lost = share_outside(affine(domain, 1, -7.0), frame)
     # The shape covers [-13, -1], the hole [-7.5, -4.5]: 3 x 8 units are lost.
-    assert moved.outside == pytest.approx(24 / (96 - 9), abs=1e-9)
-    assert rendering(image, HarmonicMap.identity(domain), n_vertices=300).outside == 0.0
+    assert lost == pytest.approx(24 / (96 - 9), abs=1e-9)
+    assert share_outside(HarmonicMap.identity(domain), frame) == 0.0
+
+
+def bend(map: HarmonicMap, mesh: DeformedMesh) -> float:
+    """Largest distance of the image of an edge's middle from the middle of the image edge."""
+    edges = np.sort(mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2))
+    away = map(mesh.vertices[edges].mean(axis=1)) - mesh.images[edges].mean(axis=1)
+    return float(np.linalg.norm(away, axis=1).max())
 
 
 def test_straight_edges_follow_the_map_to_a_quarter_of_a_pixel(bar: Domain):
-    image = coordinates_as_colours(400, 400)
     map = bent(bar, 0.3)
-    result = rendering(image, map, view="fit")
-    assert 0 < result.mesh.error <= 0.25 * result.frame.units_per_pixel
-    mesh, frame = result.mesh, result.frame
+    frame = frame_of(PixelFrame(400, 400), map, None, "fit")
+    mesh = deformed_mesh(map, 1000, 0.25 * frame.units_per_pixel)
+    assert 0 < bend(map, mesh) <= 0.25 * frame.units_per_pixel
     rng = np.random.default_rng(0)
     weights = rng.dirichlet([1, 1, 1], len(mesh.triangles))[:, :, None]
     points = (mesh.vertices[mesh.triangles] * weights).sum(axis=1)
@@ -154,10 +160,10 @@ def test_straight_edges_follow_the_map_to_a_quarter_of_a_pixel(bar: Domain):
 
 
 def test_refinement_is_conforming_and_keeps_the_domain(bar: Domain):
-    coarse = deformed_mesh(bent(bar, 0.3), 300)
-    fine = deformed_mesh(bent(bar, 0.3), 300, tolerance=2e-3)
+    map = bent(bar, 0.3)
+    coarse, fine = deformed_mesh(map, 300), deformed_mesh(map, 300, tolerance=2e-3)
     assert len(fine.vertices) > 2 * len(coarse.vertices)
-    assert fine.error <= 2e-3 < coarse.error
+    assert bend(map, fine) <= 2e-3 < bend(map, coarse)
     for mesh in (coarse, fine):
         e = mesh.vertices[mesh.triangles][:, 1:] - mesh.vertices[mesh.triangles][:, :1]
         area = (e[:, 0, 0] * e[:, 1, 1] - e[:, 0, 1] * e[:, 1, 0]) / 2
@@ -172,26 +178,29 @@ def test_refinement_is_conforming_and_keeps_the_domain(bar: Domain):
         assert not bar.cage.contains(middle * 1.001).any()
 
 
-def test_a_tolerance_that_cannot_be_met_is_reported(bar: Domain, monkeypatch: pytest.MonkeyPatch):
+def test_a_tolerance_that_cannot_be_met_has_its_limit(bar: Domain, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr("glid_nb.imaging.mesh._MOST_VERTICES", 600)
-    mesh = deformed_mesh(bent(bar, 0.3), 300, tolerance=1e-6)
+    map = bent(bar, 0.3)
+    mesh = deformed_mesh(map, 300, tolerance=1e-6)
     assert len(mesh.vertices) <= 600
-    assert mesh.error > 1e-6
+    assert bend(map, mesh) > 1e-6
 
 
 def test_where_the_shape_overlaps_itself_one_end_lies_on_the_other(bar: Domain):
     # The bar is bent beyond a full circle, so that its ends cover the same part of a ring.
     image = coordinates_as_colours(400, 400)
     map = bent(bar, 2 * np.pi / 15)
-    result = rendering(image, map, view="fit")
+    frame = frame_of(PixelFrame(400, 400), map, None, "fit")
     angle = np.array([-8.9, 8.9, -6.2, 6.2])
-    places = result.frame.to_pixel(map(np.stack([angle, np.zeros(4)], axis=1)))
+    places = frame.to_pixel(map(np.stack([angle, np.zeros(4)], axis=1)))
     # The middle of the overlap is 7.5 from the centre along either end.
-    middle = result.frame.to_pixel(map([[7.5, 0.0], [-7.5, 0.0]]))
+    middle = frame.to_pixel(map([[7.5, 0.0], [-7.5, 0.0]]))
     assert np.abs(middle[0] - middle[1]).max() < 3
     low, high = np.sort(places[:, 1])[[0, -1]]
     x, y = middle[0]
-    patch = result.picture[round(y) - 25 : round(y) + 25, round(x) - 6 : round(x) + 6]
+    patch = render(image, map, view="fit")[
+        round(y) - 25 : round(y) + 25, round(x) - 6 : round(x) + 6
+    ]
     assert low < high
     assert (patch[..., 3] == 255).all()
     red = patch[..., 0]

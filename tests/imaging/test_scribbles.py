@@ -10,7 +10,8 @@ from skimage import data
 from skimage.segmentation import random_walker
 
 from glid_nb.imaging import Scribbles, TraceOptions, Tracer, read_image
-from glid_nb.imaging.foreground import find_foreground, scaled_picture
+from glid_nb.imaging.foreground import find_foreground
+from glid_nb.imaging.scribbles import scaled_picture
 
 STROKES = [[(40.0, 60.0), (120.0, 60.0)]]
 

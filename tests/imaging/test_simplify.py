@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from glid_nb.geometry import Cage
+from glid_nb.imaging.loops import significance
 from glid_nb.imaging.simplify import simplify
-from glid_nb.imaging.simplify.loops import significance
 
 
 def circle(radius: float, n: int = 400, centre=(0.0, 0.0)) -> NDArray[np.float64]:

@@ -58,10 +58,14 @@ def test_the_whole_range_is_accepted(name: str, values: tuple[Any, ...]) -> None
 @pytest.mark.parametrize(
     ("name", "value", "message"),
     [
-        ("sampling", "random", "unknown sampling 'random'; choose one of graded, uniform"),
-        ("sampling", None, "unknown sampling None"),
-        ("certificate", "Hermite", "unknown certificate 'Hermite'; choose one of hermite, lip"),
-        ("hessian", "", "unknown hessian ''; choose one of adaptive, projected, exact"),
+        ("sampling", "random", "sampling must be one of graded, uniform, got 'random'"),
+        ("sampling", None, "sampling must be one of graded, uniform, got None"),
+        (
+            "certificate",
+            "Hermite",
+            "certificate must be one of hermite, .*, got 'Hermite'",
+        ),
+        ("hessian", "", "hessian must be one of adaptive, projected, exact, got ''"),
         ("p2p_weight", 0, "p2p_weight must be a finite number greater than 0, got 0"),
         ("p2p_weight", -1.5, "p2p_weight .* got -1.5"),
         ("p2p_weight", math.nan, "p2p_weight .* got nan"),

@@ -9,7 +9,7 @@ import pytest
 
 from glid_nb import methods, solve_batch
 from glid_nb.certificate import certificate_of, certify
-from glid_nb.cli.solving import finish
+from glid_nb.cli.output import finish
 from glid_nb.energies import SymmetricDirichlet, energy_by_name
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap

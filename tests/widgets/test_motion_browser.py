@@ -12,8 +12,8 @@ from playwright.sync_api import Page
 
 from glid_nb import Motion
 from glid_nb._scripts import bundle
-from glid_nb.harmonic.shader_map import ShaderMap
-from glid_nb.motion.playing import playing
+from glid_nb.export.page import playing
+from glid_nb.harmonic import ShaderMap
 
 from ..domains import random_map
 
@@ -32,7 +32,8 @@ _MIX = """({code, values, floats, times}) => {
 def test_the_page_mixes_the_coefficients_of_the_motion(page: Page, repeat: Any) -> None:
     maps = [random_map("ring", 0.03, seed) for seed in range(3)]
     motion = Motion(maps, [1, 1.5, 3], repeat=repeat, easing="in-out")
-    values, floats = playing(motion)
+    wire = ShaderMap(motion.domain).wire
+    values, floats = playing(motion, wire)
     assert values["keyframes"] == [1, 1.5, 3]
     assert len(values["sigma2"]) == len(values["times"]) - 1
     inside = np.linspace(motion.start, motion.end, 13)
@@ -46,7 +47,6 @@ def test_the_page_mixes_the_coefficients_of_the_motion(page: Page, repeat: Any) 
     }
     seen = np.array(page.evaluate(_MIX, arguments))
     np.testing.assert_allclose(seen[:, :2], [[motion.start, motion.end]] * len(times))
-    wire = ShaderMap(motion.domain).wire
     for time, (_, _, within, piece, *mixed) in zip(times, seen, strict=True):
         expected = np.frombuffer(wire(motion(time)), "<f4")
         np.testing.assert_allclose(mixed, expected, atol=2e-6, rtol=2e-7)

@@ -40,8 +40,8 @@ along, across = np.meshgrid(np.linspace(6.6, 8.2, 12), np.linspace(-0.55, 0.55, 
 places = curled(np.stack([along, across], -1).reshape(-1, 2))
 
 def frame(size):
-    from glid_nb.imaging.render import rendering
-    return rendering(picture, model.map, size, 100, view="fit").frame
+    from glid_nb.imaging.render import frame_of
+    return frame_of(glid.PixelFrame(*picture.shape[1::-1]), model.map, size, "fit")
 
 def in_picture():
     seen = glid.render(picture, model.map, (400, 400), view="fit", pose=model.pose)

@@ -12,7 +12,7 @@ from playwright.sync_api import Page
 from glid_nb._scripts import glsl
 from glid_nb.energies import ENERGIES
 from glid_nb.geometry import triangulate
-from glid_nb.harmonic.shader_map import ShaderMap
+from glid_nb.harmonic import ShaderMap
 from glid_nb.imaging.order import order_of
 from glid_nb.widgets.layers import energy_defines
 from glid_nb.widgets.scene import Drawing, Scene, _stacked, drawing_order, energy_uniform

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections import deque
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -13,9 +13,8 @@ import scipy
 from glid_nb._arrays import Array
 from glid_nb._jax import jnp
 from glid_nb.methods.subspace.descent import DirectedDescent, SecondOrderMethod, SubspaceMethod
-from glid_nb.solvers import Method, MethodError, OptionError, Result, Status
+from glid_nb.solvers import Inputs, Method, OptionError, Result, Status
 from glid_nb.solvers.loop import Ending
-from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import descend
 
 Initial = Literal["identity", "dirichlet"]
@@ -216,12 +215,7 @@ class NewtonShift(SecondOrderMethod):
     name = "newton-shift"
     label = "Newton, shifted diagonal"
 
-    beta: float = 1e-3
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.beta <= 0:
-            raise MethodError(f"beta, the least shift, must be positive; got {self.beta!r}")
+    beta: float = field(default=1e-3, metadata={"above": 0, "why": ", for it is the least shift"})
 
     def direction(self, at: DirectedDescent) -> Array:
         iso = at.hessian("exact")

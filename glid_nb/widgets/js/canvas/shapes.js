@@ -1,5 +1,8 @@
 // Puts the kernel's coefficients and the page's view into pythreejs's objects.
 
+// pythreejs keeps three.js's renderers for later, and those keep lists of all that they ever drew.
+const clearLists = (scene, { renderLists }) => renderLists.dispose();
+
 export class Shapes {
   constructor(model) {
     this.model = model;
@@ -24,6 +27,7 @@ export class Shapes {
     // When the kernel changes a uniform, pythreejs replaces them all, on the event "change".
     this.onUniforms = () => this.refresh();
     for (const material of materials) material.on("change", this.onUniforms);
+    renderer.get("scene").off("beforeRender", clearLists).on("beforeRender", clearLists);
     this.refresh();
   }
 

@@ -1,4 +1,4 @@
-// A motion as `glid_nb.motion.playing` describes it: arrays at knots in time, mixed between them.
+// A motion as `playing` in `glid_nb.export.page` describes it: arrays at knots in time, mixed between them.
 // A map depends linearly on its coefficients, so the mixed ones show exactly what is proved.
 
 export class Motion {

@@ -5,10 +5,21 @@
 const BUSY_AFTER = 250; // ms without an answer until the page says that it waits
 const ACKNOWLEDGE_TIMEOUT = 2000; // ms until events are sent without an answer
 
+// Each comm of JupyterLab connects to its kernel's status for good (CommHandler in
+// @jupyterlab/services), which keeps closed widgets, their views and elements in the page. All of
+// them then do the same, so those that are connected already are enough.
+function connectNoMoreComms(kernel) {
+  const status = kernel?.statusChanged, { connect } = status ?? {};
+  if (!connect || Object.hasOwn(status, "connect")) return;
+  status.connect = (slot, receiver) =>
+    !String(slot).includes("_cleanSubshells") && connect.call(status, slot, receiver);
+}
+
 export class Link {
   // report({busy, refusal}): an answer came, or is overdue. idle(flag): whether all is answered.
   constructor(model, element, report = () => {}, idle = () => {}) {
     Object.assign(this, { model, element, report, showIdle: idle });
+    connectNoMoreComms(model.widget_manager.kernel);
     this.view = Math.random().toString(36).slice(2);
     this.queue = [];
     this.buffers = [];

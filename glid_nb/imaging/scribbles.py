@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
-from glid_nb.imaging.errors import TraceError
+from glid_nb.imaging.frame import TraceError
 from glid_nb.imaging.options import Scribbles
 from glid_nb.imaging.read import as_rgba8
 

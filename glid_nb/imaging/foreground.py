@@ -1,20 +1,70 @@
-"""Find the foreground: choose a method and run it."""
+"""Tell the foreground of a picture from its background: choose a method and run it."""
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter
 
 from glid_nb._arrays import read_only
-from glid_nb.imaging.errors import TraceError
-from glid_nb.imaging.foreground import measure
-from glid_nb.imaging.foreground.measure import RGBA, full
-from glid_nb.imaging.foreground.score import Foreground
-from glid_nb.imaging.foreground.scribbles import scaled_picture, scribble_score
-from glid_nb.imaging.frame import PixelFrame
+from glid_nb.imaging import measure
+from glid_nb.imaging.frame import PixelFrame, TraceError
+from glid_nb.imaging.measure import RGBA, full
 from glid_nb.imaging.options import Method, Point, Scribbles
+from glid_nb.imaging.scribbles import scaled_picture, scribble_score
 
 _LEAST_SHARE = 0.001  # of transparent or opaque pixels; fewer are a speck
+_SMOOTHING = 0.001  # of the longer side
+_LEAST_SMOOTHING = 0.5  # pixels; less is not worth the time
+
+# What a method measures where its name does not tell; the first word is the editor's control.
+_MEASURES = {"threshold": "brightness", "color": "colour distance"}
+
+
+@dataclass(frozen=True, eq=False)
+class Foreground:
+    """A field over the picture that is high in the foreground.
+
+    Unlike a mask, it has a level set with sub-pixel accuracy and serves all thresholds.
+    """
+
+    score: NDArray[np.float32]  # (h, w) read-only, in [0, 1], sampled at the pixels' centres
+    method: str  # never "auto"
+    automatic_threshold: float  # as in `TraceOptions.threshold`
+    inverted: bool  # score is 1 minus what the method measures
+    notes: tuple[str, ...]
+
+    def threshold(self, threshold: float | None = None) -> float:
+        """`threshold`, or by default the automatic one."""
+        return self.automatic_threshold if threshold is None else threshold
+
+    def level(self, threshold: float | None = None) -> float:
+        """The score above which a pixel is foreground."""
+        value = self.threshold(threshold)
+        return 1 - value if self.inverted else value
+
+    def mask(self, threshold: float | None = None) -> NDArray[np.bool_]:
+        """(h, w) mask of the foreground; a TraceError if it would be empty or full."""
+        mask = self.score > self.level(threshold)
+        if mask.any() and not mask.all():
+            return mask
+        empty, measured = not mask.any(), _MEASURES.get(self.method, self.method)
+        problem, seen = "the image has no foreground", "finds no shape in the picture"
+        if not empty:
+            problem = "the foreground covers the whole image"
+            seen = "takes the whole picture for the shape"
+        change = "raise" if empty == self.inverted else "lower"
+        remedy = f"{change} the threshold, or use another method"
+        plain = f"{change} the Threshold, or paint over the shape with Scribbles"
+        if self.method == "scribbles":
+            remedy = "draw foreground strokes over more of the shape, background strokes around it"
+            plain = "paint over more of the shape, and over the background around it"
+        count, value = "no" if empty else "every", self.threshold(threshold)
+        raise TraceError(
+            f"{problem} by {measured}: {count} pixel passes the threshold {value:.3g}; {remedy}",
+            f"{measured.split()[0].capitalize()} {seen}; {plain}",
+        )
 
 
 def find_foreground(
@@ -24,20 +74,18 @@ def find_foreground(
     background: tuple[float, float, float] | None = None,
     background_at: Point | None = None,
     scribbles: Scribbles | None = None,
-    scaled: Callable[[], NDArray[np.float64]] | None = None,
+    scaled: Callable[[RGBA], NDArray[np.float64]] = scaled_picture,
 ) -> Foreground:
     """Score the pixels of an (h, w, 4) RGBA image, without smoothing.
 
-    The parameters are those of `TraceOptions`; ``scaled`` returns the image's `scaled_picture`, so
-    that callers can keep it between scribbles. Raises a TraceError when the image has one colour
-    only, or nothing that the method could use.
+    The parameters are those of `TraceOptions`; callers may keep what ``scaled`` returns. Raises a
+    TraceError when the image has one colour only, or nothing that the method could use.
     """
     _check_not_uniform(image)
-    notes: tuple[str, ...] = ()
-    more: tuple[str, ...] = ()
+    notes: list[str] = []
     if method == "auto":
         method, why = _choose_method(image, background, background_at, scribbles)
-        notes = (f"foreground by {why}",)
+        notes.append(f"foreground by {why}")
     inverted, threshold, spread = bool(invert), 0.5, 0.0
     alpha = image[..., 3] * np.float32(1 / full(image))
     if method == "alpha":
@@ -46,8 +94,8 @@ def find_foreground(
     elif method == "scribbles":
         if scribbles is None:
             raise TraceError("the method 'scribbles' needs scribbles")
-        small = scaled_picture(image) if scaled is None else scaled()
-        score, more = scribble_score(small, scribbles, (image.shape[0], image.shape[1]))
+        score, more = scribble_score(scaled(image), scribbles, (image.shape[0], image.shape[1]))
+        notes += more
     elif method == "threshold":
         score = measure.brightness(image)
         seen = score if alpha.all() else score[alpha > 0][np.newaxis]
@@ -55,19 +103,35 @@ def find_foreground(
         if invert is None:
             inverted = measure.border_is_bright(image, score, threshold)
             side = "darker" if inverted else "brighter"
-            more = (f"everything {side} than the border counts as foreground",)
+            notes.append(f"everything {side} than the border counts as foreground")
     else:
         color, spread, more = _background(image, background, background_at)
         score = measure.color_distance(image, color)
+        notes += more
     if inverted:
         score = 1 - score
     if method in ("threshold", "color") and alpha.min() < 1:
         score = score * alpha  # transparent pixels are background in any case
-    if method == "color":
-        # Inverted, the colour is the shape's, so the spread of the border's colours is irrelevant.
-        threshold = measure.otsu(measure.histogram(1 - score)) if inverted else None
-        threshold = measure.color_threshold(score, spread) if threshold is None else threshold
-    return Foreground(read_only(score.view()), method, threshold, inverted, (*notes, *more))
+    if method == "color" and not inverted:
+        threshold = measure.color_threshold(score, spread)
+    elif method == "color":  # the shape's; the spread of the border's colours is irrelevant
+        threshold = measure.otsu(measure.histogram(1 - score))
+    return Foreground(read_only(score.view()), method, threshold, inverted, tuple(notes))
+
+
+def smoothed(foreground: Foreground, sigma: float | None) -> Foreground:
+    """The field after a Gaussian filter of standard deviation ``sigma`` in pixels.
+
+    None: 0.1 % of the longer side, or 0 for alpha and scribbles.
+    """
+    score = foreground.score
+    if sigma is None:
+        own = 0.0 if foreground.method in ("alpha", "scribbles") else _SMOOTHING * max(score.shape)
+        sigma = own if own >= _LEAST_SMOOTHING else 0.0
+    if sigma == 0:
+        return foreground
+    score = np.asarray(gaussian_filter(score, sigma, mode="nearest", truncate=3.0), np.float32)
+    return replace(foreground, score=read_only(score))
 
 
 def _check_not_uniform(image: RGBA) -> None:
