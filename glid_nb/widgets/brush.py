@@ -110,8 +110,8 @@ class BrushBar(EditControls):
         super().__init__(deformation, [ipywidgets.HBox(shown)])
 
         def swap(_: Any = None) -> None:
-            self.layout.display = None if brush.tool else "none"
-            other.layout.display = "none" if brush.tool else None
+            self.layout.visibility = None if brush.tool else "hidden"
+            other.layout.visibility = "hidden" if brush.tool else None
 
         brush.observe(swap, ["tool"])
         swap()

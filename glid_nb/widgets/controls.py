@@ -56,6 +56,7 @@ class EditControls(ClosingWidget, ipywidgets.VBox):
 
     def _on_model(self, what: str) -> None:
         if what == "state" and not self.deformation.dragged:
+            self.refusal.value = ""
             self._follow()
 
     def _follow(self) -> None:

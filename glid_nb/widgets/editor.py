@@ -41,7 +41,6 @@ from glid_nb.widgets.tracer import CageTracer
 _TRACE, _DEFORM = 0, 1
 _FILES = 2  # of the tabs beside the canvas
 _LEAST_SIZE = 240  # CSS pixels, of the Trace tab, and of a canvas whose corner is dragged
-_PINS_HEIGHT = "68px"  # kept free until the pins' numbers are made; two rows of them
 _SIDE_WIDTH, _PLOTS_HEIGHT = 460, 382  # CSS pixels
 _EMPTY = "<p style='padding:2em'>Open a picture in the Trace tab; what is traced appears here.</p>"
 
@@ -398,7 +397,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.timeline = TimelinePanel(self.canvas, self._open_files)
         # Boxes to be filled: if the children changed, the page would select another tab.
         self._boxes |= {"solver": ipywidgets.VBox(), "files": ipywidgets.VBox()}
-        bars = self._boxes["pins"] = ipywidgets.VBox(layout={"min_height": _PINS_HEIGHT})
+        bars = self._boxes["pins"] = ipywidgets.VBox().add_class("glid-bars")
         self._side = ipywidgets.Tab(
             [self.monitor.plots, self._boxes["solver"], self._boxes["files"]],
             titles=("Monitor", "Solver", "Files"),
