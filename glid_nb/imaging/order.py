@@ -62,16 +62,16 @@ class Order:
 def order_of(cage: Cage, pose: Pose | None = None) -> Order:
     """The order of a shape's parts under the depths of a pose; kept for the next call."""
     if pose is None or not pose.depths.any():
-        return _orders(cage)(b"", b"")
+        return _orders(cage)()
     return _orders(cage)(pose.handles.tobytes(), pose.depths.tobytes())
 
 
 @functools.lru_cache(maxsize=4)  # cages, not orders: each has a mesh of several MB
-def _orders(cage: Cage) -> Callable[[bytes, bytes], Order]:
+def _orders(cage: Cage) -> Callable[..., Order]:
     mesh, limbs = _limbs_over_trunk(cage)
 
     @functools.lru_cache(maxsize=16)
-    def order(handles: bytes, depths: bytes) -> Order:
+    def order(handles: bytes = b"", depths: bytes = b"") -> Order:
         if not handles:
             return Order(mesh, limbs, np.zeros(len(limbs)))
         pins, reach = np.frombuffer(handles).reshape(-1, 2), _REACH * cage.longer_side

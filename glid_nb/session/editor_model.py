@@ -287,10 +287,7 @@ class EditorModel(Observed):
             self._session.deformation.close()
 
     def _keep_in(self, path: Path) -> None:
-        def done(error: Exception | None) -> None:  # what no file can hold is said when it is saved
-            self._saved(None if isinstance(error, DocumentError) else error)
-
-        self._autosave = Autosave(path, on_done=done, own=OwnFiles())
+        self._autosave = Autosave(path, on_done=self._saved, own=OwnFiles())
 
     def _end_keeping(self) -> Path | None:
         """Stop keeping work that is in no session file; where it was kept."""
@@ -378,7 +375,8 @@ class EditorModel(Observed):
         self._session = self._session_of(session.deformation)
 
     def _saved(self, error: Exception | None) -> None:
-        self.save_error = error
+        keeps = self._named_path is None  # what no file can hold is said when it is saved
+        self.save_error = None if keeps and isinstance(error, DocumentError) else error
         self._announce("saved")  # not by _tell: a thread that waits for the save may hold the lock
 
 

@@ -59,6 +59,12 @@ class TracingState:
     name: str = ""
     """The name of the picture's file, without its suffix; empty if it came from none."""
 
+    def __post_init__(self) -> None:
+        used = self.options.method == "scribbles"
+        strokes = (self.scribbles or _NO_SCRIBBLES) if used else None
+        if strokes is not self.options.scribbles:
+            vars(self).update(options=replace(self.options, scribbles=strokes))
+
 
 @dataclass(frozen=True, eq=False)
 class TracingOutcome:
@@ -104,9 +110,9 @@ class TracingModel(Observed):
         self, image: ImageSource | None = None, options: TraceOptions | None = None
     ) -> None:
         super().__init__()
-        pixels = None if image is None else _pixels(image)
-        state = _state(pixels, options or TraceOptions())
-        self.history = History(replace(state, name=_name_of(image)))
+        pixels, options = None if image is None else _pixels(image), options or TraceOptions()
+        state = TracingState(pixels, options, options.scribbles, name=_name_of(image))
+        self.history = History(state)
         """The undo history."""
         self._tracer: Tracer | None = None
         self._outcome_of = functools.lru_cache(_KEPT_OUTCOMES)(weakly(self._evaluate))
@@ -115,8 +121,9 @@ class TracingModel(Observed):
     def from_document(cls, document: Document, name: str = "") -> TracingModel:
         """A model with the document's picture, options, scribbles and cage."""
         model = cls()
-        state = _state(document.image, document.trace_options, document.scribbles)
-        state = replace(state, loops=document.cage.loops, fallback=document.domain, name=name)
+        options, loops = document.trace_options, document.cage.loops
+        strokes = document.scribbles or options.scribbles
+        state = TracingState(document.image, options, strokes, loops, document.domain, name)
         model.history = History(state)
         # A cage that tracing gives again was not edited by hand.
         tracing = model.outcome.tracing
@@ -227,10 +234,8 @@ class TracingModel(Observed):
             before = self.state
             if "scribbles" in changes:
                 raise TraceError("scribbles are painted: use paint(...) and clear_scribbles()")
-            if "method" in changes:
-                used = changes["method"] == "scribbles"
-                strokes = (before.scribbles or _NO_SCRIBBLES) if used else None
-                changes = {**changes, "scribbles": strokes}
+            if changes.get("method") == "scribbles":
+                changes = {**changes, "scribbles": before.scribbles or _NO_SCRIBBLES}
             options = with_changes(before.options, changes)
             if options == before.options and before.loops is None:
                 return
@@ -265,10 +270,8 @@ class TracingModel(Observed):
         with self.locked():
             state = self.state
             if state.scribbles is not None:
-                options, loops = state.options, state.loops
-                if options.method == "scribbles":
-                    options, loops = replace(options, scribbles=_NO_SCRIBBLES), None
-                self._step(replace(state, options=options, scribbles=None, loops=loops))
+                loops = None if state.options.method == "scribbles" else state.loops
+                self._step(replace(state, scribbles=None, loops=loops))
 
     def toggle_hole(self, number: int) -> None:
         """Drop a hole, or keep it if it was dropped; other loops keep their edits."""
@@ -438,15 +441,6 @@ class TracingModel(Observed):
         if (frame := self.frame) is None:
             raise TraceError("there is no picture yet; open one first")
         return frame
-
-
-def _state(
-    image: NDArray[np.uint8] | None, options: TraceOptions, scribbles: Scribbles | None = None
-) -> TracingState:
-    """A state without edits; the strokes are those of the options if no others are given."""
-    scribbles = options.scribbles if scribbles is None else scribbles
-    used = options.method == "scribbles"
-    return TracingState(image, options if used else replace(options, scribbles=None), scribbles)
 
 
 def _shares_vertices(loops: Loops, others: Loops) -> bool:

@@ -59,11 +59,12 @@ class EditControls(ClosingWidget, ipywidgets.VBox):
             self._follow()
 
     def _follow(self) -> None:
-        self._following.now = True
-        try:
-            self._show()
-        finally:
-            self._following.now = False
+        with self.deformation.locked():  # another thread may show another moment
+            self._following.now = True
+            try:
+                self._show()
+            finally:
+                self._following.now = False
 
     def _bind(self, control: ipywidgets.Widget, act: Callable[[Any], None]) -> None:
         """Have the new value of a control change the model."""

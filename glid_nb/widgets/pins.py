@@ -106,8 +106,7 @@ class PinBar(EditControls):
         super()._on_model("state" if what == "selection" else what)
 
     def _show(self) -> None:
-        with self.deformation.locked():
-            pose, selection = self.deformation.pose, self.deformation.selection
+        pose, selection = self.deformation.pose, self.deformation.selection
         names = (("No pin", -1), *((f"Pin {i + 1}", i) for i in range(len(pose))))
         if self.list.options != names:
             self.list.options = names
