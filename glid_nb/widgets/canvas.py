@@ -357,7 +357,7 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
         self.overlay = ipywidgets.Dropdown(
             options=[(overlay.label, name) for name, overlay in OVERLAYS.items()],
             tooltip="What the shape shows",
-            layout={"flex": "1 1 72px", "max_width": "136px"},
+            layout={"flex": "1 1 72px", "min_width": "72px", "max_width": "136px"},
         )
         self.toggles: dict[str, ipywidgets.ToggleButton] = {}
         ipywidgets.link((canvas, "overlay"), (self.overlay, "value"))
