@@ -108,22 +108,6 @@ class Known(NamedTuple):
     slack: Any
     """Bound on the error of both derivatives there."""
 
-    @property
-    def folded(self) -> Array:
-        """(p,) bool: the map is proved to fold at the panel's start."""
-        return np.isfinite(self.slack) & (self.sigma2_seen <= -2 * self.slack)
-
-    @property
-    def angle_error(self) -> float:
-        """Bounds the error of the sum of all turnings: each end is off by ``slack / |f_z|``."""
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return float(np.pi * np.sum(self.slack / self.fz_seen))
-
-    @property
-    def hopeless(self) -> Array:
-        """(p,) bool: rounding hides that the map is injective at the panel's start."""
-        return ~((self.sigma2_seen > self.slack) & np.isfinite(self.sigma1_seen + self.slack))
-
 
 def certify(
     map: HarmonicMap,
@@ -162,7 +146,9 @@ def refined(
     """Halve panels until the proof succeeds with tight bounds, or will not."""
     for _ in range(_MAX_ROUNDS):
         wanted = _to_split(known, tightness) & panels.divisible
-        if known.hopeless.any() or not wanted.any() or len(panels) > _MAX_PANELS:
+        # Elsewhere rounding hides that the map is injective at the panel's start.
+        seen = (known.sigma2_seen > known.slack) & np.isfinite(known.sigma1_seen + known.slack)
+        if not (seen.all() and wanted.any()) or len(panels) > _MAX_PANELS:
             break
         panels, known = split(panels, known, wanted, evaluate)
     return panels, known
@@ -220,7 +206,10 @@ def _conclude(map: HarmonicMap, panels: Panels, known: Known, kind: CertificateK
     bounds, unproved = known.bounds, ~np.asarray(known.bounds.injective)
     turns = windings(np.asarray(bounds.turning), panels.loop, 1 + map.domain.n_holes)
     certified = False
-    if known.folded.any():
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # Of the sum of all turnings: each end is off by slack / |f_z|.
+        angle_error = np.pi * np.sum(known.slack / known.fz_seen)
+    if (np.isfinite(known.slack) & (known.sigma2_seen <= -2 * known.slack)).any():  # it folds there
         i = int(np.argmin(known.sigma2_seen))
         seen = f"sigma_2 = {known.sigma2_seen[i]:.3g} near {place(panels.start[i])}"
         reason = f"The map is not locally injective: {seen}."
@@ -228,7 +217,7 @@ def _conclude(map: HarmonicMap, panels: Panels, known: Known, kind: CertificateK
         i = int(np.argmin(bounds.sigma2_lower))
         share = f"{int(unproved.sum())} of {len(panels)} panels could not be proved injective"
         reason = f"Undecided: {share}, the worst near {place(panels.middle[i])}."
-    elif not known.angle_error < 1:
+    elif not angle_error < 1:
         reason = "Undecided: f_z is too small beside rounding errors to count its turns."
     elif sum(turns) != 0:
         zeros = "1 zero" if sum(turns) == 1 else f"{sum(turns)} zeros"

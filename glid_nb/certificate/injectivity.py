@@ -81,7 +81,8 @@ def global_injectivity(
         arcs = Arcs.between(panels.start, panels.end, jets, jets.at(panels.next))
         pairs = _pairs_not_apart(arcs, panels)
         corners = ~_corner_simple(arcs, panels.next)
-        unresolved = ~_simple(arcs) | corners
+        # Arcs longer than this do not meet themselves (Lemma 18).
+        unresolved = ~(np.abs(arcs.end - arcs.start) - 2 * arcs.error > 4 * arcs.sagitta) | corners
         unresolved[panels.next[corners]] = True
         if not unresolved.any() and not pairs.size:
             images = f"the images of the {len(panels)} pieces of the boundary"
@@ -116,11 +117,6 @@ def _pairs_not_apart(arcs: Arcs, panels: Panels) -> Array:
     a, b = arcs.at(first), arcs.at(second)
     distance = segment_distance(a.start, a.end, b.start, b.end)
     return np.stack([first, second])[:, ~(distance > r[first] + r[second])]
-
-
-def _simple(arcs: Arcs) -> Array:
-    """Arcs proved not to meet themselves (Lemma 18)."""
-    return np.abs(arcs.end - arcs.start) - 2 * arcs.error > 4 * arcs.sagitta
 
 
 def _corner_simple(arcs: Arcs, following: Array) -> Array:

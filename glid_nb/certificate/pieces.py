@@ -76,7 +76,7 @@ def certify_pieces(maps: Sequence[HarmonicMap], tightness: float = 0.05) -> Proo
     from values that are attained, and so is time, for tightness down to an eighth of a piece.
     """
     panels = graded_panels(maps[0].domain)
-    size = np.abs(_rows(maps)).max(axis=0)
+    size = np.abs(basis_of(maps[0].domain).rows(*maps)).max(axis=0)
     proofs = []
     for first in range(0, len(maps) - 1, _GROUP):
         group = maps[first : first + _GROUP + 1]
@@ -126,14 +126,10 @@ def _prove(
     return PieceCertificate(True, float(min(sigma2)), float(max(sigma1)), float(max(k)), 1.0, worst)
 
 
-def _rows(maps: Sequence[HarmonicMap]) -> Any:
-    basis = basis_of(maps[0].domain)
-    return np.stack([basis.pad(c) for map in maps for c in (map.phi, map.psi)])
-
-
 def _evaluated(maps: Sequence[HarmonicMap], size: Array) -> Any:
     """The function that evaluates the maps on panels from start to end."""
-    basis, rows = basis_of(maps[0].domain), _rows(maps)
+    basis = basis_of(maps[0].domain)
+    rows = basis.rows(*maps)
 
     def evaluate(start: Array, end: Array) -> _Values:
         return in_chunks(_values, basis.n_columns, (start, end), rows, size, basis.singularities)

@@ -39,16 +39,11 @@ class SymmetricDirichlet(Energy):
 @register_energy
 @dataclass(frozen=True)
 class ExponentialSymmetricDirichlet(Energy):
-    """``E_exp = exp(s E_iso)`` (Table 1, second row).
-
-    Parameters
-    ----------
-    s : float
-        Sharpness, positive: the larger, the lower the greatest distortion and the higher the
-        average one (Figure 6).
-    """
+    """``E_exp = exp(s E_iso)`` (Table 1, second row)."""
 
     s: float = 1.0
+    """Sharpness, positive: the larger, the lower the greatest distortion and the higher the average
+    one (Figure 6)."""
 
     name: ClassVar[str] = "exp"
     label: ClassVar[str] = "Exponential sym. Dirichlet"
@@ -77,15 +72,11 @@ class AMIPS(Energy):
     """``exp(s (sigma_1/sigma_2 + sigma_2/sigma_1) + sigma_1 sigma_2 + 1/(sigma_1 sigma_2))``.
 
     In Wirtinger terms ``exp((2 s (x + y) + 1) / (x - y) + x - y)`` (Table 1, third row); the
-    parameter ``s`` balances angle preservation against area preservation [Fu et al. 2015].
-
-    Parameters
-    ----------
-    s : float
-        Weight of the angles, positive.
+    parameter balances angle preservation against area preservation [Fu et al. 2015].
     """
 
     s: float = 1.0
+    """Weight of the angles, positive."""
 
     name: ClassVar[str] = "amips"
     label: ClassVar[str] = "AMIPS"

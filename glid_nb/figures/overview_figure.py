@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from glid_nb.figures import drawing
 from glid_nb.figures.drawing import Floats, NotebookFigure
 from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot
-from glid_nb.figures.shapes import Sheet, draw_deformed, draw_distortion
+from glid_nb.figures.shapes import Sheet, draw_deformed, draw_distortion, hold
 from glid_nb.figures.style import BLUE, FONT_SIZE, GREY, INK, LEGEND
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
@@ -76,8 +76,7 @@ def overview(
     halves: Any = figure.subfigures(2, 1, height_ratios=[tall + _WRITTEN, _PLOTS])
     pictures, plots = (half.subplots(1, 3) for half in halves)
     for axes, view in zip(pictures, views[[0, 1, 1]], strict=True):
-        axes.set_axis_off()
-        axes.set(xlim=view[:, 0], ylim=view[:, 1], aspect="equal", autoscale_on=False)
+        hold(axes, view)
     for axes, letter, name in zip((*pictures, *plots), "abcdef", _NAMES, strict=True):
         _label(axes, letter, name, (0, 4) if axes in pictures else (-24, 26))
 

@@ -154,17 +154,6 @@ class _OverIterations(Plot):
         room = 0.03 * (high - low)
         self.axes.set_xlim(low - room, high + room)
 
-    def _limit_decades(self, positive: Floats) -> None:
-        """Show whole decades around the values, without the lowest if they span too many."""
-        self.axes.set_yscale("log")
-        self.axes.yaxis.set_major_locator(LogLocator(numticks=6))
-        self.axes.yaxis.set_minor_locator(NullLocator())
-        if not len(positive):
-            positive = np.array([0.3])
-        high = np.ceil(np.log10(positive.max()) + 0.1)
-        low = np.floor(np.log10(positive.min()) - 0.1)
-        self.axes.set_ylim(10.0 ** max(low, high - _DECADES), 10.0**high)
-
 
 class EnergyPlot(_OverIterations):
     """Energy after each iteration above the least one there is: the total, the isometric part, and
@@ -231,7 +220,14 @@ class StepPlot(_OverIterations):
         x, *series = _rows(history, *self._looks)
         values = np.where(np.array(series) > 0, series, np.nan)
         self._join(x, values, starts, solving)
-        self._limit_decades(values[np.isfinite(values)])
+        self.axes.set_yscale("log")
+        self.axes.yaxis.set_major_locator(LogLocator(numticks=6))
+        self.axes.yaxis.set_minor_locator(NullLocator())
+        positive = values[np.isfinite(values)]
+        least, most = (positive.min(), positive.max()) if len(positive) else (0.3, 0.3)
+        # Whole decades around the values, without the lowest if they span too many.
+        low, high = np.floor(np.log10(least) - 0.1), np.ceil(np.log10(most) + 0.1)
+        self.axes.set_ylim(10.0 ** max(low, high - _DECADES), 10.0**high)
 
 
 class TimePlot(_OverIterations):

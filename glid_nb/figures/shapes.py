@@ -22,7 +22,7 @@ from glid_nb.figures.style import BLUE, GREEN, GREY, INK, VERMILION, distortion_
 from glid_nb.geometry import Domain, MeshMap, as_points, triangulate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame
-from glid_nb.imaging.mesh import deformed_loops, deformed_mesh
+from glid_nb.imaging.mesh import DeformedMesh, deformed_loops, deformed_mesh
 from glid_nb.imaging.rasterise import render_mesh
 from glid_nb.imaging.texture import Texture
 from glid_nb.methods.mesh.operators import MeshOperators
@@ -44,12 +44,9 @@ _MANY = 400  # panels, among which the dots at their ends would hide the colours
 
 
 class Sheet(NamedTuple):
-    """A map as triangles: (v, 2) at rest and their images, (t,) |f_z| and |f_zbar| on each."""
+    """A map as triangles, (t,) |f_z| and |f_zbar| on each."""
 
-    rest: Floats
-    images: Floats
-    triangles: NDArray[Any]
-    heights: Floats
+    mesh: DeformedMesh
     abs_fz: Floats
     abs_fzb: Floats
     outline: list[Floats]
@@ -68,14 +65,13 @@ class Sheet(NamedTuple):
             fz, fzb = np.abs([np.vstack(w) for w in zip(middles, corners, strict=True)])
             at = np.where((fz > fzb).all(axis=0), 0, (fz - fzb).argmin(axis=0))[None]
             fz, fzb = (np.take_along_axis(w, at, axis=0)[0] for w in (fz, fzb))
-            shape = mesh.vertices, mesh.images, mesh.triangles, mesh.heights
-            return cls(*shape, fz, fzb, deformed_loops(map, 0.01), False)
+            return cls(mesh, fz, fzb, deformed_loops(map, 0.01), False)
         mesh = map.triangulation
         order = np.argsort(mesh.vertices[mesh.triangles, 0].mean(axis=1), kind="stable")
         w = map.images @ np.array([1, 1j])
         fz, fzb = (np.abs(v)[order] for v in MeshOperators(mesh).wirtinger(w))
-        shape = mesh.vertices, map.images, mesh.triangles[order], mesh.vertices[:, 0]
-        return cls(*shape, fz, fzb, [], True)
+        drawn = DeformedMesh(mesh.vertices, map.images, mesh.triangles[order], mesh.vertices[:, 0])
+        return cls(drawn, fz, fzb, [], True)
 
     @property
     def folded(self) -> NDArray[np.bool_]:
@@ -133,7 +129,7 @@ def draw_distortion(
     norm, colors = _scale(quantity, known)
     look: Any = {"norm": norm, "cmap": colors, "edgecolors": "face", "linewidth": 0.2}
     for axes, sheet, field in zip(grid, sheets, values, strict=True):
-        shape = Drawn(*sheet.images.T, triangles=sheet.triangles)
+        shape = Drawn(*sheet.mesh.images.T, triangles=sheet.mesh.triangles)
         field = np.clip(field, norm.vmin, norm.vmax)
         drawn = axes.tripcolor(shape, facecolors=field, rasterized=True, zorder=0, **look)
         drawing.loops(axes, sheet.outline, color=INK, linewidth=0.4)
@@ -169,9 +165,9 @@ def draw_deformed(axes: Axes, image: ArrayLike | None, sheet: Sheet, pixels: flo
     sides = np.ptp(view, axis=0)
     width, height = (pixels * sides / sides.max()).round().astype(int).clip(1).tolist()
     frame = PixelFrame(width, height).showing(view)
-    texture, places = _texture(image, sheet.rest)
-    positions, size = frame.to_pixel(sheet.images), (width, height)
-    drawn = render_mesh(texture, places, positions, sheet.triangles, size, sheet.heights)
+    texture, places = _texture(image, sheet.mesh.vertices)
+    positions, size = frame.to_pixel(sheet.mesh.images), (width, height)
+    drawn = render_mesh(texture, places, positions, sheet.mesh.triangles, size, sheet.mesh.heights)
     drawing.picture(axes, drawn, frame)
     axes.set(xlim=view[:, 0], ylim=view[:, 1])
 
@@ -230,7 +226,7 @@ def panels(certificate: Certificate) -> NotebookFigure:
     figure = NotebookFigure(_WIDTH, 3.4)
     axes, plot = figure.subplots(1, 2, width_ratios=[1, 1.15])
     figure.get_layout_engine().set(wspace=0.08)  # type: ignore[union-attr]
-    _hold(axes, drawing.box_around(cage.exterior, 0.04))
+    hold(axes, drawing.box_around(cage.exterior, 0.04))
     start, end = as_points(proved.start), as_points(proved.end)
     segments = np.stack([start, end], axis=1)
     colors = distortion_colors().reversed().with_extremes(under=VERMILION)
@@ -277,7 +273,7 @@ def _side_by_side(
     """Axes with one scale, titles, folds and targets, one for each map; ``room`` is below them."""
     if len(titles) not in (0, len(maps)):
         raise ValueError(f"there are {len(titles)} titles for {len(maps)} maps")
-    box = drawing.box_around(np.concatenate([sheet.images for sheet in sheets]))
+    box = drawing.box_around(np.concatenate([sheet.mesh.images for sheet in sheets]))
     box = box if pose is None else drawing.enlarged(box, pose.targets)
     figure, grid = _shape_axes(len(maps), box, room)
     for i, (axes, map, sheet) in enumerate(zip(grid, maps, sheets, strict=True)):
@@ -287,7 +283,7 @@ def _side_by_side(
             lines.append(f"{count} triangle{'' if count == 1 else 's'} turned over")
         text, color = "\n".join(lines or [" "]), VERMILION if count else INK
         axes.set_title(text, fontsize=style.FONT_SIZE, color=color)
-        folded = [*sheet.images[sheet.triangles[sheet.folded]]]
+        folded = [*sheet.mesh.images[sheet.mesh.triangles[sheet.folded]]]
         look: Any = {"edgecolors": "face", "linewidths": 0.6}
         axes.add_collection(PolyCollection(folded, facecolors=VERMILION, **look))
         if pose is not None:
@@ -306,11 +302,11 @@ def _shape_axes(n: int, box: Floats, room: float = 1.0) -> tuple[NotebookFigure,
     figure = NotebookFigure(width, rows * (tall + 0.4) + room)
     grid = [figure.add_subplot(rows, columns, i + 1) for i in range(n)]
     for axes in grid:
-        _hold(axes, box)
+        hold(axes, box)
     return figure, grid
 
 
-def _hold(axes: Axes, box: Floats) -> None:
+def hold(axes: Axes, box: Floats) -> None:
     axes.set_axis_off()
     axes.set(xlim=box[:, 0], ylim=box[:, 1], aspect="equal", autoscale_on=False)
 

@@ -15,8 +15,8 @@ from glid_nb._arrays import Array, number_pairs, read_only
 from glid_nb._errors import about
 from glid_nb.geometry._loops import GeometryError, loop_list, loop_name, place
 from glid_nb.geometry.cage import Cage
-from glid_nb.geometry.offset import Offset, offset_cage
 from glid_nb.geometry.offset import hole_points as choose_hole_points
+from glid_nb.geometry.offset import offset_cage
 
 # The paper's reference cages use 0.1 where the longer image side is 20 units.
 _DEFAULT_OFFSET = 0.005
@@ -57,10 +57,9 @@ class Domain:
     ) -> None:
         _check_enclosed(cage, offset_cage)
         chosen = choose_hole_points(offset_cage) if hole_points is None else hole_points
-        object.__setattr__(self, "cage", cage)
-        object.__setattr__(self, "offset_cage", offset_cage)
-        object.__setattr__(self, "hole_points", _checked_hole_points(chosen, offset_cage))
-        object.__setattr__(self, "notes", tuple(notes))
+        points = _checked_hole_points(chosen, offset_cage)
+        made = {"cage": cage, "offset_cage": offset_cage, "hole_points": points}
+        vars(self).update(made, notes=tuple(notes))
 
     @classmethod
     def from_cage(cls, cage: Cage, offset: float | None = None) -> Domain:
@@ -70,8 +69,8 @@ class Domain:
         cage's bounding box. It is reduced in narrow passages; `notes` says where. Where edges are
         long against the shape's width, the offset cage has more vertices than the cage.
         """
-        result = _offset_of(cage, offset)
-        return cls(cage, _divided(result.cage, cage), notes=result.notes)
+        outer, notes = _chosen_offset(cage, offset)
+        return cls(cage, outer, notes=notes)
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Domain:
@@ -91,8 +90,8 @@ class Domain:
             return cls(cage, outer, points, notes)
         if holes:
             raise GeometryError("'offset_holes' is given without 'offset_cage'; give both or none")
-        result = _offset_of(cage, data.get("offset"))
-        return cls(cage, _divided(result.cage, cage), points, notes + result.notes)
+        outer, chosen = _chosen_offset(cage, data.get("offset"))
+        return cls(cage, outer, points, notes + chosen)
 
     def to_dict(self) -> dict[str, Any]:
         """Nested lists under the keys that `from_dict` reads, ready for JSON."""
@@ -120,8 +119,10 @@ class Domain:
         return self.hole_points.view(np.complex128)[:, 0]
 
 
-def _offset_of(cage: Cage, distance: float | None) -> Offset:
-    return offset_cage(cage, _DEFAULT_OFFSET * cage.longer_side if distance is None else distance)
+def _chosen_offset(cage: Cage, distance: float | None) -> tuple[Cage, tuple[str, ...]]:
+    distance = _DEFAULT_OFFSET * cage.longer_side if distance is None else distance
+    outer, notes = offset_cage(cage, distance)
+    return _divided(outer, cage), notes
 
 
 def _checked_notes(notes: Any) -> tuple[str, ...]:

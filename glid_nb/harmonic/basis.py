@@ -14,6 +14,7 @@ from glid_nb.harmonic.cauchy import Singularities
 
 if TYPE_CHECKING:
     from glid_nb.geometry import Domain
+    from glid_nb.harmonic.map import HarmonicMap
 
 
 _HOLE_BUCKETS = (0, 1, 2, 4, 8, 16, 32, 64)
@@ -69,6 +70,10 @@ class Basis(NamedTuple):
         padded = np.zeros(self.n_columns, dtype=complex)
         padded[self.columns] = coefficients
         return padded
+
+    def rows(self, *maps: HarmonicMap) -> Complex[Array, "k c"]:
+        """Padded phi and psi of each map, one after the other."""
+        return np.stack([self.pad(values) for map in maps for values in (map.phi, map.psi)])
 
 
 @functools.lru_cache(maxsize=64)

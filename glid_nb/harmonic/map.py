@@ -38,19 +38,13 @@ class HarmonicMap:
 
     ``f(z) = sum_j C_j(z) phi_j + conj(sum_j C_j(z) psi_j)``, with the offset cage's vertices in
     the order of its loops first, then one logarithm per hole.
-
-    Parameters
-    ----------
-    domain : Domain
-        Where the map lives.
-    phi, psi : (n,) complex array_like
-        Coefficients up to 1e120, ``n`` = offset-cage vertices + holes, including those fixed to 0.
-        For the holes ``phi_j = conj(psi_j)`` must hold (Section 5), up to rounding, which is
-        evened out; else a MapError says which.
     """
 
     domain: Domain
+    """Where the map lives."""
     phi: Array = field(repr=False)
+    """(n,) complex coefficients up to 1e120, also those fixed to 0. For the holes ``phi_j =
+    conj(psi_j)`` (Section 5) up to rounding, which is evened out; else a MapError says which."""
     psi: Array = field(repr=False)
 
     def __init__(self, domain: Domain, phi: ArrayLike, psi: ArrayLike) -> None:
@@ -95,20 +89,18 @@ class HarmonicMap:
 
     def __call__(self, points: ArrayLike) -> Array:
         """(k, 2) images of points, world coordinates; certified where ``domain.cage.contains``."""
-        (f,) = self._evaluate(_values, points)
-        return as_points(f)
+        return as_points(run_on(self, _values, as_complex(points)))
 
     def wirtinger(self, points: ArrayLike) -> tuple[Array, Array]:
         """Wirtinger derivatives ``f_z`` and ``f_zbar``, each (k,) complex (Equation (9))."""
-        fz, fzb_conj = self._evaluate(_first, points)
+        fz, fzb_conj = run_on(self, _first, as_complex(points))
         return fz, fzb_conj.conj()
 
     def wirtinger_derivatives(self, points: ArrayLike, order: int) -> tuple[Array, Array]:
         """The ``order``-th complex derivatives of ``f_z`` and of ``conj(f_zbar)``, order >= 1."""
         if order < 1:
             raise ValueError(f"order is {order}; it must be at least 1")
-        fz, fzb_conj = self._evaluate(functools.partial(_higher, order=order), points)
-        return fz, fzb_conj
+        return run_on(self, functools.partial(_higher, order=order), as_complex(points))
 
     def sigma1(self, points: ArrayLike) -> Array:
         """Large singular value of the Jacobian, (k,) (Equation (2))."""
@@ -177,16 +169,12 @@ class HarmonicMap:
         with about(path, MapError):
             return cls.from_dict(parse_json(Path(path).read_bytes(), str(path)))
 
-    def _evaluate(self, program: Callable[..., Any], points: ArrayLike) -> tuple[Array, ...]:
-        return run_on(self, program, as_complex(points))
-
 
 def run_on(map: HarmonicMap, program: Callable[..., R], *points: Array) -> R:
     """``program(*points, coefficients, singularities)`` for a map's (2, c) padded coefficients and
     some of the points, (p,) complex arrays, at a time."""
     basis = basis_of(map.domain)
-    coefficients = np.stack([basis.pad(map.phi), basis.pad(map.psi)])
-    return in_chunks(program, basis.n_columns, points, coefficients, basis.singularities)
+    return in_chunks(program, basis.n_columns, points, basis.rows(map), basis.singularities)
 
 
 def images_under(maps: Sequence[HarmonicMap], points: ArrayLike) -> Array:
@@ -217,9 +205,9 @@ def as_complex(points: ArrayLike) -> Array:
     return z
 
 
-def _values(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any]:
+def _values(z: Any, coefficients: Any, singularities: Singularities) -> Any:
     c = cauchy.cauchy_coordinates(z, singularities)
-    return (c @ coefficients[0] + np.conj(c @ coefficients[1]),)
+    return c @ coefficients[0] + np.conj(c @ coefficients[1])
 
 
 def _first(z: Any, coefficients: Any, singularities: Singularities) -> tuple[Any, Any]:

@@ -61,12 +61,12 @@ class Order:
 def order_of(cage: Cage, pose: Pose | None = None) -> Order:
     """The order of a shape's parts under the depths of a pose; kept for the next call."""
     if pose is None or not pose.depths.any():
-        return _order(cage, b"", b"")
+        return _order(cage)
     return _order(cage, pose.handles.tobytes(), pose.depths.tobytes())
 
 
 @functools.lru_cache(maxsize=16)
-def _order(cage: Cage, handles: bytes, depths: bytes) -> Order:
+def _order(cage: Cage, handles: bytes = b"", depths: bytes = b"") -> Order:
     mesh, limbs = _limbs_over_trunk(cage)
     if not handles:
         return Order(mesh, limbs, np.zeros(len(limbs)))

@@ -7,12 +7,19 @@ lost: shapely lets loops come close and cuts off more; scikit-image takes one lo
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from glid_nb._arrays import Array, read_only
 from glid_nb.geometry._loops import signed_area
-from glid_nb.imaging.edges import divide_long_edges, enclosing, merge_short_edges
-from glid_nb.imaging.loops import Loops, Points, repair, significance
+from glid_nb.imaging.loops import (
+    Loops,
+    Points,
+    edges_in_conflict,
+    passed_over,
+    repair,
+    significance,
+)
 
 # Numbers of vertices for the automatic tolerance: about _VERTICES while it is below the offset, not
 # many more than _MANY while it is below a few times the offset, and never more than _MOST.
@@ -24,6 +31,10 @@ _SHARE = 0.01  # replaces a smaller offset, relative to the square root of the a
 _LOOP_SHARE = 0.08  # most tolerance relative to the loop's own area; small holes keep their form
 _GAP, _LEAST_GAP = 0.25, 0.1  # distance of loops, relative to the room and in pixels
 _MARGIN = 0.5  # of the offset may be cut off
+_MIN_EDGE = 0.2  # of the mean edge
+_MAX_EDGE = 0.04  # of the perimeter
+_PER_LOOP = 12  # edges longer than a loop's perimeter over this are never short
+_FEWEST, _LEAST_ANGLE = 4, 0.05  # edges of a loop, and angles in it, that merging leaves
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +81,7 @@ def simplify(
         """(n,) mask of the vertices kept with these tolerances, and notes."""
         kept = (importance > limits) | fixed
         notes = repair(whole, importance, kept, gap)
-        merge_short_edges(whole, kept, min_edge, gap)
+        _merge_short_edges(whole, kept, min_edge, gap)
         return kept, notes
 
     if tolerance is None:
@@ -92,8 +103,8 @@ def simplify(
         if excess > 0:
             needed = f"the loops need {kept.sum()} to stay apart"
             notes.append(f"max_vertices={max_vertices} is too few: {needed}")
-    moved = enclosing(whole, kept, _MARGIN * offset, gap)
-    divided = divide_long_edges(moved, max_edge, max_vertices)
+    moved = _enclosing(whole, kept, _MARGIN * offset, gap)
+    divided = _divide_long_edges(moved, max_edge, max_vertices)
     exterior, *holes = divided.split(read_only(divided.points))
     return Simplified(exterior, tuple(holes), float(tolerance), tuple(notes))
 
@@ -109,3 +120,141 @@ def _automatic_tolerance(importance: Array, n_holes: int, area: float, offset: f
     tolerance = min(max(for_count(_VERTICES), _LEAST_TOLERANCE), near)
     tolerance = max(tolerance, min(for_count(_MANY), _FAR * near))
     return max(tolerance, for_count(_MOST))
+
+
+def _merge_short_edges(loops: Loops, kept: Array, min_edge: float | None, gap: float) -> None:
+    """Drop an end of every edge shorter than `min_edge` from `kept` where nothing is in the way."""
+    length = loops[kept].lengths
+    if min_edge is None:
+        min_edge = _MIN_EDGE * float(length.mean())
+    perimeter = np.array([part.sum() for part in loops[kept].split(length)])
+    shortest = np.minimum(min_edge, perimeter / _PER_LOOP)
+    blocked = np.zeros(len(kept), dtype=bool)
+    while True:
+        index = np.flatnonzero(kept)
+        simplified = loops[index]
+        chosen = _droppable(simplified, blocked[index], shortest)
+        if not len(chosen):
+            return
+        clear = _clear(simplified, chosen, gap)
+        kept[index[chosen[clear]]] = False
+        blocked[index[chosen[~clear]]] = True
+
+
+def _droppable(loops: Loops, blocked: Array, shortest: Array) -> Array:
+    """Vertices at short edges, one per edge, so far apart that dropping them is independent."""
+    length, around = loops.lengths, _around(loops)
+    bases = shapely.linestrings(loops.points[around[:, [1, 3]]])
+    height = np.asarray(shapely.distance(shapely.points(loops.points), bases))
+    taken = np.zeros(len(length), dtype=bool)
+    chosen: list[int] = []
+    for edges, limit in zip(loops.split(np.arange(len(length))), shortest, strict=True):
+        left = len(edges)
+        for edge in edges[np.argsort(length[edges])]:
+            if length[edge] >= limit or left <= _FEWEST:
+                break
+            ends = [int(end) for end in around[edge, 2:4] if not blocked[end]]
+            if ends:
+                vertex = min(ends, key=lambda end: height[end])
+                if not taken[around[vertex]].any():
+                    taken[around[vertex]] = True
+                    chosen.append(vertex)
+                    left -= 1
+    return np.array(chosen, dtype=np.intp)
+
+
+def _around(loops: Loops) -> NDArray[np.intp]:
+    """(n, 5) for each vertex the ones from two before to two after."""
+    before, after, own = loops.before, loops.after, np.arange(len(loops.after))
+    return np.stack([before[before], before, own, after, after[after]], axis=1)
+
+
+def _clear(loops: Loops, vertices: NDArray[np.intp], gap: float) -> NDArray[np.bool_]:
+    """Whether each vertex can be dropped.
+
+    Its triangle with its neighbours, widened by `gap`, must be clear of other edges, and the edge
+    that replaces the two sides must not fold back onto the edges next to it.
+    """
+    around = _around(loops)[vertices]
+    corners = loops.points[around]
+    triangle, edge = shapely.STRtree(loops.segments()).query(
+        shapely.polygons(corners[:, 1:4]), predicate="dwithin", distance=gap
+    )
+    # The two sides and the edges next to them are no obstacles.
+    own = (edge[:, np.newaxis] == around[triangle, :4]).any(axis=1)
+    clear = np.ones(len(vertices), dtype=bool)
+    clear[triangle[~own]] = False
+    z = corners @ [1, 1j]
+    for a, b, c in ((0, 1, 3), (1, 3, 4)):
+        clear &= np.abs(np.angle((z[:, c] - z[:, b]) / (z[:, a] - z[:, b]))) > _LEAST_ANGLE
+    return clear
+
+
+def _divide_long_edges(loops: Loops, max_edge: float | None, max_vertices: int | None) -> Loops:
+    """Divide edges longer than `max_edge` evenly, into fewer parts to respect `max_vertices`."""
+    length = loops.lengths
+    longest = _MAX_EDGE * float(length.sum()) if max_edge is None else max_edge
+    most = np.inf if max_vertices is None else max(max_vertices, len(length))
+    while (pieces := np.maximum(np.ceil(length / longest), 1).astype(int)).sum() > most:
+        longest *= 1.1
+    edge = np.repeat(np.arange(len(length)), pieces)
+    share = (np.arange(len(edge)) - (np.cumsum(pieces) - pieces)[edge]) / pieces[edge]
+    points = loops.points[edge] + share[:, np.newaxis] * loops.edges[edge]
+    return Loops(points, loops.number[edge])
+
+
+def _enclosing(loops: Loops, kept: NDArray[np.bool_], margin: float, gap: float) -> Loops:
+    """The simplified loops, with edges that cut off more than `margin` moved outwards.
+
+    A chord of a convex arc cuts off a part of the shape. It is moved in parallel by the height of
+    that part, unless this would make loops meet.
+    """
+    simplified = loops[kept]
+    areas = _areas(simplified)
+    shifts = _shifts(loops, kept, areas, margin)
+    # Limits on the change of area, so that no hole vanishes or is inverted.
+    low, high = np.full(len(areas), 0.3), np.full(len(areas), 1.2)
+    low[0], high[0] = 0.5, np.inf
+    while True:
+        moved = Loops(simplified.points + shifts, simplified.number)
+        ratio = _areas(moved) / areas
+        still = (~((low < ratio) & (ratio < high)))[simplified.number]
+        if not shifts[still].any():
+            edges = edges_in_conflict(moved, gap)
+            still = np.concatenate([edges, simplified.after[edges]])
+            if not shifts[still].any():
+                return moved
+        shifts[still] = 0
+
+
+def _areas(loops: Loops) -> NDArray[np.float64]:
+    return np.array([signed_area(loop) for loop in loops.split(loops.points)])
+
+
+def _shifts(loops: Loops, kept: Array, areas: Array, margin: float) -> Points:
+    """(k, 2) shifts of the kept vertices after which no edge cuts off more than `margin`."""
+    corners = loops[kept]
+    outwards = np.where((areas > 0) == (np.arange(len(areas)) == 0), 1.0, -1.0)[corners.number]
+    x, y = corners.edges.T
+    normal = outwards[:, np.newaxis] * np.stack([y, -x], axis=1)
+    normal /= np.hypot(x, y)[:, np.newaxis]
+    cut = np.zeros(len(normal))
+    for k, over in enumerate(passed_over(loops, kept)):
+        if len(over):
+            beyond = (loops.points[over] - corners.points[k]) @ normal[k]
+            cut[k] = max(0.0, float(beyond.max()) - margin)
+    before, cut_before = normal[corners.before], cut[corners.before]
+    # A vertex moves to the intersection of its moved edges, but not farther than twice their moves.
+    middle = before + normal
+    square = np.maximum(np.sum(middle**2, axis=1), 1e-12)
+    (ax, ay), (bx, by) = before.T, normal.T
+    sine = ax * by - ay * bx
+    flat = np.abs(sine) < 0.2
+    sine[flat] = 1.0
+    meet = np.stack([cut_before * by - cut * ay, cut * ax - cut_before * bx], axis=1)
+    meet /= sine[:, np.newaxis]
+    most = np.maximum(cut, cut_before)
+    straight = middle * (2 * most / square)[:, np.newaxis]
+    shift = np.where(flat[:, np.newaxis], straight, meet)
+    length = np.hypot(*shift.T)
+    return shift * np.minimum(1.0, 2 * most / np.maximum(length, 1e-12))[:, np.newaxis]

@@ -48,11 +48,7 @@ class Bounded:
 
     @classmethod
     def through(
-        cls,
-        maps: Sequence[HarmonicMap],
-        times: Sequence[float],
-        turns: Sequence[int],
-        closed: bool = False,
+        cls, maps: Sequence[HarmonicMap], times: Sequence[float], turns: Sequence[int], closed: bool
     ) -> Bounded:
         """Through maps of one domain whose ``f_z`` turn alike; ``turns`` more ways round a piece.
 

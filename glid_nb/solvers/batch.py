@@ -1,8 +1,8 @@
 """Many poses of one shape at once, spread over all local devices.
 
-CPUs take one pose after the other. Elsewhere the poses are split over the devices and run
-vectorised, in lockstep. After every call those that have ended leave the batch, and those that need
-the host, because a panel must be split for one, are set aside and finished one by one.
+Every CPU takes the next pose when it has done one. Other devices take a share of the poses each and
+run it vectorised, in lockstep. After every call those that have ended leave the batch, and those
+that need the host, because a panel must be split for one, are set aside and finished one by one.
 """
 
 import functools
@@ -16,9 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from glid_nb._arguments import check_type
-from glid_nb._arrays import Array
 from glid_nb._errors import about
-from glid_nb._jax import jax, jnp
+from glid_nb._jax import jax, jit, jnp
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision, single_blas_thread
 from glid_nb.energies import Energy, as_energy
 from glid_nb.geometry import Domain
@@ -95,39 +94,38 @@ def solve_batch(
     # of XLA 0.10 was seen to lose tasks of such programs and to wait for them for ever.
     # Where angles or scales are wanted, the poses have no rows in common.
     alone = devices[0].platform == "cpu" or poses[0].turned.any()
-    each = _one_by_one if alone else _in_lockstep
-    return each(given, devices)
-
-
-def _one_by_one(given: Sequence[Inputs], devices: tuple[Any, ...]) -> tuple[Result, ...]:
-    """Every device takes the next pose when it has done one."""
-    free: SimpleQueue[Any] = SimpleQueue()
+    count, free = len(devices), SimpleQueue[Any]()
+    groups = [[inputs] for inputs in given] if alone else [given[i::count] for i in range(count)]
     for device in devices:
         free.put(device)
 
-    def solved(inputs: Inputs) -> Result:
+    def solved(group: list[Inputs]) -> list[Result]:
         device = free.get()
         try:
             with jax.default_device(device):
-                return replace(Newton().run(inputs), factor=None)
+                return _alone(group) if alone else _in_lockstep(group)
         finally:
             free.put(device)
 
-    options = given[0].options
-    discretise(given[0].domain, options.sampling, options.certificate)  # once for all threads
-    pool = ThreadPoolExecutor(len(devices))
+    discretise(domain, options.sampling, options.certificate)  # once for all threads
+    pool = ThreadPoolExecutor(count)
     try:
-        return tuple(pool.map(solved, given))
+        by_group = list(pool.map(solved, groups))
     finally:
         pool.shutdown(cancel_futures=True)
+    return tuple(by_group[i % len(groups)][i // len(groups)] for i in range(len(given)))
 
 
-def _in_lockstep(given: Sequence[Inputs], devices: tuple[Any, ...]) -> tuple[Result, ...]:
-    method = Newton()
-    batch = [_Pose(method, inputs) for inputs in given]
+def _alone(group: list[Inputs]) -> list[Result]:
+    return [replace(Newton().run(inputs), factor=None) for inputs in group]
+
+
+@double_precision
+def _in_lockstep(group: list[Inputs]) -> list[Result]:
+    batch = [_Pose(Newton(), inputs) for inputs in group]
     with single_blas_thread():
-        compile_time = _run(batch, devices) / len(batch)
-    return tuple(pose.finished(compile_time) for pose in batch)
+        compile_time = _run(batch) / max(len(batch), 1)
+    return [pose.finished(compile_time) for pose in batch]
 
 
 def _checked_devices(devices: Any) -> tuple[Any, ...]:
@@ -175,72 +173,55 @@ class _Pose(NewtonDescent):
         return improve(self.result(ending, *times), self.inputs, descend)
 
 
-def _run(poses: list[_Pose], devices: tuple[Any, ...]) -> float:
+def _run(poses: list[_Pose]) -> float:
     """Run every pose until the batch can do no more for it; seconds of compiling."""
-    unknowns = len(poses[0].problem.unknowns.free)
-    room = _MOST_BYTES // (_COPIES * 8 * unknowns**2)
-    sizes = [n for n in _SIZES if n <= max(room, 1)]
     running, compile_time = poses, 0.0
     while running:
-        each = -(-len(running) // len(devices))
-        per_device = next((n for n in sizes if n >= each), sizes[-1])
-        now = running[: per_device * len(devices)]
-        compile_time += _call(now, per_device, devices)
-        running = [*running[len(now) :], *(pose for pose in now if pose.goes_on)]
+        unknowns = len(running[0].problem.unknowns.free)
+        room = max(_MOST_BYTES // (_COPIES * 8 * unknowns**2), 1)
+        sizes = [n for n in _SIZES if n <= room]
+        size = next((n for n in sizes if n >= len(running)), sizes[-1])
+        now = running[:size]
+        compile_time += _call(now, size)
+        running = [*running[size:], *(pose for pose in now if pose.goes_on)]
     return compile_time
 
 
-def _call(chosen: list[_Pose], per_device: int, devices: tuple[Any, ...]) -> float:
+def _call(chosen: list[_Pose], size: int) -> float:
     """One call for the chosen poses; the seconds of compiling."""
-    first, size = chosen[0], per_device * len(devices)
-    rows = dealt(len(chosen), len(devices), per_device)
+    first, watch = chosen[0], Stopwatch()
+    limits = [int(pose.settings().iterations) for pose in chosen]
     # What only fills the batch up stays where it is.
-    filled, limits = [first] * size, np.zeros(size, dtype=int)
-    for row, pose in zip(rows, chosen, strict=True):
-        filled[row], limits[row] = pose, pose.settings().iterations
-    program, watch = _program(devices), Stopwatch()
-    state = program(
+    filled = [*chosen, *[first] * (size - len(chosen))]
+    state = _together(
         first.problem,
         first.settings(),
         jnp.asarray(np.stack([pose.problem.positional.aims for pose in filled])),
         jnp.asarray(np.stack([pose.coefficients for pose in filled])),
-        jnp.asarray(limits),
+        jnp.asarray(np.pad(limits, (0, size - len(chosen)))),
     )
     state = jax.tree.map(np.asarray, state)
     compiling, seconds = watch.compiling, watch.seconds / len(chosen)
-    for row, pose in zip(rows, chosen, strict=True):
+    for row, pose in enumerate(chosen):
         pose.done = pose.take(jax.tree.map(lambda a, row=row: a[row], state), seconds)
         pose.seconds += seconds
     return compiling
 
 
-def dealt(count: int, devices: int, per_device: int) -> Array:
-    """The rows of ``count`` poses, dealt out to the devices, each of which has ``per_device``."""
-    turn = np.arange(count)
-    return turn % devices * per_device + turn // devices
+@functools.partial(jit, compiler_options=COMPILER_OPTIONS)
+def _together(
+    problem: Problem, settings: step.Settings, aims: Any, coefficients: Any, limits: Any
+) -> step.State:
+    """The iterations of poses that differ by their aims, from maps of their own."""
 
+    def one(goals: Any, y: Any, limit: Any) -> step.State:
+        state = step.iterations(
+            problem._replace(positional=problem.positional._replace(aims=goals)),
+            y,
+            jnp.zeros((len(problem.unknowns.free),) * 2),
+            settings._replace(iterations=limit),
+        )
+        # A factor serves one pose at one time; it need not come back.
+        return state._replace(factor=jnp.zeros(()))
 
-@functools.cache
-def _program(devices: tuple[Any, ...]) -> Any:
-    """The compiled program for poses on these devices; each device loops on its own."""
-    mesh = jax.sharding.Mesh(np.array(devices), ("poses",))
-    each, shared = jax.P("poses"), jax.P()
-
-    def together(
-        problem: Problem, settings: step.Settings, aims: Any, coefficients: Any, limits: Any
-    ) -> step.State:
-        def one(goals: Any, y: Any, limit: Any) -> step.State:
-            state = step.iterations(
-                problem._replace(positional=problem.positional._replace(aims=goals)),
-                y,
-                jnp.zeros((len(problem.unknowns.free),) * 2),
-                settings._replace(iterations=limit),
-            )
-            # A factor serves one pose at one time; it need not come back.
-            return state._replace(factor=jnp.zeros(()))
-
-        return jax.vmap(one)(aims, coefficients, limits)
-
-    specs: Any = {"in_specs": (shared, shared, each, each, each), "out_specs": each}
-    sharded = jax.shard_map(together, mesh=mesh, check_vma=False, **specs)
-    return jax.jit(sharded, compiler_options=COMPILER_OPTIONS)
+    return jax.vmap(one)(aims, coefficients, limits)

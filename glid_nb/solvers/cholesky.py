@@ -16,6 +16,7 @@ from glid_nb._jax import Array, Float, jax, jnp, lax
 
 _FACTORISE, _SOLVE = "lapack_dpotrf_ffi", "lapack_dtrsm_ffi"
 _VMAP = "broadcast_all"
+_L, _N, _T = np.frombuffer(b"LNT", np.uint8)  # LAPACK's letters
 # What JAX's own calls must look like for ours to be understood.
 _EXPECTED = (
     f"@{_FACTORISE}(",
@@ -55,7 +56,7 @@ def _by_platform(lapack: Callable, portable: Callable, *arguments: Array) -> Arr
 def _lapack_factor(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
     outputs = jax.ShapeDtypeStruct(h.shape, h.dtype), jax.ShapeDtypeStruct((), np.int32)
     call = jax.ffi.ffi_call(_FACTORISE, outputs, input_output_aliases={0: 0}, vmap_method=_VMAP)
-    factor, info = call(h, uplo=_letter("L"))
+    factor, info = call(h, uplo=_L)
     return factor.at[-1, -1].set(jnp.where(info == 0, factor[-1, -1], jnp.nan))
 
 
@@ -63,14 +64,9 @@ def _lapack_solve(factor: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[A
     column = b[:, None]
     output = jax.ShapeDtypeStruct(column.shape, column.dtype)
     call = jax.ffi.ffi_call(_SOLVE, output, input_output_aliases={1: 0}, vmap_method=_VMAP)
-    how = {"side": _letter("L"), "uplo": _letter("L"), "diag": _letter("N")}
-    for transposed in ("N", "T"):
-        column = call(factor, column, trans_x=_letter(transposed), **how)
+    for transposed in (_N, _T):
+        column = call(factor, column, trans_x=transposed, side=_L, uplo=_L, diag=_N)
     return column[:, 0]
-
-
-def _letter(letter: str) -> np.uint8:
-    return np.uint8(ord(letter))
 
 
 @functools.cache

@@ -63,8 +63,6 @@ class Reached(NamedTuple):
     entry: Iteration
     """Without its number and its time."""
     make: Make
-    sigma2_lower: Array | None = None
-    """(p,) certified bound per panel."""
 
 
 class Descent:
@@ -78,6 +76,8 @@ class Descent:
     """Whether XLA factorises for it, which several BLAS threads would slow down."""
     discretisation: Discretisation | None = None
     """The panels, which may be split."""
+    sigma2_lower: Array | None = None
+    """(p,) certified bound per panel, once a step was taken."""
     factor: Any = None
     """Cholesky factor of the last Hessian, for a solve that goes on from here."""
 
@@ -118,7 +118,7 @@ class Descent:
 
     def progress(self) -> Progress:
         now = self.reached()
-        return Progress(make=now.make, sigma2_lower=now.sigma2_lower, **self._course(now.entry))
+        return Progress(make=now.make, sigma2_lower=self.sigma2_lower, **self._course(now.entry))
 
     def result(self, ending: Ending, compile_time: float, solve_time: float) -> Result:
         now = self.reached()

@@ -37,44 +37,29 @@ class PoseError(InputError):
 class Pose:
     """Positional constraints (paper Section 6.1): handle ``i`` should map to target ``i``.
 
-    Parameters
-    ----------
-    handles : (h, 2) array_like
-        Points ``p_i`` of the domain, world coordinates.
-    targets : (h, 2) array_like
-        Desired images ``q_i``; anywhere within 10^6 units.
-    depths : (h,) array_like, optional
-        Where parts of the shape overlap, those near handles of greater depth are drawn in front;
-        -100 to 100, by default 0. They change no map.
-    angles, scales : (h,) array_like, optional
-        By how much the shape is turned (radians) and scaled at each handle: ``f_z`` there should
-        be ``scale exp(i angle)``. None or NaN, the default, leaves one of them or both free. For
-        methods in the harmonic subspace.
-    weights : (h,) array_like, optional
-        How firmly each handle is held, relative to ``Options.p2p_weight``; by default 1. For
-        methods in the harmonic subspace.
-    stiffness : list of dict or Stiffness, optional
-        Strokes over what should stay as it is, each with ``points`` (n, 2) of the undeformed shape,
-        the ``radius`` of the brush and the ``strength`` from 0, which erases, to 1; the last one
-        counts. It is written and passed on with the pose, as part of what is asked for. For
-        descents in the harmonic subspace.
-
-    Raises
-    ------
-    PoseError
-        When shapes or counts differ, a coordinate is not finite or out of scale, or two handles
-        coincide.
-    StiffnessError
-        When a stroke is not valid.
+    It is made of lists or arrays. A PoseError where shapes or counts differ, a coordinate is not
+    finite or out of scale, or two handles coincide; a StiffnessError where a stroke is not valid.
     """
 
     handles: Array
+    """(h, 2) points ``p_i`` of the domain, world coordinates."""
     targets: Array
+    """(h, 2) desired images ``q_i``; anywhere within 10^6 units."""
     depths: Array
+    """(h,) where parts of the shape overlap, those near handles of greater depth are drawn in
+    front; -100 to 100, by default 0. They change no map."""
     angles: Array
+    """(h,) by how much the shape is turned at each handle, radians: ``f_z`` there should be ``scale
+    exp(i angle)``. None or NaN, the default, leaves it free. For methods in the harmonic
+    subspace, as the next two are."""
     scales: Array
+    """(h,) by how much it is scaled there, likewise."""
     weights: Array
+    """(h,) how firmly each handle is held, relative to ``Options.p2p_weight``; by default 1."""
     stiffness: Stiffness
+    """Strokes over what should stay as it is, each a dict of ``points`` (n, 2) of the undeformed
+    shape, the ``radius`` of the brush and the ``strength`` from 0, which erases, to 1; the last one
+    counts. It goes wherever the pose goes. For descents in the harmonic subspace."""
 
     def __init__(
         self,
@@ -87,18 +72,17 @@ class Pose:
         weights: ArrayLike | None = None,
         stiffness: Stiffness | Sequence[Mapping[str, Any]] | None = None,
     ) -> None:
-        object.__setattr__(self, "handles", _checked_points(handles, "handles"))
-        object.__setattr__(self, "targets", _checked_points(targets, "targets"))
+        points = {"handles": handles, "targets": targets}
+        vars(self).update({name: _checked_points(xy, name) for name, xy in points.items()})
         n_handles, n_targets = len(self.handles), len(self.targets)
         if n_handles != n_targets:
             raise PoseError(
-                f"there {_counted(n_handles, 'handle')} but {n_targets} "
-                f"target{'' if n_targets == 1 else 's'}; give one target per handle"
+                f"there {'is 1 handle' if n_handles == 1 else f'are {n_handles} handles'} but "
+                f"{n_targets} target{'' if n_targets == 1 else 's'}; give one target per handle"
             )
         more = {"depths": depths, "angles": angles, "scales": scales, "weights": weights}
-        for name, values in more.items():
-            object.__setattr__(self, name, _checked_numbers(name, values, n_handles))
-        object.__setattr__(self, "stiffness", Stiffness.of(stiffness))
+        vars(self).update({name: _checked_numbers(name, v, n_handles) for name, v in more.items()})
+        vars(self)["stiffness"] = Stiffness.of(stiffness)
         _, first, inverse = np.unique(self.handles, axis=0, return_index=True, return_inverse=True)
         repeated = np.flatnonzero(first[inverse.ravel()] != np.arange(n_handles))
         if repeated.size:
@@ -211,7 +195,3 @@ def _checked_numbers(name: str, values: ArrayLike | None, count: int) -> Array:
     if array.shape != (count,) or not within.all():
         raise PoseError(f"{wanted}, not {values!r:.60}")
     return read_only(array)
-
-
-def _counted(count: int, noun: str) -> str:
-    return f"is 1 {noun}" if count == 1 else f"are {count} {noun}s"

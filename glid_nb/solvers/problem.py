@@ -79,7 +79,7 @@ def positional_energy(
     matrix = _matrix_at(domain, pose.handles.tobytes(), size)
     if map is not None and len(turned):
         basis, pinned = basis_of(domain), slice(count, count + len(turned))
-        d = _derivatives_at(domain, pose.handles[turned].tobytes())
+        d = _basis_at(domain, pose.handles[turned].tobytes(), cauchy.first_derivatives)
         fz, angles, scales = d @ basis.pad(map.phi), pose.angles[turned], pose.scales[turned]
         left = np.angle(np.exp(1j * np.nan_to_num(angles - np.angle(fz))))
         d = d * np.exp(-1j * (np.angle(fz) + left.clip(-_FARTHEST_TURN, _FARTHEST_TURN)))[:, None]
@@ -109,18 +109,18 @@ def measured_apart(a: Positional, b: Positional) -> float:
 
 
 @functools.lru_cache(maxsize=32)
-def _derivatives_at(domain: Domain, points: bytes) -> NDArray[Any]:
-    """(k, c) complex ``D`` at points, kept likewise."""
-    basis, z = basis_of(domain), np.frombuffer(points).reshape(-1, 2) @ np.array([1, 1j])
-    return complex_basis(cauchy.first_derivatives, z, basis)
+def _basis_at(domain: Domain, points: bytes, kernel: Any) -> NDArray[Any]:
+    """(k, c) complex, kept for the next targets of the same handles."""
+    z = np.frombuffer(points).reshape(-1, 2) @ np.array([1, 1j])
+    return complex_basis(kernel, z, basis_of(domain))
 
 
 @functools.lru_cache(maxsize=32)
 def _matrix_at(domain: Domain, handles: bytes, size: int) -> NDArray[Any]:
-    """``A``, kept for the next targets of the same handles."""
-    basis, points = basis_of(domain), np.frombuffer(handles).reshape(-1, 2) @ np.array([1, 1j])
-    rows = np.zeros((size, basis.n_columns), dtype=complex)
-    rows[: len(points)] = complex_basis(cauchy.cauchy_coordinates, points, basis)
+    """``A``, kept likewise."""
+    own = _basis_at(domain, handles, cauchy.cauchy_coordinates)
+    rows = np.zeros((size, own.shape[1]), dtype=complex)
+    rows[: len(own)] = own
     re, minus_im = np.real(rows), -np.imag(rows)
     return np.block([[re, minus_im, re, minus_im], [-minus_im, re, minus_im, -re]])
 
@@ -128,13 +128,13 @@ def _matrix_at(domain: Domain, handles: bytes, size: int) -> NDArray[Any]:
 def handle_images(positional: Positional, basis: Basis, map: HarmonicMap) -> NDArray[Any]:
     """(h,) complex images of the padded handles."""
     re, minus_im, *_ = np.split(positional.matrix[: len(positional.aims) // 2], 4, axis=1)
-    rows = re - 1j * minus_im
-    return rows @ basis.pad(map.phi) + np.conj(rows @ basis.pad(map.psi))
+    rows, (phi, psi) = re - 1j * minus_im, basis.rows(map)
+    return rows @ phi + np.conj(rows @ psi)
 
 
 def real_coefficients(basis: Basis, map: HarmonicMap) -> NDArray[Any]:
     """Padded ``[Re phi, Im phi, Re psi, Im psi]`` of a map."""
-    phi, psi = basis.pad(map.phi), basis.pad(map.psi)
+    phi, psi = basis.rows(map)
     return np.concatenate([np.real(phi), np.imag(phi), np.real(psi), np.imag(psi)])
 
 

@@ -91,9 +91,8 @@ def solve(
     method.check(energy)
     method.check_pose(pose)
     pose.check_inside(domain)
-    what: Any = {"domain": domain, "pose": pose, "energy": energy}
-    options = Options() if options is None else options
-    inputs = Inputs(options=options, start=start, callback=callback, **what)
+    problem: Any = {"domain": domain, "pose": pose, "energy": energy}
+    inputs = Inputs(**problem, options=options or Options(), start=start, callback=callback)
     if isinstance(inputs.start_map, HarmonicMap):
         check_belongs(inputs.start_map, domain)
     return method.run(inputs)

@@ -101,22 +101,23 @@ class SubspaceDescent(Descent):
     def reached(self) -> Reached:
         point, domain = self.point, self.inputs.domain
         iso, p2p = float(point.energy_iso), float(point.energy_p2p)
-        entry = Iteration(energy_iso=iso, energy_p2p=p2p)
+        entry = Iteration(
+            energy_iso=iso,
+            energy_p2p=p2p,
+            sigma2_lower=None if self.sigma2_lower is None else float(self.sigma2_lower.min()),
+            panels=len(self.discretisation.panels),
+            panels_split=self.just_split,
+        )
         if self.proved is None:
             return Reached(entry, lambda: self.start_proof)
         proof = *self.proved, self.discretisation.certificate
-        make = lambda: proved_by(map_from(domain, point.coefficients), *proof)  # noqa: E731
-        return Reached(entry, make, self.sigma2_lower)
-
-    @property
-    def sigma2_lower(self) -> Array | None:
-        return None if self.proved is None else self.proved[1]
+        return Reached(entry, lambda: proved_by(map_from(domain, point.coefficients), *proof))
 
     def prove(self, sigma2_lower: Any, turning: Any) -> None:
         """Note what a step was proved by, on the present panels."""
         panels = self.discretisation.panels
-        bounds, turns = (np.asarray(a)[: len(panels)] for a in (sigma2_lower, turning))
-        self.proved = panels, bounds, turns
+        self.sigma2_lower, turns = (np.asarray(a)[: len(panels)] for a in (sigma2_lower, turning))
+        self.proved = panels, self.sigma2_lower, turns
 
     @functools.cached_property
     def start_proof(self) -> Certificate:

@@ -43,18 +43,25 @@ _WAYS = {
 """By the number of joints, or more: what a way is called, and how joints turn, in turn."""
 
 
+class Line(NamedTuple):
+    """From a handle to one that hangs at it; what a pose does to the line between them."""
+
+    child: int
+    parent: int
+    turn: float
+    """Against the parent's line, in (-pi, pi]."""
+    stretch: float
+
+
 @dataclass(frozen=True)
 class Turning:
-    """What a pose does to the lines of the tree, in its order, the first handle being the root."""
+    """What a pose does to the lines of the tree, which come after those that they hang at."""
 
     pose: Pose
-    order: tuple[int, ...]
-    parents: tuple[int, ...]
+    root: int
     whole: float
     """The turn of the shape as a whole, radians."""
-    turns: tuple[float, ...]
-    """Against the parent's line, in (-pi, pi]."""
-    stretches: tuple[float, ...]
+    lines: tuple[Line, ...]
 
     @property
     def joints(self) -> list[int]:
@@ -63,13 +70,11 @@ class Turning:
         They turn by over 100 degrees against their parent's line, or by over 60 and so are the
         first to turn by over 100 against the shape; or they or their parent's shrink to half.
         """
-        place = {i: k for k, i in enumerate(self.order)}
-        total, found = [0.0], list[int]()
-        for k, turn in enumerate(self.turns[1:], start=1):
-            j = place[self.parents[k]]
-            total.append(total[j] + turn)
-            least = _BEND if abs(total[k]) > _JOINT >= abs(total[j]) else _JOINT
-            if abs(turn) > least or min(self.stretches[k], self.stretches[j]) < _CLOSE:
+        total, stretches, found = {self.root: 0.0}, {self.root: 1.0}, list[int]()
+        for k, (i, j, turn, stretch) in enumerate(self.lines):
+            total[i], stretches[i] = total[j] + turn, stretch
+            least = _BEND if abs(total[i]) > _JOINT >= abs(total[j]) else _JOINT
+            if abs(turn) > least or min(stretch, stretches[j]) < _CLOSE:
                 found.append(k)
         return found
 
@@ -77,25 +82,22 @@ class Turning:
     def ways(self) -> dict[str, list[Pose]]:
         """The stages of each way by name, from the shape at rest to the wanted pose."""
         lines = _WAYS[min(len(self.joints), 2)].items()
-        tree = dict(zip(self.order, self.parents, strict=True))
+        tree = {self.root: self.root} | {line.child: line.parent for line in self.lines}
         return rigid_ways(self.pose, tree) | {name: self.stages(way) for name, way in lines}
 
     def stages(self, way: tuple[int, ...]) -> list[Pose]:
         """The poses between the shape at rest and the wanted one; joints turn left or right."""
-        turns = list(self.turns)
-        for i, k in enumerate(self.joints):
-            side = way[i % len(way)]
-            turns[k] = side * (side * turns[k] % (2 * np.pi))
-        angles = np.full(len(self.pose), self.whole)
-        lines = list(zip(self.order, self.parents, self.stretches, strict=True))[1:]
-        for turn, (i, j, _) in zip(turns[1:], lines, strict=True):
+        sides = {k: way[i % len(way)] for i, k in enumerate(self.joints)}
+        turns = [_led(line.turn, sides.get(k, 0)) for k, line in enumerate(self.lines)]
+        angles, root = {self.root: self.whole}, self.root
+        for turn, (i, j, _, _) in zip(turns, self.lines, strict=True):
             angles[i] = angles[j] + turn
         z, w = as_complex(self.pose.handles), as_complex(self.pose.targets)
-        stages, root = [], self.order[0]
-        for time in stage_times([*angles, *turns]):
+        stages = []
+        for time in stage_times([*angles.values(), *turns]):
             at = np.empty_like(z)
             at[root] = z[root] + time * (w[root] - z[root])
-            for i, j, stretch in lines:
+            for i, j, _, stretch in self.lines:
                 turned = np.exp(1j * time * angles[i]) * (1 + time * (stretch - 1))
                 at[i] = at[j] + turned * (z[i] - z[j])
             stages.append(self.pose.with_targets(as_points(at)))
@@ -114,18 +116,18 @@ def turning_of(pose: Pose, cage: Cage) -> Turning:
     tree = csgraph.minimum_spanning_tree(distances)
     root = int(np.argmin(distances.sum(axis=0)))
     order, before = csgraph.breadth_first_order(tree, root, directed=False)
-    parents, turns, stretches = [root], [0.0], [1.0]
-    angles = np.full(len(z), whole)
-    for i in order[1:]:
-        j = int(before[i])
+    angles, found = {root: whole}, list[Line]()
+    for i, j in zip(order[1:].tolist(), before[order[1:]].tolist(), strict=True):
         ratio = (w[i] - w[j]) / (z[i] - z[j])
         turn = float(np.angle(ratio * np.exp(-1j * angles[j])))
         angles[i] = angles[j] + turn
-        parents.append(j)
-        turns.append(turn)
-        stretches.append(max(abs(ratio), _LEAST_STRETCH))
-    lists = tuple(order.tolist()), tuple(parents), whole, tuple(turns), tuple(stretches)
-    return Turning(pose, *lists)
+        found.append(Line(i, j, turn, max(float(abs(ratio)), _LEAST_STRETCH)))
+    return Turning(pose, root, whole, tuple(found))
+
+
+def _led(angle: float, side: int) -> float:
+    """A turn to the left (1), to the right (-1) or the short way (0)."""
+    return side * (side * angle % (2 * np.pi)) if side else angle
 
 
 def _distances(cage: Cage, points: Array) -> Array:
@@ -169,7 +171,7 @@ def rigid_ways(pose: Pose, parents: dict[int, int]) -> dict[str, list[Pose]]:
     return {
         name: [
             pose.with_targets(as_points(aim + turn * (stage - middle)))
-            for stage in _stages(z, [_sided(motion, side) for motion in motions])
+            for stage in _stages(z, motions, side)
         ]
         for name, side in ways.items()
     }
@@ -200,18 +202,13 @@ def _motion(part: list[int], z: Array, w: Array, extent: float) -> _Motion:
     return _Motion(part, angle, middle, shift)
 
 
-def _sided(motion: _Motion, side: int) -> _Motion:
-    """The same motion, turning left (1), right (-1) or the short way (0)."""
-    if not side or abs(motion.angle) < _LEAST_TURN:
-        return motion
-    return motion._replace(angle=side * (side * motion.angle % (2 * np.pi)))
-
-
-def _stages(z: Array, motions: list[_Motion]) -> list[Array]:
+def _stages(z: Array, motions: list[_Motion], side: int) -> list[Array]:
+    led = [side if abs(motion.angle) >= _LEAST_TURN else 0 for motion in motions]
+    angles = [_led(motion.angle, way) for motion, way in zip(motions, led, strict=True)]
     stages = []
-    for time in stage_times([motion.angle for motion in motions]):
+    for time in stage_times(angles):
         stage = z.copy()
-        for part, angle, pivot, shift in motions:
+        for angle, (part, _, pivot, shift) in zip(angles, motions, strict=True):
             stage[part] = pivot + np.exp(1j * time * angle) * (z[part] - pivot) + time * shift
         stages.append(stage)
     return stages

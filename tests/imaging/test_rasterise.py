@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import jax
 import numpy as np
 import pytest
 import shapely
@@ -299,19 +298,6 @@ def test_bands_change_nothing(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(rasterise, "_BAND", 90 * 7)
     pieces = render_mesh(image, points, positions, triangles, (90, 80))
     np.testing.assert_array_equal(pieces, whole)
-
-
-def test_the_users_settings_of_jax_change_nothing():
-    image = noise(30, 30)
-    points, triangles = irregular_mesh(30, 30, 30)
-    plain = render_mesh(image, points, points * 1.3, triangles, (39, 39))
-    with (
-        jax.enable_x64(True),
-        jax.numpy_dtype_promotion("strict"),
-        jax.numpy_rank_promotion("raise"),
-    ):
-        strict = render_mesh(image, points, points * 1.3, triangles, (39, 39))
-    assert np.abs(plain.astype(int) - strict).max() <= 1
 
 
 def test_vertices_far_away_leave_the_rest_exact():

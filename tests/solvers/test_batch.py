@@ -16,7 +16,6 @@ import pytest
 from glid_nb.energies import as_energy
 from glid_nb.geometry import Domain
 from glid_nb.solvers import Options, Pose, PoseError, Status, batch, solve, solve_batch
-from glid_nb.solvers.batch import dealt
 from glid_nb.solvers.method import Inputs
 
 from ..domains import domain
@@ -57,7 +56,7 @@ def test_poses_in_lockstep_are_the_poses_one_by_one() -> None:
         for goal in goals
     ]
     with jax.enable_x64(True):
-        results = batch._in_lockstep(given, tuple(jax.local_devices()))
+        results = batch._in_lockstep(given)
     alone = [solve(ell, Pose(HANDLES, goal)) for goal in goals]
     np.testing.assert_allclose([r.energy for r in results], [r.energy for r in alone], rtol=1e-6)
     for goal, result in zip(goals, results, strict=True):
@@ -100,17 +99,6 @@ def test_the_iteration_limit_holds_for_each_pose() -> None:
 def test_bad_targets_are_refused(change: Callable[[np.ndarray], np.ndarray], message: str) -> None:
     with pytest.raises(PoseError, match=message):
         solve_batch(domain("ell"), HANDLES, change(targets(2)))
-
-
-@pytest.mark.parametrize(
-    ("count", "devices", "each"), [(5, 2, 4), (16, 2, 16), (7, 3, 4), (8, 2, 4)]
-)
-def test_poses_are_dealt_out_evenly(count: int, devices: int, each: int) -> None:
-    rows = dealt(count, devices, each)
-    assert len(set(rows)) == count
-    shares = np.bincount(rows // each, minlength=devices)
-    assert len(shares) == devices
-    assert shares.max() - shares.min() <= 1
 
 
 _ON_TWO_DEVICES = """

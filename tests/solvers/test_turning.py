@@ -58,7 +58,7 @@ def test_stages_lead_evenly_to_the_targets(seed: int, count: int) -> None:
         line = np.array([pose.handles, *(s.targets for s in stages), pose.targets])
         assert np.isfinite(line).all()
         # No stage turns any line by more than 40 degrees.
-        for i, j in zip(turning.order[1:], turning.parents[1:], strict=True):
+        for i, j, _, _ in turning.lines:
             z = (line[:, i] - line[:, j]) @ np.array([1, 1j])
             assert np.abs(np.angle(z[1:] / z[:-1])).max() < np.deg2rad(40.1)
 

@@ -25,9 +25,8 @@ from glid_nb.methods.bdhm.program import (
     Step,
     solve_program,
 )
-from glid_nb.solvers import Iteration, Method, MethodError, Result, Status
+from glid_nb.solvers import Inputs, Iteration, Method, MethodError, Result, Status
 from glid_nb.solvers.loop import Ending, GeneratedDescent, Reached, Steps, follow
-from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.problem import measured_apart
 from glid_nb.solvers.subspace import KEPT, MOST_PINS
 
@@ -73,7 +72,7 @@ class BDHM(DistortionBounds, Method):
     tolerance: float = TOLERANCE
 
     def run(self, inputs: Inputs) -> Result:
-        return follow(lambda: GeneratedDescent(self, inputs, _Descent(self, inputs).steps()))
+        return follow(lambda: _Descent(self, inputs))
 
 
 class Iterate(NamedTuple):
@@ -85,13 +84,14 @@ class Iterate(NamedTuple):
     step: float | None = None
 
 
-class _Descent:
+class _Descent(GeneratedDescent):
     """One run, and the samples that it adds to as it goes."""
 
+    method: BDHM
+    far, measured = True, 0
+
     def __init__(self, method: BDHM, inputs: Inputs) -> None:
-        self.method, self.inputs, self.far = method, inputs, True
-        self.measured = 0
-        self._measure(method.harmonic_start(inputs) or HarmonicMap.identity(inputs.domain))
+        super().__init__(method, inputs, self.steps())
 
     def _measure(self, map: HarmonicMap) -> None:
         """Measure angles and scales of handles from a map."""
@@ -117,7 +117,9 @@ class _Descent:
 
     def steps(self) -> Steps:
         identity = HarmonicMap.identity(self.inputs.domain)
-        for map_ in (self.method.harmonic_start(self.inputs) or identity, identity):
+        start = self.method.harmonic_start(self.inputs) or identity
+        self._measure(start)
+        for map_ in (start, identity):
             v = self.problem.unknowns(map_, self.inputs.options.align)
             now = Iterate(v, sum(self.problem.energies(v)), self._proved(v))
             if self.method.hold(now.certificate):
@@ -126,9 +128,9 @@ class _Descent:
             why = now.certificate.reason
             raise MethodError(f"the identity is not proved to keep the bounds: {why}")
         while True:
-            yield functools.partial(self.reached, now)
+            yield functools.partial(self._at, now)
             with single_blas_thread():
-                then = self.advance(now)
+                then = self._next(now)
             if isinstance(then, Ending):
                 anew = self._measured_anew(now) if then.status is Status.CONVERGED else None
                 if anew is None:
@@ -136,14 +138,14 @@ class _Descent:
                 then = anew
             now = then
 
-    def reached(self, now: Iterate) -> Reached:
+    def _at(self, now: Iterate) -> Reached:
         iso, p2p = self.problem.energies(now.v)
         entry = Iteration(
             energy_iso=iso, energy_p2p=p2p, step=now.step, sigma2_lower=now.certificate.sigma2_lower
         )
         return Reached(entry, lambda: now.certificate)
 
-    def advance(self, now: Iterate) -> Iterate | Ending:
+    def _next(self, now: Iterate) -> Iterate | Ending:
         self.active = self.active.around(now.v)
         outcome = self._attempt(now, 1 if self.far else _ROUNDS)
         if self.far:

@@ -13,12 +13,11 @@ from glid_nb._jax import AnyArray, Bool, Float, Int, jit, jnp
 from glid_nb._jax import Array as DeviceArray
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision
 from glid_nb.certificate import PanelBounds
-from glid_nb.solvers import Method, Result, Status, evaluation, line_search
+from glid_nb.solvers import Inputs, Method, Result, Status, evaluation, line_search
 from glid_nb.solvers.evaluation import Coefficients, Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
 from glid_nb.solvers.line_search import NO_DECREASE, RUNNING
-from glid_nb.solvers.loop import Advance, Ending, Reached, Stopwatch, follow
-from glid_nb.solvers.method import Inputs
+from glid_nb.solvers.loop import Advance, Ending, Stopwatch, follow
 from glid_nb.solvers.problem import Problem, map_from
 from glid_nb.solvers.step import LEAST_ENERGY
 from glid_nb.solvers.subspace import SubspaceDescent
@@ -89,15 +88,15 @@ class DirectedDescent(SubspaceDescent):
     """What the method remembers of its earlier steps."""
     step: float | None = None
     """Length of the last step."""
+    _chosen: Array | None = None
+    _ending: Ending | None = None
+    _seconds = 0.0
 
     @double_precision
     def __init__(self, method: SubspaceMethod, inputs: Inputs) -> None:
         super().__init__(method, inputs, reduced=False)
-        self._chosen: Array | None = None
-        self._ending: Ending | None = None
-        self._seconds = 0.0
         self._evaluate()
-        self.initial, self._seconds = self.reached().entry, 0.0
+        self.initial, self._seconds = replace(self.reached().entry, time=self._seconds), 0.0
 
     @functools.cached_property
     def free(self) -> Array:
@@ -133,21 +132,9 @@ class DirectedDescent(SubspaceDescent):
         self.point, self.gradient = move.point, np.asarray(move.gradient)
         self.coefficients, self.step, self._chosen = move.point.coefficients, float(move.step), None
         self.prove(move.bounds.sigma2_lower, move.bounds.turning)
-        self.record(self.reached().entry)
+        self.record(replace(self.reached().entry, time=self._seconds, step=self.step))
         self.just_split, self._seconds = 0, 0.0
         return Advance(iterations=1)
-
-    def reached(self) -> Reached:
-        now = super().reached()
-        entry = replace(
-            now.entry,
-            time=self._seconds,
-            step=self.step,
-            sigma2_lower=None if self.sigma2_lower is None else float(self.sigma2_lower.min()),
-            panels=len(self.discretisation.panels),
-            panels_split=self.just_split,
-        )
-        return now._replace(entry=entry)
 
     def adapt(self, done: Advance) -> Ending | None:
         """End where steps gain nothing, unless free angles and scales have to be measured anew."""

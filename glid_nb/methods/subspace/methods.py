@@ -13,9 +13,8 @@ import scipy
 from glid_nb._arrays import Array
 from glid_nb._jax import jnp
 from glid_nb.methods.subspace.descent import DirectedDescent, SecondOrderMethod, SubspaceMethod
-from glid_nb.solvers import Method, OptionError, Result, Status
+from glid_nb.solvers import Inputs, Method, OptionError, Result, Status
 from glid_nb.solvers.loop import Ending
-from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import descend
 
 Initial = Literal["identity", "dirichlet"]
