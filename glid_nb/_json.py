@@ -12,6 +12,7 @@ from glid_nb._files import write_text_atomically
 
 Check = Callable[[Any, str], None]
 """``check(value, key)`` raises InputFileError if the value is not valid for that key."""
+Checks = Mapping[str, Check]
 
 _MOST_VALUES = 4_000_000
 _EXACT_DIGITS = 300  # integers of fewer are in the range of floating point
@@ -62,12 +63,7 @@ def json_text(data: Mapping[str, Any]) -> str:
 
 
 def check_fields(
-    data: Any,
-    name: str,
-    required: Mapping[str, Check],
-    optional: Mapping[str, Check] | None = None,
-    *,
-    others: bool = False,
+    data: Any, name: str, required: Checks, optional: Checks | None = None, *, others: bool = False
 ) -> None:
     """Raise InputFileError unless ``data``, called ``name``, is an object of valid keys and values.
 

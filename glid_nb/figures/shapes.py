@@ -30,6 +30,7 @@ from glid_nb.solvers import Pose
 
 Quantity = Literal["sigma1", "sigma2", "k", "energy", "distortion"]
 AnyMap = HarmonicMap | MeshMap
+Maps = AnyMap | Sequence[AnyMap]
 
 _LABELS = {"sigma1": "σ₁", "sigma2": "σ₂", "k": "k = |f_z̄| / |f_z|"}
 _LABELS |= {"energy": "energy density", "distortion": "max(σ₁, 1/σ₂)"}
@@ -96,7 +97,7 @@ class Sheet(NamedTuple):
 
 
 def distortion(
-    maps: AnyMap | Sequence[AnyMap],
+    maps: Maps,
     quantity: Quantity | Energy = "sigma1",
     pose: Pose | None = None,
     *,
@@ -141,11 +142,7 @@ def draw_distortion(
 
 
 def picture(
-    image: ArrayLike | None,
-    maps: AnyMap | Sequence[AnyMap],
-    pose: Pose | None = None,
-    *,
-    titles: Sequence[str] = (),
+    image: ArrayLike | None, maps: Maps, pose: Pose | None = None, *, titles: Sequence[str] = ()
 ) -> NotebookFigure:
     """A picture under each map, side by side; turned-over triangles are vermilion.
 

@@ -5,17 +5,13 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from glid_nb._arrays import Array, read_only
 from glid_nb.geometry._loops import GeometryError, edge_lengths, next_index, subdivided
-
-if TYPE_CHECKING:
-    from glid_nb.geometry.cage import Cage
-    from glid_nb.geometry.domain import Domain
-
+from glid_nb.geometry.cage import Cage
+from glid_nb.geometry.domain import Domain
 
 _MAX_BISECTIONS = 48  # bisecting an edge this often brings it below rounding
 _EVEN = 1e-9  # relative difference by rounding between the halves of one piece

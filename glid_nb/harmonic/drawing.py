@@ -1,18 +1,13 @@
 """A domain's maps in single precision, for drawing: at fixed points, and as a shader takes them."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from glid_nb._arrays import Array
-from glid_nb.harmonic.map import as_complex, basis_of
-
-if TYPE_CHECKING:
-    from glid_nb.geometry import Domain
-    from glid_nb.harmonic.map import HarmonicMap
+from glid_nb.geometry import Domain
+from glid_nb.harmonic.map import HarmonicMap, as_complex, basis_of
 
 _CHUNK = 1 << 21  # numbers at a time
 _MOST_KEPT = 1 << 26  # numbers, of 8 bytes each

@@ -11,7 +11,7 @@ from glid_nb._arrays import read_only
 from glid_nb.imaging import measure
 from glid_nb.imaging.frame import PixelFrame, TraceError
 from glid_nb.imaging.measure import RGBA, full
-from glid_nb.imaging.options import Method, Point, Scribbles
+from glid_nb.imaging.options import Color, Method, Point, Scribbles
 from glid_nb.imaging.scribbles import scaled_picture, scribble_score
 
 _LEAST_SHARE = 0.001  # of transparent or opaque pixels; fewer are a speck
@@ -71,7 +71,7 @@ def find_foreground(
     image: RGBA,
     method: Method = "auto",
     invert: bool | None = None,
-    background: tuple[float, float, float] | None = None,
+    background: Color | None = None,
     background_at: Point | None = None,
     scribbles: Scribbles | None = None,
     scaled: Callable[[RGBA], NDArray[np.float64]] = scaled_picture,
@@ -158,10 +158,7 @@ def _check_alpha(alpha: NDArray[np.float32]) -> None:
 
 
 def _choose_method(
-    image: RGBA,
-    background: tuple[float, float, float] | None,
-    background_at: Point | None,
-    scribbles: Scribbles | None,
+    image: RGBA, background: Color | None, background_at: Point | None, scribbles: Scribbles | None
 ) -> tuple[Method, str]:
     """A method and the reason for it, as a note."""
     if scribbles is not None:
@@ -180,8 +177,8 @@ def _choose_method(
 
 
 def _background(
-    image: RGBA, background: tuple[float, float, float] | None, background_at: Point | None
-) -> tuple[tuple[float, float, float], float, tuple[str, ...]]:
+    image: RGBA, background: Color | None, background_at: Point | None
+) -> tuple[Color, float, tuple[str, ...]]:
     """The background's colour, the spread of the border's colours about it, and notes."""
     if background is not None:
         return background, 0.03, ()

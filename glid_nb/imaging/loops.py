@@ -63,17 +63,35 @@ class Loops:
         ends = np.stack([self.points, self.points[self.after]], axis=1)
         return np.asarray(shapely.linestrings(ends), dtype=object)
 
+    def passed_over(self, kept: NDArray[np.bool_]) -> list[NDArray[np.intp]]:
+        """For each edge of ``self[kept]`` the vertices that it skips, in order."""
+        index = np.flatnonzero(kept)
+        following, number = index[self[index].after], self.number[index]
+        sizes = np.bincount(self.number)[number]
+        starts = self.ends[number] - sizes
+        return [
+            start + (low + 1 - start + np.arange((high - low - 1) % size)) % size
+            for low, high, start, size in zip(index, following, starts, sizes, strict=True)
+        ]
 
-def passed_over(loops: Loops, kept: NDArray[np.bool_]) -> list[NDArray[np.intp]]:
-    """For each edge of ``loops[kept]`` the vertices of ``loops`` that it skips, in order."""
-    index = np.flatnonzero(kept)
-    following, number = index[loops[index].after], loops.number[index]
-    sizes = np.bincount(loops.number)[number]
-    starts = loops.ends[number] - sizes
-    return [
-        start + (low + 1 - start + np.arange((high - low - 1) % size)) % size
-        for low, high, start, size in zip(index, following, starts, sizes, strict=True)
-    ]
+    def in_conflict(self, gap: float) -> NDArray[np.intp]:
+        """The edges that cross another edge or come closer to it than `gap`.
+
+        Edges that are less than a few gaps apart along the same loop, such as the neighbours of a
+        short edge, only count if they cross.
+        """
+        segments, length, after = self.segments(), self.lengths, self.after
+        e, f = shapely.STRtree(segments).query(segments, predicate="dwithin", distance=gap)
+        apart = (e < f) & (after[e] != f) & (after[f] != e)
+        e, f = e[apart], f[apart]
+        same = self.number[e] == self.number[f]
+        travelled = np.cumsum(length)
+        forth = travelled[f] - length[f] - travelled[e]
+        back = np.bincount(self.number, length)[self.number[e]] - forth - length[e] - length[f]
+        near = same & (np.minimum(forth, back) < 4 * gap)
+        conflict = ~near
+        conflict[near] = shapely.intersects(segments[e[near]], segments[f[near]])
+        return np.unique(np.concatenate([e[conflict], f[conflict]]))
 
 
 def repair(loops: Loops, importance: Array, kept: Array, gap: float) -> list[str]:
@@ -81,8 +99,8 @@ def repair(loops: Loops, importance: Array, kept: Array, gap: float) -> list[str
     before = np.count_nonzero(kept)
     place = loops.points[0]
     while True:
-        simplified, over = loops[kept], passed_over(loops, kept)
-        edges = [edge for edge in edges_in_conflict(simplified, gap) if len(over[edge])]
+        simplified, over = loops[kept], loops.passed_over(kept)
+        edges = [edge for edge in simplified.in_conflict(gap) if len(over[edge])]
         if not edges:  # containment is defined once there are no crossings
             edges = _jumped(simplified, over)
         if not edges:
@@ -94,26 +112,6 @@ def repair(loops: Loops, importance: Array, kept: Array, gap: float) -> list[str
     vertices = "vertex was" if count == 1 else "vertices were"
     where = f"{count} {vertices} kept, near ({place[0]:.0f}, {place[1]:.0f}) among others"
     return [f"simplification would have made the cage meet itself; {where}"] if count else []
-
-
-def edges_in_conflict(loops: Loops, gap: float) -> NDArray[np.intp]:
-    """The edges that cross another edge or come closer to it than `gap`.
-
-    Edges that are less than a few gaps apart along the same loop, such as the neighbours of a short
-    edge, only count if they cross.
-    """
-    segments, length, after = loops.segments(), loops.lengths, loops.after
-    e, f = shapely.STRtree(segments).query(segments, predicate="dwithin", distance=gap)
-    apart = (e < f) & (after[e] != f) & (after[f] != e)
-    e, f = e[apart], f[apart]
-    same = loops.number[e] == loops.number[f]
-    travelled = np.cumsum(length)
-    forth = travelled[f] - length[f] - travelled[e]
-    back = np.bincount(loops.number, length)[loops.number[e]] - forth - length[e] - length[f]
-    near = same & (np.minimum(forth, back) < 4 * gap)
-    conflict = ~near
-    conflict[near] = shapely.intersects(segments[e[near]], segments[f[near]])
-    return np.unique(np.concatenate([e[conflict], f[conflict]]))
 
 
 def _jumped(simplified: Loops, over: list[NDArray[np.intp]]) -> list[int]:

@@ -21,6 +21,11 @@ Method = Literal["auto", "alpha", "threshold", "color", "scribbles"]
 """Ways to tell the foreground from the background."""
 
 Point = tuple[float, float]
+Color = tuple[float, float, float]
+"""(red, green, blue), each in [0, 1]."""
+
+Strokes = tuple[NDArray[np.float64], ...] | NDArray[np.bool_]
+GivenStrokes = Iterable[ArrayLike] | NDArray[np.bool_]
 
 _ANY = math.inf
 _PIXEL: Any = {"least": -math.inf, "form": "a pixel (x, y) of finite numbers"}
@@ -35,14 +40,10 @@ class Scribbles:
     picture's shape (h, w). If ``background`` is empty, the picture's border is taken for it.
     """
 
-    foreground: tuple[NDArray[np.float64], ...] | NDArray[np.bool_]
-    background: tuple[NDArray[np.float64], ...] | NDArray[np.bool_]
+    foreground: Strokes
+    background: Strokes
 
-    def __init__(
-        self,
-        foreground: Iterable[ArrayLike] | NDArray[np.bool_],
-        background: Iterable[ArrayLike] | NDArray[np.bool_] = (),
-    ) -> None:
+    def __init__(self, foreground: GivenStrokes, background: GivenStrokes = ()) -> None:
         object.__setattr__(self, "foreground", _strokes(foreground, "foreground"))
         object.__setattr__(self, "background", _strokes(background, "background"))
 
@@ -80,7 +81,7 @@ class TraceOptions:
     invert: bool | None = option(None, "Swap foreground and background")
     """Swap: by threshold dark pixels become foreground, by colour those that have the colour. None:
     no; by threshold, so that the border becomes background."""
-    background: tuple[float, float, float] | None = option(
+    background: Color | None = option(
         None,
         "Background colour, each 0 to 1 (default: estimated from the border)",
         most=1,
@@ -132,9 +133,7 @@ class TraceOptions:
             raise TraceError("method='scribbles' needs scribbles=Scribbles(foreground, background)")
 
 
-def _strokes(
-    strokes: Iterable[ArrayLike] | NDArray[np.bool_], name: str
-) -> tuple[NDArray[np.float64], ...] | NDArray[np.bool_]:
+def _strokes(strokes: GivenStrokes, name: str) -> Strokes:
     if isinstance(strokes, np.ndarray) and strokes.dtype == np.bool_:
         if strokes.ndim != 2:
             wanted = f"must have the shape (h, w), not {strokes.shape}"

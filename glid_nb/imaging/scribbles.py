@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
 from glid_nb.imaging.frame import TraceError
-from glid_nb.imaging.options import Scribbles
+from glid_nb.imaging.options import Scribbles, Strokes
 from glid_nb.imaging.read import as_rgba8
 
 _WALKED_PIXELS = 40_000
@@ -91,10 +91,7 @@ def _labels(
 
 
 def _drawn(
-    strokes: tuple[NDArray[np.float64], ...] | NDArray[np.bool_],
-    shape: tuple[int, int],
-    size: tuple[int, int],
-    name: str,
+    strokes: Strokes, shape: tuple[int, int], size: tuple[int, int], name: str
 ) -> NDArray[np.bool_]:
     """The strokes as a mask of the scaled picture."""
     factor = np.array(size) / np.array(shape)

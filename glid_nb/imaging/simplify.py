@@ -12,14 +12,7 @@ from numpy.typing import NDArray
 
 from glid_nb._arrays import Array, read_only
 from glid_nb.geometry._loops import signed_area
-from glid_nb.imaging.loops import (
-    Loops,
-    Points,
-    edges_in_conflict,
-    passed_over,
-    repair,
-    significance,
-)
+from glid_nb.imaging.loops import Loops, Points, repair, significance
 
 # Numbers of vertices for the automatic tolerance: about _VERTICES while it is below the offset, not
 # many more than _MANY while it is below a few times the offset, and never more than _MOST.
@@ -220,7 +213,7 @@ def _enclosing(loops: Loops, kept: NDArray[np.bool_], margin: float, gap: float)
         ratio = _areas(moved) / areas
         still = (~((low < ratio) & (ratio < high)))[simplified.number]
         if not shifts[still].any():
-            edges = edges_in_conflict(moved, gap)
+            edges = moved.in_conflict(gap)
             still = np.concatenate([edges, simplified.after[edges]])
             if not shifts[still].any():
                 return moved
@@ -239,7 +232,7 @@ def _shifts(loops: Loops, kept: Array, areas: Array, margin: float) -> Points:
     normal = outwards[:, np.newaxis] * np.stack([y, -x], axis=1)
     normal /= np.hypot(x, y)[:, np.newaxis]
     cut = np.zeros(len(normal))
-    for k, over in enumerate(passed_over(loops, kept)):
+    for k, over in enumerate(loops.passed_over(kept)):
         if len(over):
             beyond = (loops.points[over] - corners.points[k]) @ normal[k]
             cut[k] = max(0.0, float(beyond.max()) - margin)

@@ -40,6 +40,11 @@ def test_a_ring_turns_and_scales_and_the_list_takes_numbers(open_notebook: OpenN
 
     # Numbers are typed into the list, and an empty field is free.
     field = page.get_by_label("Angle °")
+    field.fill("much")
+    field.press("Enter")
+    refusal = page.get_by_text("'much' is no number")
+    refusal.wait_for()
+    refusal.click(trial=True)  # nothing covers it
     field.fill("-20")
     field.press("Enter")
     book.wait_for("abs(np.degrees(model.pose.angles[1]) + 20) < 1e-9")
@@ -53,6 +58,12 @@ def test_a_ring_turns_and_scales_and_the_list_takes_numbers(open_notebook: OpenN
     book.wait_for("not model.pose.turned.any() and len(model.pose) == 2")
 
     # A box selects, a pin out of sight is brought back, a pose goes through the clipboard.
+    keys = page.locator(".glid-pane .glid-help")
+    page.keyboard.press("?")
+    keys.wait_for()
+    page.keyboard.press("Escape")
+    keys.wait_for(state="hidden")
+    assert book.value("model.selection") != []
     page.keyboard.press("Escape")
     book.wait_for("model.selection == ()")
     page.keyboard.down("Shift")
