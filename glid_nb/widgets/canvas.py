@@ -116,9 +116,6 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         # The drawn panels, after the domain if a solve goes on.
         self._panels: Any = None, None
         super().__init__([self.pane], **kwargs)
-        # A box that may scroll would shrink to nothing inside another.
-        self.layout.overflow, self.layout.flex = "visible", "0 0 auto"
-        self.layout.align_items = "flex-start"
         self.add_class("glid-deform")
         self._asked: tuple[int | None, int | None] = width, height
         self._given = size
