@@ -4,6 +4,7 @@
 """
 
 import functools
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -61,20 +62,24 @@ class Order:
 def order_of(cage: Cage, pose: Pose | None = None) -> Order:
     """The order of a shape's parts under the depths of a pose; kept for the next call."""
     if pose is None or not pose.depths.any():
-        return _order(cage)
-    return _order(cage, pose.handles.tobytes(), pose.depths.tobytes())
+        return _orders(cage)()
+    return _orders(cage)(pose.handles.tobytes(), pose.depths.tobytes())
 
 
-@functools.lru_cache(maxsize=16)
-def _order(cage: Cage, handles: bytes = b"", depths: bytes = b"") -> Order:
+@functools.lru_cache(maxsize=4)  # cages, not orders: each has a mesh of several MB
+def _orders(cage: Cage) -> Callable[..., Order]:
     mesh, limbs = _limbs_over_trunk(cage)
-    if not handles:
-        return Order(mesh, limbs, np.zeros(len(limbs)))
-    pins, reach = np.frombuffer(handles).reshape(-1, 2), _REACH * cage.longer_side
-    return Order(mesh, limbs, _spread(mesh, pins, np.frombuffer(depths), reach))
+
+    @functools.lru_cache(maxsize=16)
+    def order(handles: bytes = b"", depths: bytes = b"") -> Order:
+        if not handles:
+            return Order(mesh, limbs, np.zeros(len(limbs)))
+        pins, reach = np.frombuffer(handles).reshape(-1, 2), _REACH * cage.longer_side
+        return Order(mesh, limbs, _spread(mesh, pins, np.frombuffer(depths), reach))
+
+    return order
 
 
-@functools.lru_cache(maxsize=4)
 def _limbs_over_trunk(cage: Cage) -> tuple[Triangulation, Array]:
     """A mesh, and (v,) heights from 0 to 1 that grow with the distance from its innermost point.
 

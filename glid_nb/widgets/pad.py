@@ -6,6 +6,7 @@ from typing import Any
 import anywidget
 import ipywidgets
 
+from glid_nb._scripts import bundle
 from glid_nb.session.model import Observed
 from glid_nb.widgets.closing import ClosingWidget
 
@@ -19,6 +20,8 @@ class Pad(ClosingWidget, anywidget.AnyWidget):
     a number ``seq``, what :class:`~glid_nb.widgets.gestures.Gestures` reads, and, if it is
     ``buffered``, its ``data``.
     """
+
+    _esm = bundle("pad/loader.js")  # loads `_script`, a trait of each class
 
     def serve(
         self,

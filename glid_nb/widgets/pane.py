@@ -35,7 +35,7 @@ class Stage(Pad):
     and zooms without the kernel, and puts a map's coefficients into the renderer's materials.
     """
 
-    _esm = bundle("canvas/main.js")
+    _script = traitlets.Unicode(bundle("canvas/main.js")).tag(sync=True)
     _css = stylesheet("canvas/canvas.css")
 
     width = traitlets.Int(600).tag(sync=True)

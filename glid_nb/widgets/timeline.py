@@ -38,7 +38,7 @@ class TimelinePanel(Pad):
     button does; there is none without it.
     """
 
-    _esm = bundle("timeline/main.js")
+    _script = traitlets.Unicode(bundle("timeline/main.js")).tag(sync=True)
     _css = stylesheet("timeline/timeline.css")
 
     stage = traitlets.Unicode("").tag(sync=True)

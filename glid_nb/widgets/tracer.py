@@ -58,7 +58,7 @@ class CageTracer(Pad):
     0
     """
 
-    _esm = bundle("tracer/main.js")
+    _script = traitlets.Unicode(bundle("tracer/main.js")).tag(sync=True)
     _css = stylesheet("tracer/tracer.css")
 
     picture = traitlets.Bytes(b"").tag(sync=True)

@@ -149,16 +149,13 @@ class MeshProblem:
         """The problem on the start's mesh, or on a new one of about ``n_vertices`` vertices."""
         pose, start = inputs.pose, inputs.start_map
         if isinstance(start, MeshMap):
-            mesh = start.triangulation
+            mesh, images = start.triangulation, as_complex(start.images)
         else:
             mesh = triangulate(inputs.domain.cage, n_vertices, points=pose.handles)
+            images = as_complex(mesh.vertices if start is None else start(mesh.vertices))
         handles = _vertices_at(mesh, pose.handles, _AT_VERTEX * inputs.domain.cage.longer_side)
         operators = MeshOperators(mesh)
         targets = pose.targets @ np.array([1, 1j])
-        if isinstance(start, MeshMap):
-            images = as_complex(start.images)
-        else:
-            images = operators.rest if start is None else as_complex(start(mesh.vertices))
         if inputs.options.align and len(handles):
             turn, middle, aim = rigid_motion(images[handles], targets)
             images = aim + turn * (images - middle)
