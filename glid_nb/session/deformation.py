@@ -95,7 +95,7 @@ class Deformation(Observed):
         self._prepared = 1.0
         solver = LiveSolver(self._accept, self._fail, self._prepare)
         self._worker = LatestWins(solver.solve, self, "live solver", waits=False)
-        self._closed = False
+        self._closed = self._paused = False
         if begin:
             self.begin()
 
@@ -131,7 +131,7 @@ class Deformation(Observed):
                 self.state,
                 self._frame,
                 self._worker.busy,
-                self._worker.paused,
+                self._paused,
                 self._error,
                 self.selection,
                 self.dragged,
@@ -380,15 +380,15 @@ class Deformation(Observed):
     @property
     def paused(self) -> bool:
         """Whether the solver is paused."""
-        return self._worker.paused
+        return self._paused
 
     @paused.setter
     def paused(self, value: bool) -> None:
         with self.locked():
             if value == self.paused:
                 return
-            self._worker.paused = value
-            if not value and not self.moment.solved:
+            self._paused = value
+            if not self.moment.solved and (self.begun or not value):
                 self._submit()
             self._tell("state", "status")
 
@@ -429,9 +429,11 @@ class Deformation(Observed):
         self._tell("state", "frame", "selection", "status")
 
     def _submit(self, single: bool = False) -> None:
-        self.begun = True
-        if single or not self.moment.solved:
-            self._worker.submit(Task(self.state.current, self._chain, single), at_once=single)
+        self.begun, solved = True, self.moment.solved
+        if single or not (solved or self._paused):
+            self._worker.submit(Task(self.state.current, self._chain, single))
+        elif self._paused and self._worker.busy and not solved:
+            self._worker.submit(None)  # what is solved now ends after its present call
         else:
             self._worker.cancel()
 

@@ -55,12 +55,14 @@ class LiveSolver:
         self._starts: tuple[int, ...] = ()
         self._published = -np.inf
 
-    def solve(self, task: Task, worker: LatestWins[Task]) -> None:
-        """Run the task's method and publish its frames.
+    def solve(self, task: Task | None, worker: LatestWins[Task | None]) -> None:
+        """Run the task's method and publish its frames; nothing for None.
 
         A newer task interrupts this between two compiled calls, or two iterations of another
         method. So every task moves the shape, and the last one is solved to its end.
         """
+        if task is None:
+            return
         if self._chain != task.chain or self._last is None:
             self._last, self._before, self._starts = None, (), ()
         before = self._before
@@ -85,7 +87,7 @@ class LiveSolver:
         self._published = time.monotonic()
         self._publish(replace(frame, solution=solution))
 
-    def _watch(self, worker: LatestWins[Task], name: str) -> None:
+    def _watch(self, worker: LatestWins[Task | None], name: str) -> None:
         """Tell how far the preparation is when a stage begins; end a task that was cancelled."""
         if worker.cancelled:
             raise _Cancelled
@@ -97,7 +99,7 @@ class LiveSolver:
             self._share = share
             self._prepared(share)
 
-    def _result(self, task: Task, worker: LatestWins[Task]) -> Result:
+    def _result(self, task: Task, worker: LatestWins[Task | None]) -> Result:
         edited, method = task.pose, task.pose.method
         calls = iterations = 0
 

@@ -40,9 +40,8 @@ class LatestWins(Generic[T]):
         self._work, self._name, self._interval, self._finish = work, name, interval, finish
         self._waits = waits
         self._changed = threading.Condition()
-        # The pending task, and whether it is done although the worker is paused.
-        self._pending: tuple[T, bool] | None = None
-        self._busy = self._cancelled = self._paused = self._hurried = False
+        self._pending: tuple[T] | None = None
+        self._busy = self._cancelled = self._hurried = False
         self.closed = False
         """Whether this was closed."""
         self.thread: threading.Thread | None = None
@@ -50,15 +49,12 @@ class LatestWins(Generic[T]):
         self._ended = -float("inf")
         self._finalizer = weakref.finalize(owner, self._close)
 
-    def submit(self, task: T, *, at_once: bool = False) -> None:
-        """Do this instead of the pending task, ``at_once`` also while paused; returns at once.
-
-        A closed worker ignores it.
-        """
+    def submit(self, task: T) -> None:
+        """Do this instead of the pending task; returns at once. A closed worker ignores it."""
         with self._changed:
             if self.closed:
                 return
-            self._pending = (task, at_once)
+            self._pending = (task,)
             if self.thread is None:
                 self.thread = threading.Thread(target=self._run, name=self._name, daemon=True)
                 self.thread.start()
@@ -74,7 +70,7 @@ class LatestWins(Generic[T]):
         """Wait until there is nothing to do; whether that is within ``timeout`` seconds."""
         with self._changed:
             return self._changed.wait_for(
-                lambda: self.closed or not (self._busy or self._due()), timeout
+                lambda: self.closed or not (self._busy or self._pending), timeout
             )
 
     def hurry(self, timeout: float | None = None) -> bool:
@@ -89,9 +85,9 @@ class LatestWins(Generic[T]):
 
     @property
     def busy(self) -> bool:
-        """Whether a task runs that was not cancelled, or one is due."""
+        """Whether a task runs that was not cancelled, or one is pending."""
         with self._changed:
-            return (self._busy and not self._cancelled) or self._due()
+            return (self._busy and not self._cancelled) or self._pending is not None
 
     @property
     def cancelled(self) -> bool:
@@ -100,20 +96,9 @@ class LatestWins(Generic[T]):
 
     @property
     def overtaken(self) -> bool:
-        """Whether the running task should end: cancelled, paused, or a newer one waits."""
+        """Whether the running task should end: cancelled, or a newer one waits."""
         with self._changed:
-            return self.cancelled or self._paused or self._pending is not None
-
-    @property
-    def paused(self) -> bool:
-        """While paused, only tasks that were submitted ``at_once`` are done."""
-        return self._paused
-
-    @paused.setter
-    def paused(self, value: bool) -> None:
-        with self._changed:
-            self._paused = value
-            self._changed.notify_all()
+            return self.cancelled or self._pending is not None
 
     def close(self) -> None:
         """End the thread; later tasks are ignored."""
@@ -127,22 +112,18 @@ class LatestWins(Generic[T]):
         if thread not in (None, threading.current_thread()) and (self._waits or at_exit):
             thread.join()
 
-    def _due(self) -> bool:
-        return self._pending is not None and (not self._paused or self._pending[1])
-
     def _next(self) -> tuple[T] | None:
         """Wait for the next task; None once this is closed."""
         with self._changed:
             while True:
-                self._changed.wait_for(lambda: self.closed or self._due())
+                self._changed.wait_for(lambda: self.closed or self._pending)
                 rest = self._ended + self._interval - time.monotonic()
                 self._changed.wait_for(lambda: self.closed or self._hurried, max(rest, 0.0))
                 if self.closed and not (self._finish and self._pending):
                     return None
-                if self._pending is not None and (self.closed or self._due()):
-                    (task, _), self._pending = self._pending, None
-                    self._busy = True
-                    return (task,)
+                if (taken := self._pending) is not None:
+                    self._pending, self._busy = None, True
+                    return taken
 
     def _run(self) -> None:
         # A compiler that is still at work must not outlive the interpreter.

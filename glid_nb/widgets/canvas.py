@@ -10,6 +10,7 @@ import traitlets
 
 from glid_nb._arguments import check_count
 from glid_nb.certificate import certificate_of
+from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.figures.style import BLUE, ORANGE
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
@@ -112,12 +113,9 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self._panels_at = self._range_at = 0.0
         self._hidden: Any = ()
         self._outlines: dict[Any, Any] = {}  # of other poses, by their maps and colours
-        # The drawn panels and their bounds, after the domain if a solve goes on.
-        self._panels: tuple[Any, ...] = (None, None, None)
+        # The drawn panels, after the domain if a solve goes on.
+        self._panels: Any = None, None
         super().__init__([self.pane], **kwargs)
-        # A box that may scroll would shrink to nothing inside another.
-        self.layout.overflow, self.layout.flex = "visible", "0 0 auto"
-        self.layout.align_items = "flex-start"
         self.add_class("glid-deform")
         self._asked: tuple[int | None, int | None] = width, height
         self._given = size
@@ -289,20 +287,19 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self._range_at = now
         return "widen" if (moment.dragged if moment.solved else moving) else "fit"
 
-    def _panels_of(self, moment: Moment) -> tuple[Any, ...]:
+    def _panels_of(self, moment: Moment) -> PanelCertificate:
         """The boundary's panels; while the solver works at most `_PANELS_INTERVAL` old."""
         frame, now, domain = moment.frame, time.monotonic(), moment.state.domain
         if frame is None or frame.proof is None:
-            proof = certificate_of(moment.map).panels
-            self._panels = (None, proof, proof.sigma2_lower)
+            self._panels = None, certificate_of(moment.map).panels
         elif (
             self._panels[0] is not domain
             or frame.solution is not None
             or now - self._panels_at > _PANELS_INTERVAL
         ):
             self._panels_at = now
-            self._panels = (domain, frame.proof.panels, frame.proof.panels.sigma2_lower)
-        return self._panels[1:]
+            self._panels = domain, frame.proof.panels
+        return self._panels[1]
 
     # From the page
 

@@ -434,12 +434,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _show_saving(self) -> None:
         error, left, path = self.model.save_error, self.model.left_path, self.model.autosave_path
         if error is not None:
-            self.unsaved.value = (
-                "<p style='position:absolute;top:2px;right:2px;z-index:5;margin:0;"
-                "max-width:calc(100% - 300px);padding:4px 12px;border-radius:4px;color:#fff;"
-                "background:#b34700;line-height:1.4;pointer-events:none'>"
-                f"{html.escape(_NOT_SAVED.format(error=error))}</p>"
-            )
+            text = html.escape(_NOT_SAVED.format(error=error))
+            self.unsaved.value = f'<p class="glid-unsaved">{text}</p>'
         self.unsaved.layout.display = "none" if error is None else "block"
         if left is None or path is None or path == self._told_path:
             return

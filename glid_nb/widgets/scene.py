@@ -8,10 +8,10 @@ import numpy as np
 import pythreejs as three
 
 from glid_nb._arrays import Array
+from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.energies import ENERGIES, Energy, SymmetricDirichlet
 from glid_nb.figures.style import BLUE, COLORS, GREY, rgb
 from glid_nb.geometry import MeshMap, Triangulation, triangulate, uniform_panels
-from glid_nb.geometry.panels import Panels
 from glid_nb.harmonic import FixedPoints, HarmonicMap, ShaderMap
 from glid_nb.imaging import PixelFrame
 from glid_nb.imaging.order import Order, order_of
@@ -66,8 +66,8 @@ class Drawing:
     """Whether the range of the overlay's colour map is kept, only widened, or fitted."""
     cage: bool = False
     offset_cage: bool = False
-    panels: tuple[Panels, Array] | None = None
-    """The boundary's panels and the certified sigma_2 on each, where they are drawn."""
+    panels: PanelCertificate | None = None
+    """The boundary's panels and what is certified on each, where they are drawn."""
 
 
 class Scene:
@@ -136,12 +136,7 @@ class Scene:
         self._show_overlay(drawing)
         self._show_line("cage", self.domain if drawing.cage else None)
         self._show_line("offset_cage", self.domain if drawing.offset_cage else None)
-        panels = margins = None
-        if drawing.panels is not None:
-            panels, sigma2_lower = drawing.panels
-            margin = np.clip(np.nan_to_num(sigma2_lower) / FULL_MARGIN, 0.0, 1.0)
-            margins = np.repeat(np.rint(255 * (1 - margin)).astype(np.uint8), PANEL_VERTICES)
-        self._show_line("panels", panels, margins)
+        self._show_line("panels", drawing.panels)
         for layer in self.layers:
             layer.show(drawing.map)
 
@@ -189,35 +184,34 @@ class Scene:
             for layer in {self.picture, self.drawn[0]}:
                 layer.set_uniforms(self._picture_uniforms())
 
-    def _show_line(self, name: str, source: Any, margins: Array | None = None) -> None:
-        """Show the line of this name, made of ``source``; hide it for None.
-
-        With margins, a byte per vertex, it is coloured by them between borders of its own colour.
-        """
+    def _show_line(self, name: str, source: Any) -> None:
+        """Show the line of this name, made of ``source``; hide it for None."""
         line = self.lines.get(name)
         if source is not None and source is not self._sources.get(name):
             if line is not None:
                 self._replaced.append(line)
-            line = self.lines[name] = self._line(name, source, margins)
+            line = self.lines[name] = self._line(name, source)
             self._sources[name] = source
-        elif line is not None and margins is not None:
-            line.set_attribute("margin", margins)
         if line is not None and line.mesh.visible != (source is not None):
             line.mesh.visible = source is not None
 
-    def _line(self, name: str, source: Any, margins: Array | None) -> Layer:
+    def _line(self, name: str, source: Any) -> Layer:
         ribbon_of, color, opacity, half_width = _LINES[name]
         points, triangles, ribbon = ribbon_of(source)
-        plain = np.zeros(len(points), dtype=np.uint8)
+        # Panels are coloured by their margins, a byte per vertex, between borders of their colour.
+        margin, by_margin = np.zeros(len(points), dtype=np.uint8), 0.0
+        if name == "panels":
+            share = np.clip(np.nan_to_num(source.sigma2_lower) / FULL_MARGIN, 0.0, 1.0)
+            margin = np.repeat(np.rint(255 * (1 - share)).astype(np.uint8), PANEL_VERTICES)
+            by_margin = 1.0  # the page makes it 2 in a motion
         uniforms = _uniforms(
             pixel=0.02,
             half_width=half_width,
             line_color=[*rgb([color])[0], opacity],
-            by_margin=0.0 if margins is None else 1.0,  # the page makes it 2 in a motion
+            by_margin=by_margin,
             full_margin=FULL_MARGIN,
             colors=rgb(MARGIN_COLORS).ravel().tolist(),
         )
-        margin = plain if margins is None else margins
         return self._layer("ribbon", uniforms, points, triangles, ribbon=ribbon, margin=margin)
 
     def _layer(

@@ -75,22 +75,6 @@ def test_cancelling_forgets_what_is_pending() -> None:
     assert slow.told == (True, True)
 
 
-def test_a_paused_worker_does_only_what_is_wanted_at_once() -> None:
-    slow = Slow()
-    slow.may.release(3)
-    slow.worker.paused = True
-    slow.worker.submit(1)
-    assert not slow.worker.busy
-    assert slow.worker.wait(0)
-    assert slow.done == []
-    slow.worker.submit(2, at_once=True)
-    assert slow.worker.wait(TIMEOUT)
-    slow.worker.submit(3)
-    slow.worker.paused = False
-    assert slow.worker.wait(TIMEOUT)
-    assert slow.done == [2, 3]
-
-
 def test_closing_need_not_wait_for_the_running_task() -> None:
     slow = Slow(waits=False)
     slow.submit(1)
