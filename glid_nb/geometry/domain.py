@@ -121,7 +121,8 @@ class Domain:
 
 def _chosen_offset(cage: Cage, distance: float | None) -> tuple[Cage, tuple[str, ...]]:
     distance = _DEFAULT_OFFSET * cage.longer_side if distance is None else distance
-    outer, notes = offset_cage(cage, distance)
+    offset = offset_cage(cage, distance)
+    outer, notes = offset.cage, offset.notes
     return _divided(outer, cage), notes
 
 

@@ -1,12 +1,13 @@
 """The offset cage P^: the cage's loops moved outward, and one point inside every offset hole."""
 
+from dataclasses import dataclass
 from numbers import Real
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from glid_nb._arrays import Array
+from glid_nb._arrays import Array, read_only
 from glid_nb.geometry._loops import (
     GeometryError,
     edge_lengths,
@@ -34,14 +35,27 @@ _GLOBAL_ROUNDS = 30
 _SHRINK = 0.8
 
 
-def offset_cage(cage: Cage, distance: float) -> tuple[Cage, tuple[str, ...]]:
+@dataclass(frozen=True, eq=False)
+class Offset:
+    """An offset cage and how far it lies from its cage."""
+
+    cage: Cage
+    """The offset cage P^, one vertex per vertex of the cage in the same order."""
+    distances: tuple[NDArray[np.float64], ...]
+    """Per loop, (n,) distances of vertex i of P^ from the lines of the two cage edges at vertex i.
+    Below the wanted distance in narrow places and where an acute corner's mitre was cut back."""
+    notes: tuple[str, ...] = ()
+    """A sentence per place where the distance had to be reduced."""
+
+
+def offset_cage(cage: Cage, distance: float) -> Offset:
     """Move the exterior loop outward and every hole loop into its hole, in the cage's units.
 
     Every edge moves by `distance` along its normal and neighbours meet in a mitre, so P^ has one
     vertex per cage vertex, as in Chen & Weber (2017). Where that does not fit (a narrow passage, a
-    small hole, short edges at a reflex corner) the distance is reduced; a sentence per
-    loop says so, the second result. P^ encloses the cage strictly: the distance of each of its
-    edges from the cage is at least 0.3 of the smaller of the distances at its ends.
+    small hole, short edges at a reflex corner) the distance is reduced, and `Offset.notes` says so.
+    P^ encloses the cage strictly: the distance of each of its edges from the cage is at least 0.3
+    of the smaller of the distances at its ends.
 
     A GeometryError for a distance that is not positive, and for a passage too narrow for float64.
     """
@@ -74,7 +88,8 @@ def offset_cage(cage: Cage, distance: float) -> tuple[Cage, tuple[str, ...]]:
             error.point,
             "There is no room around the outline here; widen the narrowest passage",
         ) from error
-    return outer, _notes(corners, local, distance)
+    distances = tuple(map(read_only, corners.split(local * corners.height)))
+    return Offset(outer, distances, _notes(corners, local, distance))
 
 
 def hole_points(cage: Cage) -> NDArray[np.float64]:

@@ -37,10 +37,10 @@ def test_our_offset_is_theirs_where_nothing_is_narrow(reference_folder: Path) ->
     same = []
     for data in problems(reference_folder):
         given = Domain.from_dict(data)
-        ours, _ = offset_cage(given.cage, data["offset"])
+        ours = offset_cage(given.cage, data["offset"])
         far = [
             np.abs(a[:, None] - b[None]).sum(axis=2).min(axis=1)
-            for a, b in zip(ours.loops, given.offset_cage.loops, strict=True)
+            for a, b in zip(ours.cage.loops, given.offset_cage.loops, strict=True)
         ]
         same.append(np.concatenate(far) < 1e-9)
         assert same[-1].mean() > 0.9, data["name"]
