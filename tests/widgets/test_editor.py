@@ -493,7 +493,9 @@ def test_the_panel_and_the_model_show_each_other() -> None:
 
 
 def _widgets() -> set[str]:
-    return set(ipywidgets.Widget.get_manager_state(drop_defaults=True)["state"])
+    from ipywidgets.widgets import widget
+
+    return set(widget._instances)
 
 
 @pytest.mark.parametrize(
