@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+import glid_nb
+
 from ..test_public_face import public_names
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -24,6 +26,11 @@ def test_the_course_lists_every_notebook() -> None:
 def test_the_reference_has_every_public_name(name: str) -> None:
     directive = rf"^\.\. auto(?:function|class|module|exception):: glid_nb\.{name}$"
     assert re.search(directive, REFERENCE, re.MULTILINE)
+
+
+@pytest.mark.parametrize("name", glid_nb.__all__)
+def test_the_references_table_has_every_public_name(name: str) -> None:
+    assert f"`glid.{name}`" in (DOCS / "reference" / "index.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("page", sorted((DOCS / "reference").glob("*.md")), ids=lambda p: p.stem)

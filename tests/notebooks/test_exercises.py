@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import io
 import re
+import symtable
 from pathlib import Path
 from typing import Any, NamedTuple
 from unittest.mock import MagicMock
@@ -82,6 +83,19 @@ def outcomes(path: Path) -> tuple[Outcome, ...]:
     return tuple(found)
 
 
+def assigned(code: str) -> set[str]:
+    """The names that a cell leaves behind."""
+    names = symtable.symtable(code, "cell", "exec").get_symbols()
+    return {name.get_name() for name in names if name.is_assigned() or name.is_imported()}
+
+
+def mentioned(table: symtable.SymbolTable) -> set[str]:
+    """The chapter's names that a cell assigns or reads, in its functions too."""
+    outside = table.get_type() == "module"
+    own = {name.get_name() for name in table.get_symbols() if outside or name.is_global()}
+    return own.union(*map(mentioned, table.get_children()))
+
+
 @pytest.fixture
 def without_figures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Figures and sliders draw nothing: nbval runs the notebooks with them."""
@@ -111,6 +125,15 @@ def test_a_chapter_has_two_or_three_exercises_each_with_a_wrong_answer(path: Pat
     assert sum(has(cell, "exercise") for cell in book) == n
     names = [[name for number, name in answers(path) if number == i] for i in range(1, n + 1)]
     assert all("solution" in of and len(of) >= 2 for of in names)
+
+
+@pytest.mark.parametrize("path", CHAPTERS, ids=lambda p: p.stem)
+def test_a_check_assigns_no_name_of_the_chapter(path: Path) -> None:
+    book = [cell for cell in cells(path) if cell.cell_type == "code"]
+    others = [symtable.symtable(c.source, "cell", "exec") for c in book if not has(c, "check")]
+    names = set[str]().union(*map(mentioned, others))
+    for exercise, cell in enumerate((c for c in book if has(c, "check")), 1):
+        assert not assigned(cell.source) & names, f"exercise {exercise}"
 
 
 @pytest.mark.parametrize("path", CHAPTERS, ids=lambda p: p.stem)
