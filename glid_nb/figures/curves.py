@@ -6,13 +6,14 @@ from typing import Any, Literal
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
+from matplotlib.ticker import NullFormatter
 from numpy.typing import ArrayLike
 
 from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy
 from glid_nb.energies.energy import as_energy
 from glid_nb.figures import style
-from glid_nb.figures.drawing import NotebookFigure, label_levels
+from glid_nb.figures.drawing import NotebookFigure, label_levels, log_ticks
 from glid_nb.figures.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, PURPLE, SKY, VERMILION
 from glid_nb.geometry import as_points, loop_name, uniform_panels
 from glid_nb.harmonic import HarmonicMap
@@ -48,9 +49,10 @@ def energy_levels(*energies: Energy | str) -> NotebookFigure:
     isometry: Any = np.ones(1), np.zeros(1)
     for place, energy in enumerate(chosen, 1):
         axes = figure.add_subplot(rows, columns, place)
-        density = np.asarray(energy.density(x, y))
+        # An exponential may overflow near a fold; what is infinite would be left white.
+        density = np.minimum(energy.density(x, y), 1e200)
         least = float(energy.density(*isometry)[0])
-        above = np.where((sigma2 <= sigma1) & np.isfinite(density), density - least, np.nan)
+        above = np.where(sigma2 <= sigma1, density - least, np.nan)
         levels = 0.02 * 3.0 ** np.arange(10)
         look: Any = {"levels": levels, "norm": LogNorm(levels[0], levels[-1])}
         axes.contourf(sigma1, sigma2, above, cmap=style.distortion_colors(), extend="both", **look)
@@ -154,6 +156,11 @@ def function(
         draw(at, color=GREY, linewidth=1.0, linestyle=dash, label=name)
     for axis in log:
         getattr(axes, f"set_{axis}scale")("log")
+        low, high = getattr(axes, f"get_{axis}lim")()
+        if high < 30 * low:  # powers of ten would be too few
+            ticks = log_ticks(low, high)
+            getattr(axes, f"set_{axis}ticks")(ticks, [f"{tick:g}" for tick in ticks])
+            getattr(axes, f"{axis}axis").set_minor_formatter(NullFormatter())
     _named(axes, x_name, y_name, title)
     if len(curves) + len(lines) > 1:
         axes.legend(**style.LEGEND)

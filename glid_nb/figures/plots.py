@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from glid_nb.solvers import Iteration
 
 _AXIS_NAME = 12.0  # points from the axis down to its name
-_WIDE = 3.0  # inches; above narrower axes a line of text does not fit beside the legend
+_WIDE = 4.0  # inches; above narrower axes a line of text does not fit beside the legend
 _LEGEND_HEIGHT = 12.0  # points
 _NARROW = 1.3  # inches; above narrower axes the legend does not fit
 _DECADES = 12  # most decades that a logarithmic axis shows

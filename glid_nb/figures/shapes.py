@@ -114,7 +114,7 @@ def distortion(
     density), or an Energy, for its density.
     """
     maps, sheets = _listed(maps, pose)
-    figure, grid = _side_by_side(maps, sheets, pose, titles, 1.0)
+    figure, grid = _side_by_side(maps, sheets, pose, titles, 0.55)
     draw_distortion(grid, sheets, quantity, shrink=0.5, aspect=36)
     figure.draw_without_rendering()  # a second layout, at drawing, settles the titles
     return figure
@@ -150,7 +150,7 @@ def picture(
     titles are as in `distortion`.
     """
     maps, sheets = _listed(maps, pose)
-    figure, grid = _side_by_side(maps, sheets, pose, titles, 0.4)
+    figure, grid = _side_by_side(maps, sheets, pose, titles, 0.05)
     for axes, sheet in zip(grid, sheets, strict=True):
         draw_deformed(axes, image, sheet, _PIXELS)
     return figure
@@ -256,8 +256,10 @@ def _scale(quantity: Quantity | Energy, known: Floats) -> tuple[Any, Any]:
     least, high, colors = float(known.min()), float(np.quantile(known, 0.99)), distortion_colors()
     if quantity == "sigma1":
         return Normalize(1.0, float(np.clip(high, 1.5, 6.0))), colors
-    if quantity in ("sigma2", "k"):
-        return Normalize(0.0, 1.0), colors.reversed() if quantity == "sigma2" else colors
+    if quantity == "sigma2":
+        return Normalize(0.0, 1.0), colors.reversed()
+    if quantity == "k":
+        return Normalize(0.0, float(np.clip(high, 0.1, 1.0))), colors
     if quantity == "distortion":
         return LogNorm(1.0, float(np.clip(high, 1.25, 1e4))), colors
     low = max(least, 1e-3)
@@ -272,6 +274,7 @@ def _side_by_side(
         raise ValueError(f"there are {len(titles)} titles for {len(maps)} maps")
     box = drawing.box_around(np.concatenate([sheet.mesh.images for sheet in sheets]))
     box = box if pose is None else drawing.enlarged(box, pose.targets)
+    room += 0.25 * (pose is not None) + 0.15 * any(sheet.counted for sheet in sheets)
     figure, grid = _shape_axes(len(maps), box, room)
     for i, (axes, map, sheet) in enumerate(zip(grid, maps, sheets, strict=True)):
         lines = [*titles[i : i + 1]]
@@ -291,12 +294,12 @@ def _side_by_side(
     return figure, grid
 
 
-def _shape_axes(n: int, box: Floats, room: float = 1.0) -> tuple[NotebookFigure, list[Axes]]:
+def _shape_axes(n: int, box: Floats, room: float = 0.8) -> tuple[NotebookFigure, list[Axes]]:
     columns = min(n, _ABREAST)
     rows, width = -(-n // columns), _WIDTH if n > 1 else _WIDTH_OF_ONE
     across, up = np.ptp(box, axis=0)
     tall = min((width / columns - 0.1) * up / across, _TALLEST)
-    figure = NotebookFigure(width, rows * (tall + 0.4) + room)
+    figure = NotebookFigure(width, rows * (tall + 0.3) + room)
     grid = [figure.add_subplot(rows, columns, i + 1) for i in range(n)]
     for axes in grid:
         hold(axes, box)
