@@ -89,6 +89,12 @@ def zipped(files: Mapping[str, bytes], stored: Collection[str] = ()) -> bytes:
     return buffer.getvalue()
 
 
+def same_file(path: Path, other: Path) -> bool:
+    """Whether two paths name one file, by whatever link, or will once it is made."""
+    linked = path.is_file() and other.exists() and path.samefile(other)
+    return linked or os.path.realpath(path) == os.path.realpath(other)
+
+
 def in_words(error: OSError, path: Path, done: Literal["read", "written"]) -> OSError:
     """An error of the same class whose message says which file cannot be read or written, and why.
 

@@ -14,7 +14,7 @@ Check = Callable[[Any, str], None]
 """``check(value, key)`` raises InputFileError if the value is not valid for that key."""
 Checks = Mapping[str, Check]
 
-_MOST_VALUES = 4_000_000
+MOST_VALUES = 4_000_000
 _EXACT_DIGITS = 300  # integers of fewer are in the range of floating point
 
 _KINDS = {type(None): "null", bool: "true or false", int: "a number", float: "a number"}
@@ -28,8 +28,8 @@ def parse_json(raw: bytes, name: str, kind: str = "a JSON file", *, nan: bool = 
     and Infinity may be accepted, so that a later check can name their key.
     """
     # Parsing more takes seconds and gigabytes; the largest documents have half as many.
-    if raw.count(b",") > _MOST_VALUES:
-        raise InputFileError(f"{name} is not {kind}: it has over {_MOST_VALUES:,} values")
+    if raw.count(b",") > MOST_VALUES:
+        raise InputFileError(f"{name} is not {kind}: it has over {MOST_VALUES:,} values")
     try:
         return json.loads(
             raw.decode("utf-8-sig"),
@@ -43,9 +43,16 @@ def parse_json(raw: bytes, name: str, kind: str = "a JSON file", *, nan: bool = 
         raise InputFileError(f"{name} is not {kind}: {error}") from None
 
 
+def read_json(path: str | Path) -> Any:
+    """The JSON value in a file; InputFileError for a folder or other content, OSError for none."""
+    if Path(path).is_dir():
+        raise InputFileError(f"{path} is a folder; name a file")
+    return parse_json(Path(path).read_bytes(), str(path))
+
+
 def read_object(path: str | Path) -> dict[str, Any]:
-    """The JSON object in a file; InputFileError for anything else, OSError for no file."""
-    data = parse_json(Path(path).read_bytes(), str(path))
+    """The JSON object in a file, as :func:`read_json`; InputFileError for another value."""
+    data = read_json(path)
     if not isinstance(data, dict):
         raise InputFileError(f"{path} must hold a JSON object {{...}}, not {_KINDS[type(data)]}")
     return data

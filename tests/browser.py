@@ -50,6 +50,8 @@ CHROMIUM_FLAGS = (
     "--disable-gpu-compositing",
     "--no-first-run",
     "--disable-dev-shm-usage",
+    # A page that asks for a font elsewhere is told at once that there is none.
+    "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
 )
 
 # What pages say that is no fault of ours; everything else of the kind "error" fails a test.
@@ -456,7 +458,9 @@ class VoilaPage(NotebookPage):
 
     def __init__(self, page: Page, server: JupyterServer, cells: Sequence[str]) -> None:
         super().__init__(page, server, cells)
-        page.goto(f"{server.url}/voila/render/{self._name}.ipynb", timeout=120_000)
+        # Comes when all cells have run, on a busy machine with nothing compiled too; the test's own
+        # time limit ends it.
+        page.goto(f"{server.url}/voila/render/{self._name}.ipynb", timeout=0)
         kernel = page.evaluate(
             "JSON.parse(document.getElementById('jupyter-config-data').textContent).kernelId"
         )

@@ -120,7 +120,7 @@ def rounded_up(value: float, digits: int = 3) -> str:
 
 
 def _written(value: float, digits: int, rounding: str, least_exponent: float) -> str:
-    if not (value > 0 and math.isfinite(value)):
+    if not (value and math.isfinite(value)):
         return f"{value:.{digits}g}"
     exact = Decimal(float(value))
     exponent = int(max(exact.adjusted() + 1 - digits, least_exponent))

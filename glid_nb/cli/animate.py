@@ -50,6 +50,8 @@ def run(chosen: argparse.Namespace) -> None:
     image, motion, poses = _read(chosen)
     with step("proving the motion"):
         proof = motion.certificate
+    if not proof.certified:
+        raise InputError(f"{proof.reason} Nothing uncertified is exported.")
     with step("drawing (Ctrl-C stops, and nothing is written)") as detail:
         files = glid_nb.export.animate(
             out,
@@ -64,8 +66,6 @@ def run(chosen: argparse.Namespace) -> None:
         )
     written = ", ".join(map(str, files)) if out.suffix else f"{out}: {len(files)} files"
     print(f"{written}; {motion.duration:g} s. {proof.reason}")
-    if not proof.certified:
-        raise InputError(proof.reason)
 
 
 def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb.Pose] | None]:

@@ -1,7 +1,6 @@
 """Where results go, checked before the work starts, and the summary printed at the end."""
 
 import json
-import os
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
@@ -9,7 +8,7 @@ from typing import Any
 
 import glid_nb
 from glid_nb._errors import InputError, InputFileError
-from glid_nb._files import write_bytes_atomically
+from glid_nb._files import same_file, write_bytes_atomically
 from glid_nb._json import json_text
 from glid_nb.certificate.rounding import rounded_down, rounded_up
 
@@ -37,8 +36,7 @@ def check_files(outputs: Iterable[Path | None], inputs: Iterable[str | Path | No
         if not path.parent.is_dir():
             raise FileNotFoundError(2, "there is no such folder to write to", str(path.parent))
         for other, why in taken:
-            linked = path.is_file() and other.exists() and path.samefile(other)
-            if linked or os.path.realpath(path) == os.path.realpath(other):
+            if same_file(path, other):
                 raise InputFileError(f"{path} would be overwritten, but {why}; name another file")
         taken.append((path, "another result goes there"))
 

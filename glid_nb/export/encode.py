@@ -9,7 +9,7 @@ import json
 import math
 import subprocess
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -17,7 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from glid_nb._arguments import plain
 from glid_nb._errors import InputError
+from glid_nb.motion.settings import checked
 
 Frames = Iterable[NDArray[np.uint8]]
 Color = tuple[int, int, int]
@@ -32,7 +34,9 @@ class Drawn(NamedTuple):
     pictures: Iterator[NDArray[np.uint8]]
 
 
-_LARGEST_SHEET = 16384  # pixels of a side
+_LARGEST = 8192  # pixels of a frame's side
+_LARGEST_SHEET = 16384
+_MOST_PIXELS = 2**30  # of all frames together, where a format takes them at once
 # ffmpeg's settings: close to lossless for drawings. Browsers guess what colours are not named.
 _CODECS = {
     "mp4": ("-c:v", "libx264", "-crf", "16", "-preset", "slow", "-movflags", "+faststart"),
@@ -45,16 +49,22 @@ _COLORS = (
 )
 
 
-def check_settings(size: int, fps: float, background: Sequence[int] | None) -> None:
+def check_settings(size: Any, fps: Any, background: Any, gif: bool = False) -> None:
     """Raise an InputError that names the setting which is out of range."""
-    if isinstance(size, bool) or not isinstance(size, int | np.integer) or size < 16:
-        raise InputError(f"size is {size!r:.40}; it must be at least 16 pixels, a whole number")
-    if not (math.isfinite(fps) and 0 < fps <= 100):
-        raise InputError(f"frames_per_second is {fps}; it must be above 0, up to 100")
-    if background is not None and (
-        len(background) != 3 or not all(0 <= channel <= 255 for channel in background)
-    ):
-        raise InputError(f"background is {background}; it must be three numbers from 0 to 255")
+    checked("size", int, size, least=16, most=_LARGEST)
+    # GIF counts in hundredths of a second, and players slow down frames of less than two.
+    name, most = ("frames_per_second of a GIF", 50) if gif else ("frames_per_second", 100)
+    checked(name, float, fps, above=0, most=most)
+    rgb: Any = {"most": 255, "form": "three whole numbers from 0 to 255"}
+    checked("background", tuple[int, int, int] | None, plain(background), **rgb)
+
+
+def check_count(drawn: Drawn) -> None:
+    """Raise an InputError if the frames are too large to be in memory at once."""
+    width, height = drawn.size
+    if drawn.count * width * height > _MOST_PIXELS:
+        what = f"{drawn.count} frames of {width} x {height} pixels are too many at once"
+        raise InputError(f"{what}; choose a smaller size, fewer frames per second, or a video")
 
 
 def gif(frames: Frames, fps: float, background: Color, loop: bool = True) -> bytes:

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
+from glid_nb._arguments import check_type
 from glid_nb._errors import InputError
 from glid_nb._files import write_bytes_atomically, zipped
 from glid_nb.export import encode
@@ -14,10 +14,11 @@ from glid_nb.export.encode import Color
 from glid_nb.export.mesh import motion_glb
 from glid_nb.export.moving import Progress, Stopped, frames
 from glid_nb.export.page import page_html
-from glid_nb.imaging import PixelFrame
+from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import check_fits
 from glid_nb.motion import Motion, file
+from glid_nb.motion.settings import checked
 from glid_nb.solvers import Pose
 
 MOTION_FORMATS = {
@@ -34,6 +35,8 @@ MOTION_FORMATS = {
 """What each suffix of a moving picture stands for. A name without one is a folder of frames."""
 
 _VIDEO = (".mp4", ".webm")
+_FPS = 25.0
+_MAKE_ONE = "make one of certified maps"
 
 
 def animate(
@@ -46,15 +49,34 @@ def animate(
     """Write a motion as the path's suffix says; the settings are those of `motion_files`.
 
     Returns the written files, none where ``progress`` stopped it. A path without a suffix is a
-    folder, which is made. An OSError where a file cannot be written.
+    folder, which is made; an InputError where it holds frames that would stay. An OSError where a
+    file cannot be written.
     """
     path = Path(path)
+    check_type("motion", motion, Motion, _MAKE_ONE, InputError)
+    _check_place(path, motion, settings.get("frames_per_second", _FPS))
     files = motion_files(path.name, image, motion, poses, **settings)
     if files and not path.suffix:
         path.mkdir(exist_ok=True)
     for name, data in files.items():
         write_bytes_atomically(path.parent / name, data)
     return tuple(path.parent / name for name in files)
+
+
+def _check_place(path: Path, motion: Motion, fps: float) -> None:
+    """Raise an InputError unless the files can be where the path says, and are the only frames."""
+    if not path.parent.is_dir():
+        raise InputError(f"{path}: there is no folder {path.parent.absolute()}; make it first")
+    if suffix_of(path.name):
+        if path.is_dir():
+            raise InputError(f"{path} is a folder; name a file")
+    elif path.is_file():
+        raise InputError(f"{path} is a file; name a folder")
+    elif (found := {frame.name for frame in path.glob("frame-*.png")}) and (
+        left := found - {*encode.names(len(motion.frame_times(fps)))}
+    ):
+        stays = f"{path} holds {max(left)} of another export, which would stay"
+        raise InputError(f"{stays}; delete the old frames, or name another folder")
 
 
 def motion_files(
@@ -64,7 +86,7 @@ def motion_files(
     poses: Sequence[Pose] | None = None,
     *,
     size: int = 480,
-    frames_per_second: float = 25.0,
+    frames_per_second: float = _FPS,
     background: Color | None = (255, 255, 255),
     loop: bool = True,
     progress: Progress | None = None,
@@ -77,17 +99,20 @@ def motion_files(
     The image, (h, w), (h, w, 3) or (h, w, 4), is the one that the cage was traced from. The depths
     of poses, one per keyframe, say which part is in front where the shape overlaps itself.
 
-    Frames have a longer side of ``size`` pixels, at least 16, and even sides; there are at most
-    100 per second. The background's red, green and blue are 0 to 255; None is transparent, which
-    GIF and MP4 cannot be. With ``loop`` GIF, APNG and page begin again at the end. ``progress`` is
-    called with the numbers of finished and of all frames, or stages where there are no frames; when
-    it returns True the export stops, and there are no files.
+    Frames have a longer side of ``size`` pixels, 16 to 8192, and even sides; there are at most 100
+    per second, of GIF 50. The background's red, green and blue are 0 to 255; None is transparent,
+    which GIF and MP4 cannot be. With ``loop`` GIF, APNG and page begin again at the end.
+    ``progress`` is called with the numbers of finished and of all frames, or stages where there are
+    no frames; when it returns True the export stops, and there are no files.
 
     Raises an InputError for another suffix, a setting that is out of range, or a missing package.
     """
     suffix = suffix_of(name)
-    encode.check_settings(size, frames_per_second, background)
-    check_fits(PixelFrame(*np.shape(image)[1::-1]), motion.keyframes[0])
+    check_type("motion", motion, Motion, _MAKE_ONE, InputError)
+    encode.check_settings(size, frames_per_second, background, suffix == ".gif")
+    checked("loop", bool, loop)
+    image = as_rgba8(image)
+    check_fits(PixelFrame(*image.shape[1::-1]), motion.keyframes[0])
     if background is None and suffix in (".gif", ".mp4"):
         remedy = "choose a background, or .apng or .webm"
         raise InputError(f"{name}: {suffix[1:].upper()} has no transparency; {remedy}")
@@ -106,6 +131,8 @@ def motion_files(
             texts = map(str.encode, file.texts(motion))
             return dict(zip(motion_file_names(name), texts, strict=True))
         drawn = frames(image, motion, poses, size, fps, background, progress)
+        if suffix in (".gif", ".apng"):
+            encode.check_count(drawn)
         if suffix == ".gif" and background is not None:
             return {name: encode.gif(drawn.pictures, fps, background, loop)}
         if suffix == ".apng":

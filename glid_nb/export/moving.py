@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
 from glid_nb.export.encode import Color, Drawn
@@ -34,6 +35,8 @@ class Stopped(Exception):  # noqa: N818 - not an error
 
 def report(progress: Progress | None, done: int, total: int) -> None:
     """Tell how far an export is; Stopped where it is to go no further."""
+    if progress is not None and not callable(progress):
+        raise InputError(f"progress is {progress!r:.60}; it must be a function of two numbers")
     if progress is not None and progress(done, total):
         raise Stopped
 
@@ -64,7 +67,10 @@ class MovingMesh:
 
         A map stands still. Raises an InputError where there is not a pose for each keyframe.
         """
-        poses = [pose] if pose is None or isinstance(pose, Pose) else list(pose)
+        check_type("the motion", shown, Motion | HarmonicMap, "give what moves", InputError)
+        poses = list(pose) if isinstance(pose, Sequence) else [pose]
+        for one in poses:
+            check_type("a pose", one, Pose | None, "give one for each keyframe", InputError)
         if isinstance(shown, HarmonicMap):
             maps, times, pose_times = (shown, shown), (0.0, 1.0), (0.0, 1.0)
         else:
@@ -117,20 +123,20 @@ def frames(
 ) -> Drawn:
     """Pictures at even times; all show the same part of the plane, which holds them all.
 
-    Drawing raises `Stopped` when ``progress(done, count)``, called before each frame and at the
-    end, is true.
+    Raises `Stopped` when ``progress(done, count)``, called first and after each frame, is true.
     """
+    times = motion.frame_times(fps)
+    report(progress, 0, len(times))
     corners = images_under(motion.keyframes, motion.domain.cage.exterior).reshape(-1, 2)
     tolerance = _TOLERANCE_PX * float(np.ptp(corners, axis=0).max()) / size
     mesh = MovingMesh.of(motion, poses, _VERTICES, tolerance)
     frame = frame_around(mesh.images.reshape(-1, 2), size)
-    texture, (times, _) = Texture.from_image(as_rgba8(image)), motion.resample(fps)
+    texture = Texture.from_image(as_rgba8(image))
 
     def pictures() -> Iterator[NDArray[np.uint8]]:
         for i, time in enumerate(times):
-            report(progress, i, len(times))
             pixels = draw_mesh(texture, mesh.at(float(time)), frame)
             yield pixels if background is None else np.asarray(on_background(pixels, background))
-        report(progress, len(times), len(times))
+            report(progress, i + 1, len(times))
 
     return Drawn((frame.width, frame.height), len(times), pictures())

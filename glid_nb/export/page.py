@@ -23,6 +23,7 @@ from glid_nb.harmonic import FixedPoints, HarmonicMap, ShaderMap
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.read import png
 from glid_nb.motion import Motion, MotionCertificate
+from glid_nb.motion.settings import checked
 from glid_nb.solvers import Pose
 
 _FOLDER = Path(__file__).parent
@@ -81,10 +82,11 @@ def page_html(
     security policy blocks the network.
     """
     report(progress, 0, 3)
+    checked("loop", bool, loop)
+    texture = as_rgba8(image)
     mesh = MovingMesh.of(map, pose, _VERTICES, tolerance)
     report(progress, 1, 3)
     proof = map.certificate if isinstance(map, Motion) else certificate
-    texture = as_rgba8(image)
     step = _STEP * map.domain.cage.longer_side
     data = {
         **_shape(mesh, step),

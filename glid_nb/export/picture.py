@@ -2,13 +2,14 @@
 
 import math
 from collections.abc import Sequence
-from typing import Literal, get_args
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image, ImageDraw
 
 from glid_nb._arrays import Array
+from glid_nb._errors import InputError
 from glid_nb.export.encode import Color, apng, check_settings, gif
 from glid_nb.figures.style import CYAN, INK
 from glid_nb.harmonic import HarmonicMap
@@ -18,6 +19,7 @@ from glid_nb.imaging.order import Sheets, order_of
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View, draw_mesh, render
 from glid_nb.imaging.texture import Texture
+from glid_nb.motion.settings import checked
 from glid_nb.solvers import Pose
 
 Format = Literal["gif", "apng"]
@@ -61,20 +63,19 @@ def animation_bytes(
     drawn as disks, the images of their handles as dots; rings where another part of the shape
     covers them.
 
-    There are at most 100 frames per second. The background's red, green and blue are 0 to 255.
-    ``there_and_back`` appends the frames in reverse order, so that the loop has no jump. The format
-    is "gif", which is supported everywhere but has 256 colours only, or "apng".
+    There are at most 100 frames per second, of a GIF 50. The background's red, green and blue are 0
+    to 255. ``there_and_back`` appends the frames in reverse order, so that the loop has no jump.
+    The format is "gif", which is supported everywhere but has 256 colours only, or "apng".
 
-    Raises a ValueError that names an argument out of range.
+    Raises an InputError that names an argument out of range.
     """
     maps = list(maps)
     if not maps:
-        raise ValueError("maps is empty; an animation needs at least one map")
+        raise InputError("maps is empty; an animation needs at least one map")
     if poses is not None and len(poses) != len(maps):
-        raise ValueError(f"there are {len(maps)} maps but {len(poses)} poses; give one per map")
-    check_settings(size, frames_per_second, background)
-    if format not in get_args(Format):
-        raise ValueError(f"unknown format {format!r}; choose one of {', '.join(get_args(Format))}")
+        raise InputError(f"there are {len(maps)} maps but {len(poses)} poses; give one per map")
+    checked("format", Format, format)
+    check_settings(size, frames_per_second, background, format == "gif")
     # The boundaries suffice to find what holds all the deformed shapes.
     points = np.concatenate([deformed_loops(map)[0] for map in maps])
     pixels, frame = as_rgba8(image), frame_around(points, size)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from glid_nb._arrays import Array, number_pairs, read_only, real_array
 from glid_nb._errors import InputError, about
-from glid_nb._json import parse_json, write_json
+from glid_nb._json import read_json, write_json
 from glid_nb._runtime import in_chunks
 from glid_nb.geometry import Domain, as_points, loop_name, uniform_panels
 from glid_nb.harmonic import cauchy
@@ -167,7 +167,7 @@ class HarmonicMap:
     def load(cls, path: str | Path) -> HarmonicMap:
         """Read a map written by :meth:`save`; MapError names the file and what is wrong there."""
         with about(path, MapError):
-            return cls.from_dict(parse_json(Path(path).read_bytes(), str(path)))
+            return cls.from_dict(read_json(path))
 
 
 def run_on(map: HarmonicMap, program: Callable[..., R], *points: Array) -> R:

@@ -77,7 +77,8 @@ def as_rgba(image: ArrayLike) -> RGBA:
         raise TraceError(f"the image is no array: {error}") from None
     if array.ndim not in (2, 3) or (array.ndim == 3 and not 0 <= array.shape[2] <= 4):
         wanted = "(h, w) or (h, w, c) with 1 to 4 channels (grey, grey + alpha, RGB, RGBA)"
-        raise TraceError(f"an image must have the shape {wanted}, not {array.shape}")
+        given = array.shape or type(image).__name__
+        raise TraceError(f"an image must have the shape {wanted}, not {given}")
     if array.size == 0:
         raise TraceError(f"the image is empty: its shape is {array.shape}")
     height, width = array.shape[:2]

@@ -76,13 +76,24 @@ class Bounded:
         turn = np.exp(1j * row[-2].real)
         return self.boundary.translated(turn * phi, row[-1]), psi / turn
 
+    def laps(self, piece: int) -> int:
+        """So many times, at least 1, the whole turns round between two keyframes, at most.
+
+        As if at the largest speed, which is of the control polygon of the angle's cubic.
+        """
+        _, d, out, into = (float(row[-2].real) for row in self._hermite(piece))
+        return 1 + int(max(abs(out), abs(3 * d - out - into), abs(into)) / (2 * np.pi))
+
     def _row(self, piece: int, s: float) -> Array:
         """The fields, the angle and the mean by cubic Hermite interpolation."""
+        before, d, out, into = self._hermite(piece)
+        return before + s * (out + s * (3 * d - 2 * out - into + s * (out + into - 2 * d)))
+
+    def _hermite(self, piece: int) -> tuple[Array, Array, Array, Array]:
+        """The first row, the way to the next, and the slopes at both ends."""
         before, after = self.rows[piece : piece + 2]
         span = self.times[piece + 1] - self.times[piece]
-        out, into = span * self.tangents[piece], span * self.tangents[piece + 1]
-        d = after - before
-        return before + s * (out + s * (3 * d - 2 * out - into + s * (out + into - 2 * d)))
+        return before, after - before, span * self.tangents[piece], span * self.tangents[piece + 1]
 
     def _shortened(self, closed: bool) -> Bounded:
         """With tangents short enough that no piece exceeds its worse end."""
@@ -150,11 +161,17 @@ def _nearest(angle: float, to: float) -> float:
 
 
 def _tangents(rows: Array, times: Array, closed: bool) -> Array:
-    """Slopes of the parabola through each row and its neighbours; of the chord at open ends."""
+    """Slopes of the parabola through each row and its neighbours; of the chord at open ends.
+
+    Where one side is much slower the rigid motion would spin there: its slopes are at most three
+    times those of either chord (de Boor & Swartz 1977).
+    """
     span = np.diff(times)
     slopes = np.diff(rows, axis=0) / span[:, None]
-    before, after = np.roll(span, 1)[:, None], span[:, None]
-    inner = (after * np.roll(slopes, 1, axis=0) + before * slopes) / (before + after)
+    before, after, back = np.roll(span, 1)[:, None], span[:, None], np.roll(slopes, 1, axis=0)
+    inner = (after * back + before * slopes) / (before + after)
+    most = 3 * np.minimum(np.abs(back), np.abs(slopes)) / np.maximum(np.abs(inner), 1e-300)
+    inner[:, -2:] *= np.minimum(1, most[:, -2:])
     tangents = np.concatenate([inner, inner[:1]])
     if not closed:
         tangents[0], tangents[-1] = slopes[0], slopes[-1]

@@ -17,15 +17,15 @@ from glid_nb.geometry import triangulate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion.boundary import boundary_of
 from glid_nb.motion.bounded import Bounded, Coefficients
-from glid_nb.motion.settings import EASINGS
+from glid_nb.motion.settings import EASINGS, MotionError
 from glid_nb.solvers import Options, Pose, solve
 
 if TYPE_CHECKING:
     from glid_nb.motion.motion import Motion
 
-_SAMPLES = 24  # of each interval, to see how it bends
-_MOST_PIECES = 256
-_STAGES = 5  # of an interval whose maps are solved for
+_SAMPLES = 24  # of each lap of an interval, to see how it bends
+_MOST_PIECES = 8192  # of an interval
+_STAGES = 5  # of each lap of an interval whose maps are solved for
 _POINTS = 40
 
 
@@ -60,20 +60,22 @@ class Curve:
     easing: tuple[str, ...]
     between: Callable[[int, float], Coefficients]
     """Coefficients between keyframe i and the next, by the eased time in [0, 1]."""
+    laps: tuple[int, ...]
+    """Of each interval, see `Bounded.laps`."""
     known: dict[float, HarmonicMap] = field(default_factory=dict)
 
     @classmethod
     def of(cls, motion: Motion) -> Curve:
         """The curve that a motion's settings describe."""
-        closed = motion.repeat == "loop"
-        maps, times = motion.keyframes + motion.keyframes[:closed], motion.times
+        closed, times = motion.repeat == "loop", motion.times
+        maps, intervals = motion.keyframes + motion.keyframes[:closed], range(len(times) - 1)
         if motion.between == "linear":
-            between: Callable[[int, float], Coefficients] = functools.partial(_blended, maps)
-        elif motion.between == "bounded":
-            between = Bounded.through(maps, times, motion.turns, closed)
-        else:
-            between = through_solved(maps, times, motion.turns, motion.handles, closed)
-        return cls(maps, times, motion.easing, between)
+            blended = functools.partial(_blended, maps)
+            return cls(maps, times, motion.easing, blended, (1,) * len(intervals))
+        follow = Bounded.through(maps, times, motion.turns, closed)
+        bounded = motion.between == "bounded"
+        between = follow if bounded else through_solved(follow, motion.handles, closed)
+        return cls(maps, times, motion.easing, between, tuple(map(follow.laps, intervals)))
 
     def map(self, time: float) -> HarmonicMap:
         """The map at a time; at a keyframe's, that keyframe."""
@@ -86,19 +88,26 @@ class Curve:
             self.known[time] = HarmonicMap(self.maps[0].domain, *coefficients)
         return self.known[time]
 
-    def breaks(self, interval: int, tolerance: float) -> list[float]:
+    def breaks(self, interval: int, tolerance: float, finer: int = 1) -> list[float]:
         """Times from a keyframe to the next between which images move straight up to a distance.
 
         A piece of length h is off by ``h^2 / 8`` times the second derivative, so pieces are as
-        short as the square root of that is large.
+        short as the square root of that is large; each is divided into ``finer`` ones. Raises a
+        MotionError where that takes too many.
         """
         start, end = self.times[interval : interval + 2]
-        samples = np.linspace(start, end, _SAMPLES + 1)
+        samples = np.linspace(start, end, _SAMPLES * self.laps[interval] + 1)
         images = np.stack([self._images(float(time)) for time in samples])
         bend = np.abs(np.diff(images, 2, axis=0)).max(axis=1)
         needed = np.sqrt(np.concatenate([bend[:1], bend, bend[-1:]]) / (8 * tolerance))
         along = np.append(0, np.cumsum((needed[1:] + needed[:-1]) / 2))
-        count = int(np.ceil(np.clip(along[-1], 1, _MOST_PIECES)))
+        if along[-1] > _MOST_PIECES:
+            raise MotionError(
+                f"from {start:g} to {end:g} s the motion bends so much that the tolerance needs "
+                f"{along[-1]:,.0f} straight pieces; {_MOST_PIECES:,} is the most. Choose a larger "
+                "tolerance or fewer turns, or put keyframes between"
+            )
+        count = min(finer * int(np.ceil(max(along[-1], 1))), _MOST_PIECES)
         inside = np.interp(np.arange(1, count) / count * along[-1], along, samples)
         return [start, *map(float, inside), end]
 
@@ -113,23 +122,19 @@ def _blended(maps: Sequence[HarmonicMap], piece: int, s: float) -> Coefficients:
 
 
 def through_solved(
-    maps: Sequence[HarmonicMap],
-    times: Sequence[float],
-    turns: Sequence[int],
-    handles: Array | None,
-    closed: bool,
+    follow: Bounded, handles: Array | None, closed: bool
 ) -> Callable[[int, float], Coefficients]:
     """The bounded interpolation through keyframes and what is solved for on the way.
 
     Handles follow the bounded motion, along which parts turn as rigid bodies do. Each solve starts
     from its map, or where that is not certified from what the solve before has found.
     """
-    domain, follow = maps[0].domain, Bounded.through(maps, times, turns, closed)
+    maps, times, domain = follow.maps, follow.times, follow.boundary.domain
     points = triangulate(domain.cage, _POINTS).vertices if handles is None else handles
     options = Options(align=False, restarts=0)
     all_maps, all_times = [maps[0]], [times[0]]
     for i, (start, end) in enumerate(itertools.pairwise(times)):
-        count = _STAGES * (1 + abs(turns[i]))
+        count = _STAGES * follow.laps(i)
         for j in range(1, count):
             map = HarmonicMap(domain, *follow(i, j / count))
             first = map if certificate_of(map).certified else all_maps[-1]

@@ -50,6 +50,8 @@ def texts(motion: Motion, proof: bool = True) -> tuple[str, ...]:
     }
     settings = {key: getattr(motion, key) for key in _SETTINGS}
     text = _json.json_text({"format": FORMAT, **shared, **settings, **handles})
+    if len(knots) > _MOST_KNOTS or text.count(",") > _json.MOST_VALUES:
+        raise MotionError(f"no file holds {len(knots):,} maps like these; raise the tolerance")
     if not proof:
         return (text,)
     if not motion.certificate.certified:
@@ -67,7 +69,7 @@ def texts(motion: Motion, proof: bool = True) -> tuple[str, ...]:
 def load(path: str | Path, cls: type[Motion]) -> Motion:
     """The motion of a file, proved anew; MotionError names the file and what is wrong there."""
     with about(path, MotionError):
-        data = _json.parse_json(Path(path).read_bytes(), str(path))
+        data = _json.read_json(path)
         if not isinstance(data, dict) or data.get("format") != FORMAT:
             raise MotionError(f'this is no glid_nb motion: the key "format" is not "{FORMAT}"')
         if data.get("version") != FORMAT_VERSION:

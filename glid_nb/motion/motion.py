@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from glid_nb._arrays import Array, number_pairs, read_only
-from glid_nb._files import write_text_atomically
+from glid_nb._files import same_file, write_text_atomically
 from glid_nb._runtime import single_blas_thread
 from glid_nb.certificate.pieces import PieceCertificate, certify_pieces
 from glid_nb.certificate.rounding import rounded_down
@@ -34,7 +34,8 @@ from glid_nb.motion.settings import (
 )
 
 _TOLERANCE = 0.002
-_ATTEMPTS = 3
+_MOST_FRAMES = 100_000
+_FINER = (1, 3, 9)  # pieces for one, where some are not proved: they follow the curve more closely
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,6 +112,8 @@ class Motion:
             turns=checked_each("turns", int, turns, count, least=-100, most=100),
             handles=handles,
         )
+        if between == "linear" and any(self.turns):
+            raise MotionError(f"turns are {self.turns}; linear blending takes none, so give 0")
 
     @property
     def domain(self) -> Domain:
@@ -135,7 +138,10 @@ class Motion:
 
     @functools.cached_property
     def pieces(self) -> tuple[Piece, ...]:
-        """The linear pieces of the motion in order: what is shown, exported and proved."""
+        """The linear pieces of the motion in order: what is shown, exported and proved.
+
+        Raises MotionError where the tolerance needs over 8,192 from a keyframe to the next.
+        """
         forth = self.pieces_forth
         if self.repeat != "ping-pong":
             return forth
@@ -158,7 +164,7 @@ class Motion:
             piece, proof = forth[failing], proofs[failing]
             until = piece.start + proof.until * (piece.end - piece.start)
             fails = f"the panel near {place(proof.place)} fails"
-            reason = f"Certified up to t = {rounded_down(until)}; {fails}."
+            reason = f"Certified up to t = {rounded_down(until, 6)}; {fails}."
         back = proofs[::-1] if self.repeat == "ping-pong" else ()
         return MotionCertificate(
             failing is None,
@@ -185,15 +191,22 @@ class Motion:
         starts = [piece.start for piece in self.pieces]
         return self.pieces[max(bisect.bisect_right(starts, time) - 1, 0)].at(time)
 
-    def resample(self, fps: float) -> tuple[Array, tuple[HarmonicMap, ...]]:
-        """(n,) times at even distances, and the maps then.
+    def frame_times(self, fps: float) -> Array:
+        """(n,) times at even distances; at most 100,000.
 
         A motion that repeats leaves out its end, which is its start.
         """
         fps = checked("fps", float, fps, above=0, most=10_000)
         count = max(round(self.duration * fps), 1)
+        if count > _MOST_FRAMES:
+            asked = f"{self.duration:g} s at {fps:g} frames per second are {count:,} frames"
+            raise MotionError(f"{asked}; {_MOST_FRAMES:,} is the most, so choose fewer per second")
         times = self.start + np.arange(count + (self.repeat == "once")) * self.duration / count
-        times = np.minimum(times, self.end)
+        return np.minimum(times, self.end)
+
+    def resample(self, fps: float) -> tuple[Array, tuple[HarmonicMap, ...]]:
+        """:meth:`frame_times`, and the maps then."""
+        times = self.frame_times(fps)
         return times, tuple(self(float(time)) for time in times)
 
     @single_blas_thread()
@@ -226,21 +239,23 @@ class Motion:
             times, maps = (each[first : last + 1] for each in known)
             return linear_pieces(times, maps), certify_pieces(maps)
         tolerance = self.tolerance * self.domain.cage.longer_side
-        for _ in range(1 if self.between == "linear" else _ATTEMPTS):
-            times = self._curve.breaks(index, tolerance)
+        for finer in (1,) if self.between == "linear" else _FINER:
+            times = self._curve.breaks(index, tolerance, finer)
             maps = [self._curve.map(time) for time in times]
             proofs = certify_pieces(maps)
             if all(proof.certified for proof in proofs):
                 break
-            tolerance /= 8  # shorter pieces follow the curve more closely
         return linear_pieces(times, maps), proofs
 
     def save(self, path: str | Path, proof: str | Path | None = None) -> None:
         """Write keyframes, settings and pieces as JSON, and the proof that ``glid-check`` reads.
 
-        Raises MotionError for a proof of a motion that is not certified; then nothing is written.
+        Raises MotionError for a proof of a motion that is not certified, or of the same name; then
+        nothing is written.
         """
         paths = [path] if proof is None else [path, proof]
+        if proof is not None and same_file(Path(path), Path(proof)):
+            raise MotionError(f"the proof would overwrite the motion in {path}; name another file")
         for to, text in zip(paths, file.texts(self, proof is not None), strict=True):
             write_text_atomically(Path(to), text)
 

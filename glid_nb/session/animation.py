@@ -11,6 +11,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from glid_nb.certificate import certificate_of
+from glid_nb.certificate.rounding import rounded_down
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import Order
 from glid_nb.motion import Motion
@@ -245,7 +246,10 @@ def _proved(task: EditState, worker: LatestWins[EditState]) -> Iterator[tuple[in
 
 
 def _span(motion: Motion, index: int, span: Span) -> Span:
-    pieces, proofs = motion.interval(index)
+    try:
+        pieces, proofs = motion.interval(index)
+    except MotionError as error:
+        return span._replace(status="refused", reason=str(error))
     sigma2 = tuple(proof.sigma2_lower for proof in proofs)
     failing = next((i for i, proof in enumerate(proofs) if not proof.certified), None)
     if failing is None:
@@ -253,7 +257,8 @@ def _span(motion: Motion, index: int, span: Span) -> Span:
     piece, proof = pieces[failing], proofs[failing]
     until = piece.start + proof.until * (piece.end - piece.start) * _ALMOST
     x, y = proof.place.real, proof.place.imag
-    reason = f"Proved up to {until:.2f} s; the panel near ({x:.2f}, {y:.2f}) fails. Add a keyframe."
+    shown = rounded_down(until, 4)
+    reason = f"Proved up to {shown} s; the panel near ({x:.2f}, {y:.2f}) fails. Add a keyframe."
     held = pieces[:failing]
     if until > piece.start:
         held += (Piece(piece.start, until, piece.start_map, piece.at(until)),)

@@ -14,13 +14,13 @@ from glid_nb.certificate.rounding import rounded_down, rounded_up
 POSITIVE = st.floats(1e-300, 1e300)
 
 
-@given(value=POSITIVE, digits=st.integers(1, 8))
+@given(value=POSITIVE | POSITIVE.map(lambda value: -value), digits=st.integers(1, 8))
 def test_what_is_written_still_is_a_bound(value: float, digits: int) -> None:
     lower, upper = rounded_down(value, digits), rounded_up(value, digits)
     assert Fraction(lower) <= Fraction(value) <= Fraction(upper)
-    unit = Fraction(10) ** (1 - digits)
-    assert Fraction(value) - Fraction(lower) <= unit * Fraction(value)
-    assert Fraction(upper) - Fraction(value) <= unit * max(Fraction(value), Fraction(1, 10))
+    unit, size = Fraction(10) ** (1 - digits), abs(Fraction(value))
+    assert Fraction(value) - Fraction(lower) <= unit * size
+    assert Fraction(upper) - Fraction(value) <= unit * max(size, Fraction(1, 10))
 
 
 @pytest.mark.parametrize(
@@ -33,6 +33,7 @@ def test_what_is_written_still_is_a_bound(value: float, digits: int) -> None:
         (9.999, "9.99", "10"),
         (1.125e-10, "1.12e-10", "0.001"),
         (0.01234, "0.0123", "0.013"),
+        (-9.5002, "-9.51", "-9.5"),
         (0.0, "0", "0"),
         (np.inf, "inf", "inf"),
         (np.nan, "nan", "nan"),

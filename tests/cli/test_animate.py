@@ -107,7 +107,7 @@ def test_a_saved_motion_moves_its_picture(run: Any, tmp_path: Path) -> None:
     [
         (("--out", "walk.avi"), "must end in .gif"),
         (("--out", "walk.gif", "--seconds", "-1"), "--seconds is -1"),
-        (("--out", "walk.gif", "--fps", "0"), "above 0"),
+        (("--out", "walk.gif", "--fps", "0"), "greater than 0"),
         (("--out", "walk.gif", "--picture", "a.png"), "a session holds its picture"),
         (("--out", "walk.glid"), "must end in .gif"),
     ],
@@ -131,6 +131,18 @@ def test_a_session_needs_two_poses_and_a_motion_its_picture(run: Any, tmp_path: 
     outcome = run("animate", tmp_path / "motion.json", "--out", tmp_path / "a.gif")
     assert outcome.code == 1
     assert "name its picture by --picture" in outcome.err
+
+
+def test_a_motion_that_folds_is_not_written(run: Any, tmp_path: Path) -> None:
+    start = HarmonicMap.identity(shapes.domain())
+    turned = HarmonicMap(start.domain, -start.phi, -start.psi)
+    Motion([start, turned], between="linear").save(tmp_path / "motion.json")
+    Image.fromarray(shapes.picture()).save(tmp_path / "picture.png")
+    words = ("--picture", tmp_path / "picture.png", "--out", tmp_path / "a.gif", *SMALL)
+    outcome = run("animate", tmp_path / "motion.json", *words)
+    assert outcome.code == 1
+    assert "Certified up to t = 0.49" in outcome.err
+    assert not (tmp_path / "a.gif").exists()
 
 
 def test_ctrl_c_leaves_nothing(

@@ -100,7 +100,8 @@ def test_the_marks_are_drawn() -> None:
         ({"frames_per_second": 0}, "frames_per_second"),
         ({"frames_per_second": float("nan")}, "frames_per_second"),
         ({"background": (0, 0, 256)}, "background"),
-        ({"format": "mp4"}, "format 'mp4'"),
+        ({"format": "mp4"}, "format is 'mp4'"),
+        ({"frames_per_second": 60}, "at most 50"),
     ],
 )
 def test_wrong_arguments_are_named(changes: dict[str, Any], culprit: str) -> None:

@@ -241,15 +241,63 @@ def test_page_and_mesh_tell_their_stages_and_stop(kind: str, stages: int) -> Non
         ("walk.avi", {}, "must end in .gif"),
         (".gif", {}, "must end in .gif"),
         ("walk.gif", {"background": None}, "GIF has no transparency"),
-        ("walk.mp4", {"background": (0, 0)}, "three numbers"),
-        ("walk.mp4", {"size": 8}, "at least 16"),
-        ("walk.zip", {"frames_per_second": 0}, "above 0"),
+        ("walk.mp4", {"background": (0, 0)}, "three whole numbers"),
+        ("walk.mp4", {"background": "red"}, "background is 'red'; it must be three whole numbers"),
+        ("walk.mp4", {"background": (0, None, 0)}, "three whole numbers"),
+        ("walk.mp4", {"size": 8}, "size is 8; it must be a whole number from 16 to 8192"),
+        ("walk.mp4", {"size": 100_000}, "size is 100000; .* 8192"),
+        ("walk.mp4", {"size": "large"}, "size is 'large'; it must be a whole number"),
+        ("walk.zip", {"frames_per_second": 0}, "greater than 0"),
+        ("walk.zip", {"frames_per_second": 1e6}, "frames_per_second is 1000000.0; .* at most 100"),
+        ("walk.zip", {"frames_per_second": None}, "frames_per_second is None; it must be a finite"),
+        ("walk.gif", {"frames_per_second": 51}, "frames_per_second of a GIF is 51; .* at most 50"),
+        ("walk.gif", {"loop": "no"}, "loop is 'no'; it must be True or False"),
+        ("walk.html", {"progress": 5}, "progress is 5; it must be a function"),
+        ("walk.gif", {"progress": "%"}, "progress is '%'; it must be a function"),
+        ("walk.gif", {"poses": [1, 2]}, "a pose must be Pose or None, not int"),
+        ("walk.gif", {"poses": 3}, "a pose must be Pose or None, not int"),
+        ("walk.gif", {"image": "walk.png"}, r"an image must have the shape .*, not str"),
+        ("walk.html", {"image": None}, r"shape \(h, w\) .*, not NoneType"),
+        ("walk.glb", {"motion": bent()}, "motion must be Motion, not HarmonicMap"),
         ("walk.sheet.png", {"size": 3000, "frames_per_second": 60}, "smaller size"),
+        ("walk.apng", {"size": 8000, "frames_per_second": 100}, "too many at once; .* smaller"),
     ],
 )
 def test_what_cannot_be_made_is_refused(name: str, changes: dict[str, Any], message: str) -> None:
     with pytest.raises(InputError, match=message):
-        motion_files(name, picture(), motion(), **changes)
+        motion_files(**{"name": name, "image": picture(), "motion": motion(), **changes})
+
+
+def test_a_motion_of_too_many_frames_is_refused() -> None:
+    long = Motion(motion().keyframes, [0, 1e6])
+    with pytest.raises(InputError, match="25,000,000 frames; 100,000 is the most"):
+        motion_files("walk.mp4", picture(), long)
+    assert motion_files("walk.glb", picture(), long)  # which has no frames
+
+
+def test_files_that_cannot_be_there_are_refused_before_anything_is_drawn(tmp_path: Path) -> None:
+    def told(*_: int) -> None:
+        raise AssertionError("it was drawn")
+
+    (tmp_path / "file").touch()
+    (tmp_path / "a.gif").mkdir()
+    for name, message in (
+        ("no/walk.gif", f"there is no folder {tmp_path / 'no'}; make it"),
+        ("no/walk", f"there is no folder {tmp_path / 'no'}; make it"),
+        ("file", "is a file; name a folder"),
+        ("a.gif", "is a folder; name a file"),
+    ):
+        with pytest.raises(InputError, match=message):
+            animate(tmp_path / name, picture(), motion(), progress=told)
+
+
+def test_frames_of_a_longer_export_do_not_stay_between(tmp_path: Path) -> None:
+    folder, settings = tmp_path / "walk", {"size": 32, "frames_per_second": 3}
+    files = animate(folder, picture(), motion(), **settings)
+    assert animate(folder, picture(), motion(), **settings) == files
+    with pytest.raises(InputError, match=r"walk holds frame-003\.png of another.*; delete the old"):
+        animate(folder, picture(), motion(), size=32, frames_per_second=2)
+    assert sorted(folder.iterdir()) == sorted(files)
 
 
 def test_a_picture_of_other_proportions_is_refused() -> None:

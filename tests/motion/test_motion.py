@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -117,11 +118,39 @@ def test_loops_close_and_ping_pong_runs_back() -> None:
     assert back.certificate.certified
 
 
-def test_whole_turns_are_added() -> None:
-    motion = Motion(poses("ell", 0, 0.5), turns=[1])
-    angles = [np.angle(np.mean(motion(t).wirtinger([[-1, -1]])[0])) for t in np.linspace(0, 1, 33)]
-    assert abs(np.unwrap(angles)[-1] - (2 * np.pi + 0.5)) < 0.05
+def angles(motion: Motion, times: np.ndarray) -> np.ndarray:
+    """How far a point's surroundings are turned, along times that are close to each other."""
+    turned = [np.angle(motion(float(t)).wirtinger([[-1, -1]])[0][0]) for t in times]
+    return np.unwrap(turned)
+
+
+@pytest.mark.parametrize("between", ["bounded", "solved"])
+def test_whole_turns_are_added(between: Any) -> None:
+    motion = Motion(poses("ell", 0, 0.5), turns=[1], between=between)
+    assert abs(angles(motion, np.linspace(0, 1, 33))[-1] - (2 * np.pi + 0.5)) < 0.05
     assert motion.certificate.certified
+
+
+@pytest.mark.parametrize("turns", [12, -25])
+def test_many_turns_are_cut_into_as_many_pieces_as_they_need(turns: int) -> None:
+    motion = Motion(poses("ell", 0, 0.5), turns=turns)
+    times = np.linspace(0, 1, 16 * abs(turns))
+    np.testing.assert_allclose(angles(motion, times), (2 * np.pi * turns + 0.5) * times, atol=0.1)
+    assert motion.certificate.certified
+
+
+def test_a_motion_that_slows_down_does_not_spin() -> None:
+    motion = Motion(poses("ell", 0, 1.0, 1.1), [0, 0.01, 10])
+    seen = angles(motion, np.linspace(0.01, 10, 60))
+    assert 0.9 < seen.min() < seen.max() < 1.3
+
+
+def test_what_needs_too_many_pieces_is_refused() -> None:
+    motion = Motion(poses("ell", 0, 3.0), tolerance=1e-9)
+    with pytest.raises(MotionError, match=r"from 0 to 1 s .* the tolerance needs \d+,\d+ straight"):
+        motion(0.5)
+    with pytest.raises(MotionError, match="1,000,000,000 frames; 100,000 is the most"):
+        Motion(motion.keyframes, [0, 1e8]).resample(10)
 
 
 def test_easing_changes_when_and_not_what() -> None:
@@ -165,6 +194,17 @@ def test_a_motion_that_folds_between_its_frames_is_refused() -> None:
     assert Motion(motion.keyframes, [0, 0.1]).certificate.certified  # the rotation by itself
 
 
+@given(st.floats(-1e4, 1e4), st.floats(1e-3, 1e3))
+@settings(max_examples=10)
+def test_the_time_of_a_fold_is_never_overstated(start: float, seconds: float) -> None:
+    first = random_map("ell", 0.01, 2)
+    times = [start, start + seconds]
+    proof = Motion([first, turned(first, np.pi)], times, between="linear").certificate
+    told = re.match("Certified up to t = (.*); the panel", proof.reason)
+    assert told is not None
+    assert float(told[1]) <= proof.until
+
+
 def test_solved_motion_goes_through_certified_maps() -> None:
     maps = poses("ell", 0, 1.4)
     motion = Motion(maps, between="solved", handles=[[-2, 2], [-2, -2], [2, -2]])
@@ -198,6 +238,7 @@ def test_keyframes_that_turn_otherwise_are_refused() -> None:
         ({"between": "cubic"}, "between is 'cubic'"),
         ({"tolerance": 0}, "tolerance is 0; it must be a finite number greater than 0"),
         ({"turns": [0.5]}, r"turns\[0\] is 0.5; it must be a whole number"),
+        ({"turns": 1, "between": "linear"}, r"turns are \(1,\); linear blending takes none"),
     ],
 )
 def test_wrong_settings_are_named(change: dict[str, Any], message: str) -> None:
@@ -231,6 +272,22 @@ def test_a_saved_motion_reads_back_bit_for_bit_and_is_proved_anew(tmp_path: Path
         assert (a.start, a.end) == (b.start, b.end)
         assert same(a.start_map, b.start_map)
         assert same(a.end_map, b.end_map)
+
+
+def test_saving_loses_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path, link = tmp_path / "walk.motion", tmp_path / "link"
+    motion = Motion(poses("ell", 0, 0.3))
+    path.write_text("before")
+    link.symlink_to(path)
+    for proof in (path, str(path), link):
+        with pytest.raises(MotionError, match="the proof would overwrite the motion"):
+            motion.save(path, proof)
+    monkeypatch.setattr("glid_nb.motion.file._MOST_KNOTS", 2)
+    with pytest.raises(MotionError, match=r"no file holds \d+ maps"):
+        motion.save(path)
+    assert path.read_text() == "before"
+    with pytest.raises(MotionError, match=f"{tmp_path} is a folder; name a file"):
+        Motion.load(tmp_path)
 
 
 def test_a_folded_file_is_not_believed(tmp_path: Path) -> None:

@@ -142,7 +142,7 @@ def test_a_motion_that_folds_stops_where_its_proof_does(monkeypatch: pytest.Monk
         assert animation._worker.wait(TIMEOUT)
         (span,) = animation.spans
         assert span.status == "fails"
-        assert span.reason.startswith("Proved up to 0.50 s; the panel near (")
+        assert span.reason.startswith("Proved up to 0.49")
         last = span.pieces[-1]
         assert 0.4 < last.end < 0.5
         assert animation.at(0.9) is last.end_map

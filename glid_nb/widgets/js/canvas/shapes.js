@@ -3,6 +3,10 @@
 // pythreejs keeps three.js's renderers for later, and those keep lists of all that they ever drew.
 const clearLists = (scene, { renderLists }) => renderLists.dispose();
 
+// pythreejs draws a removed view once more if that was asked for before, and then keeps a renderer for
+// it for good.
+const drawNoMore = (view) => view.once("remove", () => (view.renderScene = () => {}));
+
 export class Shapes {
   constructor(model) {
     this.model = model;
@@ -28,6 +32,7 @@ export class Shapes {
     this.onUniforms = () => this.refresh();
     for (const material of materials) material.on("change", this.onUniforms);
     renderer.get("scene").off("beforeRender", clearLists).on("beforeRender", clearLists);
+    for (const view of Object.values(renderer.views)) view.then(drawNoMore);
     this.refresh();
   }
 
