@@ -55,22 +55,22 @@ from . import methods as methods
 from .motion import Motion as Motion
 
 # Files and reports
-from .session import Document as Document
-from .session import NamedPose as NamedPose
-from .session import Problem as Problem
-from .session import build_report as build_report
-from .session import load_document as load_document
-from .session import load_pose as load_pose
-from .session import python_code as python_code
-from .session import save_document as save_document
-from .session import suggest_pose as suggest_pose
+from .session.document import Document as Document
+from .session.document import NamedPose as NamedPose
+from .session.problem import Problem as Problem
+from .session.report import build_report as build_report
+from .session.document_file import load_document as load_document
+from .session.problem import load_pose as load_pose
+from .session.script import python_code as python_code
+from .session.document_file import save_document as save_document
+from .session.suggest import suggest_pose as suggest_pose
 
 # Figures, and results for other programs
 from . import export as export
 from . import figures as figures
 
 # In the notebook
-from .session import TracingModel as TracingModel
+from .session.tracing import TracingModel as TracingModel
 from .session.deformation import Deformation as Deformation
 from .widgets import CageTracer as CageTracer
 from .widgets import DeformCanvas as DeformCanvas

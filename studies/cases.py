@@ -10,11 +10,12 @@ import numpy as np
 import shapely
 
 from glid_nb import samples
+from glid_nb._errors import InputFileError
 from glid_nb._json import read_object
 from glid_nb.geometry import Domain
 from glid_nb.imaging import read_image, trace
 from glid_nb.samples import PoseKind
-from glid_nb.session import InputFileError, Problem, load_pose
+from glid_nb.session.problem import Problem, load_pose
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from glid_nb import methods
 from glid_nb._arrays import Array, real_array
 from glid_nb.energies import Energy
-from glid_nb.geometry import Cage, Domain
+from glid_nb.geometry import Cage, Domain, place
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion.settings import Easing, Repeat
 from glid_nb.session.document import NamedPose, check_count
@@ -38,16 +38,13 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
     """
     points = _points(points, "point")
     pose, cage = state.pose, state.domain.cage
-    outside = np.flatnonzero(~cage.contains(points))
-    if outside.size:
-        raise EditError(
-            f"{_text(points[outside[0]])} lies outside the shape; a handle needs a place on it"
-        )
-    for i, point in enumerate(points):
-        others = np.concatenate([pose.handles, points[:i]])
-        gap = np.linalg.norm(others - point, axis=1)
-        if (gap < _LEAST_DISTANCE * cage.longer_side).any():
-            raise EditError(f"there already is a handle at {_text(point)}")
+    for i, (point, inside) in enumerate(zip(points, cage.contains(points), strict=True)):
+        where = place(point, 4)
+        if not inside:
+            raise EditError(f"{where} lies outside the shape; a handle needs a place on it")
+        gaps = np.linalg.norm(np.concatenate([pose.handles, points[:i]]) - point, axis=1)
+        if (gaps < _LEAST_DISTANCE * cage.longer_side).any():
+            raise EditError(f"there already is a handle at {where}")
     wanted = _places_now(state, points) if targets is None else _points(targets, "to")
     depths = state.order.depths(points).round(2) + 0.0
     added = Pose(points, wanted, depths)
@@ -94,28 +91,15 @@ def nudge(state: EditState, indices: Iterable[int], delta: ArrayLike) -> EditSta
 
 def set_depths(state: EditState, indices: Iterable[int], depths: ArrayLike) -> EditState:
     """Give some handles other depths, one number or one each; the map stays as it is."""
-    chosen, changed = _checked_indices(state, indices), np.array(state.pose.depths)
-    try:
-        changed[chosen] = real_array(depths)
-    except (TypeError, ValueError) as error:
-        raise EditError(f"depths must be a number, or one per handle: {error}") from error
-    if np.array_equal(changed, state.pose.depths):
+    pose = _with_numbers(state, indices, depths=depths)
+    if np.array_equal(pose.depths, state.pose.depths):
         return state
-    pose = replace(state.pose, depths=changed)
     return state.with_current(replace(state.current, pose=pose))
 
 
 def set_pins(state: EditState, indices: Iterable[int], **numbers: ArrayLike | None) -> EditState:
     """Give some handles other ``angles`` (radians), ``scales`` or ``weights``; None sets free."""
-    chosen, changed = _checked_indices(state, indices), {}
-    for name, values in numbers.items():
-        changed[name] = np.array(getattr(state.pose, name))
-        changed[name][chosen] = np.nan if values is None else values
-    pose = replace(state.pose, **changed)
-    if pose.pins_alike(state.pose):
-        return state
-    state.current.method.check_pose(pose)
-    return state.changed(pose=pose)
+    return _pinned(state, _with_numbers(state, indices, **numbers))
 
 
 def turned_now(state: EditState, indices: Iterable[int]) -> tuple[Array, Array]:
@@ -153,11 +137,7 @@ def bring_forward(state: EditState, indices: Iterable[int], steps: float = 1) ->
 
 def set_stiffness(state: EditState, stiffness: Stiffness) -> EditState:
     """Make other areas stiff, as by ``state.pose.stiffness.painted(points, radius)``."""
-    if stiffness == state.pose.stiffness:
-        return state
-    pose = replace(state.pose, stiffness=stiffness)
-    state.current.method.check_pose(pose)
-    return state.changed(pose=pose)
+    return _pinned(state, replace(state.pose, stiffness=stiffness))
 
 
 def reset(state: EditState) -> EditState:
@@ -174,8 +154,7 @@ def set_energy(state: EditState, energy: Energy) -> EditState:
 
 def set_options(state: EditState, **changes: Any) -> EditState:
     """Solve with other options; their names are those of :class:`~glid_nb.solvers.Options`."""
-    options = replace(state.current.options, **changes)
-    return state.changed(options=options)
+    return state.changed(options=replace(state.current.options, **changes))
 
 
 def set_method(state: EditState, method: Method | str, **settings: Any) -> EditState:
@@ -220,14 +199,13 @@ def drop_hole(state: EditState, index: int) -> EditState:
 def save_pose(state: EditState, name: str | None = None) -> EditState:
     """Keep the pose under a name, and edit a copy that follows it in the list."""
     kept = state.current if name is None else replace(state.current, name=_checked_name(name))
-    copy = replace(kept, name=_free_name(state, kept.name))
-    return _with_inserted(state.with_current(kept), state.active + 1, copy)
+    return _with_inserted(state.with_current(kept), state.active + 1, kept)
 
 
 def duplicate_pose(state: EditState, index: int) -> EditState:
     """Insert a copy after a pose, and edit the copy."""
     pose = state.poses[_checked_pose(state, index)]
-    return _with_inserted(state, index + 1, replace(pose, name=_free_name(state, pose.name)))
+    return _with_inserted(state, index + 1, pose)
 
 
 def rename_pose(state: EditState, index: int, name: str) -> EditState:
@@ -276,8 +254,7 @@ def keep_between(state: EditState, time: float, map: HarmonicMap) -> EditState:
     before = state.poses[index - 1]
     targets = map(before.pose.handles) if len(before.pose) else []
     pose = before.changed(pose=before.pose.with_targets(targets), map=map)
-    named = replace(pose, name=_free_name(state, before.name))
-    return _with_inserted(state, index, named, time)
+    return _with_inserted(state, index, pose, time)
 
 
 def record(
@@ -309,8 +286,10 @@ def go_to_pose(state: EditState, index: int) -> EditState:
 def _with_inserted(
     state: EditState, index: int, pose: NamedPose, time: float | None = None
 ) -> EditState:
+    """The state with a copy of a pose, under another name, which is edited."""
     check_count((*state.poses, pose))
-    poses = (*state.poses[:index], pose, *state.poses[index:])
+    copy = replace(pose, name=next(_free_names(state, pose.name)))
+    poses = (*state.poses[:index], copy, *state.poses[index:])
     timeline = state.timeline.inserted(index, time)
     return replace(state, poses=poses, active=index, timeline=timeline)
 
@@ -329,6 +308,26 @@ def _points(values: ArrayLike, name: str) -> Array:
     return points
 
 
+def _with_numbers(state: EditState, indices: Iterable[int], **numbers: ArrayLike | None) -> Pose:
+    """The pose with other numbers of some handles, one for all or one each; None sets free."""
+    chosen, changed = _checked_indices(state, indices), {}
+    for name, values in numbers.items():
+        changed[name] = np.array(getattr(state.pose, name))
+        try:
+            changed[name][chosen] = np.nan if values is None else real_array(values)
+        except (TypeError, ValueError) as error:
+            raise EditError(f"{name} must be a number, or one per handle: {error}") from error
+    return replace(state.pose, **changed)
+
+
+def _pinned(state: EditState, pose: Pose) -> EditState:
+    """The state with a pose that holds the same handles in another way."""
+    if pose.pins_alike(state.pose):
+        return state
+    state.current.method.check_pose(pose)
+    return state.changed(pose=pose)
+
+
 def _places_now(state: EditState, points: Array) -> Array:
     """The images of the points, exactly the points where the map leaves them in place."""
     images = state.map(points)
@@ -340,9 +339,7 @@ def _checked_indices(state: EditState, indices: Iterable[int]) -> Array:
     try:
         chosen = np.array([operator.index(i) for i in indices], dtype=int)
     except TypeError as error:
-        raise EditError(
-            f"handles are named by their indices, whole numbers, not by {indices!r:.60}"
-        ) from error
+        raise EditError(f"handles are named by whole numbers, not by {indices!r:.60}") from error
     for i in chosen:
         if not 0 <= i < len(state.pose):
             raise EditError(f"there is no handle {i}; the pose has {len(state.pose)}")
@@ -362,17 +359,9 @@ def _checked_name(name: str) -> str:
     return name
 
 
-def _free_name(state: EditState, name: str) -> str:
-    return next(_free_names(state, name))
-
-
 def _free_names(state: EditState, name: str) -> Iterator[str]:
     """``name`` with the free numbers at its end."""
     stem = name.rstrip("0123456789").rstrip() or "Pose"
     taken = {pose.name for pose in state.poses} | {name}
     numbers = (f"{stem[:190]} {i}" for i in itertools.count(1))
     return (candidate for candidate in numbers if candidate not in taken)
-
-
-def _text(point: Array) -> str:
-    return f"({point[0]:.4g}, {point[1]:.4g})"

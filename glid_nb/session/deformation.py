@@ -22,7 +22,7 @@ from glid_nb.session import actions, pose_text
 from glid_nb.session.document import NamedPose
 from glid_nb.session.edit_state import EditError, EditState, Frame, Moment, Task
 from glid_nb.session.live_solver import LiveSolver
-from glid_nb.session.model import History, Observed
+from glid_nb.session.model import History, Undoable
 from glid_nb.session.status_line import StatusLine, describe
 from glid_nb.session.worker import LatestWins
 from glid_nb.solvers import Options, Pose
@@ -40,7 +40,7 @@ def _step(
     return method
 
 
-class Deformation(Observed):
+class Deformation(Undoable[EditState]):
     """A domain being deformed: its state, its undo history, and a thread that solves.
 
     Every method may be called from any thread. ``observe`` reports changes by name: ``"state"``
@@ -80,9 +80,7 @@ class Deformation(Observed):
         *,
         begin: bool = True,
     ) -> None:
-        super().__init__()
-        self.history = History(EditState.initial(domain, pose, energy, options))
-        """The undo history."""
+        super().__init__(EditState.initial(domain, pose, energy, options))
         self.selection: tuple[int, ...] = ()
         """Indices of the selected handles."""
         self.dragged: tuple[int, ...] = ()
@@ -109,11 +107,6 @@ class Deformation(Observed):
     # State
 
     @property
-    def state(self) -> EditState:
-        """The present domain and poses."""
-        return self.history.present
-
-    @property
     def map(self) -> HarmonicMap:
         """The present certified map."""
         return self.state.map
@@ -128,14 +121,14 @@ class Deformation(Observed):
         """The state and what the solver has made of it, at one moment."""
         with self._lock:
             return Moment(
-                self.state,
-                self._frame,
-                self._worker.busy,
-                self._paused,
-                self._error,
-                self.selection,
-                self.dragged,
-                self._prepared,
+                state=self.state,
+                frame=self._frame,
+                busy=self._worker.busy,
+                paused=self._paused,
+                error=self._error,
+                selection=self.selection,
+                dragged=self.dragged,
+                prepared=self._prepared,
             )
 
     @property
@@ -155,12 +148,12 @@ class Deformation(Observed):
 
     @property
     def can_undo(self) -> bool:
-        """Whether there is something to undo."""
+        """Whether there is something to undo, such as a drag under way."""
         return bool(self.history.past or self.dragged)
 
     @property
     def can_redo(self) -> bool:
-        """Whether there is something to redo."""
+        """Whether there is something to redo; not during a drag."""
         return bool(self.history.future) and not self.dragged
 
     def sheets(self, image: Array | None = None) -> Sheets:
@@ -250,7 +243,7 @@ class Deformation(Observed):
             before = self.state
             if new is before:
                 return
-            self._set(self.history.step(new))
+            self._go_to(self.history.step(new))
             self.dragged = _still_there(held, before.pose, new.pose)
 
     # Dragging: many small moves, one step for undo
@@ -304,12 +297,15 @@ class Deformation(Observed):
             self.history = self.history.ended()
             self._tell("state")
 
-    def cancel_drag(self) -> None:
-        """End the drag, if any, and go back to exactly the state before it."""
+    def cancel_drag(self) -> bool:
+        """End the drag and go back to exactly the state before it; whether there was one."""
         with self.locked():
-            if self.dragged:
-                self.dragged = ()
-                self._set(self.history.cancelled())
+            if not self.dragged:
+                return False
+            self.dragged = ()
+            self._tell("state")
+            self._go_to(self.history.cancelled())
+            return True
 
     def record(
         self, first: NamedPose, poses: Sequence[NamedPose], offsets: Sequence[float]
@@ -317,25 +313,21 @@ class Deformation(Observed):
         """`actions.record`, as a part of the last step, which was the drag."""
         with self.locked():
             self._check_open()
-            self._set(self.history.refined(actions.record(self.state, first, poses, offsets)))
+            self._go_to(self.history.refined(actions.record(self.state, first, poses, offsets)))
 
     # Undo
 
-    def undo(self) -> None:
-        """Go one step back; during a drag, to where that began."""
+    def undo(self) -> bool:
+        """Go one step back, during a drag to where that began; whether there was one."""
         with self.locked():
             self._check_open()
-            if self.dragged:
-                self.cancel_drag()
-            elif self.history.past:
-                self._set(self.history.undone())
+            return self.cancel_drag() if self.dragged else super().undo()
 
-    def redo(self) -> None:
-        """Go one step forward again."""
+    def redo(self) -> bool:
+        """Go one step forward again; whether there was one."""
         with self.locked():
             self._check_open()
-            if self.can_redo:
-                self._set(self.history.redone())
+            return not self.dragged and super().redo()
 
     # Selection
 
@@ -416,7 +408,9 @@ class Deformation(Observed):
         if self._closed:
             raise EditError("it is closed: what was deformed here can be read, but not changed")
 
-    def _set(self, history: History[EditState]) -> None:
+    def _go_to(self, history: History[EditState]) -> bool:
+        if history is self.history:
+            return False
         old, new = self.state, history.present
         self.history, self._error = history, None
         self._chain += 1
@@ -427,6 +421,7 @@ class Deformation(Observed):
         self.selection = _still_there(self.selection, old.pose, new.pose)
         self._submit()
         self._tell("state", "frame", "selection", "status")
+        return True
 
     def _submit(self, single: bool = False) -> None:
         self.begun, solved = True, self.moment.solved

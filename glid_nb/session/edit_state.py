@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import math
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -52,11 +51,8 @@ class EditState:
         """One pose on a domain, at the identity map."""
         pose = Pose([], []) if pose is None else pose
         pose.check_inside(domain)
-        energy = SymmetricDirichlet() if energy is None else energy
-        options = LIVE_OPTIONS if options is None else options
-        return cls(
-            domain, (NamedPose("Pose 1", pose, energy, options, HarmonicMap.identity(domain)),)
-        )
+        how = energy or SymmetricDirichlet(), options or LIVE_OPTIONS
+        return cls(domain, (NamedPose("Pose 1", pose, *how, HarmonicMap.identity(domain)),))
 
     @property
     def current(self) -> NamedPose:
@@ -128,11 +124,6 @@ class Frame:
     mesh: MeshMap | None = None
     """The map of a method on a mesh, which may fold."""
 
-    @property
-    def bound(self) -> float:
-        """The certified lower bound on sigma_2; NaN when the solver has not given one."""
-        return math.nan if self.proof is None else self.proof.sigma2_lower
-
 
 @dataclass(frozen=True, eq=False)
 class Moment:
@@ -160,10 +151,7 @@ class Moment:
 
     @property
     def comparison(self) -> MeshMap | None:
-        """The uncertified map of a method on a mesh, shown instead of :attr:`map`; else None.
-
-        It lags behind the state while the method works.
-        """
+        """The uncertified map of a method on a mesh, which lags behind the state; else None."""
         return None if self.frame is None else self.frame.mesh
 
     @property
@@ -178,8 +166,9 @@ class Moment:
         if current.method.certified:
             return current.solution
         # The result of a method on a mesh is only in the frame.
-        latest = frame is not None and frame.task.pose.asks_the_same(current)
-        return frame.solution if frame is not None and latest else None
+        if frame is None or not frame.task.pose.asks_the_same(current):
+            return None
+        return frame.solution
 
     @property
     def solved(self) -> bool:

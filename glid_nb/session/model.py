@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Generic, TypeVar
 
 S = TypeVar("S")
+Observer = Callable[[str], None]
 
 MOST_STEPS = 500
 """Most steps that undo goes back."""
@@ -65,9 +66,6 @@ class History(Generic[S]):
         return History(present, (*self.past, self.present), tuple(future))
 
 
-Observer = Callable[[str], None]
-
-
 class Observed:
     """A model that several threads may use, and that reports its changes by name to observers.
 
@@ -118,3 +116,45 @@ class Observed:
         for observer in tuple(self._observers) if names else ():
             for name in names:
                 observer(name)
+
+
+class Undoable(Observed, Generic[S]):
+    """An observed model that has a state and its undo history."""
+
+    def __init__(self, state: S) -> None:
+        super().__init__()
+        self.history = History(state)
+        """The undo history."""
+
+    @property
+    def state(self) -> S:
+        """The present state."""
+        return self.history.present
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether there is something to undo."""
+        return bool(self.history.past)
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether there is something to redo."""
+        return bool(self.history.future)
+
+    def undo(self) -> bool:
+        """Go one step back; whether there was one."""
+        with self.locked():
+            return self._go_to(self.history.undone())
+
+    def redo(self) -> bool:
+        """Go one step forward again; whether there was one."""
+        with self.locked():
+            return self._go_to(self.history.redone())
+
+    def _go_to(self, history: History[S]) -> bool:
+        """Make a history the present one; whether that is a change."""
+        changes = history is not self.history
+        if changes:
+            self.history = history
+            self._tell("state")
+        return changes

@@ -7,7 +7,6 @@ from typing import Literal
 from glid_nb.certificate import Certificate, certificate_of
 from glid_nb.certificate.rounding import rounded_down, rounded_up
 from glid_nb.geometry import MeshMap
-from glid_nb.session.document import Solution
 from glid_nb.session.edit_state import EditState, Frame, Moment
 from glid_nb.solvers import MethodError, Status
 
@@ -25,65 +24,60 @@ class StatusLine:
 
 
 def describe(moment: Moment) -> StatusLine:
-    """The status of an editor.
-
-    While the solver works it shows the solver's bound on sigma_2; at rest the bounds of the
-    certificate, which is only then computed.
-    """
+    """The status of an editor: at work the solver's bound on sigma_2, at rest the certificate's."""
+    state, frame = moment.state, moment.frame
     if (error := moment.error) is not None:
         if isinstance(error, MethodError):
             return StatusLine("blocked", str(error))
         text = str(error) or type(error).__name__
         return StatusLine("error", f"The solver failed: {text} The last certified map is shown.")
-    state, frame, solution = moment.state, moment.frame, moment.solution
-    if moment.busy and not moment.paused:
-        if frame is None:
-            done = "" if moment.prepared == 1 else f" {moment.prepared:.0%}"
-            return StatusLine("working", f"Preparing the solver…{done}")
+    if moment.busy and moment.paused:
+        return StatusLine("idle", f"Paused{_bound(frame)}")
+    if moment.busy and frame is None:
+        done = "" if moment.prepared == 1 else f" {moment.prepared:.0%}"
+        return StatusLine("working", f"Preparing the solver…{done}")
+    if moment.busy and frame is not None:
         iteration = f", iteration {frame.history[-1].iteration}" if frame.history else ""
         return StatusLine("working", f"Working{iteration}{_bound(frame)}")
-
-    def proof() -> str:
-        if moment.comparison is not None:
-            return f" · {uncertified(moment.comparison)}"
-        return f" · {_proof(certificate_of(moment.map))}"
-
-    if moment.paused:
-        return StatusLine("idle", "Paused" + (_bound(frame) if moment.busy else proof()))
-    if not len(state.pose):
+    if not moment.paused and not len(state.pose):
         return StatusLine("idle", "Click the shape to add a handle, then drag it")
+    if not moment.paused and moment.solution is None and frame is None:
+        return StatusLine("idle", "Not solved yet")
+    level, text = ("idle", "Paused") if moment.paused else _ended(moment)
+    mesh = moment.comparison
+    proof = _proof(certificate_of(moment.map)) if mesh is None else uncertified(mesh)
+    return StatusLine(level, f"{text} · {proof}")
+
+
+def _ended(moment: Moment) -> tuple[Level, str]:
+    """How the last solve ended."""
+    solution, frame = moment.solution, moment.frame
     if solution is None:
-        return StatusLine("idle", "Stopped" + proof() if frame else "Not solved yet")
-    if frame is not None and frame.mesh is not None:
-        return _describe_comparison(solution, frame, proof())
+        return "idle", "Stopped"
     status = solution.status
+    if frame is not None and frame.mesh is not None:
+        title, count = frame.task.pose.method.label, len(frame.history)
+        if status is Status.STOPPED:
+            return "idle", f"{title} stopped"
+        if status.ok:
+            return "idle", f"{title}: done" + (f" after {count} iterations" if count != 1 else "")
+        return "blocked", f"{title}: {solution.message}"
+    if status is Status.STOPPED:
+        return "idle", "Stopped"
     if status is Status.BLOCKED:
         text = "Blocked: the shape follows as far as it is proved not to fold"
-        return StatusLine("blocked", text + _miss(state) + proof())
+        return "blocked", text + _miss(moment.state)
     if status in (Status.MAX_ITERATIONS, Status.INDEFINITE):
-        return StatusLine("blocked", solution.message + proof())
-    if status is Status.STOPPED:
-        return StatusLine("idle", "Stopped" + proof())
-    return StatusLine("good", "Converged" + _miss(state) + proof())
-
-
-def _describe_comparison(solution: Solution, frame: Frame, proof: str) -> StatusLine:
-    title = frame.task.pose.method.label
-    status = solution.status
-    if status is Status.STOPPED:
-        return StatusLine("idle", f"{title} stopped" + proof)
-    if status.ok:
-        ended = "done" if len(frame.history) == 1 else f"done after {len(frame.history)} iterations"
-        return StatusLine("idle", f"{title}: {ended}" + proof)
-    return StatusLine("blocked", f"{title}: {solution.message}" + proof)
+        return "blocked", solution.message
+    return "good", "Converged" + _miss(moment.state)
 
 
 def _bound(frame: Frame | None) -> str:
-    if frame is None:
-        return ""
-    if frame.mesh is not None:
+    if frame is not None and frame.mesh is not None:
         return f" · {uncertified(frame.mesh)}"
-    return f" · certified σ₂ ≥ {rounded_down(frame.bound)}" if math.isfinite(frame.bound) else ""
+    if frame is None or frame.proof is None:
+        return ""
+    return f" · certified σ₂ ≥ {rounded_down(frame.proof.sigma2_lower)}"
 
 
 def _proof(certificate: Certificate) -> str:
@@ -105,9 +99,6 @@ def uncertified(mesh: MeshMap) -> str:
 
 def _miss(state: EditState) -> str:
     """The largest distance of a handle from its target, if that is visible."""
-    pose = state.pose
-    if not len(pose):
-        return ""
-    gap = state.map(pose.handles) - pose.targets
-    worst = float(max(math.hypot(*row) for row in gap))
+    gaps = state.map(state.pose.handles) - state.pose.targets
+    worst = max(math.hypot(*gap) for gap in gaps)
     return f", {worst:.2g} units from its target" if worst > _REACHED else ""

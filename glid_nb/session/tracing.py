@@ -22,7 +22,7 @@ from glid_nb.imaging.trace import with_changes
 from glid_nb.session import loop_edits
 from glid_nb.session.document import Document
 from glid_nb.session.loop_edits import Loops
-from glid_nb.session.model import History, Observed
+from glid_nb.session.model import History, Undoable
 from glid_nb.session.worker import weakly
 
 Brush = Literal["foreground", "background"]
@@ -83,7 +83,7 @@ class TracingOutcome:
 _NO_SCRIBBLES = Scribbles([], [])
 
 
-class TracingModel(Observed):
+class TracingModel(Undoable[TracingState]):
     """Traces a cage from a picture, interactively, with undo; the model behind `CageTracer`.
 
     Every action makes a new immutable state. While its loops are not a valid cage (a vertex was
@@ -109,11 +109,8 @@ class TracingModel(Observed):
     def __init__(
         self, image: ImageSource | None = None, options: TraceOptions | None = None
     ) -> None:
-        super().__init__()
         pixels, options = None if image is None else _pixels(image), options or TraceOptions()
-        state = TracingState(pixels, options, options.scribbles, name=_name_of(image))
-        self.history = History(state)
-        """The undo history."""
+        super().__init__(TracingState(pixels, options, options.scribbles, name=_name_of(image)))
         self._tracer: Tracer | None = None
         self._outcome_of = functools.lru_cache(_KEPT_OUTCOMES)(weakly(self._evaluate))
 
@@ -132,11 +129,6 @@ class TracingModel(Observed):
         return model
 
     # State
-
-    @property
-    def state(self) -> TracingState:
-        """The user's present choices."""
-        return self.history.present
 
     @property
     def image(self) -> NDArray[np.uint8] | None:
@@ -205,16 +197,6 @@ class TracingModel(Observed):
         """Whether the last step, such as another option, discarded edits by hand."""
         before = self.history.past[-1] if self.history.past else self.state
         return before.loops is not None and not self.edited and before.image is self.image
-
-    @property
-    def can_undo(self) -> bool:
-        """Whether there is something to undo."""
-        return bool(self.history.past)
-
-    @property
-    def can_redo(self) -> bool:
-        """Whether there is something to redo."""
-        return bool(self.history.future)
 
     # Actions
 
@@ -346,16 +328,6 @@ class TracingModel(Observed):
             if state is not self.state:
                 self._go_to(self.history.step(state))
 
-    def undo(self) -> bool:
-        """Go back one step; whether there was one."""
-        with self.locked():
-            return self._go_to(self.history.undone())
-
-    def redo(self) -> bool:
-        """Go forward one step again; whether there was one."""
-        with self.locked():
-            return self._go_to(self.history.redone())
-
     def cancel(self, gesture: Any) -> bool:
         """Go back to before a gesture, without redo; whether it was the last thing done."""
         with self.locked():
@@ -373,14 +345,6 @@ class TracingModel(Observed):
             else:
                 fallback = self.outcome.domain if state.image is before.image else None
             self._go_to(history.step(replace(state, fallback=fallback), gesture))
-
-    def _go_to(self, history: History[TracingState]) -> bool:
-        """Make a history the present one; whether that is a change."""
-        if history is self.history:
-            return False
-        self.history = history
-        self._tell("state")
-        return True
 
     def _edit(self, change: Callable[[Loops], Loops], gesture: Any = None) -> None:
         with self.locked():

@@ -20,8 +20,8 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import ImageSource, png, read_image
 from glid_nb.imaging.render import View
 from glid_nb.motion import Motion
-from glid_nb.session import Document, NamedPose
 from glid_nb.session.deformation import Deformation
+from glid_nb.session.document import Document, NamedPose
 from glid_nb.session.edit_state import EditError
 from glid_nb.session.editor_model import EditorModel, find_document
 from glid_nb.session.status_line import StatusLine

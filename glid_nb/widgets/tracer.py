@@ -16,7 +16,7 @@ from glid_nb._scripts import bundle, stylesheet
 from glid_nb.geometry import Cage, Domain
 from glid_nb.imaging import Hole, TraceOptions, Tracing
 from glid_nb.imaging.read import ImageSource
-from glid_nb.session import TracingModel
+from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets.gestures import Event
 from glid_nb.widgets.pad import Pad
 from glid_nb.widgets.tracer_gestures import TraceGestures

@@ -15,7 +15,8 @@ from glid_nb.cli import animate
 from glid_nb.energies import SymmetricDirichlet
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import TraceOptions
-from glid_nb.session import Document, NamedPose, save_document
+from glid_nb.session.document import Document, NamedPose
+from glid_nb.session.document_file import save_document
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Options
 

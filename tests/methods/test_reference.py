@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from glid_nb.session import Problem
+from glid_nb.session.problem import Problem
 
 from .problems import run_method
 

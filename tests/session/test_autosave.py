@@ -99,7 +99,8 @@ def test_the_end_of_the_process_saves_too(tmp_path: Path) -> None:
     source = f"""
 from glid_nb.geometry import Cage, Domain
 from glid_nb.imaging import TraceOptions
-from glid_nb.session import Autosave, Document
+from glid_nb.session.autosave import Autosave
+from glid_nb.session.document import Document
 import numpy as np
 domain = Domain.from_cage(Cage([[0, 0], [4, 0], [0, 3]]))
 image = np.zeros((3, 4, 4), np.uint8)

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glid_nb.session import InputFileError, Problem, load_pose
+from glid_nb._errors import InputFileError
+from glid_nb.session.problem import Problem, load_pose
 
 SQUARE = [[-4, -4], [4, -4], [4, 4], [-4, 4]]
 HOLE = [[-1, -1], [-1, 1], [1, 1], [1, -1]]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from glid_nb.geometry import Cage, Domain
-from glid_nb.session import suggest_pose
+from glid_nb.session.suggest import suggest_pose
 
 T = np.linspace(0, 2 * np.pi, 40, endpoint=False)
 CIRCLE = np.column_stack([np.cos(T), np.sin(T)])

@@ -11,7 +11,7 @@ from glid_nb.cli.output import summary_text
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import BDHM
-from glid_nb.session import build_report
+from glid_nb.session.report import build_report
 from glid_nb.solvers import Options, Pose, refine, solve
 from glid_nb.solvers.method import MethodError
 from glid_nb.solvers.refinement import in_finer_basis

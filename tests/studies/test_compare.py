@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from glid_nb._errors import InputFileError
 from glid_nb.geometry import MeshMap, uniform_panels
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods import METHODS
-from glid_nb.session import InputFileError, Problem
+from glid_nb.session.problem import Problem
 from studies.__main__ import main
 from studies.cases import Case, reference_cases, sample_case
 from studies.compare import hessian_samples, iteration_times, lipschitz, progress

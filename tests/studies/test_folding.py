@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 from glid_nb.geometry import triangulate
-from glid_nb.session import Problem
+from glid_nb.session.problem import Problem
 from studies.cases import Case
 from studies.compare import folding
 from studies.study import Plan

@@ -10,7 +10,7 @@ import pytest
 
 from glid_nb.geometry import MeshMap, triangulate
 from glid_nb.methods import AQP
-from glid_nb.session import Problem
+from glid_nb.session.problem import Problem
 from glid_nb.solvers import Iteration, Progress
 from studies.cases import Case
 from studies.compare.progress import ended_by

@@ -16,7 +16,7 @@ from glid_nb import samples
 from glid_nb.geometry import Cage
 from glid_nb.imaging import TraceError, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE
-from glid_nb.session import TracingModel
+from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets import CageTracer
 
 from ..session.test_tracing import DRAWING, IN_SMALL_DISC

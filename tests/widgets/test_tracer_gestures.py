@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glid_nb.session import TracingModel
+from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets.tracer_gestures import TraceGestures
 
 from ..session.test_tracing import DRAWING, IN_LARGE_HOLE, IN_SMALL_DISC, far_vertex
