@@ -44,7 +44,7 @@ def run(chosen: argparse.Namespace) -> None:
     if not glid_nb.export.suffix_of(out.name):
         check_folder(out)
     else:
-        files = map(out.with_name, glid_nb.export.motion_file_names(out.name))
+        files = map(out.with_name, glid_nb.export.file_names(out.name))
         check_files(list(files), [chosen.source, chosen.picture])
     glid_nb.enable_compilation_cache()
     image, motion, poses = _read(chosen)

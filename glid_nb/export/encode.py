@@ -9,7 +9,7 @@ import json
 import math
 import subprocess
 import tempfile
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,6 +19,8 @@ from PIL import Image
 
 from glid_nb._arguments import plain
 from glid_nb._errors import InputError
+from glid_nb._files import zipped
+from glid_nb.imaging.read import png
 from glid_nb.motion.settings import checked
 
 Frames = Iterable[NDArray[np.uint8]]
@@ -39,8 +41,8 @@ _LARGEST_SHEET = 16384
 _MOST_PIXELS = 2**30  # of all frames together, where a format takes them at once
 # ffmpeg's settings: close to lossless for drawings. Browsers guess what colours are not named.
 _CODECS = {
-    "mp4": ("-c:v", "libx264", "-crf", "16", "-preset", "slow", "-movflags", "+faststart"),
-    "webm": ("-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-auto-alt-ref", "0"),
+    ".mp4": ("-c:v", "libx264", "-crf", "16", "-preset", "slow", "-movflags", "+faststart"),
+    ".webm": ("-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-auto-alt-ref", "0"),
 }
 _COLORS = (
     "-vf",
@@ -49,17 +51,44 @@ _COLORS = (
 )
 
 
-def check_settings(size: Any, fps: Any, background: Any, gif: bool = False) -> None:
-    """Raise an InputError that names the setting which is out of range."""
+def check_settings(size: Any, fps: Any, background: Any, suffix: str) -> None:
+    """Raise an InputError that names the setting which is out of range, or a missing package."""
     checked("size", int, size, least=16, most=_LARGEST)
     # GIF counts in hundredths of a second, and players slow down frames of less than two.
-    name, most = ("frames_per_second of a GIF", 50) if gif else ("frames_per_second", 100)
+    name, most = "frames_per_second", 100
+    if suffix == ".gif":
+        name, most = "frames_per_second of a GIF", 50
     checked(name, float, fps, above=0, most=most)
     rgb: Any = {"most": 255, "form": "three whole numbers from 0 to 255"}
     checked("background", tuple[int, int, int] | None, plain(background), **rgb)
+    if background is None and suffix in (".gif", ".mp4"):
+        remedy = "choose a background, or .apng or .webm"
+        raise InputError(f"{suffix[1:].upper()} has no transparency; {remedy}")
+    if suffix in _CODECS and importlib.util.find_spec("imageio_ffmpeg") is None:
+        needed = "MP4 and WebM need the package imageio-ffmpeg, which brings ffmpeg along"
+        raise InputError(f"{needed}: pip install 'glid-nb[video]'")
 
 
-def check_count(drawn: Drawn) -> None:
+def encoded(
+    drawn: Drawn, name: str, suffix: str, fps: float, background: Color | None, loop: bool
+) -> list[bytes]:
+    """The contents of the files that a suffix stands for; for "" every frame as PNG."""
+    if suffix in (".gif", ".apng"):
+        _check_count(drawn)
+    if suffix == ".gif" and background is not None:
+        return [gif(drawn.pictures, fps, background, loop)]
+    if suffix == ".apng":
+        return [apng(drawn.pictures, fps, loop)]
+    if suffix in _CODECS:
+        return [_video(drawn, fps, suffix, background is None)]
+    if suffix == ".sheet.png":
+        return _sprite_sheet(drawn, fps, name)
+    pictures = [png(picture) for picture in drawn.pictures]
+    files = dict(zip(names(drawn.count), pictures, strict=True))
+    return [zipped(files, stored=files)] if suffix == ".zip" else pictures
+
+
+def _check_count(drawn: Drawn) -> None:
     """Raise an InputError if the frames are too large to be in memory at once."""
     width, height = drawn.size
     if drawn.count * width * height > _MOST_PIXELS:
@@ -88,25 +117,16 @@ def _saved(pictures: list[Image.Image], format: str, duration: Any, loop: bool) 
     return buffer.getvalue()
 
 
-def check_video() -> None:
-    """Raise an InputError that says what to install, where the extra ``video`` is missing."""
-    if importlib.util.find_spec("imageio_ffmpeg") is None:
-        needed = "MP4 and WebM need the package imageio-ffmpeg, which brings ffmpeg along"
-        raise InputError(f"{needed}: pip install 'glid-nb[video]'")
-
-
-def video(drawn: Drawn, fps: float, kind: str, transparent: bool = False) -> bytes:
-    """An MP4 (H.264) or WebM (VP9) video of even sides, by an ffmpeg that takes frames as they are
-    drawn. WebM may be transparent."""
-    check_video()
+def _video(drawn: Drawn, fps: float, suffix: str, transparent: bool) -> bytes:
+    """A video of even sides, by an ffmpeg that takes frames as they are drawn."""
     from imageio_ffmpeg import get_ffmpeg_exe  # noqa: PLC0415 - an extra
 
     size = "x".join(map(str, drawn.size))
     given = ["-f", "rawvideo", "-pix_fmt", "rgba", "-s", size, "-r", str(fps), "-i", "-"]
     pixels = ["-pix_fmt", "yuva420p" if transparent else "yuv420p"]
     with tempfile.TemporaryDirectory(prefix="glid_nb-") as folder:
-        path, log = Path(folder) / f"frames.{kind}", Path(folder) / "log"
-        command = [get_ffmpeg_exe(), "-v", "error", *given, *_CODECS[kind], *_COLORS, *pixels]
+        path, log = Path(folder) / f"frames{suffix}", Path(folder) / "log"
+        command = [get_ffmpeg_exe(), "-v", "error", *given, *_CODECS[suffix], *_COLORS, *pixels]
         with (
             log.open("wb") as told,
             subprocess.Popen([*command, str(path)], stdin=subprocess.PIPE, stderr=told) as ffmpeg,
@@ -121,11 +141,11 @@ def video(drawn: Drawn, fps: float, kind: str, transparent: bool = False) -> byt
                 ffmpeg.kill()
                 raise
         if ffmpeg.returncode:
-            raise OSError(f"ffmpeg could not write the {kind} video: {log.read_text()[-500:]}")
+            raise OSError(f"ffmpeg could not write the {suffix} video: {log.read_text()[-500:]}")
         return path.read_bytes()
 
 
-def sprite_sheet(drawn: Drawn, fps: float, name: str, png: Callable[..., bytes]) -> list[bytes]:
+def _sprite_sheet(drawn: Drawn, fps: float, name: str) -> list[bytes]:
     """A picture of all frames side by side, and JSON that says where each is.
 
     The JSON is TexturePacker's "hash" with Pixi's ``animations``; durations are milliseconds.

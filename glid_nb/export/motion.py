@@ -8,33 +8,19 @@ from numpy.typing import ArrayLike
 
 from glid_nb._arguments import check_type
 from glid_nb._errors import InputError
-from glid_nb._files import write_bytes_atomically, zipped
+from glid_nb._files import write_bytes_atomically
 from glid_nb.export import encode
 from glid_nb.export.encode import Color
+from glid_nb.export.formats import file_names, suffix_of
 from glid_nb.export.mesh import motion_glb
 from glid_nb.export.moving import Progress, Stopped, frames
 from glid_nb.export.page import page_html
 from glid_nb.imaging import PixelFrame, as_rgba8
-from glid_nb.imaging.read import png
 from glid_nb.imaging.render import check_fits
 from glid_nb.motion import Motion, file
 from glid_nb.motion.settings import checked
 from glid_nb.solvers import Pose
 
-MOTION_FORMATS = {
-    ".gif": "Animation (GIF)",
-    ".apng": "Animation with transparency (PNG)",
-    ".mp4": "Video (MP4)",
-    ".webm": "Video (WebM)",
-    ".html": "Page that plays it (HTML)",
-    ".glb": "Moving mesh (glTF)",
-    ".sheet.png": "Sprite sheet (PNG and JSON)",
-    ".zip": "Frames (PNG in a zip)",
-    ".motion.json": "Motion and proof for glid-check (JSON)",
-}
-"""What each suffix of a moving picture stands for. A name without one is a folder of frames."""
-
-_VIDEO = (".mp4", ".webm")
 _FPS = 25.0
 _MAKE_ONE = "make one of certified maps"
 
@@ -107,59 +93,25 @@ def motion_files(
 
     Raises an InputError for another suffix, a setting that is out of range, or a missing package.
     """
-    suffix = suffix_of(name)
+    suffix, fps = suffix_of(name), frames_per_second
     check_type("motion", motion, Motion, _MAKE_ONE, InputError)
-    encode.check_settings(size, frames_per_second, background, suffix == ".gif")
+    encode.check_settings(size, fps, background, suffix)
     checked("loop", bool, loop)
     image = as_rgba8(image)
     check_fits(PixelFrame(*image.shape[1::-1]), motion.keyframes[0])
-    if background is None and suffix in (".gif", ".mp4"):
-        remedy = "choose a background, or .apng or .webm"
-        raise InputError(f"{name}: {suffix[1:].upper()} has no transparency; {remedy}")
-    if suffix in _VIDEO:
-        encode.check_video()
-    fps = frames_per_second
     try:
-        if suffix == ".html":
-            page = page_html(
-                image, motion, title=name[:-5], pose=poses, loop=loop, progress=progress
-            )
-            return {name: page.encode()}
-        if suffix == ".glb":
-            return {name: motion_glb(image, motion, poses, progress=progress)}
-        if suffix == ".motion.json":
-            texts = map(str.encode, file.texts(motion))
-            return dict(zip(motion_file_names(name), texts, strict=True))
-        drawn = frames(image, motion, poses, size, fps, background, progress)
-        if suffix in (".gif", ".apng"):
-            encode.check_count(drawn)
-        if suffix == ".gif" and background is not None:
-            return {name: encode.gif(drawn.pictures, fps, background, loop)}
-        if suffix == ".apng":
-            return {name: encode.apng(drawn.pictures, fps, loop)}
-        if suffix in _VIDEO:
-            return {name: encode.video(drawn, fps, suffix[1:], background is None)}
-        if suffix == ".sheet.png":
-            sheet, told = encode.sprite_sheet(drawn, fps, name, png)
-            return dict(zip(motion_file_names(name), (sheet, told), strict=True))
-        files = dict(zip(encode.names(drawn.count), map(png, drawn.pictures), strict=True))
+        match suffix:
+            case ".html":
+                shown = {"title": name[:-5], "pose": poses, "loop": loop, "progress": progress}
+                contents = [page_html(image, motion, **shown).encode()]
+            case ".glb":
+                contents = [motion_glb(image, motion, poses, progress=progress)]
+            case ".motion.json":
+                contents = [text.encode() for text in file.texts(motion)]
+            case _:
+                drawn = frames(image, motion, poses, size, fps, background, progress)
+                contents = encode.encoded(drawn, name, suffix, fps, background, loop)
     except Stopped:
         return {}
-    if suffix == ".zip":
-        return {name: zipped(files, stored=files)}
-    return {f"{name}/{frame}": data for frame, data in files.items()}
-
-
-def motion_file_names(name: str) -> tuple[str, ...]:
-    """The name and those of the files that come with it: a sheet's JSON, a motion's proof."""
-    beside = {".sheet.png": ".json", ".motion.json": ".proof.json"}.get(suffix_of(name))
-    return (name,) if beside is None else (name, str(Path(name).with_suffix(beside)))
-
-
-def suffix_of(name: str) -> str:
-    """The one of `MOTION_FORMATS` that a name ends in, "" for a folder."""
-    found = next((suffix for suffix in MOTION_FORMATS if name.lower().endswith(suffix)), "")
-    if len(name) == len(found) or (not found and Path(name).suffix):
-        ends = f"{', '.join(MOTION_FORMATS)}, or have no suffix for a folder of frames"
-        raise InputError(f"{name!r:.200} cannot be written: the name must end in {ends}")
-    return found
+    pictures = (f"{name}/{frame}" for frame in encode.names(len(contents)))
+    return dict(zip(file_names(name) if suffix else pictures, contents, strict=True))

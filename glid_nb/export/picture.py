@@ -75,7 +75,7 @@ def animation_bytes(
     if poses is not None and len(poses) != len(maps):
         raise InputError(f"there are {len(maps)} maps but {len(poses)} poses; give one per map")
     checked("format", Format, format)
-    check_settings(size, frames_per_second, background, format == "gif")
+    check_settings(size, frames_per_second, background, f".{format}")
     # The boundaries suffice to find what holds all the deformed shapes.
     points = np.concatenate([deformed_loops(map)[0] for map in maps])
     pixels, frame = as_rgba8(image), frame_around(points, size)

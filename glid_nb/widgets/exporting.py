@@ -6,39 +6,16 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from glid_nb._errors import InputError
 from glid_nb._files import write_bytes_atomically, zipped
 from glid_nb._json import json_text
 from glid_nb._runtime import data_directory
 from glid_nb.certificate.proof import proof_text
+from glid_nb.export.formats import FORMATS, ExportError, file_names, suffix_of
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View
 from glid_nb.session.document_file import document_bytes
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
-
-FORMATS = {
-    ".png": "Picture (PNG)",
-    ".obj": "Mesh and texture (OBJ)",
-    ".glb": "Mesh and texture (glTF)",
-    ".svg": "Cage (SVG)",
-    ".html": "Page that shows it (HTML)",
-    ".py": "Python script",
-    ".proof.json": "Proof for glid-check (JSON)",
-    ".glid": "Session (GLID)",
-}
-"""What each suffix stands for."""
-
-_BESIDE = {
-    ".obj": (".mtl", "-texture.png"),
-    ".py": ("-source.png",),
-    ".proof.json": (".map.json",),
-}
-"""Endings, after the stem, of the files that come with one."""
-
-
-class ExportError(InputError):
-    """A file cannot be exported that way."""
 
 
 class OccupiedError(ExportError):
@@ -62,19 +39,7 @@ def names_of(paths: Sequence[Path]) -> str:
 
 def files_of(path: Path) -> tuple[Path, ...]:
     """The files that `export` writes for this name: itself, then those that come with it."""
-    suffix = _suffix(path)
-    stem = path.name[: -len(suffix)]
-    return (path, *(path.with_name(stem + rest) for rest in _BESIDE.get(suffix, ())))
-
-
-def _suffix(path: Path) -> str:
-    """The one of `FORMATS` that the name ends in; ExportError for none."""
-    for suffix in FORMATS:
-        if path.name.lower().endswith(suffix) and len(path.name) > len(suffix):
-            return suffix
-    raise ExportError(
-        f"{str(path)!r} cannot be exported: its name must end in {', '.join(FORMATS)}"
-    )
+    return tuple(map(path.with_name, file_names(path.name, FORMATS)))
 
 
 def check_free(model: EditorModel, paths: Sequence[Path], owner: Path) -> None:
@@ -114,12 +79,12 @@ def exported(
     document, state = model.document, model.deformation.state
     image, map_, pose = document.image, state.map, state.pose
     names = [file.name for file in files_of(path)]
-    match _suffix(path):
+    match suffix_of(path.name, FORMATS):
         case ".png":
             contents = [to.picture_png(image, map_, size, view, pose)]
         case ".obj":
             files = to.mesh_obj(to.textured_mesh(image, map_, pose=pose), path.stem)
-            contents = [files[path.stem + rest] for rest in (".obj", *_BESIDE[".obj"])]
+            contents = [files[path.stem + rest] for rest in (".obj", *FORMATS[".obj"].beside)]
         case ".glb":
             contents = [to.mesh_glb(to.textured_mesh(image, map_, pose=pose))]
         case ".svg":

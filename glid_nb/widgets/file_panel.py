@@ -12,6 +12,7 @@ import traitlets
 
 from glid_nb._errors import InputError
 from glid_nb._scripts import bundle
+from glid_nb.export.formats import FORMATS, MOTION_FORMATS, file_names
 from glid_nb.imaging.read import MAX_SIDE, png
 from glid_nb.session.animation import Animation
 from glid_nb.session.document import DocumentError
@@ -19,7 +20,6 @@ from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
 from glid_nb.widgets.controls import REFUSED, button, paragraph
 from glid_nb.widgets.exporting import (
-    FORMATS,
     OccupiedError,
     as_one,
     check_free,
@@ -138,8 +138,7 @@ class FilePanel(ipywidgets.VBox):
     """
 
     def __init__(self, model: EditorModel, animation: Animation | None = None) -> None:
-        from glid_nb.export.motion import MOTION_FORMATS  # noqa: PLC0415 - as in `exporting`
-        from glid_nb.widgets.motion_export import MotionExport  # noqa: PLC0415
+        from glid_nb.widgets.motion_export import MotionExport  # noqa: PLC0415 - as in `exporting`
 
         self.model = model
         self.motion = None if animation is None else MotionExport(model, animation, self._say)
@@ -149,10 +148,10 @@ class FilePanel(ipywidgets.VBox):
         """Where to save, and what to open; relative to the notebook."""
         self.autosave = ipywidgets.HTML()
         """Where changes are saved automatically."""
-        formats = [(label, suffix) for suffix, label in FORMATS.items()]
+        formats = [(one.label, suffix) for suffix, one in FORMATS.items()]
         if self.motion is not None:
             moving = MOTION_FORMATS.items()
-            formats += [(f"Motion: {label}", f"{_MOTION}{suffix}") for suffix, label in moving]
+            formats += [(f"Motion: {one.label}", f"{_MOTION}{suffix}") for suffix, one in moving]
         self.format = ipywidgets.Dropdown(options=formats, tooltip="What to export", layout=_WIDE)
         height, width = model.document.image.shape[:2]
         self._aspect = height / width
@@ -289,10 +288,8 @@ class FilePanel(ipywidgets.VBox):
     def _export(self, sure: bool) -> str:
         path, moving = self._chosen
         if not sure:
-            from glid_nb.export.motion import motion_file_names  # noqa: PLC0415 - as above
-
-            files = map(path.with_name, motion_file_names(path.name)) if moving else files_of(path)
-            check_free(self.model, tuple(files), path)
+            names = file_names(path.name, MOTION_FORMATS if moving else FORMATS)
+            check_free(self.model, tuple(map(path.with_name, names)), path)
 
         def deliver(files: Mapping[str, bytes]) -> str:
             written = write(self.model, path, files, replace=True)

@@ -15,10 +15,11 @@ import pytest
 from PIL import Image
 
 import glid_nb as glid
+from glid_nb.export import FORMATS, ExportError
 from glid_nb.imaging import PixelFrame
 from glid_nb.session.animation import Animation
 from glid_nb.session.editor_model import EditorModel
-from glid_nb.widgets.exporting import FORMATS, ExportError, OccupiedError, export, files_of
+from glid_nb.widgets.exporting import OccupiedError, export, files_of
 from glid_nb.widgets.file_panel import FilePanel
 
 pytestmark = pytest.mark.slow  # most of the time is compiling

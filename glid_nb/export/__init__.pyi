@@ -1,0 +1,15 @@
+from .cage_svg import cage_svg as cage_svg
+from .formats import FORMATS as FORMATS
+from .formats import MOTION_FORMATS as MOTION_FORMATS
+from .formats import ExportError as ExportError
+from .formats import file_names as file_names
+from .formats import suffix_of as suffix_of
+from .mesh import mesh_glb as mesh_glb
+from .mesh import mesh_obj as mesh_obj
+from .mesh import motion_glb as motion_glb
+from .mesh import textured_mesh as textured_mesh
+from .motion import animate as animate
+from .motion import motion_files as motion_files
+from .page import page_html as page_html
+from .picture import animation_bytes as animation_bytes
+from .picture import picture_png as picture_png

@@ -1,0 +1,59 @@
+"""What can be exported: a table of formats for maps, one for motions, by the names' endings."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+from glid_nb._errors import InputError
+
+
+class ExportError(InputError):
+    """A file cannot be exported that way."""
+
+
+class Format(NamedTuple):
+    label: str
+    beside: tuple[str, ...] = ()
+    """Endings, in place of the name's own, of the files that come with it."""
+
+
+FORMATS = {
+    ".png": Format("Picture (PNG)"),
+    ".obj": Format("Mesh and texture (OBJ)", (".mtl", "-texture.png")),
+    ".glb": Format("Mesh and texture (glTF)"),
+    ".svg": Format("Cage (SVG)"),
+    ".html": Format("Page that shows it (HTML)"),
+    ".py": Format("Python script", ("-source.png",)),
+    ".proof.json": Format("Proof for glid-check (JSON)", (".map.json",)),
+    ".glid": Format("Session (GLID)"),
+}
+MOTION_FORMATS = {
+    ".gif": Format("Animation (GIF)"),
+    ".apng": Format("Animation with transparency (PNG)"),
+    ".mp4": Format("Video (MP4)"),
+    ".webm": Format("Video (WebM)"),
+    ".html": Format("Page that plays it (HTML)"),
+    ".glb": Format("Moving mesh (glTF)"),
+    ".sheet.png": Format("Sprite sheet (PNG and JSON)", (".sheet.json",)),
+    ".zip": Format("Frames (PNG in a zip)"),
+    ".motion.json": Format("Motion and proof for glid-check (JSON)", (".motion.proof.json",)),
+}
+"""A motion's name without one of these is a folder of frames."""
+
+
+def suffix_of(name: str, formats: Mapping[str, Format] = MOTION_FORMATS) -> str:
+    """The one of the formats that a name ends in, "" for a folder; else an ExportError."""
+    found = next((suffix for suffix in formats if name.lower().endswith(suffix)), "")
+    folder = formats is MOTION_FORMATS and not Path(name).suffix
+    if len(name) == len(found) or not (found or folder):
+        ends = ", ".join(formats)
+        ends += ", or have no suffix for a folder of frames" if formats is MOTION_FORMATS else ""
+        raise ExportError(f"{name!r:.200} cannot be written: its name must end in {ends}")
+    return found
+
+
+def file_names(name: str, formats: Mapping[str, Format] = MOTION_FORMATS) -> tuple[str, ...]:
+    """The name, and those of the files that come with it."""
+    suffix = suffix_of(name, formats)
+    stem, beside = name[: len(name) - len(suffix)], formats[suffix].beside if suffix else ()
+    return (name, *(stem + ending for ending in beside))
