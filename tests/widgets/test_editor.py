@@ -300,6 +300,7 @@ def test_the_canvas_shows_what_the_model_holds() -> None:
     canvas.show_source = False
     assert canvas.source is None
     canvas.close()
+    model._worker.thread.join(TIMEOUT)  # closing does not wait for it
     assert not model._worker.thread.is_alive()
 
 
