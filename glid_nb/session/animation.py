@@ -6,6 +6,7 @@ import bisect
 import itertools
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -18,8 +19,9 @@ from glid_nb.motion import Motion
 from glid_nb.motion.curve import Piece
 from glid_nb.motion.settings import MotionError, unlike_turns
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.document import NamedPose
+from glid_nb.session.document import AS_SEEN, NamedPose, Solution
 from glid_nb.session.edit_state import EditError, EditState, Moment
+from glid_nb.session.live_solver import solve_edited
 from glid_nb.session.model import Observed
 from glid_nb.session.timeline import thinned
 from glid_nb.session.worker import LatestWins, weakly
@@ -141,7 +143,8 @@ class Animation(Observed):
                 self._tell("motion")
         self._task = task
         at_rest = not moment.dragged and (settled or (self.deformation.begun and not moment.busy))
-        if at_rest and not self._asked and len(task.poses) > 1:
+        left = not moment.paused and not self._worker.busy and _left(task) is not None
+        if at_rest and (left or not self._asked) and len(task.poses) > 1:
             self._asked = True
             self._worker.submit(task)
 
@@ -156,8 +159,8 @@ class Animation(Observed):
             if self._began is None and past:
                 self._began = now, past[-1]
             if moved and (frame := moment.frame) is not None:
-                posed = state.current.changed(pose=frame.task.pose.pose, map=frame.map)
-                self._samples.append((now, posed))
+                seen = {"pose": frame.task.pose.pose, "map": frame.map, "solution": AS_SEEN}
+                self._samples.append((now, replace(state.current, **seen)))
             return None
         if self._began is None:
             return None
@@ -177,6 +180,9 @@ class Animation(Observed):
 
     def _prove(self, task: EditState, worker: LatestWins[EditState]) -> None:
         spans, told = list(_spans(task)), time.monotonic()
+        if not self.deformation.paused and (left := _left(task)) is not None:
+            self._solve(task, left, worker)
+            return
         for i, span in _proved(task, worker):
             spans[i] = span
             if time.monotonic() - told > _INTERVAL:
@@ -185,6 +191,19 @@ class Animation(Observed):
         if not worker.overtaken:
             self._publish(task, spans)
 
+    def _solve(self, task: EditState, pose: NamedPose, worker: LatestWins[EditState]) -> None:
+        """Solve a pose to its end; the model then reports that, and so asks for the proof again."""
+        try:
+            result = solve_edited(pose, lambda _: worker.overtaken)
+        except Exception as error:  # shown in the timeline
+            reason = f"{pose.name!r} could not be solved: {error}"
+            self._publish(task, [s._replace(status="refused", reason=reason) for s in _spans(task)])
+            return
+        if not worker.overtaken:
+            solution = Solution(result.status, result.message, result.history, (1,))
+            solved = replace(pose, map=result.map, solution=solution)
+            self.deformation.refine_pose(pose, solved)
+
     def _publish(self, task: EditState, spans: list[Span]) -> None:
         with self.locked():
             if _same_motion(task, self._task):
@@ -192,12 +211,18 @@ class Animation(Observed):
                 self._tell("motion")
 
 
+def _left(task: EditState) -> NamedPose | None:
+    """A pose that was left before its solve had come to an end."""
+    others = (pose for pose in task.poses if pose is not task.current)
+    return next((p for p in others if p.solution is None and p.method.certified), None)
+
+
 def _same_motion(task: EditState, other: EditState | None) -> bool:
-    """Whether the motions are the same, whatever the poses are called."""
+    """Whether motions are the same, and what of them is solved, whatever the poses are called."""
     if other is None or task.timeline != other.timeline:
         return False
     pairs = zip(task.poses, other.poses, strict=True)
-    return all(pose.map is its.map for pose, its in pairs)
+    return all(pose.map is its.map and pose.solution is its.solution for pose, its in pairs)
 
 
 def _spans(task: EditState) -> tuple[Span, ...]:

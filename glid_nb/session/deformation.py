@@ -315,6 +315,15 @@ class Deformation(Undoable[EditState]):
             self._check_open()
             self._go_to(self.history.refined(actions.record(self.state, first, poses, offsets)))
 
+    def refine_pose(self, pose: NamedPose, solved: NamedPose) -> None:
+        """Put its solved self in place of a pose that is not edited; no step for undo."""
+        with self.locked():
+            state = self.state
+            if pose is not state.current and not self._closed:
+                poses = tuple(solved if each is pose else each for each in state.poses)
+                self.history = self.history.refined(replace(state, poses=poses))
+                self._tell("state")
+
     # Undo
 
     def undo(self) -> bool:

@@ -47,6 +47,10 @@ class Solution:
         return self.status is not Status.STOPPED
 
 
+AS_SEEN = Solution(Status.STOPPED, "The map is as it was recorded or saved.", (), ())
+"""Of poses that are not to be solved before they are edited."""
+
+
 @dataclass(frozen=True, eq=False)
 class NamedPose:
     """A pose with a name and the certified map that was found for it.

@@ -21,7 +21,7 @@ from glid_nb.session.autosave import (
     new_kept_file,
 )
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.document import Document, DocumentError
+from glid_nb.session.document import AS_SEEN, Document, DocumentError
 from glid_nb.session.document_file import load_document, save_document
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.model import History, Observed
@@ -334,7 +334,8 @@ class EditorModel(Observed):
 
     def _take(self, document: Document, name: str = "") -> None:
         self.tracing = TracingModel.from_document(document, name)
-        domain, poses = document.domain, tuple(pose.changed() for pose in document.poses)
+        domain = document.domain
+        poses = tuple(replace(pose, solution=AS_SEEN) for pose in document.poses)
         state = EditState.initial(domain)
         if poses:
             timeline = document.timeline or Timeline.even(len(poses))

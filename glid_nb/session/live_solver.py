@@ -100,7 +100,6 @@ class LiveSolver:
             self._prepared(share)
 
     def _result(self, task: Task, worker: LatestWins[Task | None]) -> Result:
-        edited, method = task.pose, task.pose.method
         calls = iterations = 0
 
         def callback(progress: Progress) -> bool:
@@ -120,12 +119,7 @@ class LiveSolver:
                 self._publish(self._frame(task, progress))
             return False
 
-        # During a drag the shape must not turn as a whole; a single handle takes it along.
-        align = isinstance(method, Newton) and len(edited.pose) == 1
-        options = replace(edited.options, align=align, restarts=0)
-        start = _starting_point(edited, self._last)
-        domain = edited.map.domain
-        return solve(domain, edited.pose, edited.energy, options, start, callback, method=method)
+        return solve_edited(task.pose, callback, self._last)
 
     def _frame(self, task: Task, now: Progress | Result) -> Frame:
         last = self._before[-1].iteration if self._before else 0
@@ -135,6 +129,17 @@ class LiveSolver:
         mesh, certified = (map, task.pose.map) if isinstance(map, MeshMap) else (None, map)
         proof = now.certificate if isinstance(now, Progress) else now.proof
         return Frame(task, certified, history, self._starts, None, proof, mesh)
+
+
+def solve_edited(
+    edited: NamedPose, callback: Callable[[Progress], bool], last: Result | None = None
+) -> Result:
+    """Solve a pose of the editor, from what the solve before has reached or from its own map."""
+    # During a drag the shape must not turn as a whole; a single handle takes it along.
+    align = isinstance(edited.method, Newton) and len(edited.pose) == 1
+    options = replace(edited.options, align=align, restarts=0)
+    how = edited.energy, options, _starting_point(edited, last), callback
+    return solve(edited.map.domain, edited.pose, *how, method=edited.method)
 
 
 def _starting_point(edited: NamedPose, last: Result | None) -> DeformationMap | Result:

@@ -41,7 +41,7 @@ def describe(moment: Moment) -> StatusLine:
         return StatusLine("working", f"Working{iteration}{_bound(frame)}")
     if not moment.paused and not len(state.pose):
         return StatusLine("idle", "Click the shape to add a handle, then drag it")
-    if not moment.paused and moment.solution is None and frame is None:
+    if not moment.paused and not moment.solved and frame is None:
         return StatusLine("idle", "Not solved yet")
     level, text = ("idle", "Paused") if moment.paused else _ended(moment)
     mesh = moment.comparison

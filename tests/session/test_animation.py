@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,9 +11,11 @@ import pytest
 
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion import Motion, MotionError
+from glid_nb.session import actions
 from glid_nb.session.animation import Animation
 from glid_nb.session.deformation import Deformation
-from glid_nb.session.edit_state import EditError
+from glid_nb.session.document import AS_SEEN, NamedPose
+from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.solvers import Pose
 
 from ..domains import domain
@@ -42,6 +45,13 @@ def put(model: Deformation, *maps: HarmonicMap) -> None:
         if i:
             model.save_pose()
         model.apply(lambda state, map=map: state.changed(map=map))
+
+
+def seen(state: EditState) -> NamedPose:
+    """A pose whose map is far from its targets, as that of a recorded frame may be."""
+    targets = np.array(state.pose.targets) + 0.3
+    pose = state.pose.with_targets(targets)
+    return replace(state.current, pose=pose, solution=AS_SEEN)
 
 
 def statuses(animation: Animation) -> list[str]:
@@ -83,6 +93,64 @@ def test_all_is_proved_once_the_poses_have_come_to_rest(
     assert animation.wait(TIMEOUT)
     assert statuses(animation) == ["proved"] * 3
     assert isinstance(animation.motion, Motion)
+
+
+def misses(model: Deformation) -> list[float]:
+    """How far the worst handle of each pose is from its target."""
+    poses = model.state.poses
+    return [np.abs(pose.map(pose.pose.handles) - pose.pose.targets).max() for pose in poses]
+
+
+def test_poses_that_were_left_before_they_were_solved_are_solved_first() -> None:
+    with Deformation(domain("ring"), POSE, begin=False) as model:
+        animation = Animation(model)
+        model.drag(0, (2.5, 0.5))  # nothing is compiled yet
+        model.save_pose()
+        model.drag(0, (2.0, 1.0))
+        steps = len(model.history.past)
+        assert max(misses(model)) > 0.5
+        assert animation.wait(TIMEOUT)
+        assert max(misses(model)) < 1e-3
+        assert statuses(animation) == ["proved"]
+        assert len(model.history.past) == steps
+        # So they are when undo brings back what was not solved, but not while paused.
+        model.undo()
+        assert animation.wait(TIMEOUT)
+        assert max(misses(model)) < 1e-3
+        model.paused = True
+        model.drag(0, (2.2, 0.5))
+        model.go_to_pose(0)
+        assert animation._worker.wait(TIMEOUT)
+        assert misses(model)[1] > 0.1
+        model.paused = False
+        assert animation.wait(TIMEOUT)
+        assert max(misses(model)) < 1e-3
+        animation.close()
+
+
+def test_recorded_and_loaded_poses_stay_as_they_were(
+    model: Deformation, animation: Animation
+) -> None:
+    model.apply(lambda state: actions.record(state, seen(state), [seen(state)], [0.5, 1.0]))
+    model.drag(0, (2.5, 0.5))
+    before = [pose.map for pose in model.state.poses]
+    assert animation.wait(TIMEOUT)
+    assert [pose.map for pose in model.state.poses][:2] == before[:2]
+
+
+def test_what_cannot_be_solved_is_told(
+    model: Deformation, animation: Animation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fails(*_: Any) -> None:
+        raise ValueError("it is too warm.")
+
+    monkeypatch.setattr("glid_nb.session.animation.solve_edited", fails)
+    model.save_pose()
+    model.drag(0, (2.5, 0.5))
+    model.save_pose()
+    assert animation.wait(TIMEOUT)
+    told = [f"'Pose {i}' could not be solved: it is too warm." for i in (1, 1)]
+    assert [span.reason for span in animation.spans] == told
 
 
 def test_what_lies_between_is_kept_where_it_is_proved(
