@@ -28,13 +28,10 @@ def real_array(value: Any) -> NDArray[np.float64]:
         raise ValueError("a number is too large for floating point") from error
 
 
-def number_pairs(
-    value: Any, wanted: str, error: type[Exception], shape: str = ""
-) -> NDArray[np.float64]:
+def number_pairs(value: Any, wanted: str, error: type[Exception]) -> NDArray[np.float64]:
     """(n, 2) numbers as a new float64 array, also for an empty list; NaN and infinity pass.
 
-    The message of the ``error`` begins with ``wanted``, "handles must be a list of [x, y] pairs",
-    for another shape with ``shape`` if that is given.
+    The message of the ``error`` begins with ``wanted``, "handles must be a list of [x, y] pairs".
     """
     try:
         pairs = real_array(value)
@@ -42,7 +39,7 @@ def number_pairs(
         raise error(f"{wanted} ({problem})") from problem
     pairs = pairs.reshape(-1, 2) if pairs.shape == (0,) else pairs
     if pairs.ndim != 2 or pairs.shape[1] != 2:
-        raise error(f"{shape or wanted + '; the shape is'} {pairs.shape}")
+        raise error(f"{wanted}; the shape is {pairs.shape}")
     return pairs
 
 

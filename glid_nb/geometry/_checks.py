@@ -1,8 +1,4 @@
-"""The checks of a cage's loops.
-
-A message begins in plain words, for people who draw a cage and see no vertex numbers; the numbers
-and coordinates follow in parentheses.
-"""
+"""The checks of a cage's loops."""
 
 from typing import Any
 
@@ -21,18 +17,16 @@ _EDGES = 64
 
 def checked_vertices(vertices: ArrayLike, name: str) -> Array:
     """A float64 copy of (n, 2) finite vertices, n >= 3."""
-    wanted, shape = "be pairs of numbers [[x, y], ...]", "have the shape (n, 2), not"
-    begin = f"{name}: vertices must"
-    loop = number_pairs(vertices, f"{begin} {wanted}", GeometryError, f"{begin} {shape}")
+    pairs = f"{name}: vertices must be pairs of numbers [[x, y], ...]"
+    loop = number_pairs(vertices, pairs, GeometryError)
     if len(loop) < 3:
         raise GeometryError(f"{name}: {len(loop)} vertices given, a loop needs at least 3")
     wrong = np.flatnonzero(~(np.abs(loop) <= 1e100).all(axis=1))
     if wrong.size:
         x, y = loop[wrong[0]]
+        problem = f"is ({x}, {y}); replace the NaN or infinite coordinate or leave it out"
         if np.isfinite([x, y]).all():
             problem = f"at {place([x, y])} is too large to compute with; rescale the cage"
-        else:
-            problem = f"is ({x}, {y}); replace the NaN or infinite coordinate or leave it out"
         raise GeometryError(f"{name}: vertex {wrong[0]} {problem}")
     return loop
 
@@ -61,16 +55,15 @@ def _check_distinct(loop: Array, number: int, resolution: float) -> None:
     if not pairs:
         return
     i, j = pairs[0]
-    twice = f"{plain} has two points in one place; leave one of them out"
-    if pairs == [(0, len(loop) - 1)]:
-        raise GeometryError(
-            f"{name}: the last vertex {j} repeats vertex 0 at {place(loop[0])}; "
-            "loops close by themselves, leave the last vertex out",
-            loop[0],
-            _sentence(twice),
-        )
-    problem = twice if j == i + 1 else f"{plain} touches itself; move one of the points that meet"
-    raise _refusal(problem, f"{name}: vertices {i} and {j} coincide at {place(loop[i])}", loop[i])
+    closes = pairs == [(0, len(loop) - 1)]
+    problem = "touches itself; move one of the points that meet"
+    if closes or j == i + 1:
+        problem = "has two points in one place; leave one of them out"
+    what = f"{name}: vertices {i} and {j} coincide at {place(loop[i])}"
+    if closes:
+        what = f"{name}: the last vertex {j} repeats vertex 0 at {place(loop[0])}; loops close by "
+        what += "themselves, leave the last vertex out"
+    raise GeometryError(f"{plain} {problem}", loop[i], what)
 
 
 def _check_not_flat(loop: Array, number: int, resolution: float) -> None:
@@ -78,12 +71,12 @@ def _check_not_flat(loop: Array, number: int, resolution: float) -> None:
     far = int(np.argmax(np.hypot(*arms.T)))
     axis = arms[far] / np.hypot(*arms[far])
     if np.abs(arms[:, 0] * axis[1] - arms[:, 1] * axis[0]).max() <= resolution:
-        raise _refusal(
+        raise GeometryError(
             f"{plain_name(number)} is flat, so its area is zero; move one of its points off the "
             "line, or remove it",
+            loop[0],
             f"{loop_name(number)}: all {len(loop)} vertices lie on one line, through vertex 0 at "
             f"{place(loop[0])} and vertex {far} at {place(loop[far])}",
-            loop[0],
         )
 
 
@@ -95,11 +88,11 @@ def _check_fold_back(loop: Array, number: int, resolution: float) -> None:
     folded = np.flatnonzero(near_after | near_before)
     if folded.size:
         i, n = int(folded[0]), len(loop)
-        raise _refusal(
+        raise GeometryError(
             f"{plain_name(number)} has a spike without width; leave out its tip",
+            loop[i],
             f"{loop_name(number)}: the edges {_edge((i - 1) % n, n)} and {_edge(i, n)} lie on top "
             f"of each other up to vertex {i} at {place(loop[i])}",
-            loop[i],
         )
 
 
@@ -144,7 +137,7 @@ def _check_crossings(loops: list[Array], resolution: float) -> None:
             advice = "move its points, or change their order, so that no two sides cross"
         plain = f"{plain_name(a)} {verb}es itself; {advice}"
         what = f"{loop_name(a)}: the edges {edge_a} and {edge_b}"
-    raise _refusal(plain, f"{what} {verb} at {place(point)}", point)
+    raise GeometryError(plain, point, f"{what} {verb} at {place(point)}")
 
 
 def _check_nesting(loops: list[Array]) -> None:
@@ -155,34 +148,25 @@ def _check_nesting(loops: list[Array]) -> None:
     around = sorted(zip(outer.tolist(), inner.tolist(), strict=True))
     for i, loop in enumerate(loops[1:], start=1):
         if (i, 0) in around:
-            raise _refusal(
+            raise GeometryError(
                 f"{plain_name(i)} lies around the outline; swap the two",
-                f"vertex 0 of the exterior loop at {place(loops[0][0])} lies in {loop_name(i)}",
                 loops[0][0],
+                f"vertex 0 of the exterior loop at {place(loops[0][0])} lies in {loop_name(i)}",
             )
         if (0, i) not in around:
-            raise _refusal(
+            raise GeometryError(
                 f"{plain_name(i)} lies outside the outline; remove it or move it inside",
-                f"vertex 0 of {loop_name(i)} at {place(loop[0])} is not in the exterior loop",
                 loop[0],
+                f"vertex 0 of {loop_name(i)} at {place(loop[0])} is not in the exterior loop",
             )
     for o, i in around:
         if o > 0:
-            raise _refusal(
+            raise GeometryError(
                 f"{plain_name(i)} lies within {plain_name(o)}, where there is nothing to cut out; "
                 "remove the inner one",
-                f"vertex 0 of {loop_name(i)} is at {place(loops[i][0])}",
                 loops[i][0],
+                f"vertex 0 of {loop_name(i)} is at {place(loops[i][0])}",
             )
-
-
-def _refusal(plain: str, details: str, point: ArrayLike) -> GeometryError:
-    plain = _sentence(plain)
-    return GeometryError(f"{plain} ({details})", point, plain)
-
-
-def _sentence(text: str) -> str:
-    return text[0].upper() + text[1:]
 
 
 def _edge(i: int, n: int) -> str:

@@ -14,12 +14,14 @@ from glid_nb._errors import InputError
 class GeometryError(InputError):
     """A polygon, offset or domain that cannot be used; the message says where and what to do.
 
-    ``point`` is the place of the problem, to mark in a picture, or None. ``plain`` is the message
-    without coordinates and vertex numbers, for use beside such a picture.
+    ``point`` is the place of the problem, to mark in a picture, or None. Coordinates and vertex
+    numbers are ``details`` in parentheses, which ``plain``, for use beside the picture, leaves out.
     """
 
-    def __init__(self, message: str, point: Any = None, plain: str | None = None) -> None:
-        super().__init__(message, plain)
+    def __init__(self, message: str, point: Any = None, details: str = "") -> None:
+        if details:
+            message = message[0].upper() + message[1:]
+        super().__init__(f"{message} ({details})" if details else message, message)
         self.point = None if point is None else tuple(map(float, np.asarray(point)))
 
 

@@ -81,7 +81,7 @@ class Domain:
         are chosen; loops are reoriented where needed. ``offset_holes`` needs ``offset_cage``, and
         ``offset`` has no effect beside it.
         """
-        cage, notes = Cage.from_dict(data), _checked_notes(data.get("notes"))
+        cage, notes = Cage.from_dict(data), _checked_notes(data.get("notes") or ())
         holes = loop_list(data.get("offset_holes"), "offset_holes")
         points = data.get("hole_points")
         if data.get("offset_cage") is not None:
@@ -122,16 +122,12 @@ class Domain:
 def _chosen_offset(cage: Cage, distance: float | None) -> tuple[Cage, tuple[str, ...]]:
     distance = _DEFAULT_OFFSET * cage.longer_side if distance is None else distance
     offset = offset_cage(cage, distance)
-    outer, notes = offset.cage, offset.notes
-    return _divided(outer, cage), notes
+    return _divided(offset.cage, cage), offset.notes
 
 
 def _checked_notes(notes: Any) -> tuple[str, ...]:
-    if notes is None:
-        return ()
-    if isinstance(notes, str):
-        return (notes,)
-    if not isinstance(notes, (list, tuple)) or not all(isinstance(note, str) for note in notes):
+    notes = (notes,) if isinstance(notes, str) else notes
+    if not isinstance(notes, list | tuple) or not all(isinstance(note, str) for note in notes):
         raise GeometryError(f"'notes' must be a list of sentences, not {notes!r:.60}")
     return tuple(notes)
 
@@ -141,7 +137,7 @@ def _check_enclosed(cage: Cage, offset_cage: Cage) -> None:
     if offset_cage.n_holes != cage.n_holes:
         both = f"the offset cage has {offset_cage.n_holes} holes and the cage {cage.n_holes}"
         raise GeometryError(f"{both}; give one offset hole per hole, in the same order")
-    # Loops of different index need no check: the loops of either cage do not meet.
+    # Loops of different index do not meet, as those of either cage do not.
     for i, (loop, offset_loop) in enumerate(zip(cage.loops, offset_cage.loops, strict=True)):
         name = "the exterior loop" if i == 0 else loop_name(i)
         meeting = shapely.intersection(shapely.LinearRing(loop), shapely.LinearRing(offset_loop))
@@ -166,17 +162,13 @@ def _check_enclosed(cage: Cage, offset_cage: Cage) -> None:
 
 
 def _checked_hole_points(points: ArrayLike, offset_cage: Cage) -> NDArray[np.float64]:
-    """(N, 2) read-only points, one in each offset hole."""
-    wanted, shape = "be pairs of numbers [[x, y], ...]", "have the shape (N, 2), not"
-    begin = "hole points must"
-    checked = number_pairs(points, f"{begin} {wanted}", GeometryError, f"{begin} {shape}")
+    pairs = "hole points must be pairs of numbers [[x, y], ...]"
+    checked = number_pairs(points, pairs, GeometryError)
     if len(checked) != offset_cage.n_holes:
         given = f"{len(checked)} hole points given for a cage with {offset_cage.n_holes} holes"
         raise GeometryError(f"{given}; give one per hole")
     for i, ((x, y), hole) in enumerate(zip(checked, offset_cage.holes, strict=True), start=1):
-        if not np.isfinite([x, y]).all():
-            raise GeometryError(f"the point of hole {i} is ({x}, {y}); give finite coordinates")
-        if not shapely.contains_xy(shapely.Polygon(hole), x, y):
+        if not (np.isfinite([x, y]).all() and shapely.contains_xy(shapely.Polygon(hole), x, y)):
             what = f"the point of hole {i} at {place([x, y])} does not lie strictly inside"
             remedy = "move it there, or leave hole_points out to have them chosen"
             raise GeometryError(f"{what} offset hole {i}; {remedy}")

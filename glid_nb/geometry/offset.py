@@ -72,21 +72,20 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
         i = int(np.argmin(local))
         loop = int(corners.loop[i])
         raise GeometryError(
-            f"no offset cage fits: the {loop_name(loop)}'s vertex {i - corners.starts[loop]} at "
-            f"{place(corners.points[i])} lies in a passage too narrow for any "
-            "offset; widen the passage, merge the two sides or remove the vertex",
+            "this passage is too narrow; widen it, merge its two sides or remove the point",
             corners.points[i],
-            "This passage is too narrow; widen it, merge its two sides or remove the point",
+            f"no offset cage fits: {loop_name(loop)}'s vertex {i - corners.starts[loop]} at "
+            f"{place(corners.points[i])} lies in the passage",
         )
     loops = corners.split(corners.moved(local))
     try:
         outer = Cage(loops[0], loops[1:])
     except GeometryError as error:
         raise GeometryError(
-            f"no valid offset cage at distance {distance:.6g} ({error}); "
-            "use a smaller offset or widen the cage's narrowest passage",
+            "there is no room for an offset cage here; widen the narrowest passage or use a "
+            "smaller offset",
             error.point,
-            "There is no room around the outline here; widen the narrowest passage",
+            f"no valid offset cage at distance {distance:.6g}: {error}",
         ) from error
     distances = tuple(map(read_only, corners.split(local * corners.height)))
     return Offset(outer, distances, _notes(corners, local, distance))
@@ -107,10 +106,9 @@ def hole_points(cage: Cage) -> NDArray[np.float64]:
         candidates = [p for p in (centre, region.representative_point()) if region.contains(p)]
         if not candidates:
             raise GeometryError(
-                f"no point strictly inside {loop_name(i + 1)} of the offset cage was found near "
-                f"{place(hole[0])}; widen the hole or remove it",
+                "this hole is too narrow; widen it or remove it",
                 hole[0],
-                "This hole is too narrow; widen it or remove it",
+                f"no point inside {loop_name(i + 1)} of the offset cage near {place(hole[0])}",
             )
         best = max(candidates, key=region.exterior.distance)
         points[i] = best.x, best.y

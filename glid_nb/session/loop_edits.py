@@ -41,11 +41,7 @@ def delete_vertices(loops: Loops, vertices: Iterable[tuple[int, int]]) -> Loops:
         _loop(loops, loop, index)
         gone.setdefault(loop, set()).add(index)
     if len(loops) and len(loops[0]) - len(gone.get(0, ())) < 3:
-        raise GeometryError(
-            "the exterior loop needs at least 3 vertices; move its vertices instead",
-            loops[0][0],
-            "The outline needs at least 3 points; move them instead",
-        )
+        raise GeometryError("the outline needs at least 3 points; move them instead", loops[0][0])
     rest = (np.delete(loop, list(gone.get(i, ())), axis=0) for i, loop in enumerate(loops))
     return tuple(read_only(loop) for i, loop in enumerate(rest) if i == 0 or len(loop) >= 3)
 

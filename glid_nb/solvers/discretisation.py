@@ -45,10 +45,9 @@ _MOST_PANELS = 20_000
 class Matrices(NamedTuple):
     """What one Newton iteration reads; a JAX pytree, padded to buckets.
 
-    ``c`` padded columns, ``u`` of them with unknowns, padded, ``p`` padded panels, ``q`` midpoints
-    (``p``, or 0 for the uniform sampling), ``h`` Hessian nodes. Padding panels have zero weight and
-    are never refused. Basis matrices are stored transposed, one row a coefficient: all products
-    with them are fastest so.
+    ``c`` padded columns, ``u`` padded coordinates, ``p`` padded panels, ``q`` midpoints (``p``, or
+    0 for the uniform sampling), ``h`` Hessian nodes. Padding panels have zero weight and are never
+    refused. Basis matrices are stored transposed, for the products' speed.
     """
 
     nodes: Float[Array, "2c p+q"]
@@ -104,11 +103,8 @@ class Discretisation:
 
     @double_precision
     def full(self, m: Matrices) -> Matrices:
-        """Matrices with the Hessian in double precision and on all its nodes.
-
-        On graded panels these are the energy's, at least twice as many: the Hessian is then exactly
-        that of the discrete energy. The uniform sampling keeps its own (33).
-        """
+        """Matrices with the Hessian in double precision, on graded panels on all nodes of the
+        energy, of which it is then the exact Hessian; the uniform sampling keeps its own (33)."""
         if self.sampling == "graded":
             index = jax.device_put(np.arange(len(m.weights)))
             m = m._replace(hessian_index=index, hessian_weights=m.weights)
@@ -121,14 +117,9 @@ class Discretisation:
         return self.sampling == "graded"
 
     def splittable(self, refused: np.ndarray) -> np.ndarray:
-        """Which panels of ``refused`` (at least p,) bool can be cut in half, (p,) bool.
-
-        None where that would make more panels than the memory should hold.
-        """
-        count = len(self.panels)
-        chosen = refused[:count] & self.panels.divisible
-        fits = self.can_refine and count + int(chosen.sum()) <= _MOST_PANELS
-        return chosen & fits
+        """(p,) bool: the ``refused`` panels that can be halved; none beyond `_MOST_PANELS`."""
+        chosen = refused[: len(self.panels)] & self.panels.divisible
+        return chosen & (self.can_refine and len(self.panels) + int(chosen.sum()) <= _MOST_PANELS)
 
     @double_precision
     def refined(self, chosen: np.ndarray) -> Discretisation:
@@ -137,8 +128,8 @@ class Discretisation:
         panels, rows = split(self.panels, self._rows(), chosen, evaluated)
         size = len(self.matrices.real)
         if len(panels) > size:
-            # Who splits once splits again: growing by more now saves compiling again and again,
-            # unless the padding would cost more than that. Few sizes serve all ways to a minimum.
+            # A solve that splits panels goes on splitting: room for more now saves compiling for
+            # every size, unless the padding costs more. Few sizes serve all ways to a minimum.
             small = basis.n_columns <= _LARGE
             size = _rung(len(panels)) if small else bucket(int(_GROWTH_OF_LARGE * len(panels)))
         t = self.matrices.whitening
@@ -257,11 +248,8 @@ def _assembled(
 def _hessian_nodes(
     panels: Panels, domain: Domain, length: np.ndarray, weights: np.ndarray, t: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Which nodes the Hessian's quadrature takes, and their weights: the fewest that will do.
-
-    The middle of each pair of panels, an end of both, or of a single panel; or of every panel; or
-    all nodes of the energy.
-    """
+    """Which nodes the Hessian's quadrature takes, and their weights, the fewest that will do: the
+    middle of each pair of panels and of each single one, that of every panel, or all nodes."""
     n_coordinates, n_unknown = np.count_nonzero(t.any(axis=(0, 1))), basis_of(domain).phi_free.sum()
     wanted = _NODES_PER_COORDINATE * n_coordinates
     p, count = len(weights) // 2, len(panels)
@@ -285,10 +273,7 @@ def real_columns(rows: np.ndarray) -> np.ndarray:
 
 
 def bucket(count: int) -> int:
-    """The padded size for ``count`` items: multiples of 128, from 512 on 16 sizes an octave.
-
-    Compiling another program takes longer than hundreds of iterations of a small problem.
-    """
+    """The padded size for ``count`` items: multiples of 128, from 512 on 16 sizes an octave."""
     wanted = count + count // 64
     step = 128 if wanted <= 512 else 1 << (wanted.bit_length() - 5)
     return max(-(-wanted // step) * step, 128)

@@ -83,14 +83,12 @@ class Pose:
         more = {"depths": depths, "angles": angles, "scales": scales, "weights": weights}
         vars(self).update({name: _checked_numbers(name, v, n_handles) for name, v in more.items()})
         vars(self)["stiffness"] = Stiffness.of(stiffness)
-        _, first, inverse = np.unique(self.handles, axis=0, return_index=True, return_inverse=True)
-        repeated = np.flatnonzero(first[inverse.ravel()] != np.arange(n_handles))
-        if repeated.size:
-            j = int(repeated[0])
-            i = int(first[inverse.ravel()[j]])
-            raise PoseError(
-                f"handles {i} and {j} are the same point {place(self.handles[j])}; remove one"
-            )
+        known: dict[tuple[float, ...], int] = {}
+        for j, handle in enumerate(map(tuple, self.handles.tolist())):
+            if (i := known.setdefault(handle, j)) != j:
+                raise PoseError(
+                    f"handles {i} and {j} are the same point {place(handle)}; remove one"
+                )
 
     def __len__(self) -> int:
         return len(self.handles)
@@ -148,10 +146,7 @@ class Pose:
 
 
 def rigid_motion(z: Array, targets: Array) -> tuple[complex, complex, complex]:
-    """``z -> aim + turn (z - middle)`` that brings (h,) complex points closest to their targets.
-
-    Returns turn, middle and aim.
-    """
+    """Turn, middle and aim: ``aim + turn (z - middle)`` brings ``z`` closest to its targets."""
     middle, aim = z.mean(), targets.mean()
     correlation = np.vdot(z - middle, targets - aim)
     turn = correlation / abs(correlation) if abs(correlation) > 0 else 1.0
@@ -160,24 +155,21 @@ def rigid_motion(z: Array, targets: Array) -> tuple[complex, complex, complex]:
 
 @functools.lru_cache(maxsize=32)
 def _first_outside(domain: Domain, handles: bytes) -> int | None:
-    """The first handle outside the domain; kept, for a drag asks again for the same handles."""
+    """The first handle outside the domain, kept for the rest of a drag."""
     inside = domain.cage.contains(np.frombuffer(handles).reshape(-1, 2))
     return None if inside.all() else int(np.argmin(inside))
 
 
 def _checked_points(points: Any, name: str) -> Array:
     array = number_pairs(points, f"{name} must be a list of [x, y] pairs", PoseError)
-    for bad, why in (
-        (~np.isfinite(array), "coordinates must be finite numbers"),
-        (
-            np.abs(array) > _FARTHEST,
-            f"coordinates beyond {_FARTHEST:g} are out of scale (a picture's longer side is 20 "
-            "units)",
-        ),
-    ):
-        rows = np.flatnonzero(bad.any(axis=1))
-        if rows.size:
-            raise PoseError(f"{name}[{rows[0]}] is {place(array[rows[0]])}; {why}")
+    wrong = np.flatnonzero(~(np.abs(array) <= _FARTHEST).all(axis=1))
+    if wrong.size:
+        point = array[wrong[0]]
+        why = "coordinates must be finite numbers"
+        if np.isfinite(point).all():
+            side = "a picture's longer side is 20 units"
+            why = f"coordinates beyond {_FARTHEST:g} are out of scale ({side})"
+        raise PoseError(f"{name}[{wrong[0]}] is {place(point)}; {why}")
     return read_only(array)
 
 

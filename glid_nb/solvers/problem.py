@@ -67,10 +67,9 @@ def positional_energy(
 ) -> Positional:
     """The positional energy of a pose, its rows padded to a bucket.
 
-    Angles and scales are rows for ``f_z`` at their handles, measured along a direction that the map
-    decides: that of its own ``f_z``, turned towards the wanted angle by at most a radian. A scale
-    alone asks for ``|f_z|``, whose level sets bend: its second derivative along them is a row too,
-    larger by ``damping``.
+    Angles and scales are rows for ``f_z`` at their handles, along the map's own ``f_z``, turned
+    towards the wanted angle by at most a radian. A scale alone asks for ``|f_z|``, whose level sets
+    bend: its second derivative along them is a row too, larger by ``damping``.
     """
     count, turned = len(pose), np.flatnonzero(pose.turned) if map is not None else []
     size = _HANDLE_BUCKET * max(1, -(-(count + len(turned)) // _HANDLE_BUCKET))
@@ -98,8 +97,7 @@ def positional_energy(
 
 
 def measured_apart(a: Positional, b: Positional) -> float:
-    """By how much measurements of angles and scales differ, about radians; 0 where it is no use
-    to go on."""
+    """By how much measurements of angles and scales differ, about radians; 0 where that is all."""
     if a.matrix.shape != b.matrix.shape:
         return _FARTHEST_TURN
     gaps, lengths = (np.linalg.norm(m, axis=1) for m in (a.matrix - b.matrix, a.matrix))

@@ -101,7 +101,7 @@ REFUSED = {
     "wrong shape": (
         [[0, 0, 0], [1, 0, 0], [0, 1, 0]],
         [],
-        r"^exterior loop: vertices must have the shape \(n, 2\), not \(3, 3\)",
+        r"^exterior loop: vertices must be pairs of numbers .*; the shape is \(3, 3\)",
     ),
     "ragged": ([[0, 0], [1], [0, 1]], [], r"^exterior loop: vertices must be pairs of numbers"),
     "words": ([["a", "b"]] * 3, [], r"^exterior loop: vertices must be pairs of numbers"),
@@ -114,7 +114,8 @@ REFUSED = {
     "closing vertex": (
         [*SQUARE.tolist(), [0, 0]],
         [],
-        r"^exterior loop: the last vertex 4 repeats vertex 0 at \(0, 0\); .*leave the last vertex",
+        r"^The outline has two points in one place; .* \(exterior loop: the last vertex 4 repeats "
+        r"vertex 0 at \(0, 0\); .*leave the last vertex",
     ),
     "consecutive repetition": (
         [[0, 0], [1, 0], [1, 0], [0, 1]],
