@@ -24,10 +24,7 @@ _MEASURES = {"threshold": "brightness", "color": "colour distance"}
 
 @dataclass(frozen=True, eq=False)
 class Foreground:
-    """A field over the picture that is high in the foreground.
-
-    Unlike a mask, it has a level set with sub-pixel accuracy and serves all thresholds.
-    """
+    """A field, high in the foreground; its level sets are the outlines, to parts of a pixel."""
 
     score: NDArray[np.float32]  # (h, w) read-only, in [0, 1], sampled at the pixels' centres
     method: str  # never "auto"
@@ -50,21 +47,14 @@ class Foreground:
         if mask.any() and not mask.all():
             return mask
         empty, measured = not mask.any(), _MEASURES.get(self.method, self.method)
-        problem, seen = "the image has no foreground", "finds no shape in the picture"
-        if not empty:
-            problem = "the foreground covers the whole image"
-            seen = "takes the whole picture for the shape"
+        problem = "the image has no foreground"
+        problem = problem if empty else "the foreground covers the whole image"
         change = "raise" if empty == self.inverted else "lower"
-        remedy = f"{change} the threshold, or use another method"
-        plain = f"{change} the Threshold, or paint over the shape with Scribbles"
+        remedy = f"{change} the threshold, or paint over the shape with Scribbles"
         if self.method == "scribbles":
-            remedy = "draw foreground strokes over more of the shape, background strokes around it"
-            plain = "paint over more of the shape, and over the background around it"
-        count, value = "no" if empty else "every", self.threshold(threshold)
-        raise TraceError(
-            f"{problem} by {measured}: {count} pixel passes the threshold {value:.3g}; {remedy}",
-            f"{measured.split()[0].capitalize()} {seen}; {plain}",
-        )
+            remedy = "paint over more of the shape, and over the background around it"
+        at = f"by {measured} at the threshold {self.threshold(threshold):.3g}"
+        raise TraceError(f"{problem} {at}; {remedy}")
 
 
 def find_foreground(
@@ -76,10 +66,9 @@ def find_foreground(
     scribbles: Scribbles | None = None,
     scaled: Callable[[RGBA], NDArray[np.float64]] = scaled_picture,
 ) -> Foreground:
-    """Score the pixels of an (h, w, 4) RGBA image, without smoothing.
+    """The foreground of an (h, w, 4) image by options of `TraceOptions`, without smoothing.
 
-    The parameters are those of `TraceOptions`; callers may keep what ``scaled`` returns. Raises a
-    TraceError when the image has one colour only, or nothing that the method could use.
+    Callers may keep what ``scaled`` returns.
     """
     _check_not_uniform(image)
     notes: list[str] = []
@@ -120,10 +109,7 @@ def find_foreground(
 
 
 def smoothed(foreground: Foreground, sigma: float | None) -> Foreground:
-    """The field after a Gaussian filter of standard deviation ``sigma`` in pixels.
-
-    None: 0.1 % of the longer side, or 0 for alpha and scribbles.
-    """
+    """The field after a Gaussian filter of `TraceOptions.smoothing`."""
     score = foreground.score
     if sigma is None:
         own = 0.0 if foreground.method in ("alpha", "scribbles") else _SMOOTHING * max(score.shape)
@@ -151,9 +137,7 @@ def _check_alpha(alpha: NDArray[np.float32]) -> None:
     if low == high:
         raise TraceError(
             f"the foreground covers the whole image: its alpha channel is {low:.3g} everywhere; "
-            "use method='color', 'threshold' or 'scribbles'",
-            "The picture is equally transparent everywhere; choose Colour or Brightness, or paint "
-            "over the shape with Scribbles",
+            "choose Colour or Brightness, or paint over the shape with Scribbles"
         )
 
 
@@ -190,10 +174,8 @@ def _background(
     border = measure.border_color(image)
     if border is None:
         raise TraceError(
-            "the border of the image is transparent, so it shows no background colour; use "
-            "method='alpha', or give background or background_at",
-            "The picture's border is transparent, so it shows no background colour; choose "
-            "Alpha, or pick the background's colour",
+            "the border of the image is transparent, so it shows no background colour; choose "
+            "Alpha, or pick the background's colour"
         )
     red, green, blue = (f"{c:.0%}" for c in border.color)
     note = f"background colour estimated from the border: red {red}, green {green}, blue {blue}"

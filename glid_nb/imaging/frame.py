@@ -64,8 +64,7 @@ class PixelFrame:
     def showing(self, bounds: ArrayLike, margin: float = 0.0) -> PixelFrame:
         """The frame of a picture of this size that shows a rectangle as large as possible.
 
-        ``bounds`` are as above, or its lower and upper corner (2, 2). ``margin`` is the least room
-        around it, as a share of the picture's sides.
+        ``margin`` is the least room around it, as a share of the picture's sides.
         """
         low, high = np.reshape(bounds, (2, 2))
         pixels_per_unit = (2 * self._middle / (high - low)).min() * (1 - 2 * margin)

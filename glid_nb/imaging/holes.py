@@ -19,7 +19,7 @@ _LEAST_SHARE, _LEAST_SHARE_BY_COLOR, _LEAST_AREA = 0.002, 0.0075, 9.0
 # Automatic offset, relative to the square root of the shape's area; at least so many pixels, but on
 # tiny shapes at most this share.
 _OFFSET, _LEAST_OFFSET, _MOST_OFFSET = 0.01, 2.0, 0.05
-_SLIT = 0.5  # slits narrower than this times the offset on each side are closed
+_SLIT = 0.5  # times the offset, on each side
 _ROUGH, _FINE = 0.05, 0.03  # tolerances of simplification before and after, times the offset
 _SHRUNK = 0.2  # a hole that would keep less than this share of its area gets a smaller offset
 
@@ -70,10 +70,7 @@ def choose_holes(
     keep: Sequence[Point] = (),
     drop: Sequence[Point] = (),
 ) -> tuple[tuple[Hole, ...], HoleRule, tuple[str, ...]]:
-    """The holes of an outline, the rule for those that the offset makes later, and notes.
-
-    `method` is the one that found the foreground; the others are as in `TraceOptions`.
-    """
+    """The holes of an outline that `method` found, the rule for those of the offset, and notes."""
     by_color = _LEAST_SHARE_BY_COLOR if method in ("color", "threshold") else _LEAST_SHARE
     least, least_bay = (
         max(share * outline.component.area, _LEAST_AREA) if min_hole_area is None else min_hole_area
@@ -123,10 +120,7 @@ class Dilation:
 def dilate(
     outline: Outline, holes: tuple[Hole, ...], rule: HoleRule, offset: float | None = None
 ) -> Dilation:
-    """Move the outline's exterior outwards and the kept holes inwards by `offset` pixels.
-
-    None: about 1 % of the shape's size, less if that would close a bay.
-    """
+    """Move the exterior outwards and the kept holes inwards by `TraceOptions.offset`."""
     shape = shapely.Polygon(outline.exterior)
     size = float(np.sqrt(shape.area))
     largest = max(_OFFSET * size, min(_LEAST_OFFSET, _MOST_OFFSET * size))
@@ -161,11 +155,8 @@ def dilate(
 
 
 def _moved(region: shapely.Polygon, offset: float, sign: int) -> list[shapely.Polygon]:
-    """Parts of the region grown (sign 1) or shrunk (-1) by `offset`, the largest first.
-
-    Very narrow slits of the grown region and tongues of the shrunk one are removed.
-    """
-    slit = _SLIT * offset
+    """Parts of the region grown (sign 1) or shrunk (-1) by `offset`, the largest first."""
+    slit = _SLIT * offset  # narrower slits are closed, narrower tongues cut off
     region = thinned(region, _ROUGH * offset)
     moved = region.buffer(sign * (offset + slit)).buffer(-sign * slit)
     parts = [part for part in shapely.get_parts(moved) if not part.is_empty]

@@ -10,7 +10,7 @@ import shapely
 from numpy.typing import NDArray
 
 from glid_nb._arrays import Array
-from glid_nb.geometry._loops import next_index
+from glid_nb.geometry._loops import next_index, signed_area
 
 Points = NDArray[np.float64]
 """(n, 2) in pixel coordinates."""
@@ -18,14 +18,11 @@ Points = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Loops:
-    """Closed loops, concatenated, the exterior first.
-
-    ``points`` is (n, 2); ``number`` is (n,), the loop of each vertex, ascending from 0. Edge i
-    leads from vertex i to vertex ``after[i]``.
-    """
+    """Closed loops, concatenated, the exterior first; edge i is from vertex i to ``after[i]``."""
 
     points: Points
     number: NDArray[np.intp]
+    """(n,) the loop of each vertex, ascending from 0."""
 
     def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Loops:
         return Loops(self.points[chosen], self.number[chosen])
@@ -58,6 +55,11 @@ class Loops:
     def lengths(self) -> NDArray[np.float64]:
         return np.hypot(*self.edges.T)
 
+    @property
+    def areas(self) -> NDArray[np.float64]:
+        """(l,) signed areas of the loops."""
+        return np.array([signed_area(loop) for loop in self.split(self.points)])
+
     def segments(self) -> NDArray[np.object_]:
         """(n,) the edges as shapely line strings."""
         ends = np.stack([self.points, self.points[self.after]], axis=1)
@@ -75,11 +77,8 @@ class Loops:
         ]
 
     def in_conflict(self, gap: float) -> NDArray[np.intp]:
-        """The edges that cross another edge or come closer to it than `gap`.
-
-        Edges that are less than a few gaps apart along the same loop, such as the neighbours of a
-        short edge, only count if they cross.
-        """
+        """The edges that cross another edge, or come closer to it than `gap` and not just along a
+        loop, as the neighbours of a short edge do."""
         segments, length, after = self.segments(), self.lengths, self.after
         e, f = shapely.STRtree(segments).query(segments, predicate="dwithin", distance=gap)
         apart = (e < f) & (after[e] != f) & (after[f] != e)
@@ -137,8 +136,7 @@ def _jumped(simplified: Loops, over: list[NDArray[np.intp]]) -> list[int]:
 def significance(loop: Points) -> NDArray[np.float64]:
     """(n,) tolerances at which Ramer, Douglas and Peucker's algorithm drops the points of a loop.
 
-    They are infinite for two vertices far apart. Keeping the vertices above a tolerance gives the
-    algorithm's result for it, so one computation serves all tolerances and numbers of vertices.
+    Infinite for two vertices far apart. One computation serves all tolerances.
     """
     n = len(loop)
     start = int(np.argmax(np.hypot(*(loop - loop.mean(axis=0)).T)))

@@ -34,8 +34,7 @@ def brightness(image: RGBA) -> Field:
 def color_distance(image: RGBA, color: tuple[float, float, float]) -> Field:
     """(h, w) Euclidean distance from a colour in sRGB, over sqrt(3): black to white is 1.
 
-    It is linear along an anti-aliased edge, so the edge is found with sub-pixel accuracy, and sixty
-    times as fast to compute as a perceptual distance in CIELAB.
+    It is linear along an anti-aliased edge, and sixty times as fast as a distance in CIELAB.
     """
     scale = np.float32(1 / (full(image) * np.sqrt(3)))
     centre = np.array(color, dtype=np.float32) * np.float32(1 / np.sqrt(3))
@@ -77,11 +76,9 @@ def border_color(image: RGBA) -> BorderColor | None:
 
 
 def border_is_bright(image: RGBA, values: Field, threshold: float) -> bool:
-    """Whether most of the border's pixels that are not transparent are above the threshold.
-
-    True for a transparent border, as the picture is then likely dark ink on nothing.
-    """
+    """Whether most of the border's pixels that are not transparent are above the threshold."""
     border = _border(values)[_border(image[..., 3]) > 0]
+    # What is on nothing is likely dark ink.
     return not border.size or float(np.mean(border > threshold)) >= 0.5
 
 
@@ -110,8 +107,7 @@ def histogram(score: NDArray[np.float32]) -> NDArray[np.float64]:
 def otsu(shares: NDArray[np.float64]) -> float:
     """Otsu's threshold in [0, 1], which maximises the variance between the two classes.
 
-    If a range of thresholds separates equally well, as in drawings with few colours, its middle:
-    scikit-image's `threshold_otsu` returns the low end, where anti-aliased pixels are.
+    Of a range that separates equally well the middle; scikit-image's is at anti-aliased pixels.
     """
     centres = (np.arange(_BINS) + 0.5) / _BINS
     low = np.cumsum(shares)[:-1]
@@ -130,9 +126,8 @@ def otsu(shares: NDArray[np.float64]) -> float:
 def color_threshold(distance: NDArray[np.float32], spread: float) -> float:
     """A threshold for the distance from the background's colour.
 
-    Otsu's, which gives the best edges, if few pixels lie between the background and it. Otherwise
-    parts of the shape resemble the background, and the threshold is as low as the background's own
-    spread allows.
+    Otsu's, which gives the best edges, unless parts of the shape resemble the background: then it
+    is as low as the background's own spread allows.
     """
     shares = histogram(distance)
     middle, floor = otsu(shares), min(1.5 * spread + 0.02, 0.9)

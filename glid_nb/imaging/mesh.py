@@ -64,10 +64,8 @@ def deformed_mesh(
 ) -> DeformedMesh:
     """Triangulate a map's domain with about so many even vertices, and map them.
 
-    With a ``tolerance``, world units, edges are halved, and their triangles split, until the map
-    takes no midpoint of an edge further than this from the middle of the image edge, or there are a
-    million vertices. The depths of a ``pose`` order the parts that overlap. ValueError when the
-    tolerance is not positive or there are fewer than 3 vertices.
+    With a ``tolerance``, world units, edges are halved until the map takes no midpoint of an edge
+    further than this from the middle of the image edge, or there are a million vertices.
     """
     vertices, images, triangles = fine_mesh(map.domain.cage, map, n_vertices, tolerance)
     heights = order_of(map.domain.cage, pose)(vertices)
@@ -78,10 +76,9 @@ def deformed_mesh(
 def fine_mesh(
     cage: Cage, image: Evaluation, n_vertices: int, tolerance: float | None
 ) -> tuple[Floats, Floats, Ints]:
-    """Vertices (v, 2), their images (v, 2 m) and triangles, as in `DeformedMesh`.
+    """Vertices (v, 2), their images (v, 2 m) under m maps, as ``image`` evaluates, and triangles.
 
-    ``image`` takes (k, 2) points to (k, 2 m): their images under m maps. The mesh is as fine as
-    the one that bends most needs it.
+    The mesh is as fine as the map that bends most needs it.
     """
     if tolerance is not None and not tolerance > 0:
         raise ValueError(f"tolerance is {tolerance}; it must be positive")

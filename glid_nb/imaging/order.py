@@ -36,8 +36,7 @@ _OPAQUE = 128  # of 255
 class Order:
     """Heights of a shape's points: where its image overlaps itself, the higher covers the lower.
 
-    They are piecewise linear on one mesh of the undeformed shape. Without depths they grow from
-    the trunk to the limbs; the depths of handles outweigh that around their pins.
+    They grow from the trunk to the limbs; depths of handles outweigh that around their pins.
     """
 
     def __init__(self, mesh: Triangulation, limbs: Array, depths: Array) -> None:
@@ -81,11 +80,8 @@ def _orders(cage: Cage) -> Callable[..., Order]:
 
 
 def _limbs_over_trunk(cage: Cage) -> tuple[Triangulation, Array]:
-    """A mesh, and (v,) heights from 0 to 1 that grow with the distance from its innermost point.
-
-    Distances are geodesic. Smaller shares of the distance from the opposite point and of x order
-    the two ends of a ring and the left and right arm.
-    """
+    """A mesh, and (v,) heights from 0 to 1 that grow with the geodesic distance from its innermost
+    point; and less with that from the opposite end and with x: rings and arms have two ends."""
     mesh = triangulate(cage, _VERTICES)
     candidates = np.arange(0, len(mesh.vertices), max(1, len(mesh.vertices) // _CANDIDATES))
     outline = shapely.boundary(cage.polygon)
@@ -115,10 +111,7 @@ def _spread(mesh: Triangulation, pins: Array, depths: Array, reach: float) -> Ar
 
 
 class Sheets:
-    """A deformed shape where it overlaps itself, in an order of its parts.
-
-    Where the picture (h, w, 4) is transparent, if it is given, what lies below is seen.
-    """
+    """A deformed shape where it overlaps itself; transparent parts of a picture hide nothing."""
 
     def __init__(self, map: DeformationMap, order: Order, image: Array | None = None) -> None:
         self._map, self._order, self._image = map, order, image
@@ -133,7 +126,7 @@ class Sheets:
     def source(self, point: Any) -> Array | None:
         """The point (2,) of the undeformed shape that is seen at ``point``; None outside the shape.
 
-        Where only transparent parts are, that of the highest.
+        Of transparent parts alone the highest's.
         """
         curved = isinstance(self._map, HarmonicMap)
         place = np.reshape(np.asarray(point, dtype=float), (1, 2))
@@ -167,10 +160,8 @@ class Sheets:
         return result
 
     def _drawn_at(self, places: Array, overhang: float) -> tuple[Array, Array]:
-        """What triangles hold (k, 2) places, or miss them by less than a share of their size.
-
-        (m,) of which place, (m, 2) sources by linear interpolation.
-        """
+        """(m,) of which of (k, 2) places, and (m, 2) sources in the triangles that hold it, or miss
+        it by less than a share of their size."""
         low, high = self._corners.min(axis=1), self._corners.max(axis=1)
         low, high = low - overhang * (high - low), high + overhang * (high - low)
         x, y = places[:, :1], places[:, 1:]

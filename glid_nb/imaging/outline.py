@@ -41,10 +41,7 @@ class Component:
 
 @dataclass(frozen=True, eq=False)
 class Components:
-    """All components of a foreground, the largest first.
-
-    Pixels that share a side or a corner are connected.
-    """
+    """All components of a foreground, the largest first; pixels are connected at corners too."""
 
     found: NDArray[np.int32]  # (h, w) labels, 0 in the background
     labels: NDArray[np.intp]  # (n,) the label of each component
@@ -59,12 +56,9 @@ class Components:
     def component(self, rank: int) -> Component:
         """The component of a rank; a TraceError if there is none."""
         if not 0 <= rank < (count := len(self.areas)):
-            components, are = ("component", "is") if count == 1 else ("components", "are")
-            raise TraceError(
-                f"component {rank} does not exist: the foreground has {count} {components}, "
-                "counted from 0, the largest",
-                f"The component that was chosen is gone, {count} {are} left; choose another",
-            )
+            has = f"the foreground has {count} component{'' if count == 1 else 's'}"
+            counted = "counted from 0, the largest; choose another"
+            raise TraceError(f"component {rank} does not exist: {has}, {counted}")
         return self.largest[rank] if rank < _LISTED else self._described(rank)
 
     def _described(self, rank: int) -> Component:
@@ -99,10 +93,9 @@ def find_components(mask: NDArray[np.bool_]) -> Components:
 
 @dataclass(frozen=True, eq=False)
 class Outline:
-    """Level set of the score around a component: read-only loops in pixel coordinates.
+    """Read-only loops in pixel coordinates that neither cross nor touch.
 
-    The loops neither cross nor touch. Where the component meets the border of the image, the
-    outline runs along the border.
+    Where the component meets the border of the image, the outline runs along the border.
     """
 
     component: Component
@@ -161,11 +154,8 @@ def _steps(inside: NDArray[np.bool_]) -> int:
 
 
 def _fill_specks(inside: NDArray[np.bool_], least: float) -> int:
-    """If the mask is noisy, fill its holes of less than `least` pixels in place; their number.
-
-    If not, there are few, and it is faster to drop them after tracing.
-    """
-    if _steps(inside) < _NOISY:
+    """If the mask is noisy, fill its holes of less than `least` pixels in place; their number."""
+    if _steps(inside) < _NOISY:  # there are few: to drop them after tracing is faster
         return 0
     background = np.zeros(inside.shape, dtype=np.int32)
     label(~inside, output=background)
@@ -176,15 +166,13 @@ def _fill_specks(inside: NDArray[np.bool_], least: float) -> int:
 
 
 def _field(score: NDArray[np.float32], level: float, inside: Array) -> NDArray[np.float32]:
-    """Score minus level, positive exactly in the component, with a frame of one pixel.
+    """Score minus level, positive exactly in the component, with a frame of one pixel outside it.
 
-    Values near 0 are moved away from it: a level set through the centre of a pixel could touch
-    itself. The frame repeats the border's values with the sign of the background, so the outline
-    of a component at the image's border runs along the border.
+    Values near 0 are moved away: a level set through the centre of a pixel could touch itself.
     """
     field = np.pad(score - np.float32(level), 1, mode="edge")
-    least = np.float32(_LEAST_DIFFERENCE * max(min(level, 1 - level), 0.05))
     np.abs(field, out=field)
+    least = np.float32(_LEAST_DIFFERENCE * max(min(level, 1 - level), 0.05))
     np.maximum(field, least, out=field)
     np.negative(field, out=field, where=~inside)
     return field

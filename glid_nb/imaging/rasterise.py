@@ -92,10 +92,10 @@ class ScanConverter:
             self._slope = (self._x[:, upper] - self._x[:, lower]) / rise
 
     def samples(self, top: int, chosen: NDArray[np.bool_], n: int) -> Samples:
-        """Samples in the chosen pixels of a band, (rows, width) from the row ``top`` on.
+        """Samples in the chosen pixels (rows, width) of a band that begins at the row ``top``.
 
-        A pixel has n rows of n samples, each row shifted against the next, so that a vertical edge
-        has n^2 levels of coverage. The p-th chosen pixel's are numbered from p n^2, row by row.
+        A pixel has n rows of n, shifted, so that a vertical edge has n^2 levels of coverage. The
+        p-th chosen pixel's are numbered from p n^2, row by row.
         """
         rows, width = chosen.shape
         shift = ((np.arange(n) * 3) % n + 0.5) / n
@@ -113,10 +113,7 @@ class ScanConverter:
         return Samples(triangle[span], place, x, (row[span] + 0.5) / n)
 
     def _spans(self, low: int, high: int, n: int) -> tuple[Ints, Ints, Floats, Floats]:
-        """Spans of triangles on the rows of samples y = (row + 1/2) / n from low to high.
-
-        Returns triangle, row, and the ends of the half-open interval, all of shape (s,).
-        """
+        """(s,) triangle, row of samples y = (row + 1/2) / n, half-open interval of each span."""
         rows = np.ceil(self._y * n - 0.5).clip(low, high).astype(np.intp)
         count = rows[:, 2] - rows[:, 0]
         triangle, row = np.repeat(np.arange(len(rows)), count), _runs(rows[:, 0], count)
@@ -138,10 +135,7 @@ class _Sheets(NamedTuple):
     slope: Floats
 
     def draw(self, top: int, chosen: NDArray[np.bool_], n: int) -> tuple[Colours, Ints]:
-        """The samples of pixels, as in `ScanConverter.samples`.
-
-        (p, n^2, 4) premultiplied colours, and the number of triangles over each sample.
-        """
+        """(p, n^2, 4) premultiplied colours of `samples`, and how many triangles are over each."""
         triangle, place, x, y = samples = self.scan.samples(top, chosen, n)
         colours = self.sampler(triangle, x, y) if n == 1 else self._shaded(samples, n)
         rise_x, rise_y = self.slope[triangle].T
@@ -158,10 +152,8 @@ class _Sheets(NamedTuple):
         return canvas.reshape(-1, n**2, 4), count.reshape(-1, n**2)
 
     def _shaded(self, samples: Samples, n: int) -> Colours:
-        """(k, 4) colours: one look-up for all samples of a triangle in a pixel, at their centroid.
-
-        A look-up filters over a whole pixel, so one at each sample would blur the outline.
-        """
+        """(k, 4) colours: one look-up for all samples of a triangle in a pixel, at their centroid,
+        as look-ups filter over a whole pixel."""
         pixel, n_triangles = samples.place // n**2, len(self.level)
         keys = pixel * n_triangles + samples.triangle
         _, first, fragment, count = np.unique(

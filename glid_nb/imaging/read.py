@@ -48,11 +48,11 @@ def read_image(source: ImageSource, name: str | None = None) -> RGBA:
     """
     if isinstance(source, (str, os.PathLike)):
         name, source = name or str(Path(source)), _bytes_of(source)
+    name = name or "the picture"
     try:
         if isinstance(source, Image.Image):
-            return _from_pillow(source, name or "the PIL image")
+            return _from_pillow(source, name)
         if isinstance(source, (bytes, bytearray, memoryview)):
-            name = name or "the picture"
             return _decode(bytes(source), name)
     except TraceError:
         raise

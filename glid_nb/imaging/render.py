@@ -74,10 +74,9 @@ def frame_of(
     if wanted := unmet(tuple[int, int], sides, _SIZE):
         raise RenderError(f"size must be {wanted}, not {size!r:.60}")
     width, height = sides
-    if min(width, height) < 1:
-        raise RenderError(f"size is {width} x {height} pixels; both sides must be at least 1")
-    if width * height >= _MOST_PIXELS:
-        raise RenderError(f"size is {width} x {height} pixels; at most 2^30 pixels can be drawn")
+    if min(width, height) < 1 or width * height >= _MOST_PIXELS:
+        limits = "a side has at least 1 pixel, and at most 2^30 pixels can be drawn"
+        raise RenderError(f"size is {width} x {height} pixels; {limits}")
     check_fits(source, map)
     shown, margin = np.reshape(source.bounds, (2, 2)), 0.0
     if view == "fit":

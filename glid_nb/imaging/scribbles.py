@@ -37,7 +37,7 @@ def scribble_score(
 ) -> tuple[NDArray[np.float32], tuple[str, ...]]:
     """Probability that a random walker from a pixel meets the foreground strokes first, and notes.
 
-    Computed on ``scaled``, a `scaled_picture`, and interpolated to the picture's ``shape`` (h, w).
+    The walk is on a `scaled_picture`, its result has the picture's ``shape`` (h, w).
     """
     from skimage.segmentation import random_walker  # noqa: PLC0415  (slow to import)
 
@@ -61,21 +61,16 @@ def _labels(
     foreground = _drawn(scribbles.foreground, shape, size, "foreground")
     background = _drawn(scribbles.background, shape, size, "background")
     if not foreground.any():
-        raise TraceError(
-            "scribbles: there are no foreground strokes; draw some over the shape",
-            "Nothing is painted over the shape yet; press Shape and paint over it",
-        )
+        what = "there are no foreground strokes; draw some over the shape"
+        raise TraceError(f"scribbles: {what}: press Shape and paint over it")
     notes: tuple[str, ...] = ()
     if not background.any():
         background[[0, -1], :] = background[:, [0, -1]] = True
         background &= ~foreground
         notes = ("no background was scribbled: the picture's border was taken for it",)
         if not background.any():
-            raise TraceError(
-                "scribbles: the foreground strokes cover the whole border; draw background strokes",
-                "What is painted over the shape covers the whole border; press Background and "
-                "paint over that",
-            )
+            what = "the foreground strokes cover the whole border"
+            raise TraceError(f"scribbles: {what}; press Background and paint over that")
     elif (foreground & background).any():
         notes = ("foreground and background strokes overlap: they count for nothing there",)
     labels = np.zeros(size, dtype=np.int32)
@@ -83,10 +78,8 @@ def _labels(
     labels[background & ~foreground] = _BACKGROUND
     for label, name in ((_FOREGROUND, "foreground"), (_BACKGROUND, "background")):
         if not (labels == label).any():
-            raise TraceError(
-                f"scribbles: all {name} strokes are covered by the other ones; erase some of these",
-                "One of the colours is painted over the other altogether; undo the last strokes",
-            )
+            what = f"all {name} strokes are covered by the other ones"
+            raise TraceError(f"scribbles: {what}; undo some of these")
     return labels, notes
 
 

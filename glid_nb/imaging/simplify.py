@@ -11,7 +11,6 @@ import shapely
 from numpy.typing import NDArray
 
 from glid_nb._arrays import Array, read_only
-from glid_nb.geometry._loops import signed_area
 from glid_nb.imaging.loops import Loops, Points, repair, significance
 
 # Numbers of vertices for the automatic tolerance: about _VERTICES while it is below the offset, not
@@ -54,13 +53,11 @@ def simplify(
     offset: float = 0.0,
     room: float = 0.0,
 ) -> Simplified:
-    """Drop vertices without making a loop meet itself or another one.
+    """Drop vertices of loops, the exterior first, without making them meet themselves or others.
 
-    The ``loops``, the exterior, then the holes, are (n, 2) in pixel coordinates and must not meet.
-    The outline may move by the ``tolerance`` in pixels; None: chosen for about 80 vertices.
-    ``offset`` is by how many pixels the loops were moved away from the shape: the automatic
-    tolerance stays below it if possible, so that the shape stays inside. They are about ``room``
-    pixels apart, and keep a part of that. The rest is as in `TraceOptions`.
+    They were moved by ``offset`` away from the shape: the automatic tolerance stays below it if
+    possible, so that the shape stays inside. They are about ``room`` apart, and keep a part of it.
+    The rest is as in `TraceOptions`.
     """
     whole = Loops(np.concatenate(loops), np.repeat(np.arange(len(loops)), list(map(len, loops))))
     by_loop = [significance(loop) for loop in loops]
@@ -78,7 +75,7 @@ def simplify(
         return kept, notes
 
     if tolerance is None:
-        areas = np.array([abs(signed_area(loop)) for loop in loops])
+        areas = np.abs(whole.areas)
         tolerance = _automatic_tolerance(importance, len(loops) - 1, float(areas[0]), offset)
         kept, notes = choose(np.minimum(tolerance, _LOOP_SHARE * np.sqrt(areas))[whole.number])
     else:
@@ -163,11 +160,8 @@ def _around(loops: Loops) -> NDArray[np.intp]:
 
 
 def _clear(loops: Loops, vertices: NDArray[np.intp], gap: float) -> NDArray[np.bool_]:
-    """Whether each vertex can be dropped.
-
-    Its triangle with its neighbours, widened by `gap`, must be clear of other edges, and the edge
-    that replaces the two sides must not fold back onto the edges next to it.
-    """
+    """Whether each vertex can be dropped: its triangle with its neighbours, widened by `gap`, is
+    clear of other edges, and the edge that replaces the two sides folds back onto none."""
     around = _around(loops)[vertices]
     corners = loops.points[around]
     triangle, edge = shapely.STRtree(loops.segments()).query(
@@ -197,20 +191,17 @@ def _divide_long_edges(loops: Loops, max_edge: float | None, max_vertices: int |
 
 
 def _enclosing(loops: Loops, kept: NDArray[np.bool_], margin: float, gap: float) -> Loops:
-    """The simplified loops, with edges that cut off more than `margin` moved outwards.
-
-    A chord of a convex arc cuts off a part of the shape. It is moved in parallel by the height of
-    that part, unless this would make loops meet.
-    """
+    """The simplified loops, with chords that cut off more than `margin` moved outwards in parallel,
+    unless this would make loops meet."""
     simplified = loops[kept]
-    areas = _areas(simplified)
+    areas = simplified.areas
     shifts = _shifts(loops, kept, areas, margin)
     # Limits on the change of area, so that no hole vanishes or is inverted.
     low, high = np.full(len(areas), 0.3), np.full(len(areas), 1.2)
     low[0], high[0] = 0.5, np.inf
     while True:
         moved = Loops(simplified.points + shifts, simplified.number)
-        ratio = _areas(moved) / areas
+        ratio = moved.areas / areas
         still = (~((low < ratio) & (ratio < high)))[simplified.number]
         if not shifts[still].any():
             edges = moved.in_conflict(gap)
@@ -218,10 +209,6 @@ def _enclosing(loops: Loops, kept: NDArray[np.bool_], margin: float, gap: float)
             if not shifts[still].any():
                 return moved
         shifts[still] = 0
-
-
-def _areas(loops: Loops) -> NDArray[np.float64]:
-    return np.array([signed_area(loop) for loop in loops.split(loops.points)])
 
 
 def _shifts(loops: Loops, kept: Array, areas: Array, margin: float) -> Points:

@@ -24,10 +24,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Texture:
-    """A picture prepared for drawing: (h, w, 4) with premultiplied alpha, 16 bits per channel.
-
-    Premultiplication keeps the colours of transparent pixels from bleeding into visible ones.
-    """
+    """A picture prepared for drawing: (h, w, 4) with premultiplied alpha, 16 bits per channel."""
 
     pixels: NDArray[np.uint16] = field(repr=False)
     _reduced: dict[int, NDArray[np.uint16]] = field(default_factory=dict, repr=False)
@@ -64,10 +61,9 @@ class Texture:
 
 
 def gradients(corners: Floats, values: Floats) -> Floats:
-    """Slopes along x and y, (t, k, 2), of linear functions on triangles.
+    """Slopes along x and y, (t, k, 2), of linear functions with values (t, 3, k) at the corners.
 
-    ``values`` (t, 3, k) are the functions' values at the ``corners`` (t, 3, 2). Triangles without
-    area get slope 0; they cover no sample.
+    Triangles without area get slope 0; they cover no sample.
     """
     e, rise = corners[:, 1:] - corners[:, :1], values[:, 1:] - values[:, :1]
     with np.errstate(over="ignore", invalid="ignore"):
@@ -79,15 +75,11 @@ def gradients(corners: Floats, values: Floats) -> Floats:
 
 
 class Sampler:
-    """Samples a texture through the triangles of a mesh, with anisotropic filtering.
+    """Samples a texture through triangles with corners (t, 3, 2) in the output and in the picture.
 
     A disc of one output pixel maps to an ellipse in the texture. Up to 16 x 16 look-ups along its
     axes are averaged, in a picture that is scaled down first if it is minified nearly everywhere. A
-    look-up interpolates by Catmull-Rom cubics, which reproduce an undeformed picture. Outside the
-    picture colours fade to transparent within one output pixel.
-
-    ``positions`` and ``places`` (t, 3, 2) are the triangles' corners in the output and in the
-    picture, continuous pixels.
+    look-up interpolates by Catmull-Rom cubics, which reproduce an undeformed picture.
     """
 
     def __init__(self, texture: Texture, positions: Floats, places: Floats) -> None:
@@ -105,11 +97,7 @@ class Sampler:
         self._steps = axes * (radii / self._probes)[:, None]
 
     def __call__(self, triangle: NDArray[np.integer], x: Floats, y: Floats) -> NDArray[np.float32]:
-        """(k, 4) premultiplied RGBA in [0, 1] at points of the output.
-
-        ``triangle`` (k,) is the one that each point is seen through; ``x`` and ``y`` are continuous
-        output pixels.
-        """
+        """(k, 4) premultiplied RGBA in [0, 1] at points of the output, each seen in a triangle."""
         result = np.empty((len(triangle), 4), np.float32)
         lookups = np.cumsum(self._probes[triangle].prod(axis=1))
         cuts = np.flatnonzero(np.diff(lookups // _CHUNK)) + 1
