@@ -28,7 +28,7 @@ from glid_nb.harmonic import HarmonicMap
 if TYPE_CHECKING:
     from glid_nb.solvers import Iteration
 
-_AXIS_NAME = 12.0  # points from the axis down to its name
+_AXIS_NAME = 13.0  # points from the axis down to its name
 _WIDE = 4.0  # inches; above narrower axes a line of text does not fit beside the legend
 _LEGEND_HEIGHT = 12.0  # points
 _NARROW = 1.3  # inches; above narrower axes the legend does not fit
@@ -211,7 +211,7 @@ class StepPlot(_OverIterations):
     """Length of each step and the Newton decrement, on a logarithmic axis."""
 
     _looks: ClassVar = {
-        "decrement": {"color": BLUE, "label": "Newton decrement"},
+        "decrement": {"color": BLUE, "label": "decrement"},
         "step": {"color": ORANGE, "label": "step length"},
     }
     _dotted = 0
@@ -221,7 +221,7 @@ class StepPlot(_OverIterations):
         values = np.where(np.array(series) > 0, series, np.nan)
         self._join(x, values, starts, solving)
         self.axes.set_yscale("log")
-        self.axes.yaxis.set_major_locator(LogLocator(numticks=6))
+        self.axes.yaxis.set_major_locator(LogLocator(numticks=5))
         self.axes.yaxis.set_minor_locator(NullLocator())
         positive = values[np.isfinite(values)]
         least, most = (positive.min(), positive.max()) if len(positive) else (0.3, 0.3)

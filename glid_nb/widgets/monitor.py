@@ -50,8 +50,8 @@ PLOTS = {
 """By a plot's name what it shows, and where in the paper that is."""
 
 # CSS pixels. A plot's legend is above it; ticks and the axis's name are below.
-_LEFT, _RIGHT, _ABOVE, _BELOW = 44, 8, 31, 32
-_BETWEEN_COLUMNS, _BETWEEN_ROWS, _ABOVE_TIMES = 46, 64, 17
+_LEFT, _RIGHT, _ABOVE, _BELOW = 50, 8, 31, 32
+_BETWEEN_COLUMNS, _BETWEEN_ROWS, _ABOVE_TIMES = 46, 64, 24
 _UPPER_ROW, _STEPS = 0.56, 0.68  # shares of the height
 
 
@@ -213,8 +213,8 @@ def _guide(width: int, height: int) -> ipywidgets.HTML:
     """Lies over the plots, of this size in CSS pixels, and explains each on hover and by a "?"."""
 
     def about(name: str, left: float, top: float, wide: float, high: float) -> str:
-        text, above = PLOTS[name], 14 if name == "Time" else 28
-        beside, side = left + 9 + 5.2 * len(name), "left" if left < width / 2 else "right"
+        text, above = PLOTS[name], 15 if name == "Time" else 28
+        beside, side = left + 11 + 6.1 * len(name), "left" if left < width / 2 else "right"
         return (
             f'<div title="{text}" style="left:{left:.0f}px;top:{top:.0f}px;width:{wide:.0f}px;'
             f'height:{high:.0f}px"></div>'

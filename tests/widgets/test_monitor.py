@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 import threading
 import time
 from collections.abc import Iterator
@@ -19,7 +20,8 @@ from glid_nb.session.deformation import Deformation
 from glid_nb.session.status_line import rounded_down
 from glid_nb.solvers import Iteration
 from glid_nb.widgets import SolverMonitor
-from glid_nb.widgets.live_plots import LivePlots
+from glid_nb.widgets.live_plots import _SCALE, LivePlots
+from glid_nb.widgets.monitor import _guide
 from glid_nb.widgets.solver_panel import SolverPanel, step_in_words
 
 from ..domains import domain
@@ -149,8 +151,14 @@ def _legend_texts(axes: Any) -> list[Any]:
     return [] if legend is None else legend.get_texts()
 
 
+def _tick_boxes(axis: Any) -> list[Any]:
+    low, high = sorted(axis.get_view_interval())
+    labels = [t.label1 for t in axis.get_major_ticks() if low <= t.get_loc() <= high]
+    return [text.get_window_extent() for text in labels if text.get_visible() and text.get_text()]
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("width", [500, 320])
+@pytest.mark.parametrize("width", [500, 460, 320])
 @pytest.mark.parametrize("n_holes", [0, 1, 8])
 def test_no_text_lies_over_data_or_other_text(n_holes: int, width: int):
     holes = [[[x, 2], [x, 3], [x + 0.5, 3], [x + 0.5, 2]] for x in range(1, n_holes + 1)]
@@ -164,12 +172,13 @@ def test_no_text_lies_over_data_or_other_text(n_holes: int, width: int):
             energy_iso=2.0,
             energy_p2p=0.1,
             step=1.0,
-            decrement=0.1,
+            decrement=10.0 ** -(i % 12),
             time=0.02,
         )
         for i in range(1, 60)
     ]
     plots.draw(records, certify(map_))
+    everything: list[Any] = []
     for plot in plots._plots:
         axes = plot.axes
         texts: list[Any] = [*axes.texts, axes.xaxis.label, *_legend_texts(axes)]
@@ -178,6 +187,15 @@ def test_no_text_lies_over_data_or_other_text(n_holes: int, width: int):
         assert not any(box.overlaps(inside) for box in boxes)
         assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
         assert all(b.y0 >= 0 and b.y1 <= axes.figure.bbox.y1 for b in boxes)
+        everything += [*boxes, *_tick_boxes(axes.xaxis), *_tick_boxes(axes.yaxis)]
+    if width < 460:  # less than any editor has: legends are wider than their plots
+        return
+    assert not any(a.overlaps(b) for a, b in itertools.combinations(everything, 2))
+    whole = plots._canvas.figure.bbox
+    assert all(whole.contains(*corner) for box in everything for corner in (box.p0, box.p1))
+    titles = [plot.axes.texts[-1].get_window_extent() for plot in plots._plots]
+    places = re.findall(r"<details .*?left:(\d+)px", _guide(width, 370).value)
+    assert all(t.x1 / _SCALE < float(x) for t, x in zip(titles, places, strict=True))
 
 
 def test_a_frame_says_where_its_solves_began(model: Deformation) -> None:
