@@ -163,15 +163,22 @@ def _nearest(angle: float, to: float) -> float:
 def _tangents(rows: Array, times: Array, closed: bool) -> Array:
     """Slopes of the parabola through each row and its neighbours; of the chord at open ends.
 
-    Where one side is much slower the rigid motion would spin there: its slopes are at most three
-    times those of either chord (de Boor & Swartz 1977).
+    Where one side is much slower the motion would run away there: slopes are at most three times
+    those of either chord (de Boor & Swartz 1977), of the fields all by one factor, as they are
+    holomorphic.
     """
+
+    def sizes(slopes: Array) -> Array:
+        size = np.abs(slopes)
+        size[:, :-2] = size[:, :-2].max(axis=1, keepdims=True)
+        return size
+
     span = np.diff(times)
     slopes = np.diff(rows, axis=0) / span[:, None]
     before, after, back = np.roll(span, 1)[:, None], span[:, None], np.roll(slopes, 1, axis=0)
     inner = (after * back + before * slopes) / (before + after)
-    most = 3 * np.minimum(np.abs(back), np.abs(slopes)) / np.maximum(np.abs(inner), 1e-300)
-    inner[:, -2:] *= np.minimum(1, most[:, -2:])
+    most = 3 * np.minimum(sizes(back), sizes(slopes)) / np.maximum(sizes(inner), 1e-300)
+    inner *= np.minimum(1, most)
     tangents = np.concatenate([inner, inner[:1]])
     if not closed:
         tangents[0], tangents[-1] = slopes[0], slopes[-1]

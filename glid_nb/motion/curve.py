@@ -109,7 +109,7 @@ class Curve:
             )
         count = min(finer * int(np.ceil(max(along[-1], 1))), _MOST_PIECES)
         inside = np.interp(np.arange(1, count) / count * along[-1], along, samples)
-        return [start, *map(float, inside), end]
+        return np.unique([start, *inside, end]).tolist()
 
     def _images(self, time: float) -> Array:
         map = self.map(time)

@@ -26,6 +26,7 @@ EASINGS: dict[str, Callable[[float], float]] = {
 
 
 _LATEST = 1e9  # seconds
+_LEAST_GAP = 1e-9  # of the largest time, at least of a second: in it thousands of pieces have room
 
 
 class MotionError(InputError):
@@ -101,11 +102,11 @@ def checked_times(times: Any, count: int, closed: bool) -> tuple[float, ...]:
     if len(values) not in (count, count + closed):
         wanted = f"{count} or {count + 1}" if closed else f"{count}"
         raise MotionError(f"there are {len(values)} times for {count} keyframes; give {wanted}")
+    least = _LEAST_GAP * max(map(abs, [1.0, *values]))
     for i, (before, after) in enumerate(itertools.pairwise(values)):
-        if not before < after:
-            raise MotionError(
-                f"times[{i + 1}] is {after:g} and times[{i}] is {before:g}; times must increase"
-            )
+        if after - before < least:
+            given = f"times[{i + 1}] is {after:.16g} and times[{i}] is {before:.16g}"
+            raise MotionError(f"{given}; times must increase, here by {least:.1g} s at least")
     if len(values) < count + closed:
         values.append(values[-1] + (values[-1] - values[0]) / (count - 1))
     return tuple(values)

@@ -21,6 +21,7 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion.settings import Easing, Repeat
 from glid_nb.session.document import NamedPose, check_count
 from glid_nb.session.edit_state import EditError, EditState
+from glid_nb.session.timeline import LEAST_GAP
 from glid_nb.solvers import Method, Pose
 from glid_nb.solvers.pose import DEEPEST, PER_HANDLE
 from glid_nb.solvers.stiffness import Stiffness
@@ -249,7 +250,7 @@ def set_repeat(state: EditState, repeat: Repeat) -> EditState:
 def keep_between(state: EditState, time: float, map: HarmonicMap) -> EditState:
     """Keep a map between two poses as a pose at its time, with the handles of the one before."""
     index = bisect.bisect_right(state.timeline.times, time)
-    if not index or time in state.timeline.times:
+    if not index or np.abs(np.subtract(state.timeline.times, time)).min() < LEAST_GAP:
         raise EditError(f"there is a pose at {time:g} s already, or none before")
     before = state.poses[index - 1]
     targets = map(before.pose.handles) if len(before.pose) else []

@@ -23,9 +23,11 @@ from glid_nb.motion.settings import (
 LATEST = 3600.0
 """Seconds; no keyframe is moved beyond it."""
 
+LEAST_GAP = 1e-3
+"""Seconds to a new keyframe from the others, which make room where there is none between."""
+
 _USUAL = 1.0  # seconds between keyframes
 _GRID = 0.01  # seconds, where keyframes are put by hand
-_LEAST = 1e-3  # seconds; where there is less between keyframes, a new one moves the later ones
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,8 @@ class Timeline:
         easing = checked_each("easing", Easing, self.easing, len(times))
         checked("repeat", Repeat, self.repeat)
         back = checked("back", float, self.back, above=0, most=1e9)
+        if self.repeat == "loop":
+            checked_times((*times, times[-1] + back), len(times) + 1, False)
         vars(self).update(times=times, easing=easing, back=back)
 
     @classmethod
@@ -87,7 +91,7 @@ class Timeline:
         before, after = self.times[:index], self.times[index:]
         if time is None:
             gap = after[0] - before[-1] if after else 2 * self._usual
-            if gap < 2 * _LEAST:
+            if gap < 2 * LEAST_GAP:
                 gap = 2 * _USUAL
                 after = tuple(t + gap for t in after)
             time = before[-1] + gap / 2
@@ -139,7 +143,7 @@ class Timeline:
         """Seconds between keyframes on average."""
         if len(self) < 2:
             return _USUAL
-        return max((self.times[-1] - self.times[0]) / (len(self) - 1), _LEAST)
+        return max((self.times[-1] - self.times[0]) / (len(self) - 1), LEAST_GAP)
 
 
 def thinned(times: Array, points: Array, tolerance: float) -> list[int]:

@@ -145,6 +145,17 @@ def test_a_motion_that_slows_down_does_not_spin() -> None:
     assert 0.9 < seen.min() < seen.max() < 1.3
 
 
+@pytest.mark.parametrize("times", [[0, 1e-8, 10], [10, 1e9 - 1, 1e9], [-1, 0, 1e-9]])
+def test_close_times_are_told_apart(times: list[float], tmp_path: Path) -> None:
+    maps = [random_map("ell", 0.05, 0), turned(random_map("ell", 0.05, 1), 2.0)]
+    motion = Motion([*maps, maps[0]], times, turns=[0, 4], tolerance=1e-3)
+    starts = [piece.start for piece in motion.pieces]
+    assert all(a < b for a, b in itertools.pairwise([*starts, motion.end]))
+    assert motion.certificate.certified
+    motion.save(tmp_path / "motion.json")
+    assert len(Motion.load(tmp_path / "motion.json").pieces) == len(starts)
+
+
 def test_what_needs_too_many_pieces_is_refused() -> None:
     motion = Motion(poses("ell", 0, 3.0), tolerance=1e-9)
     with pytest.raises(MotionError, match=r"from 0 to 1 s .* the tolerance needs \d+,\d+ straight"):
@@ -230,6 +241,9 @@ def test_keyframes_that_turn_otherwise_are_refused() -> None:
     [
         ({"keyframes": 1}, "a list of at least 2 keyframes"),
         ({"times": [0, 0]}, r"times\[1\] is 0 and times\[0\] is 0; times must increase"),
+        ({"times": [1, 1 + 1e-15]}, r"times\[1\] .*times must increase, here by 1e-09 s at least"),
+        ({"times": [0, 1e-320]}, r"times\[1\] is 9.99\d+e-321 and times\[0\] is 0; times must"),
+        ({"times": [1e9 - 1e-6, 1e9]}, r"times\[1\] is 1000000000 and .*, here by 1 s at least"),
         ({"times": [0, 1, 2]}, "there are 3 times for 2 keyframes; give 2"),
         ({"times": [0, np.nan]}, r"times\[1\] is nan; it must be a finite number"),
         ({"easing": "bounce"}, r"easing\[0\] is 'bounce'; it must be one of linear, in, out"),

@@ -116,7 +116,7 @@ def test_what_lies_between_can_be_kept() -> None:
     assert new.timeline.times == (0, 0.25, 1)
     assert new.active == 1
     assert new.map is two.map
-    for taken in (0.0, 1.0, -1.0):
+    for taken in (0.0, 1.0, -1.0, 1e-5, 1 - 1e-5):
         with pytest.raises(EditError, match="a pose"):
             actions.keep_between(two, taken, two.map)
 
@@ -129,6 +129,8 @@ def test_settings_that_are_not_valid_are_refused() -> None:
         {"easing": ("up",)},
         {"repeat": "twice"},
         {"back": 0.0},
+        {"repeat": "loop", "back": 1e-12},
+        {"times": (0.0, 1.0, 1 + 1e-12), "easing": ("in",) * 3},
     ):
         with pytest.raises(MotionError):
             Timeline(**wrong)  # type: ignore[arg-type]
