@@ -67,10 +67,7 @@ class BrushGestures(PinGestures):
             super()._key(event)
 
     def _paint(self, path: Array, unit: float) -> None:
-        """One step for undo: the lines of the undeformed shape that a path over the canvas shows.
-
-        Where it leaves the shape, or goes on to another limb, a line ends.
-        """
+        """Paint below a path over the canvas, as one step; a line ends where it leaves a limb."""
         brush, places, model = self.brush, path[:1], self.deformation
         if len(path) > 1 and (line := shapely.LineString(path)).length > unit:
             places = shapely.get_coordinates(line.simplify(unit).segmentize(brush.radius / 2))
@@ -87,10 +84,7 @@ class BrushGestures(PinGestures):
 
 
 class BrushBar(EditControls):
-    """Eraser, size and strength of a brush, and a button that clears what is painted.
-
-    While the brush has a tool it is shown in place of ``other``.
-    """
+    """Controls of a brush, shown in place of ``other`` while the brush has a tool."""
 
     def __init__(self, deformation: Deformation, brush: Brush, other: ipywidgets.DOMWidget) -> None:
         style = {"description_width": "68px"}

@@ -1,5 +1,6 @@
 """The deformation canvas: a picture that follows its handles; and the buttons above it."""
 
+import functools
 import time
 from collections.abc import Sequence
 from typing import Any
@@ -29,7 +30,7 @@ from glid_nb.widgets.overlays import OVERLAYS
 from glid_nb.widgets.pane import Pane
 from glid_nb.widgets.scene import Drawing, Range
 
-_PANELS_INTERVAL = 0.2  # least seconds between two updates of panels and ranges
+_INTERVAL = 0.2  # least seconds in a drag between updates of panels, colours and hidden pins
 _TOGGLES = (
     ("show_cage", "Cage", "Draw the cage"),
     ("show_offset_cage", "Offset", "Draw the offset cage, which carries the basis"),
@@ -109,12 +110,9 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self.gestures.copy = lambda text: self.pane.stage.send({"copy": text})
         self.brush = self.gestures.brush
         """What the hand paints stiff areas with."""
-        self._closed = False  # a frame may arrive while the canvas closes
-        self._panels_at = self._range_at = 0.0
+        self._measured: tuple[Domain | None, float] = None, 0.0  # what, and when
         self._hidden: Any = ()
-        self._outlines: dict[Any, Any] = {}  # of other poses, by their maps and colours
-        # The drawn panels, after the domain if a solve goes on.
-        self._panels: Any = None, None
+        self._panels: PanelCertificate | None = None
         super().__init__([self.pane], **kwargs)
         self.add_class("glid-deform")
         self._asked: tuple[int | None, int | None] = width, height
@@ -130,7 +128,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             self._draw("state")
             if len(model.state.pose):
                 self.fit()
-            self._endings = (stop, self._end, *((model.close,) if owned else ()))
+            self._endings = (stop, *((model.close,) if owned else ()))
             self._show_source()
             self._draw("legend")
         self.pane.stage.observe(lambda _: model.begin(), ["drawn"])
@@ -149,10 +147,6 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         """Make the whole shape and all targets visible."""
         moment = self.deformation.moment
         self.pane.fit(moment.shown, moment.state.pose.targets)
-
-    def _end(self) -> None:
-        with self.deformation.locked():
-            self._closed = True
 
     def _pane(self, size: tuple[int, int], interactive: bool) -> Pane:
         state = self.deformation.state
@@ -200,12 +194,14 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         if what in ("state", "frame", "selection"):
             self._draw(what)
         if what in ("frame", "status"):
-            self.pane.stage.prepared = self.deformation.moment.prepared
+            with self.deformation.locked():
+                self.pane.stage.prepared = self.deformation.moment.prepared
             self.pane.stage.acknowledge()
 
     def _is_behind(self) -> bool:
         """Whether frames will follow. While the solver is prepared the hand can go on."""
-        return self.deformation.busy and self.deformation.moment.prepared == 1
+        moment = self.deformation.moment
+        return moment.busy and moment.prepared == 1
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
         self.deformation.begin()  # before the page has drawn anything
@@ -218,21 +214,17 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 return
             moment = self.deformation.moment
             state, pose = moment.state, moment.state.pose
-            color_range = self._color_range(moment)
-            if not len(pose):
-                self._hidden = ()
-            elif color_range != "keep" or len(pose) != len(self._hidden):  # as often as that
-                self._hidden = self.deformation.sheets(self.image).hidden(pose.handles)
+            color_range = self._measure(moment)
             drawing = Drawing(
                 moment.map,
-                moment.comparison,
-                pose.targets,
-                moment.shown(pose.handles) if len(pose) else (),
-                moment.selection,
-                _ring(moment),
-                self._hidden,
-                state.order,
-                **self._look(moment, color_range),
+                comparison=moment.comparison,
+                targets=pose.targets,
+                images=moment.shown(pose.handles) if len(pose) else (),
+                selected=moment.selection,
+                ring=_ring(moment),
+                hidden=self._hidden,
+                order=state.order,
+                **self._look(state, color_range),
             )
             self.pane.show(drawing)
             self.pane.stage.onion = self._onion(state) if self.show_onion else []
@@ -247,15 +239,14 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             if (what == "legend" or (what == "frame" and moment.solved)) and not moment.dragged:
                 self.pane.place_legend()
 
-    def _look(self, moment: Moment, color_range: Range) -> dict[str, Any]:
-        """What is drawn of any map."""
+    def _look(self, state: EditState, color_range: Range) -> dict[str, Any]:
         return {
             "overlay": self.overlay,
-            "energy": moment.state.current.energy,
+            "energy": state.current.energy,
             "color_range": color_range,
             "cage": self.show_cage,
             "offset_cage": self.show_offset_cage,
-            "panels": self._panels_of(moment) if self.show_panels else None,
+            "panels": self._panels,
         }
 
     def show_between(self, map: HarmonicMap | None, order: Order | None = None) -> None:
@@ -264,54 +255,46 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             if map is None:
                 self._draw("state")
             elif not self._closed:
-                look = self._look(self.deformation.moment, "keep")
+                look = self._look(self.deformation.state, "keep")
                 self.pane.show(Drawing(map, order=order, **look))
 
     def _onion(self, state: EditState) -> list[Any]:
-        """Outlines of the poses beside the one that is edited, rounded to what a screen shows."""
-        known, self._outlines = self._outlines, {}
-        for i, color in ((state.active - 1, BLUE), (state.active + 1, ORANGE)):
-            if 0 <= i < len(state.poses):
-                key = state.poses[i].map, color
-                self._outlines[key] = known.get(key) or [
-                    color,
-                    [np.round(loop, 3).tolist() for loop in deformed_loops(key[0])],
-                ]
-        return list(self._outlines.values())
+        """Colours and outlines of the poses beside the one that is edited."""
+        beside = (state.active - 1, BLUE), (state.active + 1, ORANGE)
+        poses = state.poses
+        return [[c, _boundary(poses[i].map)] for i, c in beside if 0 <= i < len(poses)]
 
-    def _color_range(self, moment: Moment) -> Range:
-        """During a drag the range only grows, so that colours stay comparable."""
-        moving, now = moment.busy or bool(moment.dragged), time.monotonic()
-        if moving and not moment.solved and now - self._range_at <= _PANELS_INTERVAL:
+    def _measure(self, moment: Moment) -> Range:
+        """Update panels, hidden pins and the colours' range, while the solver works at intervals.
+
+        During a drag the range only grows, so that colours stay comparable.
+        """
+        (domain, then), now = self._measured, time.monotonic()
+        state, frame, pose = moment.state, moment.frame, moment.state.pose
+        moving = moment.busy or bool(moment.dragged)
+        due = moment.solved or not moving or now - then > _INTERVAL or domain is not state.domain
+        if due:
+            self._measured = state.domain, now
+        if not self.show_panels:
+            self._panels = None
+        elif due or frame is None or self._panels is None:
+            proof = None if frame is None else frame.proof
+            self._panels = (proof or certificate_of(moment.map)).panels
+        if not len(pose):
+            self._hidden = ()
+        elif due or len(pose) != len(self._hidden):
+            self._hidden = self.deformation.sheets(self.image).hidden(pose.handles)
+        if not due:
             return "keep"
-        self._range_at = now
         return "widen" if (moment.dragged if moment.solved else moving) else "fit"
-
-    def _panels_of(self, moment: Moment) -> PanelCertificate:
-        """The boundary's panels; while the solver works at most `_PANELS_INTERVAL` old."""
-        frame, now, domain = moment.frame, time.monotonic(), moment.state.domain
-        if frame is None or frame.proof is None:
-            self._panels = None, certificate_of(moment.map).panels
-        elif (
-            self._panels[0] is not domain
-            or frame.solution is not None
-            or now - self._panels_at > _PANELS_INTERVAL
-        ):
-            self._panels_at = now
-            self._panels = domain, frame.proof.panels
-        return self._panels[1]
 
     # From the page
 
     def handle(self, events: Sequence[Event]) -> str | None:
         """Act on pointers and keys, and show why something was refused."""
         stage = self.pane.stage
-        try:
-            stage.notice = self.gestures.handle(events) or ""
-            stage.set_trait("cursor", self.gestures.cursor)
-        except Exception as error:
-            stage.notice = f"{type(error).__name__}: {error}"
-            raise
+        stage.notice = self.gestures.handle(events) or ""
+        stage.set_trait("cursor", self.gestures.cursor)
         return stage.notice or None
 
     def _show_source(self, _: Any = None) -> None:
@@ -329,6 +312,12 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             self.children = [pane for pane in (self.source, self.pane) if pane is not None]
             self._draw("state")
             self.fit()
+
+
+@functools.lru_cache(maxsize=4)  # by identity
+def _boundary(map: HarmonicMap) -> list[Any]:
+    """The deformed boundary, rounded to what a screen shows."""
+    return [np.round(loop, 3).tolist() for loop in deformed_loops(map)]
 
 
 def _ring(moment: Moment) -> tuple[float, ...]:

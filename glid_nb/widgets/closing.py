@@ -14,13 +14,12 @@ _made: dict[str, tuple[str, weakref.WeakSet[Any]]] = {}  # by cell: its last run
 
 
 class ClosingWidget(ipywidgets.Widget):
-    """Refuses keywords that neither it nor ipywidgets has, and closes with all that it holds.
-
-    The first of a widget's bases.
-    """
+    """Refuses unknown keywords, and closes with all that it holds; a widget's first base."""
 
     _endings: tuple[Callable[[], Any], ...] = ()
     """What closing ends."""
+    _closed = False
+    """Whether it is closing; observers of a model that stop after this draw no more."""
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Any:
         """Check the keywords, before anything is made."""
@@ -36,7 +35,7 @@ class ClosingWidget(ipywidgets.Widget):
         """
         if self.comm is None:  # closed before, or its constructor raised
             return
-        endings, self._endings = self._endings, ()
+        self._closed, endings, self._endings = True, self._endings, ()
         for end in endings:
             end()
         _, *parts = _with_parts(self)
@@ -46,10 +45,9 @@ class ClosingWidget(ipywidgets.Widget):
 
 
 def close_with_parts(*widgets: ipywidgets.Widget) -> None:
-    """Close widgets and all widgets that they hold: children, layouts, styles, textures.
+    """Close widgets and all that they hold, which ipywidgets would keep: layouts, textures, ...
 
-    ipywidgets closes only the widget itself; the others stay registered in the kernel and the
-    page. Parts must not be shared with a widget that stays open.
+    Parts must not be shared with a widget that stays open.
     """
     for widget in _with_parts(*widgets):
         widget.close()
@@ -76,10 +74,7 @@ def _widgets_in(value: Any) -> Iterator[ipywidgets.Widget]:
 
 
 def close_on_rerun(made: Any) -> bool:
-    """Close what earlier runs of the running notebook cell made; the next run closes ``made``.
-
-    Outside a notebook nothing happens. Returns whether something was closed.
-    """
+    """Close what earlier runs of this cell made; whether they did. The next closes ``made``."""
     if (here := _running_cell()) is None:
         return False
     cell, run = here

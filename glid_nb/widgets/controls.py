@@ -32,10 +32,7 @@ def button(
 
 
 class EditControls(ClosingWidget, ipywidgets.VBox):
-    """Controls that show a deformation, change it, and say why a change was refused.
-
-    A subclass makes its controls, then calls this constructor.
-    """
+    """Controls of a deformation; a subclass makes them, then calls this constructor."""
 
     def __init__(
         self, deformation: Deformation, children: Sequence[ipywidgets.Widget], **kwargs: Any
@@ -51,7 +48,6 @@ class EditControls(ClosingWidget, ipywidgets.VBox):
         self._endings = (deformation.observe(self._on_model),)
 
     def _show(self) -> None:
-        """Update the controls."""
         raise NotImplementedError
 
     def _on_model(self, what: str) -> None:
@@ -68,7 +64,6 @@ class EditControls(ClosingWidget, ipywidgets.VBox):
                 self._following.now = False
 
     def _bind(self, control: ipywidgets.Widget, act: Callable[[Any], None]) -> None:
-        """Have the new value of a control change the model."""
         control.observe(lambda change: self._act(lambda: act(change["new"])), ["value"])
 
     def _act(self, act: Callable[[], None]) -> None:

@@ -103,7 +103,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     >>> editor.close()
     """
 
-    _closed = _displayed = False
+    _displayed = False
     _told_path: Path | None = None
 
     def __init__(
@@ -153,7 +153,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self._offer()
         self.model.observe(self._on_model)
         self.tabs.observe(self._on_tab, ["selected_index"])
-        self._endings = (self._end, self.model.close)
+        self._endings = (self._take_down, self.model.close)
         if close_on_rerun(self):
             self.model.take_over_file()
 
@@ -311,7 +311,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self._build() if what == "replaced" else self._show_saving()
 
     def _offer(self) -> None:
-        """Offer the work that was kept."""
         if (path := self.model.kept) is None:
             return
 
@@ -338,7 +337,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.kept.layout.display = "flex"
 
     def _build(self) -> None:
-        """Make new views of new models."""
         with self.model.locked():
             self._take_down()
             self._parts, self.canvas = {}, None
@@ -367,7 +365,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
                     self._part(name)
 
     def _part(self, name: str) -> Any:
-        """One of these parts, in its box."""
         makers: dict[str, Callable[[], ipywidgets.Widget]] = {
             "tracer": lambda: CageTracer(model=self.model.tracing, height=self._size[1]),
             "pins": self._bars,
@@ -414,7 +411,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         return ipywidgets.HBox([left, side], layout=wrapped)
 
     def _open_files(self) -> None:
-        """Show where the motion is exported."""
         self._side.selected_index = _FILES
         self.files.show_motion()
 
@@ -425,11 +421,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
                 shown += (self.monitor,)
             self._trace_box.children = self._deform_box.children = ()
         close_with_parts(*shown)
-
-    def _end(self) -> None:
-        with self.model.locked():
-            self._closed = True
-        self._take_down()
 
     def _show_saving(self) -> None:
         error, left, path = self.model.save_error, self.model.left_path, self.model.autosave_path

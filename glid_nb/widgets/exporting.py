@@ -116,10 +116,7 @@ def as_one(files: Mapping[str, bytes], stem: str) -> tuple[str, bytes]:
 def write(
     model: EditorModel, owner: Path, files: Mapping[str, bytes], *, replace: bool
 ) -> list[Path]:
-    """Write files that belong to a path into its folder, where they are not there yet.
-
-    Unless ``replace`` says so, an `OccupiedError` if that would replace another's.
-    """
+    """Write files of ``owner`` beside it; an `OccupiedError` if, unasked, they replace others'."""
     contents = {owner.parent / name: data for name, data in files.items()}
     new = {path: data for path, data in contents.items() if not _holds(path, data)}
     if not replace:

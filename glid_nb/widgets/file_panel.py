@@ -94,10 +94,7 @@ class OpenPanel(ipywidgets.VBox):
 
 
 class Clipboard(anywidget.AnyWidget):
-    """An invisible widget through which the page copies text and downloads files.
-
-    Browsers allow copying only soon after a click or a key.
-    """
+    """An invisible widget through which the page copies text and downloads files."""
 
     _esm = bundle("clipboard/main.js")
 
@@ -108,11 +105,7 @@ class Clipboard(anywidget.AnyWidget):
         self.on_msg(self._receive)
 
     def copy(self, text: str, done: Callable[[bool], None]) -> None:
-        """Put text into the clipboard, then call ``done`` with whether the browser allowed it.
-
-        It may be called again if several pages show this, and not at all if none does or another
-        copy is asked for in between.
-        """
+        """Put text into the clipboard; ``done`` is told, by each page, whether that was allowed."""
         self._number += 1
         self._done = done
         self.send({"number": self._number, "text": text})
@@ -131,11 +124,7 @@ class Clipboard(anywidget.AnyWidget):
 
 
 class FilePanel(ipywidgets.VBox):
-    """Files of an editor: sessions to open and save, and exports.
-
-    Before a file that the editor neither wrote nor opened is replaced, the button asks "Replace?"
-    and waits for a second click.
-    """
+    """Sessions to open and save, and exports; files of others are replaced by a second click."""
 
     def __init__(self, model: EditorModel, animation: Animation | None = None) -> None:
         from glid_nb.widgets.motion_export import MotionExport  # noqa: PLC0415 - as in `exporting`
@@ -196,7 +185,6 @@ class FilePanel(ipywidgets.VBox):
         self._show()
 
     def _choose_last(self) -> None:
-        """Choose what was exported last."""
         self._remembered: dict[str, Any] = {"format": self.format, "view": self.view}
         if self.motion is not None:
             self._remembered |= {"size": self.motion.size, "rate": self.motion.rate}
@@ -224,10 +212,7 @@ class FilePanel(ipywidgets.VBox):
         action: Callable[[bool], str],
         question: str = "Replace?",
     ) -> ipywidgets.Button:
-        """A button that may ask a question, which a second click answers with yes.
-
-        ``action`` gets whether the answer was yes, and returns what was done.
-        """
+        """A button; ``action(sure)`` says what was done, or raises what a second click settles."""
 
         def click() -> None:
             asked, at = self._asked

@@ -25,10 +25,9 @@ _SLOP, _SLOP_ON_SHAPE = 2.0, 5.0  # pixels that a pressed pointer may move witho
 _NUDGE, _NUDGE_SHIFT = 0.1, 0.5  # world units
 _CURSOR, _CURSOR_SHIFT = 6.0, 30.0  # pixels
 ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowDown": (0, -1)}
-
-DEPTHS = {"PageUp": 1, "]": 1, "PageDown": -1, "[": -1}
-TURNS = {"<": np.radians(5), ">": np.radians(-5)}
-SCALES = {"+": 1.05, "=": 1.05, "-": 1 / 1.05}
+_DEPTHS = {"PageUp": 1, "]": 1, "PageDown": -1, "[": -1}
+_TURNS = {"<": (np.radians(5), 1.0), ">": (np.radians(-5), 1.0)}  # angle and scale
+_TURNS |= {"+": (0.0, 1.05), "=": (0.0, 1.05), "-": (0.0, 1 / 1.05)}
 _LEAST_SCALE, _LARGEST_SCALE = 0.05, 20.0  # that a hand gives
 
 
@@ -99,7 +98,7 @@ class PinGestures(Gestures):
     def hit(self, point: Array, reach: float) -> int | None:
         """The handle whose target, or else whose image, is nearest within reach.
 
-        One that is in sight counts as nearer by a third of the reach than a hidden one.
+        A hidden one counts as farther away by a third of the reach, as in ``js/canvas/marks.js``.
         """
         pose = self.deformation.pose
         if not len(pose):
@@ -146,18 +145,17 @@ class PinGestures(Gestures):
         press, model, point = self._press, self.deformation, place(event)
         if press is None:
             return
-        moved = float(np.linalg.norm(point - press.start))
+        slop = _SLOP if press.part or press.targets is not None else _SLOP_ON_SHAPE
+        if not press.dragging and np.linalg.norm(point - press.start) <= slop * event["unit"]:
+            return
         if press.part:
-            if press.dragging or moved > _SLOP * event["unit"]:
-                self._turn(press, point)
+            self._turn(press, point)
             return
         if press.targets is None:
-            if press.source is None or moved <= _SLOP_ON_SHAPE * event["unit"]:
+            if press.source is None:
                 return
             # Dragging the shape itself pins the point below the pointer.
             press.targets = self._pin_at(press.source)
-        if not press.dragging and moved <= _SLOP * event["unit"]:
-            return
         if not self._drags(press):
             return
         held = list(model.dragged)
@@ -248,12 +246,10 @@ class PinGestures(Gestures):
                 self.cursor = None
         elif act := plain.get(key.lower()):
             act()
-        elif key in DEPTHS:
-            model.bring_forward(model.selection, DEPTHS[key])
-        elif key in TURNS:
-            model.turn(model.selection, TURNS[key])
-        elif key in SCALES:
-            model.turn(model.selection, scale=SCALES[key])
+        elif key in _DEPTHS:
+            model.bring_forward(model.selection, _DEPTHS[key])
+        elif key in _TURNS:
+            model.turn(model.selection, *_TURNS[key])
         elif key in ("x", "X"):
             model.set_pins(model.selection, angles=None, scales=None)
         elif key == "copy":

@@ -1,7 +1,4 @@
-"""Meshes that pythreejs draws, moved by a map in the shader or in the kernel.
-
-Only this module and `scene` know pythreejs.
-"""
+"""Meshes that pythreejs draws, moved by a map in the shader or in the kernel."""
 
 import math
 from collections.abc import Callable
@@ -129,10 +126,7 @@ def _stack(points: Array, triangles: Array) -> dict[str, Array]:
 
 
 def comparison_layer(map: MeshMap, uniforms: Uniforms, points: Array, triangles: Array) -> Layer:
-    """The picture on a mesh that another method moves; turned-over triangles have one colour.
-
-    All maps are of one triangulation; ``uniforms`` are those of ``picture.frag``.
-    """
+    """The picture, by the uniforms of ``picture.frag``, on a mesh that another method moves."""
     mesh = map.triangulation
     layer = Layer("picture", uniforms, _evaluation_on(mesh), map, points, triangles)
     # Turned-over triangles show their back, and this material draws only backs.
@@ -165,10 +159,8 @@ def energy_defines() -> str:
 
 
 def picture_texture(image: NDArray[np.uint8]) -> Any:
-    """A texture of a picture (h, w, 4), premultiplied by alpha.
-
-    Its sides are the nearest powers of two, which three.js needs for mipmaps.
-    """
+    """A texture of a picture (h, w, 4), premultiplied by alpha."""
+    # Mipmaps need powers of two.
     height, width = (min(1 << round(math.log2(n)), _LARGEST_SIDE) for n in image.shape[:2])
     picture = Image.fromarray(image).convert("RGBa").resize((width, height))  # bicubic
     # A DataTexture begins at the bottom.

@@ -1,6 +1,6 @@
 """The plots of a solve as a PNG, redrawn quickly."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,6 @@ from glid_nb.geometry import Cage
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.read import png
 from glid_nb.solvers import Iteration
-from glid_nb.widgets.monitor import PLOTS, places
 
 _DPI, _SCALE = 100, 1.5  # pixels of the picture for each of CSS
 
@@ -22,24 +21,25 @@ class LivePlots:
     """Energy beside steps and times of the iterations, the certificate below them.
 
     Artists are drawn onto a stored background, which is redrawn only when an axis changes: a few
-    milliseconds instead of a hundred. Not for several threads at once. The picture has ``width``
-    times ``height`` CSS pixels.
+    milliseconds instead of a hundred. Not for several threads at once.
     """
 
-    def __init__(self, cage: Cage, width: int, height: int) -> None:
+    def __init__(
+        self, cage: Cage, width: int, height: int, places: Mapping[str, tuple[float, ...]]
+    ) -> None:
         self.cage = cage
         figure = Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI * _SCALE)
         self._canvas = FigureCanvasAgg(figure)
         energy, steps, times, certificate = (
             figure.add_axes((left / width, 1 - (top + high) / height, wide / width, high / height))
-            for left, top, wide, high in places(width, height).values()
+            for left, top, wide, high in places.values()
         )
         self._energy = EnergyPlot(energy, animated=True)
         self._step = StepPlot(steps, animated=True)
         self._time = TimePlot(times, animated=True)
         self._certificate = CertificatePlot(certificate, cage, animated=True)
         self._plots: tuple[Plot, ...] = self._energy, self._step, self._time, self._certificate
-        for plot, name in zip(self._plots, PLOTS, strict=True):
+        for plot, name in zip(self._plots, places, strict=True):
             plot.entitle(name, *((2.0,) if plot is self._time else ()))
         # Steps and times share the axis below them.
         self._step.axes.set_xlabel("")

@@ -165,7 +165,7 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         if self._plots is None or self._plots.cage is not cage:
             from glid_nb.widgets.live_plots import LivePlots  # noqa: PLC0415
 
-            self._plots = LivePlots(cage, *self._size)
+            self._plots = LivePlots(cage, *self._size, places(*self._size))
         latest = frame if frame is not None else solution
         history, starts = (latest.history, latest.starts) if latest is not None else ((), ())
         if moment.comparison is not None:

@@ -18,10 +18,7 @@ _Task = tuple[str, Callable[[dict[str, bytes]], str]]
 
 
 class MotionExport(ipywidgets.HBox):
-    """What a moving picture is like, how far proving and then drawing it are, and a stop button.
-
-    ``say(text, style)`` shows what was done, or why it was not.
-    """
+    """Size and rate of a moving picture, and how far it is drawn; ``say(text, style)`` tells."""
 
     def __init__(
         self, model: EditorModel, animation: Animation, say: Callable[[str, str], None]

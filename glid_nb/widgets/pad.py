@@ -29,10 +29,7 @@ class Pad(ClosingWidget, anywidget.AnyWidget):
         handle: Callable[[Sequence[dict[str, Any]]], str | None],
         busy: Callable[[], bool] = lambda: False,
     ) -> None:
-        """Have ``handle`` act on events in order; it returns why something was refused, or None.
-
-        Where ``busy()`` is true after that, the caller acknowledges the events later.
-        """
+        """Have ``handle`` act on events; where then ``busy()``, the caller acknowledges them."""
         self._model, self._handle, self._busy = model, handle, busy
         self._waiting: dict[str, tuple[int, str | None]] = {}
         answer_during_cells(self)
@@ -65,12 +62,9 @@ class Pad(ClosingWidget, anywidget.AnyWidget):
 
 
 def answer_during_cells(widget: ipywidgets.Widget) -> None:
-    """Handle a widget's messages in a thread of their own while a cell runs.
+    """Handle a widget's messages while a cell runs, in the subshell that JupyterLab addresses.
 
-    JupyterLab addresses them to a subshell, a kernel thread that runs no cells. ipykernel from 7.4
-    on redirects them to the loop that last sent something to the page, for a widget made by a cell
-    the main one, where they wait for the running cell. This undoes that redirection, if there is
-    one; handlers then run in another thread.
+    ipykernel from 7.4 on redirects them to the main loop, where they would wait for the cell.
     """
     comm: Any = widget.comm
     if hasattr(comm, "_reply_subshell_for"):

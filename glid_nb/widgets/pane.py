@@ -29,11 +29,7 @@ _DRAWING_TIME, _FEWEST_VERTICES = 40.0, 1500  # ms, vertices
 
 
 class Stage(Pad):
-    """Lies over a pythreejs renderer.
-
-    It draws handles and targets, sends pointers and keys to the kernel in world coordinates, pans
-    and zooms without the kernel, and puts a map's coefficients into the renderer's materials.
-    """
+    """Lies over a pythreejs renderer: draws pins, sends events, gives materials coefficients."""
 
     _script = traitlets.Unicode(bundle("canvas/main.js")).tag(sync=True)
     _css = stylesheet("canvas/canvas.css")
@@ -87,11 +83,7 @@ class Stage(Pad):
 
 
 class Pane(ClosingWidget, ipywidgets.GridBox):
-    """A picture (h, w, 4) under a map, with marks over it; renderer and pad share one grid cell.
-
-    ``size`` is in CSS pixels; ``n_vertices`` of the mesh are by default as many as the page draws
-    quickly, ``evaluated_in`` is as in `DeformCanvas`.
-    """
+    """A picture (h, w, 4) under a map, with marks over it; arguments are as in `DeformCanvas`."""
 
     def __init__(
         self,
@@ -135,11 +127,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self._show(old)
 
     def adapt(self) -> None:
-        """Adapt to the page, which has told its limits and its speed.
-
-        If its shaders cannot hold the cage, the kernel evaluates the map; if it draws too slowly
-        for a drag, the mesh gets coarser.
-        """
+        """Evaluate in the kernel, or coarsen the mesh, where the page says that it is too weak."""
         stage, scene = self.stage, self.scene
         vectors, time = stage.uniform_vectors, stage.drawing_time
         overflows = (
@@ -224,10 +212,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
 
 
 def emptiest_corner(points: Any, width: int, height: int, bars: int = 1) -> str:
-    """The corner of :data:`CORNERS` where colour bars hide the fewest points.
-
-    ``points`` are (k, 2), in CSS pixels from the lower left of a pad of this size.
-    """
+    """The corner where colour bars hide the fewest of (k, 2) CSS pixels from the lower left."""
     x, y = np.asarray(points, dtype=float).T
 
     def hidden(corner: str) -> int:

@@ -81,7 +81,6 @@ class PinBar(EditControls):
         self._bind(self.depth, lambda depth: model.set_depths(model.selection, depth))
 
     def _add_buttons(self, model: Deformation) -> list[ipywidgets.Button]:
-        """Those that need a selected pin."""
         narrow = ipywidgets.Layout(width="38px")
 
         def acting(icon: str, tooltip: str, act: Any) -> ipywidgets.Button:

@@ -271,10 +271,9 @@ def _scaled(orders: Sequence[Order], mesh: Triangulation) -> Array:
 
 
 def drawing_order(mesh: Triangulation) -> Array:
-    """The triangles row by row within columns a few vertices wide.
+    """The triangles row by row within narrow columns: each vertex is shaded little more than once.
 
-    A vertex costs the shader a sum over the cage, and only the last few results are cached. In this
-    order each vertex is shaded little more than once.
+    A vertex costs the shader a sum over the cage, and only the last few results are cached.
     """
     rows = np.unique(np.round(mesh.vertices[mesh.n_boundary :, 1], 9))
     if len(rows) < 2:

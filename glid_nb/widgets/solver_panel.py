@@ -38,10 +38,7 @@ _SLIDERS: dict[str, tuple[Any, dict[str, Any]]] = {
 
 
 class FieldRows(ipywidgets.GridBox):
-    """Rows of a label and a control, one for each of several fields of a value.
-
-    ``on_change`` is called with a field's name and value when a control changes, also by `show`.
-    """
+    """Rows of labels and controls; ``on_change(name, value)`` is called by `show`, too."""
 
     def __init__(self, on_change: Callable[[str, Any], None]) -> None:
         self._on_change = on_change
@@ -103,9 +100,6 @@ class SolverPanel(EditControls):
         )
         """The options, by their names."""
         self.options.build(_option_controls(deformation.state.current.options))
-        controls = self.options.controls.values()
-        self.weight, self.sampling, self.certificate, self.hessian, *others = controls
-        self.iterations, self.conformal = others
         self.pause = ipywidgets.ToggleButton(
             description="Pause", icon="pause", tooltip="Let the solver wait", layout=_FULL
         )

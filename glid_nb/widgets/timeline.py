@@ -112,8 +112,8 @@ class TimelinePanel(Pad):
 
     def _show(self, what: str) -> None:
         with self.canvas.deformation.locked():
-            if self.comm is None:
-                return  # closed
+            if self._closed:
+                return
             if what == "motion":
                 self.motion = {"spans": [self._span(span) for span in self.animation.spans]}
             if what in ("state", "recording", "motion"):
@@ -197,5 +197,5 @@ class TimelinePanel(Pad):
             done = True
         if done:
             with self.canvas.deformation.locked():
-                if self.comm is not None:
+                if not self._closed:
                     self._show_state()

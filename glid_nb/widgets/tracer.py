@@ -19,7 +19,7 @@ from glid_nb.imaging.read import ImageSource
 from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets.gestures import Event
 from glid_nb.widgets.pad import Pad
-from glid_nb.widgets.tracer_gestures import TraceGestures
+from glid_nb.widgets.tracer_gestures import REACH_SHARES, TraceGestures
 
 _LONGEST_SIDE = 1600  # of the picture that the page draws; the cage is traced on the original
 _LISTED_HOLES = 40
@@ -165,6 +165,7 @@ def described(gestures: TraceGestures) -> dict[str, Any]:
             for p in outcome.problems
         ],
         "options": options,
+        "reach_shares": REACH_SHARES,
         "holes": [_hole(hole) for hole in model.holes[:_LISTED_HOLES]],
         "n_holes": len(model.holes),
         "doubt": model.doubt,

@@ -19,7 +19,8 @@ _CLICK = 4.0  # CSS pixels that a click may move
 _DOUBLE, _DOUBLE_SLACK = 380.0, 12.0  # ms between two clicks, CSS pixels
 _BURST = 900.0  # ms without a key that end a burst of nudges
 _NUDGE, _NUDGE_SHIFT = 1.0, 10.0  # pixels of the picture
-_IN_HOLE, _EDGE = 0.6, 0.8  # of the reach
+REACH_SHARES = {"in_hole": 0.6, "edge": 0.8}  # the page has them from here
+"""Shares of the reach: less in a hole, so that the middle of a small one can be clicked."""
 _TOOLS = {"v": "edit", "b": "foreground", "n": "background", "i": "color", "c": "component"}
 _TOOLS |= {"p": "polygon", "r": "rectangle"}
 _FREEHAND = 30.0  # CSS pixels; a longer path is no click
@@ -81,11 +82,10 @@ class TraceGestures(Gestures):
 
     def find(self, point: Array, reach: float) -> Found:
         """What is at a point."""
-        # Smaller reach inside a hole, so that the middle of a small one can be clicked.
         holes = self.model.holes
         around = [i for i, hole in enumerate(holes) if loop_edits.contains(hole.loop, point)]
         hole = min(around, key=lambda i: holes[i].area) if around else None
-        reach = reach if hole is None else _IN_HOLE * reach
+        reach = reach if hole is None else REACH_SHARES["in_hole"] * reach
         loops = self.model.loops
         gaps = [np.hypot(*(loop - point).T) for loop in loops]
         nearest = [(float(gap.min()), (i, int(gap.argmin()))) for i, gap in enumerate(gaps)]
@@ -93,7 +93,8 @@ class TraceGestures(Gestures):
         if vertex is not None and least <= reach:
             return Found(vertex, hole=hole)
         foot = loop_edits.nearest_edge(loops, point)[2] if loops else point + np.inf
-        return Found(edge=bool(np.hypot(*(foot - point)) <= _EDGE * reach), hole=hole)
+        near = np.hypot(*(foot - point)) <= REACH_SHARES["edge"] * reach
+        return Found(edge=bool(near), hole=hole)
 
     # Pointers
 

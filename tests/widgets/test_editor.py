@@ -470,9 +470,9 @@ def test_the_panel_and_the_model_show_each_other() -> None:
         model.undo()
         model.undo()
         assert panel.energy.value == "iso"
-        panel.weight.value = 1e3
+        panel.options.controls["p2p_weight"].value = 1e3
         assert model.state.current.options.p2p_weight == 1e3
-        panel.hessian.value = "projected"
+        panel.options.controls["hessian"].value = "projected"
         assert model.state.current.options.hessian == "projected"
         # The method, its own settings, and which of the options count for it.
         panel.method.value = "gauss-newton"
@@ -480,15 +480,15 @@ def test_the_panel_and_the_model_show_each_other() -> None:
         assert panel.method.value == "newton"
         panel.method.value = "lbfgs"
         assert panel.refusal.value == ""
-        assert panel.hessian.disabled
-        assert not panel.sampling.disabled
+        assert panel.options.controls["hessian"].disabled
+        assert not panel.options.controls["sampling"].disabled
         panel.settings.controls["memory"].value = 9
         assert dict(model.state.current.method.settings) == {"memory": 9}
         model.undo()
         assert panel.settings.controls["memory"].value == 5
         panel.method.value = "mls"
         assert "certified map" in panel.about.value
-        assert panel.weight.disabled
+        assert panel.options.controls["p2p_weight"].disabled
         panel.energy.value = "arap"
         panel.method.value = "newton"
 

@@ -21,7 +21,7 @@ from glid_nb.session.status_line import rounded_down
 from glid_nb.solvers import Iteration
 from glid_nb.widgets import SolverMonitor
 from glid_nb.widgets.live_plots import _SCALE, LivePlots
-from glid_nb.widgets.monitor import _guide
+from glid_nb.widgets.monitor import _guide, places
 from glid_nb.widgets.solver_panel import SolverPanel, step_in_words
 
 from ..domains import domain
@@ -164,7 +164,7 @@ def test_no_text_lies_over_data_or_other_text(n_holes: int, width: int):
     holes = [[[x, 2], [x, 3], [x + 0.5, 3], [x + 0.5, 2]] for x in range(1, n_holes + 1)]
     cage = Cage([[0, 0], [12, 0], [12, 6], [0, 6]], holes)
     map_ = HarmonicMap.identity(Domain.from_cage(cage))
-    plots = LivePlots(cage, width, 370)
+    plots = LivePlots(cage, width, 370, places(width, 370))
     records = [
         SimpleNamespace(
             iteration=i,

@@ -141,7 +141,9 @@ function render({ model, el }) {
     shapes.look(view);
     soon();
   };
-  const link = new Link(model, el);
+  const link = new Link(model, el, ({ refusal }) => {
+    if (refusal && refusal !== model.get("notice")) say(refusal); // an error, which is no notice yet
+  });
   const marks = () => model.get("marks");
   const paints = () => pad && "radius" in model.get("brush");
   // Opens the menu of a pin or of the shape; by default that of the pin selected last.

@@ -31,12 +31,8 @@ export class Motion {
     const { times } = this;
     let t = this.within(time);
     if (t > times.at(-1)) t = 2 * times.at(-1) - t; // a ping-pong's way back
-    let low = 0, high = times.length - 1;
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (times[middle] <= t) low = middle;
-      else high = middle;
-    }
+    const next = times.findIndex((knot, i) => i && t < knot); // -1 at the end
+    const high = next < 0 ? times.length - 1 : next, low = high - 1;
     return { piece: low, share: (t - times[low]) / (times[high] - times[low]) };
   }
 

@@ -156,12 +156,11 @@ export class Stage {
 
   find(point, reach) {
     if (this.tool !== "edit" || !this.shown?.size) return null;
-    const hole = holeAt(this.shown.holes, point);
-    // Smaller reach inside a hole, so that the middle of a small one can be clicked.
-    const near = hole < 0 ? reach : 0.6 * reach;
+    const { holes, reach_shares: shares } = this.shown, hole = holeAt(holes, point);
+    const near = hole < 0 ? reach : shares.in_hole * reach;
     const vertex = nearestVertex(this.loops, point, near);
     if (vertex) return { vertex, mark: `${vertex.loop}:${vertex.index}` };
-    const edge = nearestEdge(this.loops, point, 0.8 * near);
+    const edge = nearestEdge(this.loops, point, shares.edge * near);
     if (edge) return { edge };
     return hole < 0 ? null : { hole };
   }
