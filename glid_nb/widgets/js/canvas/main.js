@@ -81,26 +81,23 @@ function save(model, changes) {
 }
 
 function resizeGrip(model) {
-  const grip = make("div", { className: "glid-resize", title: "Drag to resize" });
   let from = null;
-  const on = (name, act) =>
-    grip.addEventListener(name, (e) => {
-      e.stopPropagation();
-      act(e);
-    });
-  on("pointerdown", (e) => {
-    e.preventDefault();
-    grip.setPointerCapture(e.pointerId);
-    from = [model.get("width") - e.clientX, model.get("height") - e.clientY];
-  });
-  on("pointermove", (e) => {
-    if (!from) return;
-    const [width, height] = [from[0] + e.clientX, from[1] + e.clientY]
-      .map((side) => Math.max(LEAST_SIZE, Math.round(side)));
-    save(model, { width, height });
-  });
-  for (const name of ["pointerup", "pointercancel"]) on(name, () => (from = null));
-  return grip;
+  return shield(make("div", {
+    className: "glid-resize",
+    title: "Drag to resize",
+    onpointerdown: (e) => {
+      e.preventDefault();
+      e.target.setPointerCapture(e.pointerId);
+      from = [model.get("width") - e.clientX, model.get("height") - e.clientY];
+    },
+    onpointermove: (e) => {
+      if (!from) return;
+      const [width, height] = [from[0] + e.clientX, from[1] + e.clientY]
+        .map((side) => Math.max(LEAST_SIZE, Math.round(side)));
+      save(model, { width, height });
+    },
+    onlostpointercapture: () => (from = null),
+  }), ["pointerdown", "pointermove"]);
 }
 
 function render({ model, el }) {

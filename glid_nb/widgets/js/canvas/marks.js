@@ -2,7 +2,7 @@
 // they are, and a line between the two. Those that another part of the shape covers are faint rings.
 
 import { make } from "../pad/dom.js";
-import { disk, fillPath, strokePath, tracePath } from "../pad/pen.js";
+import { circle, disk, fillPath, strokePath, tracePath } from "../pad/pen.js";
 
 const TARGET = 7.5, IMAGE = 3.5, RING = 12; // radii, CSS pixels
 const DIAL = 42, KNOB = 6, EDGE = 14; // of a scale of 1; CSS pixels
@@ -13,14 +13,6 @@ function lines(pen, pairs, styles) {
   pen.lineCap = "round";
   tracePath(pen, pairs, false);
   strokePath(pen, styles);
-}
-
-// A dashed ring with a border.
-function ring(pen, place) {
-  pen.setLineDash([3.5, 2.4]);
-  disk(pen, place, TARGET, null, BORDER, 3.4);
-  disk(pen, place, TARGET, null, "#067a82", 1.6);
-  pen.setLineDash([]);
 }
 
 // Outlines of other poses: colour, and loops of points.
@@ -62,8 +54,7 @@ export function drawBrush(pen, view, { radius, strength }, { path, rests }) {
     pen.globalAlpha = 1;
   }
   if (!rests) return;
-  disk(pen, rests, wide, null, BORDER, 3.4);
-  disk(pen, rests, wide, null, STIFF, 1.4);
+  circle(pen, rests, wide, [[3.4, BORDER], [1.4, STIFF]]);
 }
 
 // The ring around the pin that was selected last: where it is, and its knob, on the screen.
@@ -87,12 +78,10 @@ export function ringAt(view, marks, [px, py], reach) {
 function drawRing(pen, view, marks, held) {
   const ring = dial(view, marks, held);
   if (!ring) return;
-  const [, , turned, scaled] = marks.ring;
-  disk(pen, [ring.x, ring.y], ring.radius, null, BORDER, 4);
-  if (!turned) pen.setLineDash([6, 4]);
-  disk(pen, [ring.x, ring.y], ring.radius, null, turned ? WANTED : FREE, 2);
-  pen.setLineDash([]);
-  lines(pen, [[[ring.x, ring.y], ring.knob]], [[3, BORDER], [1.2, turned ? WANTED : FREE]]);
+  const [, , turned, scaled] = marks.ring, centre = [ring.x, ring.y], color = turned ? WANTED : FREE;
+  circle(pen, centre, ring.radius, [[4, BORDER]]);
+  circle(pen, centre, ring.radius, [[2, color]], turned ? [] : [6, 4]);
+  lines(pen, [[centre, ring.knob]], [[3, BORDER], [1.2, color]]);
   const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => [ring.knob[0] + x * KNOB, ring.knob[1] + y * KNOB]);
   fillPath(pen, [corners], scaled ? WANTED : "#fff");
   strokePath(pen, [[1.6, scaled ? "#fff" : FREE]]);
@@ -120,9 +109,7 @@ function drawLost(pen, view, marks) {
 // The box or lasso that selects.
 export function drawLasso(pen, view, path) {
   fillPath(pen, [view.line(path)], "rgba(0,114,178,0.12)");
-  pen.setLineDash([5, 3]);
-  strokePath(pen, [[3, BORDER], [1.4, "#0072b2"]]);
-  pen.setLineDash([]);
+  strokePath(pen, [[3, BORDER], [1.4, "#0072b2"]], [5, 3]);
 }
 
 // held: where the pointer holds targets, by index.
@@ -134,7 +121,7 @@ export function drawMarks(pen, view, marks, { hovered, held, cursor }) {
   targets.forEach((target, i) => {
     if (marks.selected.includes(i)) disk(pen, target, RING, "rgba(0,114,178,0.28)", "#0072b2", 2);
     else if (i === hovered) disk(pen, target, RING, "rgba(0,114,178,0.14)");
-    if (marks.hidden.includes(i)) ring(pen, target);
+    if (marks.hidden.includes(i)) circle(pen, target, TARGET, [[3.4, BORDER], [1.6, "#067a82"]], [3.5, 2.4]);
     else disk(pen, target, TARGET, "#00d5e0", "#063f45", 1.4);
   });
   drawRing(pen, view, marks, held);

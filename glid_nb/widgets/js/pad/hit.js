@@ -1,5 +1,8 @@
 // What is at a point; all arguments in the same coordinates.
 
+import { tracePath } from "./pen.js";
+
+const probe = document.createElement("canvas").getContext("2d");
 const distance = ([x, y], [u, v]) => Math.hypot(x - u, y - v);
 
 // The nearest of things at a distance `d`, within reach; null for none.
@@ -26,18 +29,11 @@ export function nearestEdge(loops, point, reach) {
   return nearest(edges, reach);
 }
 
-export function contains(loop, [x, y]) {
-  let inside = false;
-  for (let i = 0, j = loop.length - 1; i < loop.length; j = i++) {
-    const [xi, yi] = loop[i];
-    const [xj, yj] = loop[j];
-    if (yi > y !== yj > y && x < ((xj - xi) * (y - yi)) / (yj - yi) + xi) inside = !inside;
-  }
-  return inside;
-}
-
 // The index of the smallest hole around a point, -1 for none.
-export function holeAt(holes, point) {
-  const around = holes.filter((hole) => contains(hole.loop, point));
+export function holeAt(holes, [x, y]) {
+  const around = holes.filter((hole) => {
+    tracePath(probe, [hole.loop]);
+    return probe.isPointInPath(x, y);
+  });
   return holes.indexOf(around.sort((a, b) => a.area - b.area)[0]);
 }

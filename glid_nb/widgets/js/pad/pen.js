@@ -9,18 +9,17 @@ export function clearedContext(canvas, { width, height }) {
   return ctx;
 }
 
-export function disk(ctx, [x, y], radius, fill, stroke, width) {
+export function circle(ctx, [x, y], radius, styles, dash) {
   ctx.beginPath();
   ctx.arc(x, y, radius, 0, 2 * Math.PI);
-  if (fill) {
-    ctx.fillStyle = fill;
-    ctx.fill();
-  }
-  if (stroke) {
-    ctx.lineWidth = width;
-    ctx.strokeStyle = stroke;
-    ctx.stroke();
-  }
+  strokePath(ctx, styles, dash);
+}
+
+export function disk(ctx, place, radius, fill, stroke, width) {
+  circle(ctx, place, radius, []);
+  ctx.fillStyle = fill;
+  ctx.fill();
+  if (stroke) strokePath(ctx, [[width, stroke]]);
 }
 
 // Begins a path along lines of points, by default closed.
@@ -40,9 +39,11 @@ export function fillPath(ctx, lines, style, rule = "evenodd") {
 }
 
 // Strokes the present path in widths and colours, the lowest first.
-export function strokePath(ctx, styles) {
+export function strokePath(ctx, styles, dash = []) {
+  ctx.setLineDash(dash);
   for (const [lineWidth, strokeStyle] of styles) {
     Object.assign(ctx, { lineWidth, strokeStyle });
     ctx.stroke();
   }
+  ctx.setLineDash([]);
 }

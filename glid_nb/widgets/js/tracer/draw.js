@@ -1,7 +1,7 @@
 // Draws the stage: picture, cage, vertices, holes, strokes and the places of problems.
 
 import { make } from "../pad/dom.js";
-import { disk, fillPath, strokePath, tracePath } from "../pad/pen.js";
+import { circle, disk, fillPath, strokePath, tracePath } from "../pad/pen.js";
 
 const HALO = "rgba(255, 255, 255, 0.9)";
 const SPECK = 12; // CSS pixels; dropped holes smaller than this show under the pointer only
@@ -36,9 +36,7 @@ export function drawStage(ctx, scene) {
   if (loops.length && !(scene.drawing && scene.doubt)) drawCage(ctx, scene, loops);
   drawOutline(ctx, scene);
   for (const problem of scene.problems) {
-    if (!problem.point) continue;
-    disk(ctx, view.toScreen(problem.point), 13, null, HALO, 5);
-    disk(ctx, view.toScreen(problem.point), 13, null, colors.warn, 2.25);
+    if (problem.point) circle(ctx, view.toScreen(problem.point), 13, [[5, HALO], [2.25, colors.warn]]);
   }
 }
 
@@ -57,9 +55,7 @@ function strokeLoops(ctx, loops, style, width, dash = []) {
   ctx.lineJoin = "round";
   tracePath(ctx, loops);
   strokePath(ctx, [[width + 2.25, HALO]]);
-  ctx.setLineDash(dash);
-  strokePath(ctx, [[width, style]]);
-  ctx.setLineDash([]);
+  strokePath(ctx, [[width, style]], dash);
 }
 
 function drawStrokes(ctx, scene) {
