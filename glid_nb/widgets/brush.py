@@ -141,7 +141,7 @@ def painted_areas(moment: Moment) -> list[Any]:
 
 @functools.lru_cache(maxsize=2)
 def _outlines(stiffness: Stiffness, cage: Cage) -> list[tuple[float, list[Array]]]:
-    """The loops (n, 2) of the areas at rest, all around in one sense, their holes in the other."""
+    """Strengths, and the loops (n, 2) of the areas at rest; holes run the other way round."""
     outlines = []
     for strength, part in stiffness.within(cage).items():
         fine = shapely.segmentize(shapely.normalize(part), cage.longer_side / _EDGES)

@@ -208,7 +208,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         return super()._repr_mimebundle_(**kwargs)
 
     def _draw(self, what: str) -> None:
-        """Draw the model after a change of ``what``; legends move only where they do not jump."""
+        """Draw the model after a change of ``what``; legends move only when it is at rest."""
         with self.deformation.locked():
             if self._closed:
                 return

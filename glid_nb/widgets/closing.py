@@ -19,7 +19,7 @@ class ClosingWidget(ipywidgets.Widget):
     _endings: tuple[Callable[[], Any], ...] = ()
     """What closing ends."""
     _closed = False
-    """Whether it is closing; observers of a model that stop after this draw no more."""
+    """Whether closing has begun: what draws in another thread asks this first."""
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Any:
         """Check the keywords, before anything is made."""

@@ -51,14 +51,9 @@ def check_free(model: EditorModel, paths: Sequence[Path], owner: Path) -> None:
 def export(
     model: EditorModel, path: str | Path, size: tuple[int, int] | None = None, view: View = "source"
 ) -> tuple[Path, ...]:
-    """Write `exported` files; returns them, the one of the given name first.
+    """Write `exported` files; returns them, the one of the given name first, which is replaced.
 
-    A file of that name is replaced. The files that come with it, ``.mtl`` and ``-texture.png`` of
-    an OBJ mesh or the ``-source.png`` that a script reads, replace only those of an earlier export
-    under this name.
-
-    Raises `ExportError` for another suffix, as `OccupiedError` when a file that comes with it would
-    replace another; an OSError when a file cannot be written.
+    Files that come with it replace only those of an earlier export; else an `OccupiedError`.
     """
     path = Path(path)
     (name, data), *others = exported(model, path, size, view).items()
@@ -70,10 +65,7 @@ def export(
 def exported(
     model: EditorModel, path: Path, size: tuple[int, int] | None, view: View
 ) -> dict[str, bytes]:
-    """The contents of `files_of` the path by their names: what is shown, in the suffix's format.
-
-    ``size`` in pixels and ``view`` of a picture are as in `glid_nb.render`.
-    """
+    """The contents of `files_of` the path by their names; arguments are as in `Editor.export`."""
     from glid_nb import export as to  # noqa: PLC0415 - the first canvas does not need it
 
     document, state = model.document, model.deformation.state

@@ -212,7 +212,7 @@ class FilePanel(ipywidgets.VBox):
         action: Callable[[bool], str],
         question: str = "Replace?",
     ) -> ipywidgets.Button:
-        """A button; ``action(sure)`` says what was done, or raises what a second click settles."""
+        """A button whose ``action(sure)`` returns what was done; a second click makes it sure."""
 
         def click() -> None:
             asked, at = self._asked

@@ -62,7 +62,7 @@ class Gestures:
 
 
 @dataclass
-class _Press:
+class _PinPress:
     start: Array
     source: Array | None
     """The point of the undeformed shape below the pointer; None over a handle or beside it."""
@@ -89,7 +89,7 @@ class PinGestures(Gestures):
         super().__init__(deformation, actions)
         self.deformation, self._image = deformation, image
         self._fit = fit
-        self._press: _Press | None = None
+        self._press: _PinPress | None = None
         self.copy: Callable[[str], None] = lambda _: None
         """Puts text into the clipboard."""
         self.cursor: list[float] | None = None
@@ -129,17 +129,17 @@ class PinGestures(Gestures):
             turned = turned_now(model.state, model.selection)
             # A click on the ring's line that turns nothing pins what is below it.
             source = self._source(point) if part == "turn" else None
-            self._press = _Press(point, source, None, part=part, turned=turned)
+            self._press = _PinPress(point, source, None, part=part, turned=turned)
         elif hit is None:
             source = None if event["shift"] else self._source(point)
-            self._press = _Press(point, source, None)
+            self._press = _PinPress(point, source, None)
         elif event["shift"]:
             chosen = model.selection
             model.select([i for i in chosen if i != hit] if hit in chosen else [*chosen, hit])
         else:
             if hit not in model.selection:
                 model.select([hit])
-            self._press = _Press(point, None, model.pose.targets[list(model.selection)])
+            self._press = _PinPress(point, None, model.pose.targets[list(model.selection)])
 
     def _move(self, event: Event) -> None:
         press, model, point = self._press, self.deformation, place(event)
@@ -163,8 +163,8 @@ class PinGestures(Gestures):
             press.start, press.targets = point, model.pose.targets[held]
         model.drag_to(press.targets + (point - press.start))
 
-    def _drags(self, press: _Press) -> bool:
-        """Begin or go on to drag the selected handles; not once that is undone, or none is left."""
+    def _drags(self, press: _PinPress) -> bool:
+        """Begin or continue the drag of the selected handles; False where it cannot go on."""
         model = self.deformation
         if not press.dragging and model.selection:
             model.begin_drag(model.selection)
@@ -173,8 +173,8 @@ class PinGestures(Gestures):
             self._press = None
         return self._press is not None
 
-    def _turn(self, press: _Press, point: Array) -> None:
-        """Turn or scale the shape at the selected handles as the pointer moves around the last."""
+    def _turn(self, press: _PinPress, point: Array) -> None:
+        """Turn or scale the selected handles as the pointer moves around the last of them."""
         model = self.deformation
         if not self._drags(press):
             return

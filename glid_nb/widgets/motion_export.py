@@ -9,6 +9,7 @@ from glid_nb.export.motion import motion_files
 from glid_nb.session.animation import Animation
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.worker import LatestWins, weakly
+from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.controls import REFUSED, button
 
 _NUMBER = {"width": "70px", "flex": "0 0 auto"}
@@ -17,7 +18,7 @@ _NUMBER = {"width": "70px", "flex": "0 0 auto"}
 _Task = tuple[str, Callable[[dict[str, bytes]], str]]
 
 
-class MotionExport(ipywidgets.HBox):
+class MotionExport(ClosingWidget, ipywidgets.HBox):
     """Size and rate of a moving picture, and how far it is drawn; ``say(text, style)`` tells."""
 
     def __init__(
@@ -40,6 +41,7 @@ class MotionExport(ipywidgets.HBox):
         px, fps = (ipywidgets.Label(text, layout={"flex": "0 0 auto"}) for text in ("px", "fps"))
         layout = {"flex": "1 1 auto", "min_width": "0"}
         super().__init__([self.size, px, self.rate, fps, *self._running], layout=layout)
+        self._endings = (self._worker.close,)
 
     def start(self, name: str, deliver: Callable[[dict[str, bytes]], str]) -> str:
         """Draw a file of this name, then deliver what was made; says at once what is done."""
@@ -50,11 +52,6 @@ class MotionExport(ipywidgets.HBox):
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until nothing is drawn; whether that is within ``timeout`` seconds."""
         return self._worker.wait(timeout)
-
-    def close(self) -> None:
-        """Stop drawing, and leave the page."""
-        self._worker.close()
-        super().close()
 
     def _draw(self, task: _Task, worker: LatestWins[_Task]) -> None:
         def report(done: int, total: int) -> bool:

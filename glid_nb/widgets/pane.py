@@ -171,9 +171,8 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         pixels = (seen - [x, y]) / unit + [width / 2, height / 2]
         self.stage.legend_corner = emptiest_corner(pixels, width, height, n_bars)
 
-    # What a view is to show, in world units, and its unit, which they give.
-    _seen: tuple[float, float]
-    _unit: float
+    _seen: tuple[float, float]  # world units, across and up, that fit into the view
+    _unit: float  # world units of a CSS pixel, so that they do
 
     def fit(self, map: DeformationMap, points: Any) -> None:
         """Make the whole shape visible, and these points."""

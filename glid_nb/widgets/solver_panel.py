@@ -40,17 +40,18 @@ _SLIDERS: dict[str, tuple[Any, dict[str, Any]]] = {
 class FieldRows(ipywidgets.GridBox):
     """Rows of labels and controls; ``on_change(name, value)`` is called by `show`, too."""
 
-    def __init__(self, on_change: Callable[[str, Any], None]) -> None:
+    def __init__(
+        self, on_change: Callable[[str, Any], None], controls: Mapping[str, tuple[str, Any]]
+    ) -> None:
         self._on_change = on_change
-        self.controls: dict[str, Any] = {}
-        """By the field's name."""
         columns = "144px minmax(0, 1fr)"
         super().__init__([], layout={"grid_template_columns": columns, "grid_gap": "2px 8px"})
+        self.build(controls)
 
     def build(self, controls: Mapping[str, tuple[str, Any]]) -> None:
         """Show these rows: by the field's name a label and a control."""
         old = self.children
-        self.controls = {name: control for name, (_, control) in controls.items()}
+        self.controls: dict[str, Any] = {name: one for name, (_, one) in controls.items()}
         for name, control in self.controls.items():
             control.observe(lambda change, name=name: self._on_change(name, change["new"]), "value")
         rows = ((ipywidgets.Label(label), control) for label, control in controls.values())
@@ -81,25 +82,24 @@ class SolverPanel(EditControls):
             method = model.state.current.method
             act(lambda: model.set_method(method.name, **{**method.settings, name: value}))
 
-        method = FieldRows(lambda _, name: act(lambda: model.set_method(name)))
         self.method = _menu(_methods(), "What solves: ours, or another to compare with")
-        method.build({"name": ("Method", self.method)})
+        rows = {"name": ("Method", self.method)}
+        method = FieldRows(lambda _, name: act(lambda: model.set_method(name)), rows)
         self.about = ipywidgets.HTML()
         """What the method does."""
-        self.settings = FieldRows(set_setting)
+        self.settings = FieldRows(set_setting, {})
         """The method's own settings."""
         self._shown: type[Method] | None = None
-        energy = FieldRows(self._set_energy)
         self.energy = _menu({name: e.label for name, e in ENERGIES.items()}, "What is minimised")
         self.s = ipywidgets.BoundedFloatText(
             1.0, min=1e-3, max=100.0, step=0.1, layout=_FULL, tooltip="The energy's parameter s"
         )
-        energy.build({"name": ("Energy", self.energy), "s": ("s", self.s)})
+        energy = FieldRows(self._set_energy, {"name": ("Energy", self.energy), "s": ("s", self.s)})
         self.options = FieldRows(
-            lambda name, value: act(lambda: model.set_options(**{name: value}))
+            lambda name, value: act(lambda: model.set_options(**{name: value})),
+            _option_controls(deformation.state.current.options),
         )
         """The options, by their names."""
-        self.options.build(_option_controls(deformation.state.current.options))
         self.pause = ipywidgets.ToggleButton(
             description="Pause", icon="pause", tooltip="Let the solver wait", layout=_FULL
         )

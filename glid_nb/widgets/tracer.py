@@ -15,7 +15,7 @@ from PIL import Image
 from glid_nb._scripts import bundle, stylesheet
 from glid_nb.geometry import Cage, Domain
 from glid_nb.imaging import Hole, TraceOptions, Tracing
-from glid_nb.imaging.read import ImageSource
+from glid_nb.imaging.read import ImageSource, png
 from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets.gestures import Event
 from glid_nb.widgets.pad import Pad
@@ -193,10 +193,9 @@ def displayed(image: NDArray[np.uint8] | None) -> bytes:
         return b""
     picture, buffer = Image.fromarray(image), io.BytesIO()
     picture.thumbnail((_LONGEST_SIDE, _LONGEST_SIDE), Image.Resampling.LANCZOS)
-    if image[..., 3].min() == 255:
-        picture.convert("RGB").save(buffer, format="JPEG", quality=92)
-    else:
-        picture.save(buffer, format="PNG", compress_level=3)
+    if image[..., 3].min() < 255:
+        return png(np.asarray(picture), compress_level=3)
+    picture.convert("RGB").save(buffer, format="JPEG", quality=92)
     return buffer.getvalue()
 
 

@@ -37,7 +37,7 @@ class Found:
 
 
 @dataclass(eq=False)
-class _Press:
+class _TracerPress:
     """A pressed pointer; also the identity of its gesture for the model."""
 
     tool: str
@@ -68,7 +68,7 @@ class TraceGestures(Gestures):
         self.corners: tuple[tuple[float, float], ...] = ()
         """The corners of a polygon that is being drawn."""
         self._selected: tuple[Vertex, ...] = ()
-        self._press: _Press | None = None
+        self._press: _TracerPress | None = None
         self._last_click = (-np.inf, np.zeros(2))
         self._last_nudge = -np.inf
         self._burst: object = None
@@ -109,13 +109,13 @@ class TraceGestures(Gestures):
                 self._delete(vertex)
         elif event["button"] == LEFT:
             if vertex is None:
-                self._press = _Press(self.tool, point, found)
+                self._press = _TracerPress(self.tool, point, found)
             elif event["shift"] and vertex in self.selected:
                 self._selected = tuple(v for v in self.selected if v != vertex)
             else:
                 self._selected = (*self.selected, vertex) if event["shift"] else (vertex,)
                 offset = self.model.loops[vertex[0]][vertex[1]] - point
-                self._press = _Press(self.tool, point, found, offset)
+                self._press = _TracerPress(self.tool, point, found, offset)
 
     def _move(self, event: Event) -> None:
         press, point = self._press, place(event)
