@@ -146,9 +146,11 @@ def motion_glb(
     if motion.repeat == "ping-pong":
         times = np.concatenate([times, 2 * times[-1] - times[-2::-1]])
         weights = np.concatenate([weights, weights[-2::-1]])
+    times = times.astype(np.float32)  # as the file has them
+    last = np.append(np.diff(times) > 0, True)  # of those that single precision cannot tell apart
     made = _textured(image, positions[0], mesh.vertices, mesh.triangles)
     moved = positions[1:n] - positions[0]
-    data = mesh_glb(made, functools.partial(_animate, moved, times, weights[:, 1:]))
+    data = mesh_glb(made, functools.partial(_animate, moved, times[last], weights[last, 1:]))
     report(progress, 2, 2)
     return data
 

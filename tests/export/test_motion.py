@@ -208,6 +208,17 @@ def test_morph_targets_follow_the_motion(repeat: Any) -> None:
         np.testing.assert_allclose(seen[:, :2], moving(time)(z), atol=2e-4)
 
 
+@pytest.mark.parametrize("repeat", ["once", "loop", "ping-pong"])
+def test_times_of_a_moving_mesh_increase_in_single_precision(repeat: Any) -> None:
+    identity = HarmonicMap.identity(domain())
+    close = Motion([identity, bent(), identity], [0, 10, 10.0000005], repeat=repeat)
+    tree, arrays = parts_of(motion_glb(picture(), close, n_vertices=300))
+    sampler = tree["animations"][0]["samplers"][0]
+    times, weights = (arrays[sampler[key]] for key in ("input", "output"))
+    assert (np.diff(times.ravel()) > 0).all()
+    assert weights.size == len(times) * len(tree["meshes"][0]["weights"])
+
+
 def test_progress_is_told_and_stops(tmp_path: Path) -> None:
     told = []
     settings = {**SMALL, "progress": lambda done, total: told.append((done, total))}
