@@ -194,8 +194,8 @@ def test_no_text_lies_over_data_or_other_text(n_holes: int, width: int):
     whole = plots._canvas.figure.bbox
     assert all(whole.contains(*corner) for box in everything for corner in (box.p0, box.p1))
     titles = [plot.axes.texts[-1].get_window_extent() for plot in plots._plots]
-    places = re.findall(r"<details .*?left:(\d+)px", _guide(width, 370).value)
-    assert all(t.x1 / _SCALE < float(x) for t, x in zip(titles, places, strict=True))
+    marks = re.findall(r"<details .*?left:(\d+)px", _guide(width, 370).value)
+    assert all(t.x1 / _SCALE < float(x) for t, x in zip(titles, marks, strict=True))
 
 
 def test_a_frame_says_where_its_solves_began(model: Deformation) -> None:
