@@ -180,11 +180,8 @@ def names(count: int) -> list[str]:
 
 
 def _with_palette(pictures: list[Image.Image], background: Color) -> list[Image.Image]:
-    """The pictures with one palette, made from at most eight of them.
-
-    Flat areas would flicker if each had its own. The exact background comes first; an averaged one
-    would show a dither pattern.
-    """
+    """The pictures with one palette of at most eight of them, as flat areas flicker if each has
+    its own. The exact background comes first; an averaged one would show a dither pattern."""
     chosen = pictures[:: math.ceil(len(pictures) / 8)]
     montage = Image.fromarray(np.concatenate([np.asarray(picture) for picture in chosen]))
     colors = [*background, *(montage.quantize(255).getpalette() or [])]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +15,6 @@ from glid_nb._arrays import Array
 from glid_nb.export.moving import MovingMesh, Progress, report
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
-from glid_nb.imaging.mesh import deformed_mesh
 from glid_nb.motion import Motion
 from glid_nb.solvers import Pose
 
@@ -55,24 +54,21 @@ def textured_mesh(
     map than a ``tolerance`` in world units are split. The depths of a pose say which part is in
     front where the shape overlaps itself. Raises a ValueError that names an argument out of range.
     """
-    mesh = deformed_mesh(map, n_vertices, tolerance, pose)
-    positions = np.column_stack([mesh.images, _relief(mesh.heights)])
-    return _textured(image, positions, mesh.vertices, mesh.triangles)
+    return _at_knots(image, MovingMesh.of(map, pose, n_vertices, tolerance))[0]
 
 
-def _relief(heights: Array) -> Array:
-    """z of vertices, by their order: depths leave little room between the other parts' heights."""
-    rank = np.unique(heights, return_inverse=True)[1]
-    return _RELIEF * rank / max(rank.max(), 1)
-
-
-def _textured(
-    image: ArrayLike, positions: Array, vertices: Array, triangles: NDArray[np.int32]
-) -> TexturedMesh:
+def _at_knots(image: ArrayLike, mesh: MovingMesh) -> tuple[TexturedMesh, Array]:
+    """The mesh at the first knot, and its positions (n, v, 3) at all."""
+    # By rank: depths leave little room between the other parts' heights.
+    ranks = np.array([np.unique(row, return_inverse=True)[1] for row in mesh.heights])
+    relief = replace(mesh, heights=_RELIEF * ranks / np.maximum(ranks.max(axis=1), 1)[:, None])
+    z = np.array([relief.heights_at(time) for time in mesh.times])
+    positions = np.concatenate([mesh.images, z[:, :, None]], axis=2)
     texture = as_rgba8(image)
-    height, width = texture.shape[:2]
-    u, v = (PixelFrame(width, height).to_pixel(vertices) / [width, height]).T
-    return TexturedMesh(positions, np.column_stack([u, 1 - v]), triangles, texture)
+    size = texture.shape[1::-1]
+    u, v = (PixelFrame(*size).to_pixel(mesh.vertices) / size).T
+    places = np.column_stack([u, 1 - v])
+    return TexturedMesh(positions[0], places, mesh.triangles, texture), positions
 
 
 def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
@@ -136,9 +132,7 @@ def motion_glb(
     report(progress, 0, 2)
     mesh = MovingMesh.of(motion, poses, n_vertices, tolerance)
     report(progress, 1, 2)
-    relief = np.array([_relief(row) for row in mesh.heights])
-    z = [mesh.heights_at(time, relief) for time in mesh.times]
-    positions = np.concatenate([mesh.images, np.array(z)[:, :, None]], axis=2)
+    first, positions = _at_knots(image, mesh)
     # A loop ends with the map that it began with.
     n = len(positions) - (motion.repeat == "loop")
     weights = np.eye(n)[np.arange(len(positions)) % n]
@@ -148,9 +142,8 @@ def motion_glb(
         weights = np.concatenate([weights, weights[-2::-1]])
     times = times.astype(np.float32)  # as the file has them
     last = np.append(np.diff(times) > 0, True)  # of those that single precision cannot tell apart
-    made = _textured(image, positions[0], mesh.vertices, mesh.triangles)
     moved = positions[1:n] - positions[0]
-    data = mesh_glb(made, functools.partial(_animate, moved, times[last], weights[last, 1:]))
+    data = mesh_glb(first, functools.partial(_animate, moved, times[last], weights[last, 1:]))
     report(progress, 2, 2)
     return data
 

@@ -43,10 +43,8 @@ def report(progress: Progress | None, done: int, total: int) -> None:
 
 @dataclass(frozen=True, eq=False)
 class MovingMesh:
-    """A triangulated domain, its images at the knots of a motion, heights at the keyframes.
-
-    All of it moves on straight lines in between, as the motion does. A ping-pong's way there only.
-    """
+    """A triangulated domain, its images at the knots of a motion, heights at the keyframes, and
+    straight lines in between, as in the motion; of a ping-pong the way there only."""
 
     vertices: Array  # (v, 2), world coordinates
     triangles: NDArray[np.int32]  # (t, 3), counter-clockwise, those that are low at first before
@@ -63,16 +61,13 @@ class MovingMesh:
         n_vertices: int,
         tolerance: float | None = None,
     ) -> MovingMesh:
-        """The mesh that is fine enough for all maps, and each keyframe's pose for what is in front.
-
-        A map stands still. Raises an InputError where there is not a pose for each keyframe.
-        """
+        """The mesh that is fine enough for all maps; each keyframe's pose says what is in front."""
         check_type("the motion", shown, Motion | HarmonicMap, "give what moves", InputError)
         poses = list(pose) if isinstance(pose, Sequence) else [pose]
         for one in poses:
             check_type("a pose", one, Pose | None, "give one for each keyframe", InputError)
         if isinstance(shown, HarmonicMap):
-            maps, times, pose_times = (shown, shown), (0.0, 1.0), (0.0, 1.0)
+            maps, times, pose_times = (shown,), (0.0,), (0.0,)
         else:
             wanted, given = len(shown.keyframes), len(poses)
             if pose is not None and given != wanted:
@@ -95,17 +90,17 @@ class MovingMesh:
     def at(self, time: float) -> DeformedMesh:
         """The mesh at a time from the motion's start to its end."""
         time = min(time, 2 * self.times[-1] - time)  # a ping-pong's way back
-        images, heights = between(self.times, self.images, time), self.heights_at(time)
+        images, heights = _between(self.times, self.images, time), self.heights_at(time)
         order = np.argsort(heights[self.triangles].mean(axis=1), kind="stable")
         return DeformedMesh(self.vertices, images, self.triangles[order], heights)
 
-    def heights_at(self, time: float, heights: Array | None = None) -> Array:
-        """(v,) heights, or the likes of them, at a time of the way there."""
-        heights = self.heights if heights is None else heights
-        return heights[0] if len(heights) == 1 else between(self.height_times, heights, time)
+    def heights_at(self, time: float) -> Array:
+        """(v,) heights at a time of the way there."""
+        still = len(self.heights) == 1
+        return self.heights[0] if still else _between(self.height_times, self.heights, time)
 
 
-def between(times: Array, values: Array, time: float) -> Array:
+def _between(times: Array, values: Array, time: float) -> Array:
     """Values (n, ...) at times, and on straight lines between, at one time."""
     i = int(np.clip(np.searchsorted(times, time, side="right") - 1, 0, len(times) - 2))
     share = (time - times[i]) / (times[i + 1] - times[i])
@@ -121,10 +116,7 @@ def frames(
     background: Color | None,
     progress: Progress | None = None,
 ) -> Drawn:
-    """Pictures at even times; all show the same part of the plane, which holds them all.
-
-    Raises `Stopped` when ``progress(done, count)``, called first and after each frame, is true.
-    """
+    """Pictures at even times; all show the same part of the plane, which holds them all."""
     times = motion.frame_times(fps)
     report(progress, 0, len(times))
     corners = images_under(motion.keyframes, motion.domain.cage.exterior).reshape(-1, 2)

@@ -1,6 +1,7 @@
 // Shows a picture under a map, or plays its motion, from the data in the page.
 
 import { Motion } from "../widgets/js/motion/motion.js";
+import { View } from "../widgets/js/pad/view.js";
 
 (async () => {
   "use strict";
@@ -17,8 +18,8 @@ import { Motion } from "../widgets/js/motion/motion.js";
     const packed = new Uint8Array(await new Response(stream).arrayBuffer());
     const n = packed.length / 4, whole = new Int32Array(n);
     for (let i = 0; i < n; i++) {
-      const folded = packed[i] | packed[n + i] << 8 | packed[2 * n + i] << 16 | packed[3 * n + i] << 24;
-      whole[i] = ((folded >>> 1) ^ -(folded & 1)) + 2 * (whole[i - width] ?? 0) - (whole[i - 2 * width] ?? 0);
+      const fresh = packed[i] | packed[n + i] << 8 | packed[2 * n + i] << 16 | packed[3 * n + i] << 24;
+      whole[i] = fresh + (whole[i - width] ?? 0);
     }
     return Float32Array.from(whole, (value) => step * value);
   };
@@ -90,7 +91,7 @@ import { Motion } from "../widgets/js/motion/motion.js";
   gl.enable(gl.BLEND);
   gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
 
-  const view = { scale: 1, x: 0, y: 0 }; // CSS pixels per world unit; the world's point in the middle
+  const view = new View(() => draw(), { nearest: 1e-4, farthest: 100 });
   const overlay = get("overlay"), straight = get("source"), slider = get("time");
   let time = motion.start;
 
@@ -99,23 +100,23 @@ import { Motion } from "../widgets/js/motion/motion.js";
     draw();
   }
 
-  function fitted(w, h) {
+  function fitted(width, height) {
     const [xmin, ymin, xmax, ymax] = straight.checked ? data.source_bounds : data.bounds;
-    const scale = (1 - 2 * data.margin) * Math.min(w / (xmax - xmin), h / (ymax - ymin));
-    return { scale, x: (xmin + xmax) / 2, y: (ymin + ymax) / 2 };
+    const unit = Math.max((xmax - xmin) / width, (ymax - ymin) / height) / (1 - 2 * data.margin);
+    return { width, height, unit, x: (xmin + xmax) / 2, y: (ymin + ymax) / 2 };
   }
 
-  const draw = () => paint(canvas.clientWidth, canvas.clientHeight, view);
+  const draw = () => paint(view);
 
-  function paint(w, h, { scale, x, y }) {
+  function paint({ width: w, height: h, unit, x, y }) {
     const ratio = window.devicePixelRatio || 1;
     const [width, height] = [Math.round(w * ratio), Math.round(h * ratio)];
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     gl.viewport(0, 0, width, height);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    const [sx, sy] = [(2 * scale) / w, (2 * scale) / h];
+    const [sx, sy] = [2 / (unit * w), 2 / (unit * h)];
     gl.uniformMatrix4fv(uniform("projectionMatrix"), false, [sx, 0, 0, 0, 0, sy, 0, 0, 0, 0, -1, 0, -x * sx, -y * sy, 0, 1]);
-    gl.uniform1f(uniform("pixel"), 1 / (scale * ratio));
+    gl.uniform1f(uniform("pixel"), unit / ratio);
     const name = overlay.selectedOptions[0].dataset.name;
     gl.uniform1f(uniform("overlay"), overlay.value);
     gl.uniform2fv(uniform("color_range"), data.ranges[name] ?? [0, 1]);
@@ -127,41 +128,32 @@ import { Motion } from "../widgets/js/motion/motion.js";
     gl.drawElements(gl.TRIANGLES, triangles.length, wide ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT, 0);
   }
 
-  function zoom(factor, clientX, clientY) {
+  const place = ({ clientX, clientY }) => {
     const box = canvas.getBoundingClientRect();
-    const dx = clientX - box.left - box.width / 2;
-    const dy = box.height / 2 - (clientY - box.top);
-    const scale = Math.min(Math.max(view.scale * factor, 1e-2), 1e4);
-    view.x += dx / view.scale - dx / scale;
-    view.y += dy / view.scale - dy / scale;
-    view.scale = scale;
-    draw();
-  }
-
+    return [clientX - box.left, clientY - box.top];
+  };
   const pointers = new Map();
   canvas.addEventListener("pointerdown", (e) => {
     canvas.setPointerCapture(e.pointerId);
-    pointers.set(e.pointerId, [e.clientX, e.clientY]);
+    pointers.set(e.pointerId, place(e));
   });
   canvas.addEventListener("pointermove", (e) => {
-    const before = pointers.get(e.pointerId);
+    const before = pointers.get(e.pointerId), [x, y] = place(e);
     if (!before) return;
     const other = [...pointers].find(([id]) => id !== e.pointerId)?.[1];
-    pointers.set(e.pointerId, [e.clientX, e.clientY]);
+    pointers.set(e.pointerId, [x, y]);
     const share = other ? 0.5 : 1; // two fingers move the picture by their mean
-    view.x -= (share * (e.clientX - before[0])) / view.scale;
-    view.y += (share * (e.clientY - before[1])) / view.scale;
-    if (other) {
-      const apart = (p) => Math.max(Math.hypot(p[0] - other[0], p[1] - other[1]), 1);
-      zoom(apart([e.clientX, e.clientY]) / apart(before), (e.clientX + other[0]) / 2, (e.clientY + other[1]) / 2);
-    } else draw();
+    view.pan(share * (x - before[0]), share * (y - before[1]));
+    if (!other) return;
+    const apart = (p) => Math.max(Math.hypot(p[0] - other[0], p[1] - other[1]), 1);
+    view.zoom(apart(before) / apart([x, y]), [(x + other[0]) / 2, (y + other[1]) / 2]);
   });
   for (const name of ["pointerup", "pointercancel"]) {
     canvas.addEventListener(name, (e) => pointers.delete(e.pointerId));
   }
   canvas.addEventListener("wheel", (e) => {
     e.preventDefault();
-    zoom(Math.exp(-e.deltaY * 0.0015), e.clientX, e.clientY);
+    view.zoom(Math.exp(e.deltaY * 0.0015), place(e));
   }, { passive: false });
   get("fit").addEventListener("click", fit);
   straight.addEventListener("change", fit);
@@ -245,7 +237,7 @@ import { Motion } from "../widgets/js/motion/motion.js";
       thumb.setAttribute("aria-label", thumb.title);
       thumb.addEventListener("click", () => glideTo(t));
       time = t;
-      paint(56, 56, fitted(56, 56));
+      paint(fitted(56, 56));
       Object.assign(small, { width: canvas.width, height: canvas.height }).getContext("2d").drawImage(canvas, 0, 0);
       thumb.append(small);
       thumbs.push(thumb);

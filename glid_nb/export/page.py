@@ -187,10 +187,8 @@ def playing(motion: Motion, wire: Callable[[HarmonicMap], bytes]) -> tuple[dict[
 
 
 def _spread(domain: Domain, points: Array) -> float:
-    """How far images of points move where coefficients are rounded to whole numbers, at most.
-
-    Of a sample, and half as much again.
-    """
+    """How far images of points move at most where coefficients are rounded to whole numbers: half
+    as much again as in a sample."""
     n, holes = domain.n_coefficients, domain.n_holes
     phi, psi = np.random.default_rng(0).uniform(-0.5, 0.5, (2, n, 2)) @ [1, 1j]
     psi[n - holes :] = phi[n - holes :].conj()
@@ -228,15 +226,11 @@ def _bounds(points: Array) -> list[float]:
 
 
 def _packed(values: Array, step: float) -> dict[str, Any]:
-    """(n, m) values rounded to whole steps, for `unpacked` in the page.
-
-    Second differences down the columns, as whole numbers of which odd ones are negative, the least
-    significant bytes of all first; deflated.
-    """
-    whole = np.rint(np.asarray(values, dtype=float) / step).astype(np.int64)
-    fresh = np.diff(whole, 2, axis=0, prepend=np.zeros((2, whole.shape[1]), np.int64))
-    folded = ((fresh << 1) ^ (fresh >> 63)).astype("<u4").reshape(-1, 1)
-    return {"step": step, "bytes": _base64(zlib.compress(folded.view("u1").T.tobytes(), 9))}
+    """(n, m) values for `unpacked` in the page: whole steps, differences down the columns, the
+    least significant bytes of all first; deflated."""
+    whole = np.rint(np.asarray(values, dtype=float) / step).astype("<i4")
+    planes = np.diff(whole, axis=0, prepend=0 * whole[:1]).reshape(-1, 1).view("u1").T
+    return {"step": step, "bytes": _base64(zlib.compress(planes.tobytes(), 9))}
 
 
 def _base64(data: Any) -> str:
