@@ -97,37 +97,21 @@ class BrushBar(EditControls):
         )
         ipywidgets.link((brush, "radius"), (self.size, "value"))
         ipywidgets.link((brush, "strength"), (self.strength, "value"))
-        self.erase = brush_toggle(brush, "erase", "stiff", icon="eraser", tooltip="Erase (E)")
+        self.erase = ipywidgets.ToggleButton(
+            icon="eraser", tooltip="Erase (E)", layout={"width": "auto"}
+        )
+        chosen = lambda tool: tool == "erase", lambda on: "erase" if on else "stiff"
+        ipywidgets.link((brush, "tool"), (self.erase, "value"), chosen)
         clear = functools.partial(self._act, lambda: deformation.set_stiffness(Stiffness()))
         self.clear = button("Clear", "trash", "Erase all stiff areas", clear)
         shown = [self.size, self.strength, self.erase, self.clear]
         super().__init__(deformation, [ipywidgets.HBox(shown)])
-
-        def swap(_: Any = None) -> None:
-            self.layout.visibility = None if brush.tool else "hidden"
-            other.layout.visibility = "hidden" if brush.tool else None
-
-        brush.observe(swap, ["tool"])
-        swap()
+        this, that = (self.layout, "visibility"), (other.layout, "visibility")
+        ipywidgets.dlink((brush, "tool"), this, lambda tool: None if tool else "hidden")
+        ipywidgets.dlink((brush, "tool"), that, lambda tool: "hidden" if tool else None)
 
     def _show(self) -> None:
         self.clear.disabled = not self.deformation.pose.stiffness
-
-
-def brush_toggle(brush: Brush, on: str, off: str, **look: Any) -> ipywidgets.ToggleButton:
-    """A button that gives the brush one tool, and another one, or none, when it is let go."""
-    made = ipywidgets.ToggleButton(layout={"width": "auto"}, **look)
-
-    def pressed() -> bool:
-        return brush.tool == on if off else bool(brush.tool)
-
-    def choose(change: Any) -> None:
-        if change["new"] != pressed():  # else it follows the brush
-            brush.tool = on if change["new"] else off
-
-    brush.observe(lambda _: made.set_trait("value", pressed()), ["tool"])
-    made.observe(choose, ["value"])
-    return made
 
 
 def painted_areas(moment: Moment) -> list[Any]:

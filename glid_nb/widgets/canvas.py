@@ -21,7 +21,7 @@ from glid_nb.imaging.read import ImageSource, read_image
 from glid_nb.session.actions import turned_now
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditState, Moment
-from glid_nb.widgets.brush import BrushGestures, brush_toggle, painted_areas
+from glid_nb.widgets.brush import BrushGestures, painted_areas
 from glid_nb.widgets.closing import ClosingWidget
 from glid_nb.widgets.controls import button
 from glid_nb.widgets.gestures import Event
@@ -132,10 +132,10 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             self._show_source()
             self._draw("legend")
         self.pane.stage.observe(lambda _: model.begin(), ["drawn"])
-        self.observe(lambda _: self._draw("cages"), ["show_cage", "show_offset_cage"])
+        lines = ["show_cage", "show_offset_cage", "show_onion"]
+        self.observe(lambda _: self._draw("state"), lines)
         self.observe(lambda _: self._draw("legend"), ["overlay", "show_panels"])
         self.observe(self._show_source, ["show_source"])
-        self.observe(lambda _: self._draw("state"), ["show_onion"])
         self.brush.observe(lambda _: self._draw("state"))
 
     @property
@@ -354,8 +354,11 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
             ipywidgets.link((canvas, name), (toggle, "value"))
         buttons = self.undo, self.redo, self.reset, self.fit
         tip = "Paint what should stay as it is (B)"
-        look = {"description": "Stiff", "icon": "paint-brush", "tooltip": tip}
-        self.stiff = brush_toggle(canvas.brush, "stiff", "", **look)
+        self.stiff = ipywidgets.ToggleButton(
+            description="Stiff", icon="paint-brush", tooltip=tip, layout=fitting
+        )
+        chosen = bool, lambda on: "stiff" if on else ""
+        ipywidgets.link((canvas.brush, "tool"), (self.stiff, "value"), chosen)
         kwargs = {"layout": {"flex_flow": "row wrap"}, **kwargs}
         shown = [*buttons, self.overlay, *self.toggles.values(), self.stiff]
         super().__init__(shown, **kwargs)

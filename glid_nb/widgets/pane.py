@@ -102,7 +102,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self._drawing = Drawing(map)
         self.scene = self._new_scene(0)
         """What pythreejs draws."""
-        self._renderer = renderer(self.scene, *size)
+        self._renderer = renderer(self.scene)
         self.stage = Stage(
             width=size[0],
             height=size[1],
@@ -114,8 +114,9 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         )
         super().__init__([self._renderer, self.stage])
         self.add_class("glid-pane")
-        self._resize()
-        self.stage.observe(self._resize, ["width", "height"])
+        for side in ("width", "height"):
+            ipywidgets.dlink((self.stage, side), (self._renderer, side))
+            ipywidgets.dlink((self.stage, side), (self.layout, side), "{}px".format)
         self.fit(map, ())
         self._endings = (lambda: self.scene.close(),)
 
@@ -203,11 +204,6 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
     def _wire(self) -> bytes:
         scene = self.scene
         return scene.shader_map.wire(scene.map) if scene.evaluated_in == "shader" else b""
-
-    def _resize(self, _: Any = None) -> None:
-        width, height = self.stage.width, self.stage.height
-        self._renderer.width, self._renderer.height = width, height
-        self.layout.width, self.layout.height = f"{width}px", f"{height}px"
 
 
 def emptiest_corner(points: Any, width: int, height: int, bars: int = 1) -> str:

@@ -1,13 +1,10 @@
 """Lines along curves of the undeformed shape as triangles, with a width in pixels."""
 
-from collections.abc import Sequence
-
 import numpy as np
 import shapely
 
 from glid_nb._arrays import Array
 from glid_nb.geometry import Domain
-from glid_nb.geometry._loops import subdivided
 from glid_nb.geometry.panels import Panels
 
 _PIECES_PER_SIDE = 80
@@ -23,7 +20,8 @@ unit direction and the side, -1 or 1."""
 
 def cage_ribbon(domain: Domain) -> Ribbon:
     """The cage's loops."""
-    return _loops_ribbon(domain.cage.loops_complex, domain.cage.longer_side)
+    cage = domain.cage
+    return _loops_ribbon(shapely.Polygon(cage.exterior, cage.holes), cage.longer_side)
 
 
 def offset_ribbon(domain: Domain) -> Ribbon:
@@ -32,8 +30,7 @@ def offset_ribbon(domain: Domain) -> Ribbon:
     offset, shape = (shapely.Polygon(cage.exterior, cage.holes) for cage in cages)
     gap = float(shapely.distance(offset.boundary, shape.boundary))
     inner = shapely.buffer(offset, -_INSIDE * gap, join_style="mitre")
-    loops = [shapely.get_coordinates(ring)[:-1] for ring in shapely.get_rings(inner)]
-    return _loops_ribbon([p[:, 0] + 1j * p[:, 1] for p in loops], domain.cage.longer_side)
+    return _loops_ribbon(inner, domain.cage.longer_side)
 
 
 def panel_ribbon(panels: Panels) -> Ribbon:
@@ -43,14 +40,10 @@ def panel_ribbon(panels: Panels) -> Ribbon:
     return _ribbon(points[:, :-1].ravel(), points[:, 1:].ravel())
 
 
-def _loops_ribbon(loops: Sequence[Array], side: float) -> Ribbon:
-    starts, ends = [], []
-    for loop in loops:
-        lengths = np.abs(np.roll(loop, -1) - loop)
-        pieces = np.maximum(np.ceil(lengths / (side / _PIECES_PER_SIDE)), 1).astype(np.int64)
-        points = subdivided(loop, pieces)
-        starts.append(points)
-        ends.append(np.roll(points, -1))
+def _loops_ribbon(shape: shapely.Geometry, side: float) -> Ribbon:
+    fine = shapely.segmentize(shape, side / _PIECES_PER_SIDE)
+    loops = [shapely.get_coordinates(ring) @ [1, 1j] for ring in shapely.get_rings(fine)]
+    starts, ends = [loop[:-1] for loop in loops], [loop[1:] for loop in loops]
     return _ribbon(np.concatenate(starts), np.concatenate(ends))
 
 

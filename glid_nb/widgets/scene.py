@@ -283,14 +283,12 @@ def drawing_order(mesh: Triangulation) -> Array:
     return mesh.triangles[np.lexsort((x, np.searchsorted(rows, y), np.floor(x / width)))]
 
 
-def renderer(scene: Scene, width: int, height: int) -> Any:
+def renderer(scene: Scene) -> Any:
     """A pythreejs renderer of a scene; the page sets its camera's frame."""
     return three.Renderer(
         camera=three.OrthographicCamera(-10, 10, 10, -10, 0, 10, position=[0, 0, 5]),
         scene=three.Scene(children=scene.meshes, background=None),
         controls=[],
-        width=width,
-        height=height,
         antialias=True,
         alpha=True,
         background_opacity=0,

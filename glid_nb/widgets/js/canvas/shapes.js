@@ -1,5 +1,7 @@
 // Puts the kernel's coefficients and the page's view into pythreejs's objects.
 
+import { toFloats } from "../pad/dom.js";
+
 // pythreejs keeps three.js's renderers for later, and those keep lists of all that they ever drew.
 const clearLists = (scene, { renderLists }) => renderLists.dispose();
 
@@ -43,16 +45,13 @@ export class Shapes {
 
   // Puts the newest coefficients into every material.
   refresh() {
-    const bytes = this.model.get("coefficients");
-    const floats = this.motion?.length ? this.motion : bytes?.byteLength
-      ? new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength))
-      : null;
+    const floats = this.motion?.length ? this.motion : toFloats(this.model.get("coefficients"));
     for (const { obj } of this.materials) {
       const { cage, coefficients, holes, by_margin } = obj?.uniforms ?? {};
       if (by_margin?.value) by_margin.value = this.motion ? 2 : 1;
-      if (!floats || !coefficients) continue;
+      if (!coefficients) continue;
       const chain = cage.value.length;
-      // Another domain's coefficients may arrive before its materials.
+      // The kernel evaluates, or another domain's coefficients arrive before its materials.
       if (floats.length !== chain + holes.value.length) continue;
       coefficients.value = floats.subarray(0, chain);
       holes.value = floats.subarray(chain);

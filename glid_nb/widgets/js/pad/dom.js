@@ -10,6 +10,12 @@ export function make(tag, properties = {}, ...children) {
   return element;
 }
 
+// The numbers in a binary trait; none before its first value came.
+export function toFloats(view) {
+  if (!view) return new Float32Array();
+  return new Float32Array(view.buffer.slice(view.byteOffset, view.byteOffset + view.byteLength));
+}
+
 // Calls listeners now, and whenever the model tells one of their events ("change:a change:b").
 // Returns a function that ends this.
 export function follow(model, listeners) {

@@ -1,6 +1,6 @@
 // The timeline below the canvas: keyframes with thumbnails, what is proved between them, a playhead.
 
-import { follow, make } from "../pad/dom.js";
+import { follow, make, toFloats } from "../pad/dom.js";
 import { icon, iconButton } from "../pad/icons.js";
 import { Motion } from "../motion/motion.js";
 import { Link } from "../pad/link.js";
@@ -19,10 +19,6 @@ const seconds = (time) => `${time.toFixed(2)} s`;
 function menu(label, rows, act) {
   const options = rows.map(([value, text]) => make("option", { value }, text));
   return make("select", { "aria-label": label, title: label, onchange: (e) => act(e.target.value) }, ...options);
-}
-
-function toFloats(view) {
-  return new Float32Array(view.buffer.slice(view.byteOffset, view.byteOffset + view.byteLength));
 }
 
 function render({ model, el }) {
