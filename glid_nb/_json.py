@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from glid_nb._errors import InputFileError, did_you_mean
+from glid_nb._errors import InputError, InputFileError, did_you_mean
 from glid_nb._files import write_text_atomically
 
 Check = Callable[[Any, str], None]
@@ -89,8 +89,23 @@ def check_fields(
             check(data[key], key)
 
 
-def anything(value: Any, key: str) -> None:
-    """Accept any value; it is checked where it is used."""
+def keys(*names: str) -> Checks:
+    """Keys whose values are checked where they are used."""
+    return dict.fromkeys(names, lambda _value, _key: None)
+
+
+def checked_version(
+    data: Any, kind: str, newest: int = 1, error: type[InputError] = InputFileError
+) -> int:
+    """The version of what was written with the format ``glid_nb-kind``."""
+    wanted, what = f"glid_nb-{kind}", f"this is not a glid_nb {kind}, which is a JSON object"
+    if not isinstance(data, Mapping) or data.get("format") != wanted:
+        raise error(f'{what}: the key "format" is not "{wanted}"')
+    version = data.get("version")
+    if type(version) is not int or not 1 <= version <= newest:
+        known = f"{kind} version {version!r:.20} is not supported, only 1 to {newest}"
+        raise error(f"{known}; a newer glid_nb may have written it: update this one")
+    return version
 
 
 def _check_kind(value: Any, key: str, kind: type) -> None:

@@ -20,8 +20,6 @@ from glid_nb.cli.output import check_files, check_folder
 from glid_nb.cli.progress import step
 from glid_nb.session.timeline import Timeline
 
-_SETTINGS = ("easing", "repeat", "between", "tolerance", "turns", "handles")
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
@@ -89,9 +87,8 @@ def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb
         advice = "name its picture by --picture, and leave out --loop, for it has its own"
         raise InputError(f"{chosen.source} is a saved motion: {advice}")
     if chosen.seconds is not None:
-        longer = _seconds(chosen) / motion.duration
-        own = {key: getattr(motion, key) for key in _SETTINGS}
-        motion = glid_nb.Motion(motion.keyframes, [longer * t for t in motion.times], **own)
+        times = [_seconds(chosen) / motion.duration * time for time in motion.times]
+        motion = glid_nb.Motion(motion.keyframes, times, **motion.settings)
     return glid_nb.read_image(chosen.picture), motion, None
 
 

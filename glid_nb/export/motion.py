@@ -17,7 +17,7 @@ from glid_nb.export.moving import Progress, Stopped, frames
 from glid_nb.export.page import page_html
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.render import check_fits
-from glid_nb.motion import Motion, file
+from glid_nb.motion import Motion
 from glid_nb.motion.settings import checked
 from glid_nb.solvers import Pose
 
@@ -107,7 +107,7 @@ def motion_files(
             case ".glb":
                 contents = [motion_glb(image, motion, poses, progress=progress)]
             case ".motion.json":
-                contents = [text.encode() for text in file.texts(motion)]
+                contents = [text.encode() for text in motion.texts()]
             case _:
                 drawn = frames(image, motion, poses, size, fps, background, progress)
                 contents = encode.encoded(drawn, name, suffix, fps, background, loop)

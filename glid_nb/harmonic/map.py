@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from glid_nb._arrays import Array, number_pairs, read_only, real_array
 from glid_nb._errors import InputError, about
-from glid_nb._json import read_json, write_json
+from glid_nb._json import checked_version, read_json, write_json
 from glid_nb._runtime import in_chunks
 from glid_nb.geometry import Domain, as_points, loop_name, uniform_panels
 from glid_nb.harmonic import cauchy
@@ -24,6 +24,7 @@ R = TypeVar("R")
 
 FORMAT = "glid_nb-map"
 FORMAT_VERSION = 1
+DOMAIN_KEYS = ("cage", "holes", "offset_cage", "offset_holes", "hole_points")
 
 _LARGEST = 1e120  # squares of larger coefficients, times those of the basis, overflow
 
@@ -139,12 +140,8 @@ class HarmonicMap:
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> HarmonicMap:
         """The map that :meth:`to_dict` wrote; raises MapError if the data is not valid."""
-        if not isinstance(data, Mapping) or data.get("format") != FORMAT:
-            raise MapError(f'this is not a glid_nb map: the key "format" is not "{FORMAT}"')
-        version = data.get("version")
-        if version != FORMAT_VERSION:
-            raise MapError(f"map version {version!r} is not supported; expected {FORMAT_VERSION}")
-        for key in ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "phi", "psi"):
+        checked_version(data, "map", FORMAT_VERSION, MapError)
+        for key in (*DOMAIN_KEYS, "phi", "psi"):
             # A domain without one of its parts would choose it, and so have another basis.
             if key not in data or (data[key] is None and key not in ("phi", "psi")):
                 raise MapError(f'the map lacks the key "{key}"')

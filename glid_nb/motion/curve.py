@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import bisect
-import functools
 import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,9 +18,6 @@ from glid_nb.motion.boundary import boundary_of
 from glid_nb.motion.bounded import Bounded, Coefficients
 from glid_nb.motion.settings import EASINGS, MotionError
 from glid_nb.solvers import Options, Pose, solve
-
-if TYPE_CHECKING:
-    from glid_nb.motion.motion import Motion
 
 _SAMPLES = 24  # of each lap of an interval, to see how it bends
 _MOST_PIECES = 8192  # of an interval
@@ -42,7 +38,7 @@ class Piece(NamedTuple):
         if time in (self.start, self.end):
             return self.start_map if time == self.start else self.end_map
         s = (time - self.start) / (self.end - self.start)
-        return HarmonicMap(self.start_map.domain, *_blended((self.start_map, self.end_map), 0, s))
+        return HarmonicMap(self.start_map.domain, *blended((self.start_map, self.end_map), 0, s))
 
 
 def linear_pieces(times: Sequence[float], maps: Sequence[HarmonicMap]) -> tuple[Piece, ...]:
@@ -63,19 +59,6 @@ class Curve:
     laps: tuple[int, ...]
     """Of each interval, see `Bounded.laps`."""
     known: dict[float, HarmonicMap] = field(default_factory=dict)
-
-    @classmethod
-    def of(cls, motion: Motion) -> Curve:
-        """The curve that a motion's settings describe."""
-        closed, times = motion.repeat == "loop", motion.times
-        maps, intervals = motion.keyframes + motion.keyframes[:closed], range(len(times) - 1)
-        if motion.between == "linear":
-            blended = functools.partial(_blended, maps)
-            return cls(maps, times, motion.easing, blended, (1,) * len(intervals))
-        follow = Bounded.through(maps, times, motion.turns, closed)
-        bounded = motion.between == "bounded"
-        between = follow if bounded else through_solved(follow, motion.handles, closed)
-        return cls(maps, times, motion.easing, between, tuple(map(follow.laps, intervals)))
 
     def map(self, time: float) -> HarmonicMap:
         """The map at a time; at a keyframe's, that keyframe."""
@@ -116,7 +99,8 @@ class Curve:
         return boundary_of(map.domain).images(map.phi, map.psi)
 
 
-def _blended(maps: Sequence[HarmonicMap], piece: int, s: float) -> Coefficients:
+def blended(maps: Sequence[HarmonicMap], piece: int, s: float) -> Coefficients:
+    """Coefficients on the straight line from a map to the next."""
     a, b = maps[piece], maps[piece + 1]
     return a.phi + s * (b.phi - a.phi), a.psi + s * (b.psi - a.psi)
 

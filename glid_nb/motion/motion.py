@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from glid_nb._arrays import Array, number_pairs, read_only
+from glid_nb._errors import about
 from glid_nb._files import same_file, write_text_atomically
 from glid_nb._runtime import single_blas_thread
 from glid_nb.certificate.pieces import PieceCertificate, certify_pieces
@@ -21,8 +22,10 @@ from glid_nb.certificate.rounding import rounded_down
 from glid_nb.geometry import Domain, place
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion import file
-from glid_nb.motion.curve import Curve, Piece, linear_pieces
+from glid_nb.motion.bounded import Bounded
+from glid_nb.motion.curve import Curve, Piece, blended, linear_pieces, through_solved
 from glid_nb.motion.settings import (
+    LATEST,
     Between,
     Easing,
     MotionError,
@@ -116,6 +119,12 @@ class Motion:
             raise MotionError(f"turns are {self.turns}; linear blending takes none, so give 0")
 
     @property
+    def settings(self) -> dict[str, Any]:
+        """Plain values of the keywords that make this motion, with its keyframes and times."""
+        known = {key: getattr(self, key) for key in file.SETTINGS}
+        return known if self.handles is None else {**known, "handles": self.handles.tolist()}
+
+    @property
     def domain(self) -> Domain:
         """The domain of all maps."""
         return self.keyframes[0].domain
@@ -181,7 +190,7 @@ class Motion:
 
         Raises MotionError for a time outside ``start`` to ``end``.
         """
-        time = checked("time", float, time, least=-1e9)
+        time = checked("time", float, time, least=-LATEST)
         if self.repeat != "once":
             time = self.start + (time - self.start) % self.duration
         elif not self.start <= time <= self.end:
@@ -222,7 +231,15 @@ class Motion:
 
     @functools.cached_property
     def _curve(self) -> Curve:
-        return Curve.of(self)
+        closed, intervals = self.repeat == "loop", range(len(self.times) - 1)
+        maps = self.keyframes + self.keyframes[:closed]
+        through = maps, self.times, self.easing
+        if self.between == "linear":
+            return Curve(*through, functools.partial(blended, maps), (1,) * len(intervals))
+        way = follow = Bounded.through(maps, self.times, self.turns, closed)
+        if self.between == "solved":
+            way = through_solved(follow, self.handles, closed)
+        return Curve(*through, way, tuple(map(follow.laps, intervals)))
 
     @functools.cached_property
     def _proved(self) -> tuple[tuple[Piece, ...], tuple[PieceCertificate, ...]]:
@@ -256,8 +273,15 @@ class Motion:
         paths = [path] if proof is None else [path, proof]
         if proof is not None and same_file(Path(path), Path(proof)):
             raise MotionError(f"the proof would overwrite the motion in {path}; name another file")
-        for to, text in zip(paths, file.texts(self, proof is not None), strict=True):
+        for to, text in zip(paths, self.texts(proof is not None), strict=True):
             write_text_atomically(Path(to), text)
+
+    def texts(self, proof: bool = True) -> tuple[str, ...]:
+        """What :meth:`save` writes; MotionError if there is no proof."""
+        if proof and not self.certificate.certified:
+            raise MotionError(f"there is no proof to write: {self.certificate.reason}")
+        settings = {"times": self.times, **self.settings}
+        return file.texts(self.pieces_forth, settings, self._proved[1] if proof else ())
 
     @classmethod
     def load(cls, path: str | Path) -> Motion:
@@ -265,4 +289,9 @@ class Motion:
 
         Raises MotionError, which names the file and what is wrong there.
         """
-        return file.load(path, cls)
+        with about(path, MotionError):
+            keyframes, settings, knots = file.read(path)
+            motion = cls(keyframes, **settings)
+            vars(motion)["_knots"] = knots
+            motion.certificate  # noqa: B018 - proves every piece
+            return motion

@@ -23,9 +23,7 @@ EASINGS: dict[str, Callable[[float], float]] = {
     "in-out": lambda s: s * s * (3 - 2 * s),
 }
 """Monotone maps of [0, 1] to itself, so no map appears that the motion without them lacks."""
-
-
-_LATEST = 1e9  # seconds
+LATEST = 1e9  # seconds
 _LEAST_GAP = 1e-9  # of the largest time, at least of a second: in it thousands of pieces have room
 
 
@@ -97,7 +95,7 @@ def checked_times(times: Any, count: int, closed: bool) -> tuple[float, ...]:
     if not isinstance(times, list | tuple | range | np.ndarray):
         raise MotionError(f"times must be a list of numbers, not {times!r:.60}")
     values = [
-        checked(f"times[{i}]", float, t, least=-_LATEST, most=_LATEST) for i, t in enumerate(times)
+        checked(f"times[{i}]", float, t, least=-LATEST, most=LATEST) for i, t in enumerate(times)
     ]
     if len(values) not in (count, count + closed):
         wanted = f"{count} or {count + 1}" if closed else f"{count}"

@@ -18,10 +18,7 @@ from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Iteration, Method, Newton, Options, Pose, Status
 
-MOST_POSES = 1000
-"""Most poses that a document may hold."""
-
-_LONGEST_NAME = 200
+_MOST_POSES, _LONGEST_NAME = 1000, 200
 # What a solve of a pose depends on, by the names of the fields.
 _ASKED = {"pose": Pose, "energy": Energy, "options": Options, "method": Method}
 
@@ -75,11 +72,9 @@ class NamedPose:
 
     def __post_init__(self) -> None:
         _check_kind("the name of a pose", self.name, str)
-        if not 1 <= len(self.name) <= _LONGEST_NAME:
-            raise DocumentError(
-                f"the name of a pose must have 1 to {_LONGEST_NAME} characters, "
-                f"not {len(self.name)}"
-            )
+        if not 1 <= (count := len(self.name)) <= _LONGEST_NAME:
+            wanted = f"the name of a pose must have 1 to {_LONGEST_NAME} characters"
+            raise DocumentError(f"{wanted}, not {count}")
         for key, kind in {**_ASKED, "map": HarmonicMap}.items():
             _check_kind(f"{key} of the pose {self.name!r}", getattr(self, key), kind)
         with about(f"the pose {self.name!r}", DocumentError):
@@ -137,16 +132,12 @@ class Document:
         for i, pose in enumerate(self.poses):
             _check_kind(f"poses[{i}]", pose, NamedPose)
             if pose.map.domain is not self.domain:
-                raise DocumentError(
-                    f"poses[{i}] ({pose.name!r}): its map lives on another domain than the document"
-                )
+                raise DocumentError(f"poses[{i}] ({pose.name!r}): its map is of another domain")
         last = max(len(self.poses) - 1, 0)
         if type(self.active) is not int or not 0 <= self.active <= last:
             raise DocumentError(f"active must be 0 to {last}, not {self.active!r}")
-        if self.timeline is not None and len(self.timeline) != len(self.poses):
-            raise DocumentError(
-                f"timeline has {len(self.timeline)} keyframes for {len(self.poses)} poses"
-            )
+        if self.timeline is not None and len(self.timeline) != (count := len(self.poses)):
+            raise DocumentError(f"timeline has {len(self.timeline)} keyframes for {count} poses")
 
     @property
     def active_pose(self) -> NamedPose | None:
@@ -156,8 +147,8 @@ class Document:
 
 def check_count(poses: Sized) -> None:
     """Raise :class:`DocumentError` for more poses than a document may hold."""
-    if len(poses) > MOST_POSES:
-        raise DocumentError(f"poses: there are {len(poses)}; {MOST_POSES} are allowed")
+    if len(poses) > _MOST_POSES:
+        raise DocumentError(f"poses: there are {len(poses)}; {_MOST_POSES} are allowed")
 
 
 def _check_kind(name: str, value: object, kind: type) -> None:
@@ -168,7 +159,6 @@ def _check_kind(name: str, value: object, kind: type) -> None:
 def _checked_image(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
     array = np.asarray(image)
     if array.dtype != np.uint8 or array.ndim != 3 or array.shape[2] != 4 or not array.size:
-        raise DocumentError(
-            f"image must be a uint8 array of the shape (h, w, 4), not {array.dtype} {array.shape}"
-        )
+        wanted = "image must be a uint8 array of the shape (h, w, 4)"
+        raise DocumentError(f"{wanted}, not {array.dtype} {array.shape}")
     return read_only(array.copy()) if array.flags.writeable else array

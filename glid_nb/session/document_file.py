@@ -16,7 +16,7 @@ from glid_nb.certificate import certificate_of
 from glid_nb.energies import CustomEnergy, energy_by_name
 from glid_nb.geometry import Domain, as_points
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.harmonic.map import complex_from_pairs
+from glid_nb.harmonic.map import DOMAIN_KEYS, complex_from_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE, png
 from glid_nb.session.archive import image_png, read_archive, read_png
@@ -38,17 +38,16 @@ _MOST_BYTES = {
     **dict.fromkeys(_MASKS.values(), MAX_SIDE**2),
 }
 _KEYS = {
-    **dict.fromkeys(("format", "version", "image_size_px", "domain", "active"), _json.anything),
+    **_json.keys("format", "version", "image_size_px", "domain", "active"),
     "trace_options": _json.check_object,
     "poses": _json.check_list,
 }
 _POSE_KEYS = {
-    **dict.fromkeys(("name", "energy", "options", "phi", "psi"), _json.anything),
+    **_json.keys("name", "energy", "options", "phi", "psi"),
     "handles": _json.check_points,
     "targets": _json.check_points,
 }
 _ADDED = {3: ("depths",), 4: ("angles", "scales", "weights", "stiffness")}  # by versions, to poses
-_DOMAIN_KEYS = ("cage", "holes", "offset_cage", "offset_holes", "hole_points", "notes")
 _MOST_ITERATIONS = 200  # was written where max_iterations is None, the method's own limit
 _MASK = "mask"  # written instead of strokes; the pixels are in another member
 _NEVER = "never"  # TraceOptions.max_edge == inf, which JSON cannot say
@@ -97,12 +96,14 @@ def load_document(path: str | Path) -> Document:
             if name not in members:
                 raise DocumentError(f"{name} is missing; this is no glid_nb document")
         data = _json.parse_json(members[_JSON], _JSON, "JSON", nan=False)
-        version = _checked_version(data)
+        version = _json.checked_version(data, "document", FORMAT_VERSION)
         optional = {"scribbles": _json.check_object}
         if version > 3:
             optional["timeline"] = _json.check_object
         _json.check_fields(data, _JSON, _KEYS, optional)
-        size = _checked_size(data["image_size_px"])
+        size = _json.picture_size(data["image_size_px"], "image_size_px")
+        if max(size) > MAX_SIDE:
+            raise DocumentError(f"image_size_px is {size[0]} x {size[1]}; {MAX_SIDE} is the most")
         image = np.asarray(read_png(members[_IMAGE], size, "RGBA", _IMAGE), dtype=np.uint8)
         scribbles = _scribbles_from_members(data.get("scribbles"), members, size)
         domain = _domain_from_dict(data["domain"])
@@ -112,31 +113,10 @@ def load_document(path: str | Path) -> Document:
             _pose_from_dict(f"poses[{i}]", pose, domain, version)
             for i, pose in enumerate(data["poses"])
         )
-        timeline = None
-        if "timeline" in data:
-            timeline = _from_fields(Timeline, data["timeline"], "timeline")
-        active = data["active"]
-        return Document(image, domain.cage, domain, options, scribbles, poses, active, timeline)
-
-
-def _checked_version(data: Any) -> int:
-    _json.check_object(data, _JSON)
-    if data.get("format") != FORMAT:
-        raise DocumentError(f'{_JSON}: the key "format" is not "{FORMAT}"')
-    version = data.get("version")
-    if version not in range(1, FORMAT_VERSION + 1) or isinstance(version, bool | float):
-        raise DocumentError(
-            f"version {version!r:.20} of the format is not supported, only 1 to 4; a newer "
-            "glid_nb may have written it: update this one"
-        )
-    return version
-
-
-def _checked_size(value: Any) -> tuple[int, int]:
-    width, height = _json.picture_size(value, "image_size_px")
-    if max(width, height) > MAX_SIDE:
-        raise DocumentError(f"image_size_px is {width} x {height}; {MAX_SIDE} is the most")
-    return width, height
+        given = data.get("timeline")
+        timeline = None if given is None else _from_fields(Timeline, given, "timeline")
+        posed = poses, data["active"], timeline
+        return Document(image, domain.cage, domain, options, scribbles, *posed)
 
 
 def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
@@ -144,9 +124,8 @@ def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
         _check_certified(pose.map)
         energy = pose.energy
         if isinstance(energy, CustomEnergy):
-            raise DocumentError(
-                "its energy is a Python function, which cannot be saved; choose a named energy"
-            )
+            why = "its energy is a Python function, which cannot be saved"
+            raise DocumentError(f"{why}; choose a named energy")
     return {
         "name": pose.name,
         **pose.pose.to_dict(),
@@ -159,15 +138,15 @@ def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
 
 
 def _pose_from_dict(where: str, data: Any, domain: Domain, version: int) -> NamedPose:
-    keys = _POSE_KEYS if version == 1 else {**_POSE_KEYS, "method": _json.anything}
+    keys = _POSE_KEYS if version == 1 else {**_POSE_KEYS, **_json.keys("method")}
     optional = [key for since, added in _ADDED.items() if since <= version for key in added]
     with about(where, DocumentError):
-        _json.check_fields(data, where, keys, dict.fromkeys(optional, _json.anything))
+        _json.check_fields(data, where, keys, _json.keys(*optional))
     with about(f"{where} ({data['name']!r:.60})", DocumentError):
         phi, psi = (complex_from_pairs(data[key], key) for key in ("phi", "psi"))
         energy, named = data["energy"], {"name": _json.check_text}
         with about("energy"):
-            _json.check_fields(energy, "energy", named, {"s": _json.anything})
+            _json.check_fields(energy, "energy", named, _json.keys("s"))
             energy = energy_by_name(energy["name"], energy.get("s"))
         method = data.get("method", {"name": Newton.name, "settings": {}})
         with about("method"):
@@ -190,7 +169,7 @@ def _check_certified(map: HarmonicMap) -> None:
 
 def _domain_from_dict(data: Any) -> Domain:
     with about("domain"):
-        _json.check_fields(data, "domain", dict.fromkeys(_DOMAIN_KEYS, _json.anything))
+        _json.check_fields(data, "domain", _json.keys(*DOMAIN_KEYS, "notes"))
         domain = Domain.from_dict(data)
     if domain.to_dict() != data:
         # The maps' coefficients follow the order of the loops' vertices.
@@ -218,7 +197,7 @@ def _trace_options_from_dict(data: Any, scribbles: Scribbles | None) -> TraceOpt
 def _from_fields(kind: type[T], data: Any, name: str) -> T:
     """A dataclass by its fields; those that are missing keep their defaults."""
     fields = [field.name for field in dataclasses.fields(kind)]  # type: ignore[arg-type]
-    _json.check_fields(data, name, {}, dict.fromkeys(fields, _json.anything))
+    _json.check_fields(data, name, {}, _json.keys(*fields))
     with about(name):
         return kind(**data)
 
@@ -240,7 +219,7 @@ def _scribbles_from_members(
 ) -> Scribbles | None:
     if data is None:
         return None
-    _json.check_fields(data, "scribbles", dict.fromkeys(_MASKS, _json.anything))
+    _json.check_fields(data, "scribbles", _json.keys(*_MASKS))
     values: dict[str, Any] = {}
     for key, member in _MASKS.items():
         values[key] = data[key]

@@ -18,7 +18,6 @@ from glid_nb.certificate import certificate_of, certify
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion import MotionError
 from glid_nb.motion.boundary import boundary_of
-from glid_nb.motion.curve import Curve
 
 from ..domains import NAMES, domain, random_map
 from .test_pieces import turned
@@ -72,7 +71,7 @@ def test_nothing_between_two_keyframes_is_worse_than_the_worse_one(
     maps = [random_map(name, size, seeds[0]), turned(random_map(name, size, seeds[1]), angle)]
     if not all(certificate_of(map).certified for map in maps):
         return
-    curve = Curve.of(Motion(maps))
+    curve = Motion(maps)._curve
     ends = [extremes(map) for map in maps]
     for t in (0.25, 0.5, 0.75):
         sigma2, k = extremes(curve.map(t))
@@ -176,7 +175,7 @@ def test_pieces_follow_the_curve_within_the_tolerance() -> None:
     maps = poses("twin", 0, 1.5, 0.3)
     for tolerance in (0.01, 0.001):
         motion = Motion(maps, tolerance=tolerance)
-        curve, size = Curve.of(motion), motion.domain.cage.longer_side
+        curve, size = motion._curve, motion.domain.cage.longer_side
         times = np.linspace(0, 2, 23)
         off = max(motion(t).distance(curve.map(float(t)), 100) for t in times)
         assert off <= 1.5 * tolerance * size
