@@ -1,6 +1,7 @@
 """Strict checks of arguments, refused by name."""
 
 import functools
+import itertools
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import field, fields
@@ -16,10 +17,7 @@ from glid_nb._errors import did_you_mean
 def check_type(
     name: str, value: Any, wanted: Any, hint: str, error: type[Exception] = TypeError
 ) -> None:
-    """Raise ``error`` unless ``value`` is an instance of ``wanted``, a class or a union of classes.
-
-    The message calls the argument ``name`` and ends with ``hint``: what to give instead.
-    """
+    """Raise ``error`` unless ``value`` is of ``wanted``, a class or a union; end with ``hint``."""
     if not isinstance(value, wanted):
         known = getattr(wanted, "__args__", (wanted,))
         *others, last = ("None" if kind is type(None) else kind.__name__ for kind in known)
@@ -76,10 +74,7 @@ def field_kinds(cls: type) -> dict[str, Any]:
 def check_fields(
     settings: Any, error: type[Exception], called: Callable[[str], str] = lambda name: name
 ) -> None:
-    """Raise ``error`` for a dataclass's field that its annotation or its metadata do not allow.
-
-    The message calls it ``called(name)`` and gives the field's "why" after what it must be.
-    """
+    """Raise ``error`` for a dataclass's field that its annotation or metadata do not allow."""
     kinds = field_kinds(type(settings))
     for known in fields(settings):
         value = getattr(settings, known.name)
@@ -91,16 +86,19 @@ def check_fields(
 def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str:
     """What a value of an annotated kind must be, if this one is not; empty if it is.
 
-    ``limits``, such as a field's metadata, may hold the ends of a number's range: "least" and
-    "most", or "above" and "below". By default numbers are at least 0. For a tuple of numbers or a
-    sequence they say in "form" how it is written.
+    ``limits`` may hold the ends of a number's range: "least", by default 0, and "most", or "above"
+    and "below"; and the "form" in which a tuple of numbers or a sequence is written.
     """
     limits, allowed = limits or {}, get_args(kind)
     if get_origin(kind) is Literal:
         known = any(type(value) is type(one) and value == one for one in allowed)
         return "" if known else f"one of {', '.join(map(str, allowed))}"
     if get_origin(kind) in (tuple, Sequence):
-        return "" if _holds(kind, value, limits) else limits["form"]
+        given = value if isinstance(value, tuple) else ()
+        kinds = allowed if get_origin(kind) is tuple else allowed * len(given)
+        fits = isinstance(value, tuple) and len(given) == len(kinds)
+        fits = fits and not any(map(unmet, kinds, given, itertools.repeat(limits)))
+        return "" if fits else limits["form"]
     if allowed:
         each = [unmet(one, value, limits) for one in allowed]
         return "" if "" in each else " or ".join(text for text in each if text != "None")
@@ -110,8 +108,8 @@ def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str
         return "" if isinstance(value, bool | np.bool_) else "True or False"
     if kind not in (int, float):
         return "" if isinstance(value, kind) else f"a {kind.__name__}"
-    least, most, above = limits.get("least", 0), limits.get("most"), limits.get("above", -math.inf)
-    below = limits.get("below")
+    least, most = limits.get("least", 0), limits.get("most")
+    above, below = limits.get("above", -math.inf), limits.get("below")
     if (
         isinstance(value, Integral if kind is int else Real)
         and not isinstance(value, bool)
@@ -130,13 +128,3 @@ def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str
     if "above" in limits:
         return f"{number} greater than {above:g}{end}"
     return f"{number} {'' if 'least' in limits else 'of '}at least {least:g}{end}"
-
-
-def _holds(kind: Any, value: Any, limits: Mapping[str, Any]) -> bool:
-    """Whether a value is a tuple of what a tuple's or a sequence's annotation says."""
-    if not isinstance(value, tuple):
-        return False
-    kinds = get_args(kind) if get_origin(kind) is tuple else get_args(kind) * len(value)
-    if len(kinds) != len(value):
-        return False
-    return not any(unmet(one, v, limits) for one, v in zip(kinds, value, strict=True))

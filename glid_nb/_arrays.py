@@ -12,8 +12,7 @@ A = TypeVar("A", bound=Array)
 def real_array(value: Any) -> NDArray[np.float64]:
     """``value`` as a new float64 array; a missing number (None) becomes NaN.
 
-    A TypeError or ValueError for ragged nesting and for anything but real numbers in floating-point
-    range, such as text, truth values and complex numbers.
+    A TypeError or ValueError for anything but real numbers in range, and for ragged nesting.
     """
     if _holds_truth_value(value):
         raise TypeError("true and false are not numbers")
@@ -31,7 +30,7 @@ def real_array(value: Any) -> NDArray[np.float64]:
 def number_pairs(value: Any, wanted: str, error: type[Exception]) -> NDArray[np.float64]:
     """(n, 2) numbers as a new float64 array, also for an empty list; NaN and infinity pass.
 
-    The message of the ``error`` begins with ``wanted``, "handles must be a list of [x, y] pairs".
+    The message of the ``error`` begins with ``wanted``.
     """
     try:
         pairs = real_array(value)

@@ -8,10 +8,9 @@ from pathlib import Path
 
 
 class InputError(ValueError):
-    """Bad input; the message says what is wrong, where, and what to do.
+    """Bad input, the only kind of error that is no bug; the message says what to do.
 
-    The package refuses input with subclasses of this only. A plain ValueError is a bug. ``plain``
-    is the message for users of the editor: it names controls rather than options.
+    ``plain`` is the message for users of the editor: it names controls rather than options.
     """
 
     def __init__(self, message: str, plain: str | None = None) -> None:
@@ -25,10 +24,7 @@ class InputFileError(InputError):
 
 @contextmanager
 def about(where: str | Path, kind: type[InputError] = InputFileError) -> Iterator[None]:
-    """Put ``where``, a file or a key, in front of an InputError's message; raise it as ``kind``.
-
-    The error that it replaces is not shown: one sentence says everything.
-    """
+    """Put ``where``, a file or a key, in front of an InputError's message; raise it as ``kind``."""
     try:
         yield
     except InputError as error:

@@ -14,10 +14,8 @@ from typing import BinaryIO, Literal
 def write_bytes_atomically(path: Path, data: bytes) -> None:
     """Write ``data`` to a temporary file beside ``path``, then rename it over ``path``.
 
-    A symbolic link stays one: the file that it points to is replaced. An existing file keeps its
-    permissions. A file with other hard links, or whose owner is another, is overwritten in place
-    instead, so that all its names keep showing one file; if that fails its old content is put back.
-    A device or a pipe is written to. The message of an OSError names ``path`` or its folder.
+    Links and permissions stay. A file that has other hard links or another owner is overwritten in
+    place; if that fails its old content is put back. An OSError names ``path`` or its folder.
     """
     path = Path(path)
     if path.is_dir():
@@ -96,10 +94,7 @@ def same_file(path: Path, other: Path) -> bool:
 
 
 def in_words(error: OSError, path: Path, done: Literal["read", "written"]) -> OSError:
-    """An error of the same class whose message says which file cannot be read or written, and why.
-
-    The system's own message has an error number and the name of a temporary file.
-    """
+    """An error of the same class that says which file cannot be read or written, and why."""
     path = path.absolute()
     if not path.parent.is_dir() and isinstance(error, FileNotFoundError | NotADirectoryError):
         text = f"The folder {path.parent} does not exist"

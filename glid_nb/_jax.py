@@ -1,9 +1,8 @@
 """JAX, imported on first use.
 
-Importing JAX takes longer than everything else an editor does before it shows its canvas, which
-needs no computation. Modules import ``jax``, ``jnp`` and ``lax`` from here: stand-ins that import
-the module on first use. At module level use :func:`jit` in place of ``jax.jit``, and
-:func:`once_loaded` for anything else.
+An editor shows its canvas before JAX is imported. Modules import ``jax``, ``jnp`` and ``lax`` from
+here; at module level they use :func:`jit` in place of ``jax.jit``, and :func:`once_loaded` for
+anything else.
 """
 
 from __future__ import annotations

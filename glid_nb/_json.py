@@ -24,8 +24,7 @@ _KINDS |= {list: "a list", dict: "an object", str: "a string"}
 def parse_json(raw: bytes, name: str, kind: str = "a JSON file", *, nan: bool = True) -> Any:
     """The JSON value in the bytes of a file; numbers beyond floating point become infinite.
 
-    Raises InputFileError, "(name) is not (kind): ...", for invalid JSON and for repeated keys. NaN
-    and Infinity may be accepted, so that a later check can name their key.
+    NaN and Infinity may be accepted, so that a later check can name their key.
     """
     # Parsing more takes seconds and gigabytes; the largest documents have half as many.
     if raw.count(b",") > MOST_VALUES:
@@ -33,7 +32,7 @@ def parse_json(raw: bytes, name: str, kind: str = "a JSON file", *, nan: bool = 
     try:
         return json.loads(
             raw.decode("utf-8-sig"),
-            parse_int=_integer,
+            parse_int=lambda digits: (int if len(digits) < _EXACT_DIGITS else float)(digits),
             parse_constant=float if nan else _refuse_constant,
             object_pairs_hook=_object,
         )
@@ -166,10 +165,6 @@ def _is_number(value: Any) -> bool:
 def _shown(value: Any) -> str:
     text = json.dumps(value)
     return text if len(text) <= 60 else text[:57] + "..."
-
-
-def _integer(digits: str) -> int | float:
-    return int(digits) if len(digits) < _EXACT_DIGITS else float(digits)
 
 
 def _refuse_constant(constant: str) -> None:

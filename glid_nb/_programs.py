@@ -1,10 +1,8 @@
 """Compiled programs that are kept, as executables, between processes.
 
-JAX's own cache keeps the result of XLA, and a program must be traced and lowered before it is found
-there, which takes four times as long as reading it. Here a program is found by the arguments that
-it is called with, as long as the package's files are the same, and else by its lowered text.
-Whoever waits for one can watch the stages that it goes through, and end them
-(:func:`glid_nb._runtime.watched`).
+In JAX's own cache a program is found once it is traced and lowered, which takes four times as long
+as reading it. Here it is found by the arguments that it is called with, as long as the package's
+files are the same, and else by its lowered text. Its stages can be watched (`_runtime.watched`).
 """
 
 import functools
@@ -25,7 +23,7 @@ import numpy as np
 
 from glid_nb._files import write_bytes_atomically
 from glid_nb._jax import jax
-from glid_nb._runtime import COMPILER_OPTIONS, stage
+from glid_nb._runtime import COMPILER_OPTIONS, jax_option, stage
 
 
 class Program:
@@ -43,9 +41,8 @@ class Program:
         self._locks: defaultdict[Any, threading.Lock] = defaultdict(threading.Lock)
 
     def __call__(self, *arguments: Any) -> Any:
-        """The function's value."""
         leaves, tree = jax.tree.flatten(arguments)
-        device = _config().jax_default_device or jax.local_devices()[0]
+        device = jax_option("jax_default_device") or jax.local_devices()[0]
         key = (device, tree, *map(jax.typeof, leaves))
         if key not in self._ready:
             with self._locks[key]:  # a second thread waits for what the first compiles
@@ -54,7 +51,7 @@ class Program:
         return self._ready[key](*arguments)
 
     def _loaded_or_made(self, key: Any, arguments: Any) -> Any:
-        folder = _config().jax_compilation_cache_dir
+        folder = jax_option("jax_compilation_cache_dir")
         alone = key[0].platform == "cpu" and jax.device_count() == 1  # it is kept for one device
         if folder is None or not alone or not self._may_keep(*arguments):
             lowered = self._lowered(arguments, "")
@@ -102,10 +99,6 @@ def _kept(path: Path) -> Any:
 
 def _serialization() -> Any:
     return importlib.import_module("jax.experimental.serialize_executable")
-
-
-def _config() -> Any:
-    return jax.config  # its options are known at run time only
 
 
 def _digest(text: str) -> str:

@@ -55,9 +55,8 @@ def stage(name: str) -> None:
 def single_blas_thread() -> Iterator[None]:
     """Limit BLAS to one thread while solver calls run.
 
-    On the CPU, XLA runs Cholesky on SciPy's BLAS, whose threads compete with XLA's own: a 384 x 384
-    factorisation took up to 240 ms instead of 1 ms. The limit is process wide, so nested and
-    concurrent uses share one limiter; the last to finish restores the setting.
+    XLA runs Cholesky on SciPy's BLAS, whose threads compete with XLA's own: a 384 x 384
+    factorisation took up to 240 ms instead of 1 ms. All uses of the process share one limiter.
     """
     global _depth, _limiter
     with _lock:
@@ -99,11 +98,10 @@ def double_precision(function: Callable[P, R]) -> Callable[P, R]:
 def in_chunks(
     program: Callable[..., R], n_columns: int, rows: Sequence[NDArray[Any]], *fixed: Any
 ) -> R:
-    """Run a program over rows in chunks whose matrices of ``n_columns`` stay in the cache.
+    """``program(*rows, *fixed)``, in chunks whose matrices of ``n_columns`` stay in the cache.
 
-    ``program(*chunk, *fixed)`` returns a pytree of NumPy arrays with one row per row of the chunk;
-    the result is the pytree for all rows, which may be none. What overflows or is not defined
-    there warns of nothing.
+    It returns a pytree of NumPy arrays with one row per row, of which there may be none. What
+    overflows or is not defined there warns of nothing.
     """
     size, parts = max(_CHUNK_ELEMENTS // n_columns, 1), []
     # Before SciPy's BLAS is loaded no solver runs beside it.
@@ -132,14 +130,18 @@ def _directory(own: str, common: str, usual: str) -> Path:
     return Path(os.environ.get(common) or Path.home() / usual) / "glid_nb"
 
 
+def jax_option(name: str) -> Any:
+    """The value of an option of JAX's, which are known at run time only."""
+    return getattr(jax.config, name)
+
+
 def enable_compilation_cache() -> Path:
     """Keep compiled programs in :func:`cache_directory` between processes; returns that folder.
 
     JAX has one such setting per process, so the command line and the editor call this; importing
     the package and ``solve`` do not. A folder that the user configured before stays in use.
     """
-    configured = getattr(jax.config, "jax_compilation_cache_dir")  # noqa: B009 - set at run time
-    if configured:
+    if configured := jax_option("jax_compilation_cache_dir"):
         return Path(configured)
     folder = cache_directory() / "compiled"
     jax.config.update("jax_compilation_cache_dir", str(folder))

@@ -13,8 +13,7 @@ def bundle(entry: str) -> str:
     """The text of ``widgets/js/entry`` after that of all modules it imports, each once.
 
     Modules import by name, ``import { a, b } from "./other.js";``, and share one scope when joined,
-    so their top-level names must differ. Only the entry has a default export. A ValueError when
-    modules import each other in a circle.
+    so their top-level names must differ. Only the entry has a default export.
     """
     done: dict[str, str] = {}
 

@@ -401,7 +401,5 @@ def _check_place(path: Path) -> None:
     if path.is_dir():
         raise DocumentError(f"{path.absolute()} is a folder; name a file")
     if not path.parent.is_dir():
-        raise DocumentError(
-            f"{path}: the folder {path.parent.absolute()} does not exist; make it first, or name a "
-            "file elsewhere"
-        )
+        missing = f"{path}: the folder {path.parent.absolute()} does not exist"
+        raise DocumentError(f"{missing}; make it first, or name a file elsewhere")

@@ -1,15 +1,12 @@
 """The report of a solve, as plain JSON values."""
 
 import dataclasses
-import math
+import json
 import os
 import platform
 import time
-from collections.abc import Mapping
 from importlib.metadata import version
 from typing import Any
-
-import numpy as np
 
 from glid_nb._jax import jax
 from glid_nb.certificate import global_injectivity
@@ -39,7 +36,7 @@ def build_report(result: Result) -> dict[str, Any]:
         raise TypeError("a report needs a certified map; the result's is one of a mesh")
     injectivity = global_injectivity(map_, certificate)
     certify_time = time.perf_counter() - began
-    energy, options, crossing = result.energy_measure, result.options, injectivity.crossing
+    energy, options = result.energy_measure, result.options
     report = {
         "status": result.status.value,
         "message": result.message,
@@ -56,9 +53,9 @@ def build_report(result: Result) -> dict[str, Any]:
         "sigma1_upper": certificate.sigma1_upper,
         "k_upper": certificate.k_upper,
         "winding": certificate.winding,
-        "windings": list(certificate.windings),
+        "windings": certificate.windings,
         "globally_injective": injectivity.verdict,
-        "crossing": None if crossing is None else list(crossing),
+        "crossing": injectivity.crossing,
         "iterations": result.iterations,
         "n_unknowns": result.n_unknowns,
         "panels": result.n_panels,
@@ -71,6 +68,18 @@ def build_report(result: Result) -> dict[str, Any]:
         "refinements": [_entry(one) for one in result.refinements],
         "options": dataclasses.asdict(options),
         "history": [{**dataclasses.asdict(one), "energy": one.energy} for one in result.history],
+        **_environment(),
+    }
+    text = json.dumps(report, default=lambda array: array.tolist())
+    return json.loads(text, parse_constant=lambda _: None)
+
+
+def _entry(one: Attempt | Refinement) -> dict[str, Any]:
+    return {**dataclasses.asdict(one), "status": one.status.value}
+
+
+def _environment() -> dict[str, Any]:
+    return {
         "versions": {
             "glid_nb": version("glid-nb"),
             "python": platform.python_version(),
@@ -83,21 +92,3 @@ def build_report(result: Result) -> dict[str, Any]:
             "devices": [f"{one.platform}: {one.device_kind}" for one in jax.local_devices()],
         },
     }
-    return _plain(report)
-
-
-def _entry(one: Attempt | Refinement) -> dict[str, Any]:
-    return {**dataclasses.asdict(one), "status": one.status.value}
-
-
-def _plain(value: Any) -> Any:
-    """The value in JSON's types; null for numbers that are not finite."""
-    if isinstance(value, Mapping):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    if isinstance(value, np.generic | np.ndarray):
-        return _plain(value.tolist())
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value

@@ -37,7 +37,7 @@ class TracingProblem:
     message: str
     """What is wrong and what to do."""
     plain: str
-    """The same for a user who sees the picture: without code words and coordinates."""
+    """The same beside the picture: without code words and coordinates."""
     point: Point | None = None
     """Where, (x, y) in pixels; None if at no particular place."""
 
@@ -355,32 +355,27 @@ class TracingModel(Undoable[TracingState]):
             return TracingOutcome(None, (), None, ())
         if self._tracer is None or self._tracer.image is not state.image:
             self._tracer = Tracer(state.image)
-        frame = self._tracer.frame
-        problems: list[TracingProblem] = []
-        tracing = None
+        frame, domain = self._tracer.frame, state.fallback
+        loops: Loops = state.loops or ()
+        cage, problems = None, ()
         try:
             tracing = self._tracer.trace(state.options)
         except (TraceError, GeometryError) as error:
-            problems.append(_problem(error, frame))
-        loops, cage = state.loops, None
-        if loops is not None:
-            problems.clear()  # what was drawn by hand needs no tracing
-            if tracing is not None and not _shares_vertices(loops, tracing.cage.loops):
-                tracing = None
-        elif tracing is not None:
+            if not loops:
+                shown = () if domain is None else domain.cage.loops
+                return TracingOutcome(None, shown, domain, (_problem(error, frame),))
+            tracing = None  # what was drawn by hand needs none
+        if tracing is not None and not loops:
             loops, cage = tracing.cage.loops, tracing.cage
-        if loops is None:
-            shown = () if state.fallback is None else state.fallback.cage.loops
-            return TracingOutcome(None, shown, state.fallback, tuple(problems))
+        elif tracing is not None and not _shares_vertices(loops, tracing.cage.loops):
+            tracing = None
         try:
-            if cage is None:
-                cage = Cage(loops[0], loops[1:])
-            same = state.fallback is not None and cage.equals(state.fallback.cage)
-            domain = state.fallback if same else Domain.from_cage(cage)
+            cage = Cage(loops[0], loops[1:]) if cage is None else cage
+            if domain is None or not cage.equals(domain.cage):
+                domain = Domain.from_cage(cage)
         except GeometryError as error:
-            problems.append(_problem(error, frame))
-            domain = state.fallback
-        return TracingOutcome(tracing, loops, domain, tuple(problems))
+            problems = (_problem(error, frame),)
+        return TracingOutcome(tracing, loops, domain, problems)
 
     def _loops_with(self, state: TracingState, loops: Loops, hole: Hole) -> Loops:
         """The edited loops without a hole that is dropped, or with one that is kept again."""

@@ -21,10 +21,9 @@ class LatestWins(Generic[T]):
     with the process. Exceptions go to :func:`threading.excepthook`; the thread goes on.
 
     ``work`` is called with a task and this worker; a long task ends early when ``overtaken`` or
-    ``cancelled`` say so. It must not keep the ``owner``, for whom it works, alive: see
-    :func:`weakly`. From the end of a task to the beginning of the next ``interval`` seconds pass.
-    Closing drops the pending task, or does it first with ``finish``; it waits for the running one
-    if it ``waits``. The end of the process waits in any case.
+    ``cancelled`` say so. It must not keep the ``owner`` alive: see :func:`weakly`. ``interval``
+    seconds pass between two tasks. Closing drops the pending task, or does it first with
+    ``finish``; it waits for the running one if it ``waits``, and the end of the process always.
     """
 
     def __init__(
@@ -129,12 +128,6 @@ class LatestWins(Generic[T]):
         # A compiler that is still at work must not outlive the interpreter.
         end = functools.partial(self._close, at_exit=True)
         atexit.register(end)
-        try:
-            self._do_all()
-        finally:
-            atexit.unregister(end)
-
-    def _do_all(self) -> None:
         while (taken := self._next()) is not None:
             try:
                 self._work(*taken, self)
@@ -147,6 +140,7 @@ class LatestWins(Generic[T]):
                     self._ended = time.monotonic()
                     self._busy = self._cancelled = False
                     self._changed.notify_all()
+        atexit.unregister(end)
 
 
 def weakly(method: Callable[..., Any]) -> Callable[..., Any]:
