@@ -70,12 +70,11 @@ def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb
     """The picture, the motion, and the keyframes' poses where they are known."""
     if chosen.source.suffix.lower() != ".json":
         document = glid_nb.load_document(chosen.source)
-        if len(document.poses) < 2:
-            held = f"{chosen.source} holds {len(document.poses)} poses"
-            raise InputFileError(f"{held}; a motion needs at least 2")
+        if (count := len(document.poses)) < 2:
+            raise InputFileError(f"{chosen.source} holds {count} poses; a motion needs at least 2")
         if chosen.picture is not None:
             raise InputError("--picture is for saved motions; a session holds its picture")
-        timeline = document.timeline or replace(Timeline.even(len(document.poses)), repeat="loop")
+        timeline = document.timeline or replace(Timeline.even(count), repeat="loop")
         timeline = replace(timeline, repeat=chosen.loop or timeline.repeat)
         if chosen.seconds is not None:
             there = 2 if timeline.repeat == "ping-pong" else 1

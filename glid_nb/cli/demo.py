@@ -65,11 +65,8 @@ def run(chosen: argparse.Namespace) -> None:
     with step("drawing the overview"):
         figure = glid_nb.figures.figure_png(glid_nb.figures.overview(image, result, pose))
 
-    size = list(image.shape[1::-1])
-    contents = (
-        *(deformed, figure, json_text(cage_data(tracing))),
-        *(map_text(result.map, size, pose), json_text(report)),
-    )
+    texts = json_text(cage_data(tracing)), map_text(result.map, image.shape[1::-1], pose)
+    contents = (deformed, figure, *texts, json_text(report))
     files = {out / name: data for name, data in zip(_FILES, contents, strict=True)}
     out.mkdir(parents=True, exist_ok=True)
     notes = [*tracing.notes, *domain.notes]

@@ -23,8 +23,6 @@ def one_line(error: BaseException) -> str:
 
 
 class OneLineParser(argparse.ArgumentParser):
-    """A parser whose errors are one line, without the usage."""
-
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"glid-nb: error: {message} (see {self.prog} --help)\n")
 

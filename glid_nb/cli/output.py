@@ -23,10 +23,7 @@ _INJECTIVE = {
 
 
 def check_files(outputs: Iterable[Path | None], inputs: Iterable[str | Path | None]) -> None:
-    """Raise an OSError if a file cannot be made; skip None.
-
-    An InputFileError if it is one of the inputs, or another output, by whatever name or link.
-    """
+    """Raise an error if a file cannot be made, or is an input or another output; skip None."""
     taken = [(Path(path), "it is read too") for path in inputs if path is not None]
     for path in outputs:
         if path is None:
@@ -58,28 +55,26 @@ def finish(
     result: glid_nb.Result,
     report: dict[str, Any],
     files: dict[Path, bytes | str],
-    json: bool,
-    rows: list[tuple[str, str]] | None = None,
+    as_json: bool,
+    rows: Iterable[tuple[str, str]] = (),
     **extra: Any,
 ) -> None:
     """Write the files and print the summary, with ``extra`` as JSON or with ``rows`` as text.
 
-    Raises KeyboardInterrupt after a solve that Ctrl-C stopped, and an InputError where nothing that
-    the solver reached could be proved.
+    Raises KeyboardInterrupt after a solve that Ctrl-C stopped, InputError where nothing is proved.
     """
     for path, data in files.items():
         write_bytes_atomically(path, data.encode() if isinstance(data, str) else data)
-    print(summary_json(report, files, **extra) if json else summary_text(report, files, rows or []))
+    if as_json:
+        short = {key: value for key, value in report.items() if key not in _LONG}
+        named = {path.name: str(path) for path in files}
+        print(json.dumps({**extra, **short, "files": named}))
+    else:
+        print(summary_text(report, files, rows))
     if result.status is glid_nb.Status.STOPPED:
         raise KeyboardInterrupt
     if result.status is glid_nb.Status.UNPROVED or not report["certified"]:
         raise InputError(f"{result.message} ({report['proof']})")
-
-
-def summary_json(report: Mapping[str, Any], files: Iterable[Path], **extra: Any) -> str:
-    """The report without its long parts, and the paths of the files, as one JSON object."""
-    short = {key: value for key, value in report.items() if key not in _LONG}
-    return json.dumps({**extra, **short, "files": {path.name: str(path) for path in files}})
 
 
 def summary_text(report: Any, files: Iterable[Path], rows: Iterable[tuple[str, str]] = ()) -> str:
@@ -97,7 +92,7 @@ def summary_text(report: Any, files: Iterable[Path], rows: Iterable[tuple[str, s
 
 
 def _rows(report: Mapping[str, Any]) -> list[tuple[str, str]]:
-    energy = report["energy"] if report["s"] is None else f"{report['energy']}, s = {report['s']:g}"
+    energy = report["energy"] + ("" if report["s"] is None else f", s = {report['s']:g}")
     winding = f"{report['winding']}"
     if any(report["windings"]):
         winding += f"  (loops: {', '.join(f'{w:+d}' if w else '0' for w in report['windings'])})"

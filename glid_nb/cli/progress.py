@@ -11,7 +11,6 @@ from typing import Any
 import glid_nb
 
 PATIENCE = 1.0  # seconds before a step is announced
-
 _REFRESH = 0.2
 _REPEAT = 15.0  # seconds between lines where they are kept, as in a log file
 _ERASE_LINE = "\r\x1b[K"
@@ -21,8 +20,7 @@ _ERASE_LINE = "\r\x1b[K"
 def step(doing: str) -> Iterator[Callable[[str], None]]:
     """Run a step called ``doing``; yields a function that sets the detail to show.
 
-    On a terminal one line is updated and finally erased; elsewhere a line is written when a step
-    turns out to be longer than :data:`PATIENCE`, every 15 seconds, and at its end.
+    On a terminal one line is updated and finally erased; elsewhere lines are written now and then.
     """
     out, details = sys.stderr, list[str]()
     done, start, live = threading.Event(), time.perf_counter(), out.isatty()

@@ -38,11 +38,8 @@ def run(chosen: argparse.Namespace) -> None:
 
 def cage_data(tracing: glid_nb.Tracing) -> dict[str, Any]:
     """The content of cage.json."""
-    return {
-        **tracing.cage.to_dict(),
-        "image_size_px": [tracing.frame.width, tracing.frame.height],
-        "notes": list(tracing.notes),
-    }
+    size = [tracing.frame.width, tracing.frame.height]
+    return {**tracing.cage.to_dict(), "image_size_px": size, "notes": list(tracing.notes)}
 
 
 def size_in_words(cage: glid_nb.Cage) -> str:

@@ -33,10 +33,7 @@ _ROUNDING = 1e-13
 
 
 def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None = None) -> EditState:
-    """Add handles at points (h, 2) of the domain; targets are by default where they are now.
-
-    Their depths are those of the shape there, so that no part comes to the front.
-    """
+    """Add handles at points (h, 2) of the domain; by default they and the shape stay in place."""
     points = _points(points, "point")
     pose, cage = state.pose, state.domain.cage
     for i, (point, inside) in enumerate(zip(points, cage.contains(points), strict=True)):
@@ -261,9 +258,9 @@ def keep_between(state: EditState, time: float, map: HarmonicMap) -> EditState:
 def record(
     state: EditState, first: NamedPose, poses: Sequence[NamedPose], offsets: Sequence[float]
 ) -> EditState:
-    """Put a recorded drag into the timeline: its first pose in place of the edited one, then more.
+    """Put a recorded drag into the timeline: ``first`` in place of the edited pose, then ``poses``.
 
-    ``offsets`` are seconds since the first, of ``poses`` and of the pose that is edited, the last.
+    The edited one is the last; ``offsets`` are the seconds of these since the first.
     """
     check_count((*state.poses, *poses, first))
     names = itertools.islice(_free_names(state, first.name), len(offsets))

@@ -50,8 +50,8 @@ class Span(NamedTuple):
 class Animation(Observed):
     """The motion through the poses of a deformation, and the recording of a drag.
 
-    ``observe`` reports ``"motion"`` when more is proved, or what was is no longer the motion, and
-    ``"recording"``. Nothing is computed while a hand drags or the solver works.
+    ``observe`` reports ``"motion"`` and ``"recording"``. Nothing is computed while a hand drags or
+    the solver works.
     """
 
     def __init__(self, deformation: Deformation) -> None:
@@ -114,7 +114,6 @@ class Animation(Observed):
         return self.deformation.solve(timeout) and self._worker.wait(timeout)
 
     def close(self) -> None:
-        """End the thread."""
         self._stop()
         self._worker.close()
 

@@ -27,9 +27,8 @@ _DAMAGE = (
 
 
 def read_archive(path: Path, most_bytes: Mapping[str, int]) -> dict[str, bytes]:
-    """The members of a zip file, each no larger than allowed. Nothing is extracted to disk.
+    """The members of a zip file, read in memory; ``most_bytes`` is how large each may be.
 
-    ``most_bytes`` has the names that members may have, and the largest size of each when unpacked.
     InputFileError when it is damaged, or has a member that is unknown, repeated or encrypted.
     """
     most = sum(most_bytes.values()) + _DIRECTORY_BYTES
@@ -64,10 +63,8 @@ def read_archive(path: Path, most_bytes: Mapping[str, int]) -> dict[str, bytes]:
 def _check_member(info: zipfile.ZipInfo, most_bytes: Mapping[str, int]) -> None:
     name, size = info.filename, info.file_size
     if name not in most_bytes:
-        raise InputFileError(
-            f"it holds {name!r:.80}, which does not belong there; expected only "
-            f"{', '.join(most_bytes)}"
-        )
+        wanted = f"expected only {', '.join(most_bytes)}"
+        raise InputFileError(f"it holds {name!r:.80}, which does not belong there; {wanted}")
     if info.flag_bits & 1:
         raise InputFileError(f"{name} is encrypted")
     if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
@@ -94,10 +91,8 @@ def read_png(
     try:
         with Image.open(io.BytesIO(data), formats=["PNG"]) as picture:
             if picture.size != size or picture.mode != mode:
-                raise InputFileError(
-                    f"{name} has {picture.width} x {picture.height} pixels of the mode "
-                    f"{picture.mode}; announced were {size[0]} x {size[1]} of the mode {mode}"
-                )
+                has = f"{name} has {picture.width} x {picture.height} pixels, mode {picture.mode}"
+                raise InputFileError(f"{has}; announced were {size[0]} x {size[1]}, mode {mode}")
             # Pillow's own arrays of mode "1" hold the byte 255 for true.
             pixels = np.array(picture.convert("L")) > 0 if mode == "1" else np.array(picture)
     except InputFileError:

@@ -25,8 +25,8 @@ MOST_KEPT = 5
 class OwnFiles:
     """The files that an editor wrote or opened, so that it replaces no others unasked.
 
-    Each file belongs to the one that was named when it was written: a texture to its mesh, a
-    session file to itself. A file that another program has changed since is no longer the editor's.
+    Each has an owner, the file that was named when it was written: a texture its mesh, a session
+    file itself. A file that another program has changed since is no longer the editor's.
     """
 
     def __init__(self) -> None:
@@ -46,11 +46,9 @@ class OwnFiles:
 
     def strangers(self, paths: Iterable[Path], owner: Path) -> tuple[Path, ...]:
         """Those of the files that exist and do not belong to ``owner``."""
-        owner = owner.resolve()
+        owner, known = owner.resolve(), self._owners
         return tuple(
-            path
-            for path in paths
-            if path.exists() and self._owners.get(path.resolve()) != (owner, _version_of(path))
+            p for p in paths if p.exists() and known.get(p.resolve()) != (owner, _version_of(p))
         )
 
 
@@ -94,15 +92,13 @@ class SavedFile:
 
 
 class Autosave:
-    """Saves the document that was submitted last, at most once per interval.
+    """Saves the document that was submitted last, the first at once, then once per ``interval``.
 
-    A thread writes the file atomically and skips documents that a later one replaces. What is
-    pending is written when the process ends or this object is dropped. A file that another program
-    has changed is not touched again: later saves go to a new file beside it (`free_sibling`).
+    What is pending is written when the process ends or this object is dropped. A file that another
+    program has changed is not touched again: later saves go to a new file beside it.
 
-    Between two saves pass at least ``interval`` seconds; the first is made at once. After each
-    ``on_done`` is called, in the thread, with the exception if it failed, else with None; the next
-    submission tries again. The file as it is now becomes one of the ``own`` files.
+    After each save ``on_done`` is called, in the thread, with the exception if it failed, else with
+    None. The file as it is now becomes one of the ``own`` files.
     """
 
     def __init__(
@@ -163,10 +159,7 @@ def free_sibling(path: Path) -> Path:
 
 
 def kept_files(image: NDArray[np.uint8] | None = None) -> list[Path]:
-    """Files in which editors kept work that is in no other file, the newest first.
-
-    With a picture only those of that picture, whose pixels give them their name.
-    """
+    """Files of kept work that is in no other file, of one picture or of any; the newest first."""
     versions = {path: _version_of(path) for path in _kept().glob("*.glid")}
     paths = sorted(versions, key=lambda path: versions[path] or (), reverse=True)
     name = "" if image is None or not paths else _name_of(image)

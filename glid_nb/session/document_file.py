@@ -59,10 +59,7 @@ def save_document(document: Document, path: str | Path) -> None:
 
 
 def document_bytes(document: Document) -> bytes:
-    """A document as one file, a zip of JSON and PNG.
-
-    ``document.json`` holds everything but pixels, which are in ``image.png``; scribbled masks are
-    in ``scribbles-*.png``. Numbers are written so that they read back bit for bit.
+    """A document as one file, a zip of JSON and PNG, that reads back bit for bit.
 
     A DocumentError if a map is not certified, or an energy is a Python function.
     """
@@ -109,13 +106,10 @@ def load_document(path: str | Path) -> Document:
         domain = _domain_from_dict(data["domain"])
         options = _trace_options_from_dict(data["trace_options"], scribbles)
         check_count(data["poses"])
-        poses = tuple(
-            _pose_from_dict(f"poses[{i}]", pose, domain, version)
-            for i, pose in enumerate(data["poses"])
-        )
+        poses = [_pose_from_dict(i, pose, domain, version) for i, pose in enumerate(data["poses"])]
         given = data.get("timeline")
         timeline = None if given is None else _from_fields(Timeline, given, "timeline")
-        posed = poses, data["active"], timeline
+        posed = tuple(poses), data["active"], timeline
         return Document(image, domain.cage, domain, options, scribbles, *posed)
 
 
@@ -137,10 +131,10 @@ def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
     }
 
 
-def _pose_from_dict(where: str, data: Any, domain: Domain, version: int) -> NamedPose:
+def _pose_from_dict(index: int, data: Any, domain: Domain, version: int) -> NamedPose:
     keys = _POSE_KEYS if version == 1 else {**_POSE_KEYS, **_json.keys("method")}
     optional = [key for since, added in _ADDED.items() if since <= version for key in added]
-    with about(where, DocumentError):
+    with about(where := f"poses[{index}]", DocumentError):
         _json.check_fields(data, where, keys, _json.keys(*optional))
     with about(f"{where} ({data['name']!r:.60})", DocumentError):
         phi, psi = (complex_from_pairs(data[key], key) for key in ("phi", "psi"))

@@ -50,7 +50,6 @@ class _Session:
 
     @property
     def image(self) -> Array:
-        """The picture."""
         assert self.tracing.image is not None
         return self.tracing.image
 
@@ -74,10 +73,9 @@ class EditorModel(Observed):
     ``observe`` reports ``"replaced"`` when ``deformation`` or ``tracing`` is another object, and
     ``"saved"`` after each save in the background; ``save_error`` says whether that failed.
 
-    It begins with a picture, as in `glid_nb.read_image`, with a document, or without either. The
-    file ``path`` is saved to every few seconds while something changes; if another program changes
-    it, a new file beside it is used from then on. Without a file the work is kept in the user's
-    data folder (`session.autosave.kept_files`), for the next model of the same picture.
+    It begins with a picture, with a document, or without either. Changes are saved to the file
+    ``path``, or one beside it once another program has changed that; without a file work is kept
+    in the user's data folder (`session.autosave.kept_files`), for the next model of the picture.
     """
 
     def __init__(
@@ -136,11 +134,9 @@ class EditorModel(Observed):
 
     @property
     def deformation(self) -> Deformation:
-        """The shape being deformed; EditError while nothing has been traced.
+        """The shape being deformed, an outline that is a guess too; EditError without any.
 
-        An outline that is a guess is deformed once this, or the Deform tab, is asked for.
-        Its solver begins with the first change, or when a view calls `Deformation.begin` after its
-        first drawing, which compiling would delay.
+        Its solver begins with the first change, or when a view that was drawn calls `begin`.
         """
         if self._session is None:
             self.apply_tracing()
@@ -159,10 +155,8 @@ class EditorModel(Observed):
         if self._session is None or self._named_path is not None:
             return False
         states = (one.deformation.state for one in (self._session, *self._shelf))
-        return any(
-            any(len(pose.pose) for pose in state.poses) and _work_of(state) != self._saved_work
-            for state in states
-        )
+        posed = (state for state in states if any(len(pose.pose) for pose in state.poses))
+        return any(_work_of(state) != self._saved_work for state in posed)
 
     @property
     def image(self) -> Array | None:
@@ -177,13 +171,12 @@ class EditorModel(Observed):
     def apply_tracing(self) -> str:
         """Deform what is traced now: a step for undo, or another session for another picture.
 
-        A new session is saved to a new file beside that of the session before. A picture that the
-        tracing's undo or redo brings back returns with its poses and its file. Returns what the
-        user may not expect of this, in words; empty where there is nothing.
+        A new session is saved to a new file; a picture that undo brings back returns with its own.
+        Returns what the user may not expect of this, in words; empty where there is nothing.
         """
         with self.locked():
             domain, session, words = self.tracing.domain, self._session, ""
-            if domain is None or (session is not None and session.domain is domain):
+            if domain is None or (session and session.domain is domain):
                 pass
             elif session is None:
                 self._change_picture(domain)
@@ -204,19 +197,18 @@ class EditorModel(Observed):
         """Picture, cage and poses as one value."""
         deformation, session = self.deformation, self._session
         assert session is not None
-        state = deformation.state
         if self.tracing.image is session.image:
             session = self._session_of(deformation)
-        traced = session.tracing
+        traced, state = session.tracing, deformation.state
         return Document(
-            session.image,
-            state.domain.cage,
-            state.domain,
-            traced.options,
-            traced.scribbles or traced.options.scribbles,
-            state.poses,
-            state.active,
-            state.timeline,
+            image=session.image,
+            cage=state.domain.cage,
+            domain=state.domain,
+            trace_options=traced.options,
+            scribbles=traced.scribbles or traced.options.scribbles,
+            poses=state.poses,
+            active=state.active,
+            timeline=state.timeline,
         )
 
     def save(self, path: str | Path) -> None:
@@ -234,10 +226,7 @@ class EditorModel(Observed):
                 kept.unlink(missing_ok=True)  # it is in a file now
 
     def load(self, path: str | Path) -> None:
-        """Go on with the document in a file, which an autosave, if there is one, then saves to.
-
-        Nothing has changed if it cannot be read.
-        """
+        """Go on with the document in a file, which an autosave, if there is one, then saves to."""
         document = open_document(path)
         with self.locked():
             if self._named_path is not None:

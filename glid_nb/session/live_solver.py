@@ -22,8 +22,6 @@ MOST_ITERATIONS = 200
 """Most iterations of a gesture that are kept, the latest ones."""
 # Panels are only ever split; with more than this multiple of the initial number, start afresh.
 _MOST_REFINED = 3.0
-
-
 # How far the preparation for a shape is when a stage of it begins.
 _PREPARED = {"start": 0.0, "basis": 0.2, "load": 0.6, "trace": 0.3, "lower": 0.4, "compile": 0.5}
 
@@ -35,9 +33,8 @@ class _Cancelled(Exception):  # noqa: N818 - it is no error
 class LiveSolver:
     """Solves one task after the other, each from the map that the one before has reached.
 
-    ``publish`` is called with every :class:`Frame`, ``failed`` with the exception that a solve
-    raised, ``prepared`` with how much of the preparation for a shape is done, from 0 to 1; all are
-    bound methods whose objects are not kept alive.
+    It calls ``publish`` with every frame, ``failed`` with what a solve raised, ``prepared`` with
+    the share of the preparation that is done; the objects of these methods are not kept alive.
     """
 
     def __init__(
@@ -56,10 +53,9 @@ class LiveSolver:
         self._published = -np.inf
 
     def solve(self, task: Task | None, worker: LatestWins[Task | None]) -> None:
-        """Run the task's method and publish its frames; nothing for None.
+        """Run the task's method and publish its frames, to the end unless a newer task comes.
 
-        A newer task interrupts this between two compiled calls, or two iterations of another
-        method. So every task moves the shape, and the last one is solved to its end.
+        That interrupts it between two compiled calls, or iterations: so every task moves the shape.
         """
         if task is None:
             return

@@ -49,9 +49,8 @@ def delete_vertices(loops: Loops, vertices: Iterable[tuple[int, int]]) -> Loops:
 def drawn(points: ArrayLike, size: tuple[int, int]) -> Loop:
     """An outline drawn by hand over a picture of ``size``, as (n, 2) vertices of a cage in pixels.
 
-    What crosses itself keeps its largest part; what lies beside the picture is cut off. Edges are
-    at most 4 % of the whole long, as in a traced cage, so that all of it can bend. A GeometryError
-    when it encloses nothing of the picture.
+    What crosses itself keeps its largest part; what lies beside the picture is cut off. Long edges
+    are divided, so that all of it can bend. A GeometryError when it encloses nothing.
     """
     line = number_pairs(points, "an outline must be a list of pixels (x, y)", GeometryError)
     region = shapely.make_valid(shapely.Polygon(line if len(line) > 2 else None))
@@ -99,10 +98,9 @@ def checked_point(point: ArrayLike) -> Loop:
 def _loop(loops: Loops, loop: int, index: int) -> Loop:
     if not 0 <= loop < len(loops):
         raise GeometryError(f"there is no loop {loop}; there are {len(loops)}, counted from 0")
-    if not 0 <= index < len(loops[loop]):
-        raise GeometryError(
-            f"{loop_name(loop)} has no vertex {index}; it has {len(loops[loop])}, counted from 0"
-        )
+    count = len(loops[loop])
+    if not 0 <= index < count:
+        raise GeometryError(f"{loop_name(loop)} has no vertex {index}; it has {count}, from 0 on")
     return loops[loop]
 
 

@@ -67,10 +67,9 @@ class History(Generic[S]):
 
 
 class Observed:
-    """A model that several threads may use, and that reports its changes by name to observers.
+    """A model with one lock for several threads, and observers of its changes, told by name.
 
-    Each model has one lock, which its views hold while they draw. Observers are called by the
-    thread that made the changes, after it has released the lock, so they may take other locks.
+    Who made the changes calls them after releasing the lock, so they may take other locks.
     """
 
     def __init__(self) -> None:

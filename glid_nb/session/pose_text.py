@@ -25,10 +25,7 @@ def pose_text(state: EditState) -> str:
 
 
 def paste_pose(state: EditState, text: str) -> EditState:
-    """Take over a pose from its text, stretched from the box of its shape to that of this one.
-
-    Handles beside the shape move inside; of several in one place the first is kept.
-    """
+    """Take over a pose from its text, stretched from the box of its shape to that of this one."""
     try:
         data: Any = json.loads(text)
         pose = Pose.from_dict(data)
@@ -58,7 +55,10 @@ def _posed(
     place: Callable[[Array], Array] = np.array,
     scale: float = 1.0,
 ) -> EditState:
-    """The pose with all in other places, its handles inside the shape, which is undeformed."""
+    """The pose with all in other places, on the undeformed shape.
+
+    Handles beside the shape move inside; of several in one place the first is kept.
+    """
     handles, targets = place(pose.handles), place(pose.targets)
     pose = replace(pose, stiffness=pose.stiffness.moved(place, scale))
     moved = _inside(state.domain.cage, handles)

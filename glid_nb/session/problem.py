@@ -24,10 +24,7 @@ _CHOSEN_WHEN_MISSING = {
 
 @dataclass(frozen=True)
 class Problem:
-    """What a solver is given: where the map lives and what it should do.
-
-    Raises PoseError when a handle lies outside the domain.
-    """
+    """What a solver is given; a PoseError when a handle lies outside the domain."""
 
     domain: Domain
     pose: Pose

@@ -59,9 +59,8 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
 
 def _map_lines(pose: NamedPose, exact: bool) -> list[str]:
     if isinstance(pose.energy, CustomEnergy):
-        raise DocumentError(
-            f"the pose {pose.name!r}: its energy is a Python function, which cannot be written down"
-        )
+        why = "its energy is a Python function, which cannot be written down"
+        raise DocumentError(f"the pose {pose.name!r}: {why}")
     posed = _pose_lines(pose) if not exact or pose.pose.depths.any() else []
     if exact:
         phi, psi = pose.map.phi.tolist(), pose.map.psi.tolist()

@@ -90,7 +90,8 @@ class Timeline:
         """With a keyframe more at an index, not the first; by default midway to the next one."""
         before, after = self.times[:index], self.times[index:]
         if time is None:
-            gap = after[0] - before[-1] if after else 2 * self._usual
+            mean = max((before[-1] - before[0]) / (index - 1), LEAST_GAP) if index > 1 else _USUAL
+            gap = after[0] - before[-1] if after else 2 * mean
             if gap < 2 * LEAST_GAP:
                 gap = 2 * _USUAL
                 after = tuple(t + gap for t in after)
@@ -113,10 +114,7 @@ class Timeline:
         return replace(self, times=times, easing=easing)
 
     def moved(self, index: int, time: float) -> tuple[Timeline, list[int]]:
-        """With a keyframe at another time, the nearest that is free, and the keyframes' new order.
-
-        The index behind the last is a loop's return to the first keyframe.
-        """
+        """With a keyframe, or a loop's return, at the nearest free time; and the new order."""
         time = checked("time", float, time, least=-LATEST, most=2 * LATEST)
         if index == len(self):
             back = round(max(time - self.times[-1], _GRID), 2)
@@ -127,31 +125,18 @@ class Timeline:
         time = round(next(t for t in near if t >= 0 and t not in others) * _GRID, 6)
         times = [*self.times[:index], time, *self.times[index + 1 :]]
         order = sorted(range(len(self)), key=times.__getitem__)
-        moved = replace(
-            self,
-            times=tuple(times[i] for i in order),
-            easing=tuple(self.easing[i] for i in order),
-        )
-        return moved, order
+        times, easing = (tuple(each[i] for i in order) for each in (times, self.easing))
+        return replace(self, times=times, easing=easing), order
 
     def eased(self, index: int, easing: Easing) -> Timeline:
         """With another easing from a keyframe to the next."""
         return replace(self, easing=(*self.easing[:index], easing, *self.easing[index + 1 :]))
 
-    @property
-    def _usual(self) -> float:
-        """Seconds between keyframes on average."""
-        if len(self) < 2:
-            return _USUAL
-        return max((self.times[-1] - self.times[0]) / (len(self) - 1), LEAST_GAP)
-
 
 def thinned(times: Array, points: Array, tolerance: float) -> list[int]:
     """Which of some places (n, h, 2) to keep, so that straight lines in time meet the others.
 
-    The first and the last are kept, then, of those between two that are kept, the one that is
-    furthest off its line, until none is off by more than the tolerance (Ramer 1972; Douglas and
-    Peucker 1973, with time as the abscissa).
+    By Ramer (1972), Douglas and Peucker (1973), with time as the abscissa.
     """
     kept, open_ = {0, len(times) - 1}, [(0, len(times) - 1)]
     while open_:

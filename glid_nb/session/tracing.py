@@ -86,9 +86,10 @@ _NO_SCRIBBLES = Scribbles([], [])
 class TracingModel(Undoable[TracingState]):
     """Traces a cage from a picture, interactively, with undo; the model behind `CageTracer`.
 
-    Every action makes a new immutable state. While its loops are not a valid cage (a vertex was
-    dragged across an edge, a threshold leaves nothing), `problems` says where and why, and `cage`
-    is the last valid one. Any thread may call the methods.
+    Every action makes a new immutable state; what is refused, by a TraceError or GeometryError,
+    changes nothing. While the loops are not a valid cage (a vertex was dragged across an edge, a
+    threshold leaves nothing), `problems` says where and why, and `cage` is the last valid one. Any
+    thread may call the methods.
 
     Points are in pixels, x right and y down from the picture's top left corner. Consecutive actions
     with the same `gesture`, any value, such as the moves of one drag, are one step for undo.
@@ -201,17 +202,11 @@ class TracingModel(Undoable[TracingState]):
     # Actions
 
     def open(self, image: ImageSource, name: str | None = None) -> None:
-        """Open another picture, with the default options; no change if it cannot be read.
-
-        ``name`` is that of the picture's file, where the picture is not given by its path.
-        """
+        """Open another picture, with the default options; ``name`` is of its file if not given."""
         self._step(TracingState(image=_pixels(image), name=_name_of(name or image)))
 
     def set_options(self, gesture: Any = None, **changes: Any) -> None:
-        """Trace with other options, fields of `TraceOptions`; discards edits by hand.
-
-        A TraceError, and no change, for an unknown field or a value out of its range.
-        """
+        """Trace with other options, fields of `TraceOptions`; discards edits by hand."""
         with self.locked():
             before = self.state
             if "scribbles" in changes:
@@ -292,10 +287,7 @@ class TracingModel(Undoable[TracingState]):
         return loop, edge + 1
 
     def delete_vertices(self, vertices: Iterable[tuple[int, int]]) -> None:
-        """Delete vertices (loop, index); holes with fewer than three left are removed.
-
-        A GeometryError, and no change, if the exterior would have fewer than three left.
-        """
+        """Delete vertices (loop, index); holes with fewer than three left are removed."""
         chosen = list(vertices)
         if chosen:
             self._edit(lambda loops: loop_edits.delete_vertices(loops, chosen))
@@ -311,10 +303,7 @@ class TracingModel(Undoable[TracingState]):
         self._edit(lambda _: loops)
 
     def draw(self, outline: ArrayLike | None = None) -> None:
-        """Take an outline drawn by hand, (k, 2) pixels, as the cage; None: the whole picture.
-
-        A GeometryError, and no change, if it encloses nothing of the picture.
-        """
+        """Take an outline drawn by hand, (k, 2) pixels, as the cage; None: the whole picture."""
         frame = self._frame_of_picture()
         size = frame.width, frame.height
         if outline is None:
