@@ -75,8 +75,7 @@ class Curve:
         """Times from a keyframe to the next between which images move straight up to a distance.
 
         A piece of length h is off by ``h^2 / 8`` times the second derivative, so pieces are as
-        short as the square root of that is large; each is divided into ``finer`` ones. Raises a
-        MotionError where that takes too many.
+        short as the square root of that is large; each is divided into ``finer`` ones.
         """
         start, end = self.times[interval : interval + 2]
         samples = np.linspace(start, end, _SAMPLES * self.laps[interval] + 1)
@@ -110,8 +109,7 @@ def through_solved(
 ) -> Callable[[int, float], Coefficients]:
     """The bounded interpolation through keyframes and what is solved for on the way.
 
-    Handles follow the bounded motion, along which parts turn as rigid bodies do. Each solve starts
-    from its map, or where that is not certified from what the solve before has found.
+    Handles follow the bounded motion ``follow``; each solve starts from its map if certified.
     """
     maps, times, domain = follow.maps, follow.times, follow.boundary.domain
     points = triangulate(domain.cage, _POINTS).vertices if handles is None else handles

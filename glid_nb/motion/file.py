@@ -18,6 +18,8 @@ from glid_nb.harmonic import map as maps
 from glid_nb.motion.curve import Piece
 from glid_nb.motion.settings import LATEST, MotionError, checked
 
+Maps = list[HarmonicMap]
+
 _VERSION, _MOST_KNOTS = 1, 10_000
 SETTINGS = ("easing", "repeat", "between", "tolerance", "turns")
 _REQUIRED = {
@@ -56,10 +58,8 @@ def texts(
     return text, exact_text({**shared, **claims})
 
 
-def read(
-    path: str | Path,
-) -> tuple[list[HarmonicMap], dict[str, Any], tuple[list[float], list[HarmonicMap]]]:
-    """Keyframes, settings, and the knots: at all times at which the motion bends, its maps."""
+def read(path: str | Path) -> tuple[Maps, dict[str, Any], list[float], Maps]:
+    """Keyframes and settings, then all times at which the motion bends, and its maps there."""
     data = _json.read_json(path)
     _json.checked_version(data, "motion", _VERSION)
     _json.check_fields(data, "the motion", _REQUIRED, _OPTIONAL)
@@ -74,7 +74,7 @@ def read(
         if not (np.array_equal(back.phi, first.phi) and np.array_equal(back.psi, first.psi)):
             raise MotionError("the last knot of the loop is not its first keyframe")
     settings = {key: data[key] for key in ("times", *SETTINGS, "handles") if key in data}
-    return keyframes, settings, (times, knots)
+    return keyframes, settings, times, knots
 
 
 def _knots(data: dict[str, Any]) -> tuple[list[float], list[HarmonicMap]]:

@@ -176,13 +176,13 @@ class Motion:
             reason = f"Certified up to t = {rounded_down(until, 6)}; {fails}."
         back = proofs[::-1] if self.repeat == "ping-pong" else ()
         return MotionCertificate(
-            failing is None,
-            min(proof.sigma2_lower for proof in proofs),
-            max(proof.sigma1_upper for proof in proofs),
-            max(proof.k_upper for proof in proofs),
-            until,
-            (*proofs, *back),
-            reason,
+            certified=failing is None,
+            sigma2_lower=min(proof.sigma2_lower for proof in proofs),
+            sigma1_upper=max(proof.sigma1_upper for proof in proofs),
+            k_upper=max(proof.k_upper for proof in proofs),
+            until=until,
+            pieces=(*proofs, *back),
+            reason=reason,
         )
 
     def __call__(self, time: float) -> HarmonicMap:
@@ -194,9 +194,8 @@ class Motion:
         if self.repeat != "once":
             time = self.start + (time - self.start) % self.duration
         elif not self.start <= time <= self.end:
-            raise MotionError(
-                f"the time {time:g} is outside the motion, from {self.start:g} to {self.end:g} s"
-            )
+            span = f"from {self.start:g} to {self.end:g} s"
+            raise MotionError(f"the time {time:g} is outside the motion, {span}")
         starts = [piece.start for piece in self.pieces]
         return self.pieces[max(bisect.bisect_right(starts, time) - 1, 0)].at(time)
 
@@ -250,11 +249,6 @@ class Motion:
 
     def _made(self, index: int) -> tuple[tuple[Piece, ...], tuple[PieceCertificate, ...]]:
         """The pieces of an interval, shorter ones where they are not proved, and their proofs."""
-        known = vars(self).get("_knots")
-        if known is not None:
-            first, last = (known[0].index(time) for time in self.times[index : index + 2])
-            times, maps = (each[first : last + 1] for each in known)
-            return linear_pieces(times, maps), certify_pieces(maps)
         tolerance = self.tolerance * self.domain.cage.longer_side
         for finer in (1,) if self.between == "linear" else _FINER:
             times = self._curve.breaks(index, tolerance, finer)
@@ -289,9 +283,11 @@ class Motion:
 
         Raises MotionError, which names the file and what is wrong there.
         """
-        with about(path, MotionError):
-            keyframes, settings, knots = file.read(path)
+        with about(path, MotionError), single_blas_thread():
+            keyframes, settings, times, maps = file.read(path)
             motion = cls(keyframes, **settings)
-            vars(motion)["_knots"] = knots
-            motion.certificate  # noqa: B018 - proves every piece
+            knots = [times.index(time) for time in motion.times]
+            for i, (first, last) in enumerate(itertools.pairwise(knots)):
+                made = linear_pieces(times[first : last + 1], maps[first : last + 1])
+                motion._intervals[i] = made, certify_pieces(maps[first : last + 1])
             return motion

@@ -52,13 +52,13 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
 
 def remove_handles(state: EditState, indices: Iterable[int], keep_shape: bool = False) -> EditState:
     """Remove some handles; with ``keep_shape`` the pose counts as solved by the map that it has."""
-    chosen = _checked_indices(state, indices)
-    kept = np.setdiff1d(np.arange(len(state.pose)), chosen)
+    kept = np.setdiff1d(np.arange(len(state.pose)), _checked_indices(state, indices))
+    pose = state.pose.only(kept)
     if not keep_shape:
-        return state.changed(pose=state.pose.only(kept))
+        return state.changed(pose=pose)
     if not state.current.solved:
         raise EditError("the shape is still moving; wait until it has come to rest to keep it")
-    return state.with_current(replace(state.current, pose=state.pose.only(kept)))
+    return state.with_current(replace(state.current, pose=pose))
 
 
 def clear_handles(state: EditState) -> EditState:
@@ -117,8 +117,9 @@ def turn(
     if not len(chosen):
         return state
     angles, scales = turned_now(state, chosen)
-    changed = {"angles": wrapped(angles + by)} if by else {}
-    return set_pins(state, chosen, **changed, **({"scales": scales * scale} if scale != 1 else {}))
+    turned = {"angles": wrapped(angles + by)} if by else {}
+    scaled = {"scales": scales * scale} if scale != 1 else {}
+    return set_pins(state, chosen, **turned, **scaled)
 
 
 def wrapped(angles: Array) -> Array:
@@ -141,7 +142,7 @@ def set_stiffness(state: EditState, stiffness: Stiffness) -> EditState:
 def reset(state: EditState) -> EditState:
     """The undeformed shape: the identity map, and every target on its handle."""
     pose = state.pose.with_targets(state.pose.handles)
-    return state.changed(pose=pose, map=HarmonicMap.identity(state.domain))
+    return state.changed(pose=pose, map=state.identity)
 
 
 def set_energy(state: EditState, energy: Energy) -> EditState:
@@ -268,12 +269,8 @@ def record(
     named = (replace(pose, name=name) for pose, name in zip(new, names, strict=True))
     index = state.active
     before, after = state.poses[:index], state.poses[index + 1 :]
-    return replace(
-        state,
-        poses=(*before, first, *named, *after),
-        active=index + len(offsets),
-        timeline=state.timeline.recorded(index, offsets),
-    )
+    poses, timeline = (*before, first, *named, *after), state.timeline.recorded(index, offsets)
+    return replace(state, poses=poses, active=index + len(offsets), timeline=timeline)
 
 
 def go_to_pose(state: EditState, index: int) -> EditState:

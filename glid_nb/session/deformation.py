@@ -211,8 +211,7 @@ class Deformation(Undoable[EditState]):
     def set_domain(self, domain: Domain) -> None:
         """Replace the domain; handles inside the new one are kept.
 
-        A domain with the present cage changes nothing. One with the cage of the step before undoes
-        that step, which brings its handles back.
+        The present cage changes nothing; that of the step before brings its handles back, by undo.
         """
         with self.locked():
             past = self.history.past

@@ -10,7 +10,6 @@ import shapely
 
 from glid_nb._arrays import Array
 from glid_nb.geometry import Cage
-from glid_nb.harmonic import HarmonicMap
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.solvers import Pose, PoseError
 
@@ -67,7 +66,7 @@ def _posed(
     apart = ~np.triu(gaps < _MARGIN / 4 * state.domain.cage.longer_side, 1).any(axis=0)
     new = replace(pose.only(apart), handles=moved[apart], targets=targets[apart])
     state.current.method.check_pose(new)
-    return state.changed(pose=new, map=HarmonicMap.identity(state.domain))
+    return state.changed(pose=new, map=state.identity)
 
 
 def _inside(cage: Cage, points: Array) -> Array:

@@ -139,10 +139,7 @@ class TracingModel(Undoable[TracingState]):
     @property
     def frame(self) -> PixelFrame | None:
         """The conversion between pixels and world coordinates; None without a picture."""
-        if self.state.image is None:
-            return None
-        height, width = self.state.image.shape[:2]
-        return PixelFrame(width=width, height=height)
+        return None if self.image is None else PixelFrame(*self.image.shape[1::-1])
 
     @property
     def options(self) -> TraceOptions:
@@ -345,19 +342,19 @@ class TracingModel(Undoable[TracingState]):
         if self._tracer is None or self._tracer.image is not state.image:
             self._tracer = Tracer(state.image)
         frame, domain = self._tracer.frame, state.fallback
-        loops: Loops = state.loops or ()
-        cage, problems = None, ()
+        loops, cage, problems = state.loops, None, ()
         try:
             tracing = self._tracer.trace(state.options)
         except (TraceError, GeometryError) as error:
-            if not loops:
+            if loops is None:
                 shown = () if domain is None else domain.cage.loops
                 return TracingOutcome(None, shown, domain, (_problem(error, frame),))
             tracing = None  # what was drawn by hand needs none
-        if tracing is not None and not loops:
-            loops, cage = tracing.cage.loops, tracing.cage
-        elif tracing is not None and not _shares_vertices(loops, tracing.cage.loops):
-            tracing = None
+        else:
+            if loops is None:
+                loops, cage = tracing.cage.loops, tracing.cage
+            elif not _shares_vertices(loops, tracing.cage.loops):
+                tracing = None
         try:
             cage = Cage(loops[0], loops[1:]) if cage is None else cage
             if domain is None or not cage.equals(domain.cage):
