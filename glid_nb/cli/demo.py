@@ -97,14 +97,13 @@ def _pose(
     wanted: str | None, sample: str | None, domain: glid_nb.Domain
 ) -> tuple[glid_nb.Pose, str]:
     """The pose, and where it comes from, in words."""
-    if wanted is None and sample is None:
-        return glid_nb.suggest_pose(domain), "chosen automatically (give your own with --pose)"
-    if wanted is not None and (sample is None or Path(wanted).exists()):
-        path, origin = Path(wanted), wanted
-    else:
-        assert sample is not None
-        kind = cast("glid_nb.samples.PoseKind", DEFAULT_POSE if wanted is None else wanted)
+    if sample is not None and not (wanted and Path(wanted).exists()):
+        kind = cast("glid_nb.samples.PoseKind", wanted or DEFAULT_POSE)
         path, origin = glid_nb.samples.pose_path(sample, kind), f"the sample's own, {kind}"
+    elif wanted is None:
+        return glid_nb.suggest_pose(domain), "chosen automatically (give your own with --pose)"
+    else:
+        path, origin = Path(wanted), wanted
     pose = glid_nb.load_pose(path)
     with about(path):
         pose.check_inside(domain)

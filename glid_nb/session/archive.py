@@ -65,8 +65,6 @@ def _check_member(info: zipfile.ZipInfo, most_bytes: Mapping[str, int]) -> None:
     if name not in most_bytes:
         wanted = f"expected only {', '.join(most_bytes)}"
         raise InputFileError(f"it holds {name!r:.80}, which does not belong there; {wanted}")
-    if info.flag_bits & 1:
-        raise InputFileError(f"{name} is encrypted")
     if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
         raise InputFileError(f"{name} is compressed by a method that sessions do not use")
     # zipfile stops at this size whatever the compressed data hold.

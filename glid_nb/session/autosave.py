@@ -52,50 +52,11 @@ class OwnFiles:
         )
 
 
-class SavedFile:
-    """The file of an `Autosave`; it holds no reference to that, so it does not keep it alive."""
-
-    def __init__(
-        self, path: Path, own: OwnFiles, on_done: Callable[[Exception | None], None] | None
-    ) -> None:
-        self.path, self.own, self._on_done = path, own, on_done
-        self.left: Path | None = None
-        """The file that was given up because another program changed it."""
-        self.error: Exception | None = None
-        """What went wrong with the last save; None when it went well."""
-        self.n_saved = 0
-        """Number of saves that succeeded."""
-        self._writing = threading.RLock()
-        own.note_session(path)
-
-    def save(self, document: Document, _: object) -> None:
-        """Write the file, or one beside it where another program has changed it."""
-        with self._writing:
-            try:
-                if self.own.strangers([self.path], self.path):
-                    self.left, self.path = self.path, free_sibling(self.path)
-                self.write(document)
-                if self.own.session == self.left:
-                    self.own.session = self.path
-                self.n_saved += 1
-            except Exception as error:  # reported; the next submission tries again
-                self.error = error
-        if self._on_done is not None:
-            self._on_done(self.error)
-
-    def write(self, document: Document) -> None:
-        """Write the file, whoever has changed it."""
-        with self._writing:
-            save_document(document, self.path)
-            self.own.note([self.path], self.path)
-            self.error = None
-
-
 class Autosave:
     """Saves the document that was submitted last, the first at once, then once per ``interval``.
 
-    What is pending is written when the process ends or this object is dropped. A file that another
-    program has changed is not touched again: later saves go to a new file beside it.
+    What is pending is written when this is closed or the process ends. A file that another program
+    has changed is not touched again: later saves go to a new file beside it.
 
     After each save ``on_done`` is called, in the thread, with the exception if it failed, else with
     None. The file as it is now becomes one of the ``own`` files.
@@ -110,24 +71,29 @@ class Autosave:
     ) -> None:
         if not interval >= 0:
             raise ValueError(f"interval is {interval}; it must be at least 0 seconds")
-        self.file = SavedFile(Path(path), own or OwnFiles(), on_done)
-        """The file, and how its saves went."""
-        self._worker: LatestWins[Document] = LatestWins(
-            self.file.save, self, f"autosave {Path(path).name}", interval=interval, finish=True
-        )
+        self.path, self.own, self._on_done = Path(path), own or OwnFiles(), on_done
+        self.left: Path | None = None
+        """The file that was given up because another program changed it."""
+        self.error: Exception | None = None
+        """What went wrong with the last save; None when it went well."""
+        self.n_saved = 0
+        self._writing = threading.RLock()
+        self.own.note_session(self.path)
+        name = f"autosave {self.path.name}"
+        self._worker = LatestWins(self._save, self, name, interval=interval, finish=True)
         _all.add(self)
 
     def submit(self, document: Document) -> None:
         """Save this document soon; returns at once."""
         if self._worker.closed:
-            raise RuntimeError(f"the autosave of {self.file.path} is closed")
+            raise RuntimeError(f"the autosave of {self.path} is closed")
         self._worker.submit(document)
 
     def write(self, document: Document) -> None:
         """Save this document now, in this thread, even if another program has changed the file."""
         self._worker.cancel()  # what is pending is older
         try:
-            self.file.write(document)
+            self._write(document)
         except Exception:
             self._worker.submit(document)
             raise
@@ -140,6 +106,26 @@ class Autosave:
         """Save what is pending and end the thread; submitting is an error from then on."""
         self._worker.close()
 
+    def _save(self, document: Document, _: object) -> None:
+        with self._writing:
+            try:
+                if self.own.strangers([self.path], self.path):
+                    self.left, self.path = self.path, free_sibling(self.path)
+                self._write(document)
+                if self.own.session == self.left:
+                    self.own.session = self.path
+                self.n_saved += 1
+            except Exception as error:  # reported; the next submission tries again
+                self.error = error
+        if self._on_done is not None:
+            self._on_done(self.error)
+
+    def _write(self, document: Document) -> None:
+        with self._writing:
+            save_document(document, self.path)
+            self.own.note([self.path], self.path)
+            self.error = None
+
 
 _all: weakref.WeakSet[Autosave] = weakref.WeakSet()
 
@@ -148,7 +134,7 @@ def flush(path: str | Path) -> None:
     """Save what any editor of this process has pending for a file, before the file is read."""
     wanted = Path(path).resolve()
     for autosave in tuple(_all):
-        if autosave.file.path.resolve() == wanted:
+        if autosave.path.resolve() == wanted:
             autosave.flush()
 
 

@@ -120,12 +120,12 @@ class EditorModel(Observed):
     def autosave_path(self) -> Path | None:
         """The session file that is saved to, if any."""
         autosave = self._autosave if self._named_path is not None else None
-        return None if autosave is None else autosave.file.path
+        return None if autosave is None else autosave.path
 
     @property
     def left_path(self) -> Path | None:
         """The file that the autosave gave up because another program changed it, if any."""
-        return None if self._autosave is None else self._autosave.file.left
+        return None if self._autosave is None else self._autosave.left
 
     def take_over_file(self) -> None:
         """Go on saving to the session file although another editor, now closed, wrote it last."""
@@ -214,7 +214,7 @@ class EditorModel(Observed):
     def save(self, path: str | Path) -> None:
         """Write the document to a file; if that fails, what was there before stays."""
         autosave, path = self._autosave, Path(path)
-        if autosave is not None and autosave.file.path.resolve() == path.resolve():
+        if autosave is not None and autosave.path.resolve() == path.resolve():
             autosave.write(self.document)
             self._saved(None)
         else:
@@ -283,7 +283,7 @@ class EditorModel(Observed):
         if self._named_path is not None or self._autosave is None:
             return None
         self._autosave.close()
-        path, self._autosave = self._autosave.file.path, None
+        path, self._autosave = self._autosave.path, None
         return path
 
     def _session_of(self, deformation: Deformation) -> _Session:
@@ -314,7 +314,7 @@ class EditorModel(Observed):
         """Autosave to this file, after what is pending for another one is saved there."""
         old = self._autosave
         if old is not None:
-            if old.file.path.resolve() == path.resolve():
+            if old.path.resolve() == path.resolve():
                 self.own_files.note_session(path)
                 return
             old.close()

@@ -49,10 +49,7 @@ def mirror_pose(state: EditState) -> EditState:
 
 
 def _posed(
-    state: EditState,
-    pose: Pose,
-    place: Callable[[Array], Array] = np.array,
-    scale: float = 1.0,
+    state: EditState, pose: Pose, place: Callable[[Array], Array] = np.array, scale: float = 1.0
 ) -> EditState:
     """The pose with all in other places, on the undeformed shape.
 

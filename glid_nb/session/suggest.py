@@ -3,8 +3,8 @@
 import numpy as np
 import scipy
 import shapely
-from numpy.typing import NDArray
 
+from glid_nb._arrays import Array
 from glid_nb.geometry import Domain, triangulate
 from glid_nb.solvers import Pose
 
@@ -40,17 +40,14 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
     first = int(np.argmax(between[0]))
     moved = [first]
     if len(chosen) > 3:
-        others = [i for i in range(1, len(chosen)) if i != first]
-        moved.append(max(others, key=lambda i: between[first, i]))
+        moved.append(1 + int(np.argmax(between[first, 1:])))
     targets = handles.copy()
     for i in moved:
         targets[i] = _swung(handles[i], handles[0], mesh.vertices, paths[i])
     return Pose(handles, targets)
 
 
-def _spread_out(
-    graph: scipy.sparse.csr_array, clearance: NDArray[np.float64], count: int
-) -> list[int]:
+def _spread_out(graph: scipy.sparse.csr_array, clearance: Array, count: int) -> list[int]:
     """At most ``count`` vertices: the one deepest inside, and those at the ends of limbs."""
     middle = int(np.argmax(clearance))
     nearest = np.asarray(scipy.sparse.csgraph.dijkstra(graph, indices=middle))
@@ -69,12 +66,7 @@ def _spread_out(
     return chosen
 
 
-def _swung(
-    handle: NDArray[np.float64],
-    middle: NDArray[np.float64],
-    vertices: NDArray[np.float64],
-    path_lengths: NDArray[np.float64],
-) -> NDArray[np.float64]:
+def _swung(handle: Array, middle: Array, vertices: Array, path_lengths: Array) -> Array:
     """The handle turned about the middle, in the direction that stays farther from other limbs."""
     x, y = handle - middle
     ways = []
@@ -86,8 +78,4 @@ def _swung(
     rest = vertices[path_lengths > _APART * moved]
     if not len(rest):
         return ways[0][-1]
-
-    def clearance(way: NDArray[np.float64]) -> float:
-        return float(np.linalg.norm(rest[:, None] - way, axis=2).min())
-
-    return max(ways, key=clearance)[-1]
+    return max(ways, key=lambda way: np.linalg.norm(rest[:, None] - way, axis=2).min())[-1]
