@@ -21,10 +21,10 @@ class LatestWins(Generic[T]):
     with the process. Exceptions go to :func:`threading.excepthook`; the thread goes on.
 
     ``work`` is called with a task and this worker; a long task ends early when ``overtaken`` or
-    ``cancelled`` say so. Where it keeps the ``owner`` alive (else see :func:`weakly`) this ends when
-    it is closed. ``interval`` seconds pass between two tasks. Closing drops the pending task, or
-    does it first with ``finish``; it waits for the running one if it ``waits``, and the end of the
-    process always does.
+    ``cancelled`` say so. If it keeps the ``owner`` alive (else see :func:`weakly`) this must be
+    closed. ``interval`` seconds pass between two tasks. Closing drops the pending task, or does it
+    first with ``finish``; it waits for the running one if it ``waits``, the end of the process
+    always.
     """
 
     def __init__(
