@@ -24,7 +24,7 @@ def button(
     label: str, icon: str, tooltip: str, act: Callable[[], None], layout: Any = "auto"
 ) -> ipywidgets.Button:
     """A button whose click calls ``act``; ``layout`` is its width or a layout that it shares."""
-    layout = {"width": layout} if isinstance(layout, str) else layout
+    layout = {"width": layout, "flex": "0 0 auto"} if isinstance(layout, str) else layout
     look: dict[str, Any] = {"icon": icon, "tooltip": tooltip, "layout": layout}
     made = ipywidgets.Button(description=label, **look)
     made.on_click(lambda _: act())

@@ -332,8 +332,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             button("Bring it back", "history", "Go on with it", bring),
             button("Discard", "trash", "Delete it", discard),
         ]
-        for part in self.kept.children[1:]:
-            part.layout.flex = "0 0 auto"
         self.kept.layout.display = "flex"
 
     def _build(self) -> None:

@@ -229,7 +229,6 @@ class FilePanel(ipywidgets.VBox):
                 self._say(str(error), REFUSED)
 
         made = button(label, icon, tooltip, click)
-        made.layout.flex = "0 0 auto"
         self._labels[made] = label
         return made
 
@@ -285,7 +284,13 @@ class FilePanel(ipywidgets.VBox):
     def _download(self, _: bool) -> str:
         path, moving = self._chosen
         stem = path.stem if moving else path.name.removesuffix(str(self.format.value))
-        return self._made(lambda files: self._sent(*as_one(files, stem)))
+
+        def deliver(files: Mapping[str, bytes]) -> str:
+            name, data = as_one(files, stem)
+            self.clipboard.download(name, data)
+            return f"Sent {name} to the browser's downloads"
+
+        return self._made(deliver)
 
     def _made(self, deliver: Callable[[Mapping[str, bytes]], str]) -> str:
         """Make the files that are chosen, those of a motion in the background, and deliver them."""
@@ -295,10 +300,6 @@ class FilePanel(ipywidgets.VBox):
             return self.motion.start(path.name, deliver)
         view: Any = self.view.value
         return deliver(exported(self.model, path, self.size, view))
-
-    def _sent(self, name: str, data: bytes) -> str:
-        self.clipboard.download(name, data)
-        return f"Sent {name} to the browser's downloads"
 
     def _copy(self, sure: bool) -> str:
         script = session_path(self.path.value).with_suffix(".py")

@@ -37,7 +37,6 @@ class MotionExport(ClosingWidget, ipywidgets.HBox):
         self.cancel = button("Cancel", "stop", "Stop drawing", self._worker.cancel)
         self._running = (self.progress, self.cancel)
         self._show(False)
-        self.cancel.layout.flex = "0 0 auto"
         px, fps = (ipywidgets.Label(text, layout={"flex": "0 0 auto"}) for text in ("px", "fps"))
         layout = {"flex": "1 1 auto", "min_width": "0"}
         super().__init__([self.size, px, self.rate, fps, *self._running], layout=layout)
