@@ -21,9 +21,9 @@ class Jets(NamedTuple):
     """A map to second order at the starts of panels; every field is an array over the panels.
 
     The image is relative to the first coefficients, so that a translation costs no accuracy. The
-    errors bound those of the image and of its first and second derivative in any unit direction, by
-    rounding and because a start may lie beside its edge. ``third`` bounds the third derivative
-    along the whole panel, times the square of its length.
+    errors bound those of the image and its derivatives in any unit direction, and what a start
+    beside its edge adds. ``third`` bounds the third derivative along the panel, times its length
+    squared.
     """
 
     f: Array
@@ -40,21 +40,19 @@ class Jets(NamedTuple):
         return Jets(*(values[index] for values in self))
 
     def first(self, direction: Array) -> Array:
-        """Derivative along unit vectors."""
         return self.fz * direction + np.conj(self.fzb_conj * direction)
 
     def second(self, direction: Array) -> Array:
-        """Second derivative along unit vectors."""
         square = direction**2
         return self.dfz * square + np.conj(self.dfzb_conj * square)
 
 
 class Arcs(NamedTuple):
-    """Images of panels, parametrised by the arc length of the panel; every field is an array.
+    """Images of panels by the panel's arc length; every field is an array.
 
-    ``start`` and ``end`` are the images of the ends, accurate to ``error``, ``tangent_start`` and
-    ``tangent_end`` the derivatives there, accurate to ``tangent_error``. ``bend`` bounds the second
-    derivative along the panel, whose length is ``length``.
+    The images of the ends are accurate to ``error``, the derivatives ``tangent_start`` and
+    ``tangent_end`` there to ``tangent_error``; ``bend`` bounds the second derivative along the
+    panel.
     """
 
     start: Array
@@ -96,7 +94,6 @@ class Arcs(NamedTuple):
 
     @property
     def radius(self) -> Array:
-        """The same bound for the computed chord."""
         return self.sagitta + self.error
 
 
@@ -135,10 +132,8 @@ def _kernel(start: Any, end: Any, coefficients: Any, singularities: Singularitie
 
 
 def _value_scale(z: Any, singularities: Singularities) -> Any:
-    """The sum of the moduli of all terms of ``C(z)``, like ``rounding.term_scale`` for ``D(z)``.
-
-    ``|Log(B_{j+1} / B_j)| <= |ln |B_{j+1} / B_j|| + pi``, and 4 roundoffs beside it.
-    """
+    """The sum of the moduli of all terms of ``C(z)``, like ``rounding.term_scale`` for ``D(z)``:
+    ``|Log(B_{j+1} / B_j)| <= |ln |B_{j+1} / B_j|| + pi``, and 4 roundoffs beside it."""
     vertices, following, _, rho = singularities
     b = modulus(vertices - z[:, None])
     edge = modulus(vertices[following] - vertices)

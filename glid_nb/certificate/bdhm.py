@@ -1,11 +1,9 @@
-"""The Lipschitz constants of bounded distortion harmonic mappings (Chen & Weber 2015).
+"""Figure 7's Lipschitz constants of bounded distortion harmonic mappings (Chen & Weber 2015).
 
-The paper replaces them by far smaller ones (Section 8); these are for Figure 7. On a segment,
-``|f_z'| <= sum_j L_j |phi_j|`` with ``L_j = |z_{j+1} - z_{j-1}| / (2 pi d(z_{j-1}) d(z_j)
-d(z_{j+1}))``, a bound on ``|D_j'|``. Adding an affine function of ``z_j`` to a loop's coefficients
-changes ``f_z`` by a constant at most, so the affine function through the vertex of largest ``L_j``
-and the larger of its neighbours is subtracted first. The original is for simply-connected domains;
-here every loop has its own affine function, and a hole's logarithm the constant ``1 / d^2``.
+On a segment, ``|f_z'| <= sum_j L_j |phi_j|`` with ``L_j = |z_{j+1} - z_{j-1}| / (2 pi d(z_{j-1})
+d(z_j) d(z_{j+1}))``, a bound on ``|D_j'|``. Adding an affine function of ``z_j`` to a loop's
+coefficients changes ``f_z`` by a constant at most, so on every loop the one through the vertex of
+largest ``L_j`` and the larger of its neighbours is subtracted; a hole's logarithm has ``1 / d^2``.
 """
 
 from typing import Any as Array  # of NumPy or of JAX
@@ -23,14 +21,11 @@ from glid_nb.harmonic.cauchy import Singularities
 class BDHM(NamedTuple):
     """The proof by these constants, for ``n = m + N`` vertices and holes."""
 
-    length: PerPanel
-    """``l``, and what ends beside their edge add."""
-    weights: Float[Array, "n p"]
-    """``L_j``."""
+    length: PerPanel  # l, and what ends beside their edge add
+    weights: Float[Array, "n p"]  # L_j
     first: Int[Array, "m p"]
     """The vertex with the largest ``L`` on the loop of ``z_j``, for each segment."""
-    second: Int[Array, "m p"]
-    """The neighbour of ``first`` with the larger ``L``."""
+    second: Int[Array, "m p"]  # the neighbour of first with the larger L
 
     slack_share = 2
 

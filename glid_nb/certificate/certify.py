@@ -76,11 +76,8 @@ class Certificate:
     def belongs_to(self, map: HarmonicMap) -> bool:
         """Whether it is of this map: the same coefficients on the same or an equal domain."""
         own = self.map
-        return own is map or (
-            np.array_equal(own.phi, map.phi)
-            and np.array_equal(own.psi, map.psi)
-            and (own.domain is map.domain or own.domain.to_dict() == map.domain.to_dict())
-        )
+        same = np.array_equal(own.phi, map.phi) and np.array_equal(own.psi, map.psi)
+        return own is map or (same and own.domain.equals(map.domain))
 
     @property
     def winding(self) -> int:
@@ -105,8 +102,7 @@ class Known(NamedTuple):
     sigma1_seen: Any
     k_seen: Any
     fz_seen: Any
-    slack: Any
-    """Bound on the error of both derivatives there."""
+    slack: Any  # bound on the error of both derivatives there
 
 
 def certify(
@@ -260,10 +256,8 @@ def _kernel(
 def end_values(
     start: Any, end: Any, coefficients: Any, singularities: Singularities
 ) -> tuple[EndValues, Any]:
-    """``sum_j D_j coefficients_j`` at the ends of panels, (k, p) arrays, and bounds on the errors.
-
-    The sums are the derivatives of (k, c) coefficients, ``f_z`` for phi and the like.
-    """
+    """``sum_j D_j coefficients_j``, the derivatives of (k, c) coefficients, at the ends of panels,
+    (k, p) arrays, and bounds on the errors."""
     chord: Any = end - start
     edges: Any = cauchy.edge_coefficients(coefficients, singularities)
     both: Any = np.concatenate([start, end])

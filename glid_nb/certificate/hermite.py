@@ -23,8 +23,6 @@ Sextic = list[PerPanel]
 
 
 class Hermite(NamedTuple):
-    """The proof by cubic interpolants on graded panels."""
-
     weights: Float[Array, "n p"]
     """``l^4 / 384`` times the bound on the fourth derivative per unit of each slope jump, and
     :func:`~glid_nb.certificate.paper.beside`."""
@@ -46,11 +44,10 @@ class Hermite(NamedTuple):
         remainder: Float[Array, "2 p"],
         direction: Ends | None = None,
     ) -> PanelBounds:
-        """Bounds on each whole panel.
+        """Bounds on each whole panel, whose interpolants are halved once to tighten them.
 
-        The interpolants are halved once, which tightens the bounds without evaluating the map. With
-        unit vectors ``u`` as ``direction``, the bounds on sigma_2 and k hold with
-        ``Re(conj(u) f_z)``, proved positive where the turning is known, in place of ``|f_z|``.
+        With unit vectors ``u`` as ``direction``, the bounds on sigma_2 and k hold with ``Re(conj(u)
+        f_z)``, proved positive where the turning is known, in place of ``|f_z|``.
         """
         p, q = _control_points(fz), _control_points(fzb_conj)
         e_f, e_g = remainder[0], remainder[1]

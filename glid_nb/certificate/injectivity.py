@@ -132,8 +132,8 @@ def _corner_simple(arcs: Arcs, following: Array) -> Array:
 def _proved_crossing(map: HarmonicMap, panels: Panels, arcs: Arcs, pairs: Array) -> Any:
     """A double point of the boundary's image and the two points mapped to it, or None.
 
-    Newton's method finds candidates, starting from pairs of panels whose chords cross. A candidate
-    is proved on windows around it on the two edges, which may extend over several panels.
+    Newton's method finds candidates from pairs of panels whose chords cross; they are proved on
+    windows around them on the two edges, which may extend over several panels.
     """
     a, b = (arcs.at(index) for index in pairs)
     pairs = pairs[:, segments_cross(a.start, a.end, b.start, b.end)]

@@ -19,10 +19,8 @@ Rows = Complex[Array, "k n"]
 
 
 class EndValues(NamedTuple):
-    """A holomorphic function, ``f_z`` or ``conj(f_zbar)``, at the two ends of each panel.
-
-    Slopes are derivatives along the panel: the complex derivative times ``end - start``.
-    """
+    """A holomorphic function, ``f_z`` or ``conj(f_zbar)``, at the two ends of each panel; slopes
+    are the complex derivative times ``end - start``."""
 
     start: Ends
     end: Ends
@@ -31,15 +29,12 @@ class EndValues(NamedTuple):
 
 
 class PanelBounds(NamedTuple):
-    """Bounds proved on the whole closed panel."""
-
     sigma2_lower: PerPanel
     sigma1_upper: PerPanel
     k_upper: PerPanel
     turning_known: Bool[Array, " p"]
     """Whether the change of ``arg f_z`` along the panel is proved to be ``turning`` (29)."""
-    turning: PerPanel
-    """Principal ``Arg`` of ``f_z(end) / f_z(start)``."""
+    turning: PerPanel  # principal Arg of f_z(end) / f_z(start)
 
     @property
     def injective(self) -> Bool[Array, " p"]:
@@ -48,27 +43,22 @@ class PanelBounds(NamedTuple):
 
 
 class PanelProof(Protocol):
-    """A kind of proof; an instance holds the constants that depend on the panels only.
+    """A kind of proof; an instance, a pytree of arrays with panels along the last axis, holds the
+    constants that depend on the panels only."""
 
-    Instances are pytrees of arrays with panels along the last axis, computed once for many maps.
-    """
-
-    slack_share: int
-    """How many times the error of the end values enters the remainder."""
+    slack_share: int  # how many times the error of the end values enters the remainder
 
     @classmethod
-    def on(cls, start: Ends, end: Ends, singularities: Singularities) -> Self:
-        """The proof's constants on the panels from ``start`` to ``end``."""
-        ...
+    def on(cls, start: Ends, end: Ends, singularities: Singularities) -> Self: ...
 
     def remainder(self, coefficients: Rows, singularities: Singularities) -> Float[Array, "k p"]:
         """Bounds how far ``sum_j D_j coefficients_j`` is from its estimate, but for rounding."""
         ...
 
     @staticmethod
-    def bounds(fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]) -> PanelBounds:
-        """The bounds on each whole panel, from the remainders of both derivatives."""
-        ...
+    def bounds(
+        fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]
+    ) -> PanelBounds: ...
 
 
 T = TypeVar("T")
@@ -110,10 +100,8 @@ def _not_tiled(what: str) -> GeometryError:
 
 
 def split(panels: Panels, known: T, chosen: Array, evaluate: Callable[..., T]) -> tuple[Panels, T]:
-    """With the chosen, divisible panels halved, and what is known of each.
-
-    ``known`` is a pytree of arrays over the panels; ``evaluate(start, end)`` makes it for new ones.
-    """
+    """With the chosen, divisible panels halved, and what is ``known`` of each, a pytree of arrays
+    over the panels that ``evaluate(start, end)`` makes for new ones."""
     finer, parent = panels.split(chosen)
     new = chosen[parent]
 

@@ -52,11 +52,9 @@ def segment_bounds(
 class Lipschitz(NamedTuple):
     """The paper's proof, by its Lipschitz constants (Section 8, Appendix H)."""
 
-    weights: Float[Array, "n p"]
-    """``l^2 / 2`` times ``L_j`` and ``L_j^h``, and :func:`beside`."""
+    weights: Float[Array, "n p"]  # l^2 / 2 times L_j and L_j^h, and `beside`
 
-    slack_share = 2
-    """Half of the remainder is subtracted from each mean."""
+    slack_share = 2  # half of the remainder is subtracted from each mean
 
     @classmethod
     def on(cls, start: Ends, end: Ends, singularities: Singularities) -> Self:
@@ -159,8 +157,6 @@ def windings(turning: NDArray[np.float64], loop: NDArray[np.intp], n_loops: int)
 
 
 def fz_vanishes(turning: PerPanel) -> Bool[Array, ""]:
-    """Whether ``f_z`` has zeros in the domain: the sum (30) of all turnings is not 0.
-
-    Corollary 8.2; up to rounding the sum is a multiple of ``2 pi`` if all turnings are known.
-    """
+    """Whether ``f_z`` has zeros in the domain: the sum (30) of all turnings, a multiple of ``2 pi``
+    up to rounding if all are known, is not 0 (Corollary 8.2)."""
     return abs(turning.sum()) > 1

@@ -22,7 +22,7 @@ from glid_nb.certificate.hermite import Hermite
 from glid_nb.certificate.panels import EndValues, PanelBounds
 from glid_nb.certificate.paper import beside, jumps
 from glid_nb.geometry import graded_panels
-from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
+from glid_nb.harmonic import HarmonicMap, basis_of, cauchy, rows_of
 from glid_nb.harmonic.cauchy import Singularities
 
 _SHORTEST = 2.0**-12  # time, of a piece
@@ -51,12 +51,8 @@ Proofs = tuple[PieceCertificate, ...]
 
 
 class _Values(NamedTuple):
-    """Maps on panels: (p, ...) arrays."""
-
-    ends: Array
-    """(p, k, 2, 4): `EndValues` of ``f_z`` and ``conj(f_zbar)`` of each map."""
-    errors: Array
-    """(p, k, 2, 2): their remainders, and bounds on the errors at the ends."""
+    ends: Array  # (p, k, 2, 4): `EndValues` of f_z and conj(f_zbar) of each map
+    errors: Array  # (p, k, 2, 2): their remainders, and bounds on the errors at the ends
 
     def pair(self, first: int) -> _Values:
         return _Values(*(values[:, first : first + 2] for values in self))
@@ -72,11 +68,11 @@ class _Values(NamedTuple):
 def certify_pieces(maps: Sequence[HarmonicMap], tightness: float = 0.05) -> Proofs:
     """Prove the linear motion from each map of one domain to the next, or say how far that goes.
 
-    Panels are halved where the proof fails or bounds are further than the relative ``tightness``
-    from values that are attained, and so is time, for tightness down to an eighth of a piece.
+    Panels, and time down to an eighth of a piece, are halved where the proof fails or bounds are
+    further than the relative ``tightness`` from values that are attained.
     """
     panels = graded_panels(maps[0].domain)
-    size = np.abs(basis_of(maps[0].domain).rows(*maps)).max(axis=0)
+    size = np.abs(rows_of(*maps)).max(axis=0)
     proofs = []
     for first in range(0, len(maps) - 1, _GROUP):
         group = maps[first : first + _GROUP + 1]
@@ -127,9 +123,7 @@ def _prove(
 
 
 def _evaluated(maps: Sequence[HarmonicMap], size: Array) -> Any:
-    """The function that evaluates the maps on panels from start to end."""
-    basis = basis_of(maps[0].domain)
-    rows = basis.rows(*maps)
+    basis, rows = basis_of(maps[0].domain), rows_of(*maps)
 
     def evaluate(start: Array, end: Array) -> _Values:
         return in_chunks(_values, basis.n_columns, (start, end), rows, size, basis.singularities)
@@ -190,10 +184,8 @@ def _bounds(values: _Values) -> Known:
 
 
 def _common_direction(f: Array, g: Array) -> Any:
-    """(p,) ``u`` between those of both times, for which the least ``Re(conj(u) f) - |g|`` is most.
-
-    ``f`` and ``g`` are (4, p) values: at both ends of the panels at the first time, and the last.
-    """
+    """(p,) ``u`` between those of both times, for which the least ``Re(conj(u) f) - |g|`` is most;
+    ``f`` and ``g`` are (4, p), at both ends of the panels at the first time, and the last."""
     units = f / np.abs(f)
     before, after = (pair / np.abs(pair) for pair in (units[0] + units[1], units[2] + units[3]))
     u = before + np.linspace(0, 1, _DIRECTIONS)[:, None] * (after - before)

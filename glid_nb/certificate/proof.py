@@ -55,10 +55,8 @@ def exact_text(values: dict[str, Any]) -> str:
 
 
 def dyadic_panels(panels: Panels, loops: Iterable[Array]) -> list[list[list[int]]] | None:
-    """Per edge of the cage, loop by loop, the pieces ``[k, d]`` from k/2^d to (k+1)/2^d of it.
-
-    None if the panels do not come from bisecting the edges, as uniform ones do not.
-    """
+    """Per edge of the cage, loop by loop, the pieces ``[k, d]`` from k/2^d to (k+1)/2^d of it; None
+    if the panels do not come from bisecting the edges, as uniform ones do not."""
     edges = []
     for number, loop in enumerate(loops):
         own = panels.loop == number

@@ -1,8 +1,7 @@
 """Bounds on the rounding errors of the certificate, and its bounds rounded for text.
 
-The certificate's inequalities are evaluated in double precision, of unit roundoff ``u``; what that
-may be off by is added to each panel's remainder. `docs/proof.md` derives every constant here
-(Lemmas 4 and 10 to 15).
+What the certificate's inequalities in double precision, of unit roundoff ``u``, may be off by is
+added to each panel's remainder. `docs/proof.md` derives every constant (Lemmas 4, 10 to 15).
 """
 
 import math
@@ -64,10 +63,8 @@ def _is_exact(a: Float[Array, ""]) -> Bool[Array, ""]:
 def derivatives(
     z: Points, edges: Complex[Array, "2 n"], singularities: Singularities
 ) -> tuple[Complex[Array, "2 k"], Complex[Array, "2 k"], Float[Array, "2 k"], Float[Array, "2 k"]]:
-    """``f_z`` and ``conj(f_zbar)``, their derivatives, and bounds on the errors of both.
-
-    ``edges`` are the :func:`~glid_nb.harmonic.cauchy.edge_coefficients` of phi and psi.
-    """
+    """``f_z`` and ``conj(f_zbar)``, their derivatives, and bounds on the errors of both, from the
+    :func:`~glid_nb.harmonic.cauchy.edge_coefficients` of phi and psi."""
     first = cauchy.first_by_edges(z, singularities)
     second = cauchy.second_by_edges(z, singularities)
     xp, m = z.__array_namespace__(), singularities.vertices.shape[0]

@@ -81,9 +81,8 @@ ENERGIES: dict[str, type[Energy]] = {}
 def register_energy(cls: type[E]) -> type[E]:
     """Class decorator: register a frozen dataclass of numbers in ENERGIES and as a JAX pytree.
 
-    JAX's ``register_dataclass`` does not do: jaxlib 0.10 takes trees of different dataclasses with
-    the same fields for equal and sometimes runs one energy with the program compiled for another.
-    Here the class is part of the tree's structure.
+    The class is part of the tree's structure. JAX's ``register_dataclass`` does not do: jaxlib 0.10
+    takes different dataclasses with the same fields for equal and may run the wrong program.
     """
     once_loaded(
         lambda: jax.tree_util.register_pytree_node(
@@ -129,10 +128,7 @@ def as_energy(energy: Energy | str | None) -> Energy:
 
 
 def _checked_parameter(energy: str, name: str, value: Any) -> Any:
-    """A parameter as a positive finite float.
-
-    JAX tracers, whose range was checked outside the traced program, are returned unchanged.
-    """
+    """A parameter as a positive finite float; JAX tracers are returned unchanged."""
     number = float(value) if isinstance(value, Real) and not isinstance(value, bool) else math.nan
     if 0 < number < math.inf:
         return number

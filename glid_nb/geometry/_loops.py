@@ -31,7 +31,6 @@ def loop_name(index: int) -> str:
 
 
 def plain_name(index: int) -> str:
-    """Its name in plain words: "the outline", "hole 1", ..."""
     return "the outline" if index == 0 else f"hole {index}"
 
 
@@ -84,7 +83,6 @@ def next_index(loop: Array) -> Array:
 
 
 def segments(loop: Array) -> Array:
-    """(n,) shapely line strings, the edges of an (n, 2) loop."""
     ends = np.stack([loop, np.roll(loop, -1, axis=0)], axis=1)
     return np.asarray(shapely.linestrings(ends), dtype=object)
 

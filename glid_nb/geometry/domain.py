@@ -103,6 +103,10 @@ class Domain:
             "notes": list(self.notes),
         }
 
+    def equals(self, other: Domain) -> bool:
+        """Whether all parts and the notes are the same."""
+        return self is other or self.to_dict() == other.to_dict()
+
     @property
     def n_holes(self) -> int:
         """Number of holes N."""
@@ -176,11 +180,8 @@ def _checked_hole_points(points: ArrayLike, offset_cage: Cage) -> NDArray[np.flo
 
 
 def _divided(offset_cage: Cage, cage: Cage) -> Cage:
-    """The offset cage, which has a vertex for each of the cage, with more on the long edges.
-
-    Along an edge a map's boundary values are linear. Where a shape is much longer than wide between
-    two vertices, as a bar of four is, that is too stiff to bend.
-    """
+    """The offset cage, which has a vertex for each of the cage, with more on the long edges: along
+    an edge boundary values are linear, too stiff to bend a bar of four vertices."""
     least = _LEAST_PIECE * cage.longer_side
     start = np.concatenate(cage.loops_complex)
     end = np.concatenate([np.roll(loop, -1) for loop in cage.loops_complex])

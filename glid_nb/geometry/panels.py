@@ -74,12 +74,8 @@ class Panels:
 
 @functools.lru_cache(maxsize=8)
 def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
-    """Panels no longer than ``ratio`` times their distance to the nearest singularity of ``f_z``.
-
-    The singularities are the offset cage's vertices and the hole points. Each edge of the cage is
-    bisected until this holds, so panels are short only where the map may vary fast. The last few
-    are kept.
-    """
+    """Panels no longer than ``ratio`` times their distance to the nearest singularity of ``f_z``,
+    the offset cage's vertices and the hole points, by bisecting the cage's edges; kept."""
     if not ratio > 0:
         raise ValueError(f"ratio is {ratio}; it must be positive")
     panels = Panels.along(domain.cage.loops_complex)
@@ -92,11 +88,9 @@ def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
 
 
 def paired(panels: Panels, domain: Domain, ratio: float) -> Array:
-    """(p,) bool: the first panels of pairs that one panel could replace.
-
-    A pair is two consecutive panels of equal length on one straight piece, together no longer than
-    ``ratio`` times their distance to the nearest singularity of ``f_z``. Pairs do not overlap.
-    """
+    """(p,) bool: the first panels of pairs, without overlap, that one panel could replace: two
+    consecutive ones of equal length on one straight piece, together no longer than ``ratio`` times
+    their distance to the nearest singularity of ``f_z``."""
     after = np.roll(np.arange(len(panels)), -1)
     chord, following = panels.end - panels.start, panels.end[after] - panels.start[after]
     even = np.abs(chord - following) <= _EVEN * np.abs(chord)

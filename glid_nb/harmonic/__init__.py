@@ -2,4 +2,4 @@
 
 from glid_nb.harmonic.basis import basis_of
 from glid_nb.harmonic.drawing import FixedPoints, ShaderMap
-from glid_nb.harmonic.map import HarmonicMap, MapError, as_complex, images_under, run_on
+from glid_nb.harmonic.map import HarmonicMap, MapError, as_complex, images_under, rows_of, run_on

@@ -3,37 +3,30 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from glid_nb._arrays import Array
 from glid_nb._jax import Bool, Complex, Int
+from glid_nb.geometry import Domain
 from glid_nb.geometry._loops import next_index
 from glid_nb.harmonic.cauchy import Singularities
-
-if TYPE_CHECKING:
-    from glid_nb.geometry import Domain
-    from glid_nb.harmonic.map import HarmonicMap
-
 
 _HOLE_BUCKETS = (0, 1, 2, 4, 8, 16, 32, 64)
 
 
 def column_bucket(count: int) -> int:
-    """The padded number of columns: at least 32, 48, 64, then multiples of 8, from 256 on of 16.
-
-    Compiling another program takes longer than thousands of iterations with a few columns more.
-    """
+    """The padded number of columns: at least 32, 48, 64, then multiples of 8, from 256 on of 16."""
     step = 16 if count <= 64 or count > 256 else 8
     return max(-(-count // step) * step, 32)
 
 
 class Basis(NamedTuple):
-    """Columns of the harmonic subspace on a domain (paper Section 5).
+    """Columns of the harmonic subspace on a domain (paper Section 5), padded.
 
-    The coefficients of padding columns are always zero, so they change no map; domains with the
-    same number of padded columns run the same compiled program.
+    Padding columns have zero coefficients, so they change no map; domains with the same number of
+    padded columns share compiled programs.
     """
 
     singularities: Singularities
@@ -47,17 +40,16 @@ class Basis(NamedTuple):
 
     @property
     def n_columns(self) -> int:
-        """Number of padded columns."""
         return len(self.phi_free)
 
     @property
     def n_exterior(self) -> int:
-        """Number of columns of the exterior loop, which come first."""
+        """Columns of the exterior loop, which come first."""
         return int(self.singularities.previous[0]) + 1
 
     @property
     def n_hole_columns(self) -> int:
-        """Number of padded logarithm columns, which come last."""
+        """Padded logarithm columns, which come last."""
         return len(self.singularities.hole_points)
 
     @property
@@ -70,10 +62,6 @@ class Basis(NamedTuple):
         padded = np.zeros(self.n_columns, dtype=complex)
         padded[self.columns] = coefficients
         return padded
-
-    def rows(self, *maps: HarmonicMap) -> Complex[Array, "k c"]:
-        """Padded phi and psi of each map, one after the other."""
-        return np.stack([self.pad(values) for map in maps for values in (map.phi, map.psi)])
 
 
 @functools.lru_cache(maxsize=64)

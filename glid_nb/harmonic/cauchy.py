@@ -94,9 +94,9 @@ def edge_slopes(coefficients: Values, singularities: Singularities) -> Values:
 
 
 def slope_jumps(coefficients: Rows, singularities: Singularities) -> Rows:
-    """``s_j - s_{j+1}`` for the vertices and the coefficient itself for the holes.
+    """``s_j - s_{j+1}`` for the vertices and the coefficient itself for the holes (Appendix H,
+    whose first sum has the wrong sign):
 
-    All derivatives of ``f_z`` are sums over these (Appendix H, whose first sum has the wrong sign):
     ``f_z' = -1/(2 pi i) sum_j (s_j - s_{j+1}) / B_j - sum_k phi_{m+k} / (z - rho_k)^2``.
     """
     m, xp = singularities.vertices.shape[0], coefficients.__array_namespace__()
@@ -129,11 +129,8 @@ def log_over_edge(b: Edges, singularities: Singularities) -> Edges:
 
 
 def _logarithms(b: Edges, singularities: Singularities) -> Edges:
-    """``Log(B_{j+1} / B_j)``.
-
-    The principal branch is right: an edge subtends an angle below pi at any point off it. XLA's own
-    complex logarithm is off by 50 roundoffs near modulus 0.77; real ones and atan2 by one.
-    """
+    """``Log(B_{j+1} / B_j)``, the principal branch: an edge subtends an angle below pi. XLA's
+    complex logarithm is off by 50 roundoffs near modulus 0.77; real ones and atan2 by one."""
     xp = b.__array_namespace__()
     square = xp.real(b) ** 2 + xp.imag(b) ** 2
     angle = xp.angle(b[:, singularities.next] * xp.conj(b))

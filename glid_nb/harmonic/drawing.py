@@ -17,14 +17,10 @@ _OTHER_VECTORS = 48  # matrices, ranges, colours and the like, beside the arrays
 class FixedPoints:
     """Images and derivatives of fixed points under many maps.
 
-    The logarithms, which take most of the time and do not depend on the map, are computed once and
-    kept in single precision, up to half a gigabyte. Summed over the edges of the offset cage, (D.1)
-    reads
-
-        F  = 1/(2 pi i) sum_e (phi_e + (z - z_e) s_e) L_e
-        F' = 1/(2 pi i) sum_e s_e L_e
-
-    with the slope s_e of phi along the edge from z_e, so one matrix product evaluates a map.
+    With the slope s_e of phi along the edge from z_e, (D.1) is the sum over the offset cage's edges
+    ``1/(2 pi i) sum_e (phi_e + (z - z_e) s_e) L_e``, its derivative ``1/(2 pi i) sum_e s_e L_e``:
+    one matrix product for each map. The logarithms L_e, which take most of the time, are kept in
+    single precision, up to half a gigabyte.
     """
 
     def __init__(self, domain: Domain, points: ArrayLike) -> None:
@@ -115,7 +111,6 @@ class ShaderMap:
         return f"#define N_CHAIN {self.n_chain}\n#define N_HOLES {self.n_holes}\n"
 
     def uniforms(self, map: HarmonicMap) -> dict[str, dict[str, Any]]:
-        """The uniforms of ``harmonic.glsl``."""
         coefficients, holes = self.coefficients(map)
         values = {"cage": self.cage, "coefficients": coefficients, "holes": holes}
         return {name: {"value": value.ravel().tolist()} for name, value in values.items()}

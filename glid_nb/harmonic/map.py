@@ -171,13 +171,18 @@ def run_on(map: HarmonicMap, program: Callable[..., R], *points: Array) -> R:
     """``program(*points, coefficients, singularities)`` for a map's (2, c) padded coefficients and
     some of the points, (p,) complex arrays, at a time."""
     basis = basis_of(map.domain)
-    return in_chunks(program, basis.n_columns, points, basis.rows(map), basis.singularities)
+    return in_chunks(program, basis.n_columns, points, rows_of(map), basis.singularities)
+
+
+def rows_of(*maps: HarmonicMap) -> Array:
+    """(k, c) padded phi and psi of maps of one domain, one after the other."""
+    basis = basis_of(maps[0].domain)
+    return np.stack([basis.pad(values) for map in maps for values in (map.phi, map.psi)])
 
 
 def images_under(maps: Sequence[HarmonicMap], points: ArrayLike) -> Array:
     """(k, 2 m) images x, y of (k, 2) points under m maps of one domain, its basis computed once."""
-    basis = basis_of(maps[0].domain)
-    columns = np.stack([basis.pad(c) for map in maps for c in (map.phi, map.psi)], axis=1)
+    basis, columns = basis_of(maps[0].domain), np.ascontiguousarray(rows_of(*maps).T)
 
     def values(z: Any, columns: Any, singularities: Singularities) -> Array:
         parts = cauchy.cauchy_coordinates(z, singularities) @ columns

@@ -204,9 +204,9 @@ def bounded_biharmonic_weights(mesh: Triangulation, handles: bytes, iterations: 
     """(v, h) weights in [0, 1] that add up to 1 (Jacobson et al. 2011), kept while targets move.
 
     Each column has the least ``w K M^-1 K w`` within its bounds (``K`` the cotangent Laplacian,
-    ``M`` the Voronoi areas); then rows are divided by their sums. Where ``iterations`` end libigl's
-    active-set method early, as they do on 10^4 vertices, bounds hold up to about 1e-4. ``handles``
-    are the bytes of (h,) indices of vertices, int64.
+    ``M`` the Voronoi areas), then rows are divided by their sums. Bounds hold up to about 1e-4
+    where the ``iterations`` end libigl's active-set method early. ``handles`` are the bytes of (h,)
+    int64 indices.
     """
     import igl  # noqa: PLC0415
 

@@ -63,7 +63,7 @@ def checked_keyframes(keyframes: Any) -> tuple[HarmonicMap, ...]:
         if not proof.certified:
             raise MotionError(f"keyframe {i} is not certified. {proof.reason}")
         if map.domain is not domain:
-            if map.domain.to_dict() != domain.to_dict():
+            if not map.domain.equals(domain):
                 raise MotionError(
                     f"keyframe {i} lives on another domain than keyframe 0; all keyframes of a "
                     "motion must be maps of the same cage and offset cage"

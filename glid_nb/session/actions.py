@@ -147,7 +147,7 @@ def reset(state: EditState) -> EditState:
 
 def set_energy(state: EditState, energy: Energy) -> EditState:
     """Minimise another energy; refused when the method cannot minimise it."""
-    state.current.method.check(energy)
+    state.current.method.check(energy, state.pose)
     return state.changed(energy=energy)
 
 
@@ -159,8 +159,7 @@ def set_options(state: EditState, **changes: Any) -> EditState:
 def set_method(state: EditState, method: Method | str, **settings: Any) -> EditState:
     """Solve by another of :mod:`glid_nb.methods`, or its name; refused when it cannot run."""
     method = methods.by_name(method, **settings) if isinstance(method, str) else method
-    method.check(state.current.energy)
-    method.check_pose(state.pose)
+    method.check(state.current.energy, state.pose)
     return state.changed(method=method)
 
 
@@ -319,7 +318,7 @@ def _pinned(state: EditState, pose: Pose) -> EditState:
     """The state with a pose that holds the same handles in another way."""
     if pose.pins_alike(state.pose):
         return state
-    state.current.method.check_pose(pose)
+    state.current.method.check(state.current.energy, pose)
     return state.changed(pose=pose)
 
 

@@ -62,7 +62,7 @@ def _posed(
     gaps = np.linalg.norm(moved[:, None] - moved, axis=2)
     apart = ~np.triu(gaps < _MARGIN / 4 * state.domain.cage.longer_side, 1).any(axis=0)
     new = replace(pose.only(apart), handles=moved[apart], targets=targets[apart])
-    state.current.method.check_pose(new)
+    state.current.method.check(state.current.energy, new)
     return state.changed(pose=new, map=state.identity)
 
 

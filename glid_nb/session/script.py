@@ -101,7 +101,7 @@ def _domain_lines(document: Document, picture: str) -> list[str]:
     if _is_traced(document):
         arguments = ", ".join(filter(None, ["image", _changed(document.trace_options)]))
         lines = [f"image = glid.read_image({picture!r})", f"cage = glid.trace({arguments}).cage"]
-    if Domain.from_cage(document.cage).to_dict() == domain.to_dict():
+    if Domain.from_cage(document.cage).equals(domain):
         return [*lines, "domain = glid.Domain.from_cage(cage)"]
     return [*lines, f"domain = glid.Domain(cage, {_cage(domain.offset_cage)}, {points})"]
 

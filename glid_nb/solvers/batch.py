@@ -154,10 +154,8 @@ def _poses(handles: ArrayLike, targets: ArrayLike, more: dict[str, Any]) -> list
 class _Pose(NewtonDescent):
     """One pose on its way, in the batch at first."""
 
-    seconds = 0.0
-    """In the batch."""
-    done: Advance | None = None
-    """What its last call came to."""
+    seconds = 0.0  # in the batch
+    done: Advance | None = None  # what its last call came to
 
     @property
     def goes_on(self) -> bool:

@@ -1,10 +1,9 @@
 """Cholesky's factorisation of the Hessian, and the solves with it.
 
-XLA stores matrices by rows and LAPACK by columns. ``jax.lax.linalg`` therefore has every matrix
-copied into the other order and back, which takes longer than the factorisation of a few hundred
-unknowns. The upper half by rows is the lower half by columns, so that LAPACK can be given the same
-memory, and of its two ways the faster. On other platforms than the CPU, or should a later JAX call
-LAPACK otherwise, ``jax.lax.linalg`` does the work.
+XLA stores matrices by rows and LAPACK by columns, so ``jax.lax.linalg`` copies every matrix twice,
+which takes longer than the factorisation. The upper half by rows is the lower half by columns:
+LAPACK gets the same memory. On other platforms, or should a later JAX call LAPACK otherwise,
+``jax.lax.linalg`` does the work.
 """
 
 import functools
@@ -27,10 +26,8 @@ _EXPECTED = (
 
 
 def factorise(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
-    """The factor of a symmetric matrix, of which the upper half is read, for :func:`solve`.
-
-    The last entry of its diagonal is NaN where the matrix is not positive definite.
-    """
+    """The factor of a symmetric matrix, of which the upper half is read, for :func:`solve`; its
+    last diagonal entry is NaN where the matrix is not positive definite."""
 
     def portable(h: Array) -> Array:
         return lax.linalg.cholesky(h.T, symmetrize_input=False)
@@ -39,8 +36,6 @@ def factorise(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
 
 
 def solve(factor: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
-    """``H^-1 b`` by the factor of ``H``."""
-
     def portable(factor: Array, b: Array) -> Array:
         return jax.scipy.linalg.cho_solve((factor, True), b)
 

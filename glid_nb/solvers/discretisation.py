@@ -1,7 +1,7 @@
 """The matrices on which a solve runs: the basis at the panels' ends, midpoints and Hessian nodes.
 
-Everything is real: a complex matrix ``D`` is stored as ``[Re D, -Im D]`` (the first row pair of
-Equation (15)), so that ``Re(D phi)`` is one real product and ``Im(D phi) = Re(D (-i phi))``.
+A complex matrix ``D`` is stored as ``[Re D, -Im D]`` (the first row pair of Equation (15)), so that
+``Re(D phi)`` is one real product and ``Im(D phi) = Re(D (-i phi))``.
 """
 
 from __future__ import annotations
@@ -25,10 +25,8 @@ from glid_nb.solvers.whitening import whitened, whitening
 
 Sampling = Literal["graded", "uniform"]
 
-UNIFORM_SAMPLES = 10_000
-"""``|G|`` of the paper (Section 10)."""
-HESSIAN_STRIDE = 10
-"""``|H| = |G| / 10`` (Section 9.1)."""
+UNIFORM_SAMPLES = 10_000  # |G| of the paper (Section 10)
+HESSIAN_STRIDE = 10  # |H| = |G| / 10 (Section 9.1)
 
 # The Hessian's quadrature may be coarser than the energy's: two panels share a node where together
 # they are no longer than this many times their distance to the nearest singularity.
@@ -50,28 +48,21 @@ class Matrices(NamedTuple):
     refused. Basis matrices are stored transposed, for the products' speed.
     """
 
-    nodes: Float[Array, "2c p+q"]
-    """``D`` at the panels' starts, then at their midpoints."""
-    slopes: Float[Array, "2c p"]
-    """``D'`` at the panels' starts."""
-    hessian_index: Int[Array, " h"]
-    """Which nodes are those of the Hessian's quadrature."""
+    nodes: Float[Array, "2c p+q"]  # D at the panels' starts, then at their midpoints
+    slopes: Float[Array, "2c p"]  # D' at the panels' starts
+    hessian_index: Int[Array, " h"]  # which nodes are those of the Hessian's quadrature
     whitened: Float[Array, "2u h"]
     """``D T`` there; single precision serves (see `solvers.whitening`)."""
-    whitening: Float[Array, "2 c u"]
-    """``T`` as (Re, Im)."""
+    whitening: Float[Array, "2 c u"]  # T as (Re, Im)
     weights: Float[Array, " p+q"]
     """Quadrature weights of the energy at the nodes; their sum is 1, and :attr:`stiff`."""
     hessian_weights: Float[Array, " h"]
-    proof: PanelProof
-    """The constants of the certificate on the panels."""
+    proof: PanelProof  # the constants of the certificate on the panels
     rounding: Float[Array, " p"]
     """Rounding slack per largest modulus of a coefficient, for values carried along."""
-    chord: Float[Array, "2 p"]
-    """``end - start`` as (Re, Im)."""
+    chord: Float[Array, "2 p"]  # end - start as (Re, Im)
     next: Int[Array, " p"]
-    real: Bool[Array, " p"]
-    """False for padding."""
+    real: Bool[Array, " p"]  # False for padding
     stiff: Float[Array, ""] | None = None
     """What stiff areas add to the weights; None without any. With them, nodes inside the domain
     follow those on the panels."""
@@ -295,5 +286,4 @@ def padded(array: np.ndarray, size: int, fill: float | None = None) -> np.ndarra
 
 
 def complex_basis(kernel: Any, z: np.ndarray, basis: Basis) -> np.ndarray:
-    """One of the basis matrices at points ``z`` (k,)."""
     return in_chunks(kernel, basis.n_columns, (z,), basis.singularities)

@@ -1,13 +1,10 @@
-"""What a map's coefficients say on the panels: values, energies, gradient, certificate.
-
-All methods in the harmonic subspace evaluate maps by these functions.
-"""
+"""What a map's coefficients say on the panels: values, energies, gradient, certificate."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from glid_nb._jax import Array, Bool, Float, jax, jnp, lax
+from glid_nb._jax import Array, Bool, Complex, Float, jax, jnp, lax
 from glid_nb.certificate import EndValues, PanelBounds, rounding
 from glid_nb.certificate.panels import modulus
 from glid_nb.certificate.paper import turning
@@ -17,19 +14,17 @@ from glid_nb.solvers.problem import Problem
 
 Number = Float[Array, ""]
 Coefficients = Float[Array, " 4c"]
-Nodes = Float[Array, "4 s"]
+Values = Float[Array, "4 s"]
 
 
 class Samples(NamedTuple):
     """``f_z`` and ``conj(f_zbar)`` as rows (Re, Im, Re, Im), and their derivatives."""
 
-    nodes: Float[Array, "4 p+q"]
+    values: Float[Array, "4 p+q"]
     slopes: Float[Array, "4 p"]
 
 
 class Point(NamedTuple):
-    """A map, with what is known of it."""
-
     coefficients: Coefficients
     samples: Samples
     energy_iso: Number
@@ -44,12 +39,9 @@ class Point(NamedTuple):
 
 
 class Line(NamedTuple):
-    """A direction, and how the samples change along it."""
-
     direction: Coefficients
     change: Samples
-    squared_decrement: Number
-    """``-gradient . direction``."""
+    squared_decrement: Number  # -gradient . direction
 
 
 def evaluated(problem: Problem, y: Coefficients) -> Point:
@@ -71,19 +63,17 @@ def moved(problem: Problem, point: Point, line: Line, step: Number) -> Point:
 
 
 def _point(problem: Problem, y: Coefficients, samples: Samples, largest: Number) -> Point:
-    iso = isometric_energy(samples.nodes, problem.matrices, problem.energy)
+    iso = isometric_energy(samples.values, problem.matrices, problem.energy)
     return Point(y, samples, iso, problem.positional.energy(y), largest)
 
 
 def isometric_energy(
-    nodes: Float[Array, "4 *t s"], matrices: Matrices, energy: Energy
+    values: Float[Array, "4 *t s"], matrices: Matrices, energy: Energy
 ) -> Float[Array, "*t"]:
-    """Equation (31), infinite where a sample is inverted; padding (weight 0) counts nothing.
-
-    Of what stiff areas add, an isometry has nothing.
-    """
+    """Equation (31) less what stiff areas add to an isometry's; infinite where a sample is
+    inverted."""
     weights = matrices.weights
-    x, y = squares(nodes)
+    x, y = squares(values)
     valid = x > y
     density = energy.density(jnp.where(valid, x, 1.0), jnp.where(valid, y, 0.0))
     density = jnp.where(valid & (density < jnp.inf), density, jnp.inf)
@@ -95,16 +85,16 @@ def isometric_energy(
 
 def gradient(problem: Problem, point: Point) -> Coefficients:
     """Of the total energy, with respect to all coefficients."""
-    nodes = point.samples.nodes
-    d = problem.energy.differentials(*squares(nodes))
-    isometric = energy_gradient(problem.matrices, nodes, d)
+    values = point.samples.values
+    d = problem.energy.differentials(*squares(values))
+    isometric = energy_gradient(problem.matrices, values, d)
     return isometric + problem.positional.gradient(point.coefficients)
 
 
-def energy_gradient(matrices: Matrices, nodes: Nodes, d: Differentials) -> Coefficients:
+def energy_gradient(matrices: Matrices, values: Values, d: Differentials) -> Coefficients:
     """Gradient of the isometric energy, (G.7) with the last block's sign corrected."""
     w1, w2 = 2 * matrices.weights * d.alpha1, 2 * matrices.weights * d.alpha2
-    m = matrices.nodes @ (nodes * jnp.stack([w1, w1, w2, w2])).T
+    m = matrices.nodes @ (values * jnp.stack([w1, w1, w2, w2])).T
     c = m.shape[0] // 2
     re, im = m[:c].T, m[c:].T
     # D^H v = (Re D^T - i Im D^T) v with the stored halves Re D and -Im D.
@@ -113,14 +103,13 @@ def energy_gradient(matrices: Matrices, nodes: Nodes, d: Differentials) -> Coeff
 
 def bounds(problem: Problem, point: Point) -> PanelBounds:
     matrices, samples = problem.matrices, point.samples
-    pair = jnp.stack(_complex_pair(point.coefficients))
-    truncation = matrices.proof.remainder(pair, problem.singularities)
+    truncation = matrices.proof.remainder(_complex(point.coefficients), problem.singularities)
     slack = rounding.allowance(matrices.rounding * point.largest, point.largest)
     remainder = truncation + matrices.proof.slack_share * slack
     chord = lax.complex(*matrices.chord)
     panels = chord.shape[0]
-    f, g = _complex_rows(samples.nodes[:, :panels])
-    df, dg = _complex_rows(samples.slopes)
+    f, g = _complex(samples.values[:, :panels])
+    df, dg = _complex(samples.slopes)
     after = matrices.next
     fz = EndValues(f, f[after], df * chord, df[after] * chord)
     fzb_conj = EndValues(g, g[after], dg * chord, dg[after] * chord)
@@ -128,8 +117,8 @@ def bounds(problem: Problem, point: Point) -> PanelBounds:
 
 
 def tightened_by_splitting(problem: Problem, point: Point) -> Bool[np.ndarray, " p"]:
-    """Panels whose bounds are loose by more than rounding, which no splitting lessens; on the host,
-    for it is rarely asked."""
+    """Panels, on the host, whose bounds are loose by more than rounding, which no splitting
+    lessens."""
     matrices: Matrices = jax.tree.map(np.asarray, problem.matrices)
     re, im = np.moveaxis(np.asarray(point.coefficients).reshape(2, 2, -1), 1, 0)
     truncation = matrices.proof.remainder(re + 1j * im, problem.singularities)
@@ -137,50 +126,42 @@ def tightened_by_splitting(problem: Problem, point: Point) -> Bool[np.ndarray, "
 
 
 def reach(problem: Problem, y: Coefficients) -> Number:
-    """What rounding errors are relative to: the largest coefficient beside the anchor, and of the
-    largest one itself the share that its own rounding has in them."""
+    """What rounding errors are relative to: the largest coefficient beside the anchor, and the
+    share that the largest one's own rounding has in them."""
     share = 8 * rounding.UNIT_ROUNDOFF / rounding.slack_factor(y.shape[0] // 4)
-    near = jnp.maximum(*(modulus(part).max() for part in _complex_pair(y - problem.anchor)))
+    near = modulus(_complex(y - problem.anchor)).max()
     return near + share * (near + 2 * jnp.max(jnp.abs(problem.anchor)))
 
 
-def fz_turning(matrices: Matrices, nodes: Nodes) -> Float[Array, " p"]:
+def fz_turning(matrices: Matrices, values: Values) -> Float[Array, " p"]:
     """The change of ``arg f_z`` along each panel (29)."""
-    f, _ = _complex_rows(nodes[:, : matrices.real.shape[0]])
+    f, _ = _complex(values[:, : matrices.real.shape[0]])
     return turning(f, f[matrices.next])
 
 
 def products(matrices: Matrices, y: Coefficients) -> Samples:
     """``f_z``, ``conj(f_zbar)`` and their derivatives on the panels (G.6), one product each."""
-    c = y.shape[0] // 4
-    rows = []
-    for first in (0, 2 * c):
-        re, im = y[first : first + c], y[first + c : first + 2 * c]
-        rows += [jnp.concatenate([re, im]), jnp.concatenate([im, -re])]
-    y4 = jnp.stack(rows)
+    re, im = jnp.moveaxis(y.reshape(2, 2, -1), 1, 0)
+    y4 = jnp.stack([jnp.hstack([re, im]), jnp.hstack([im, -re])], axis=1).reshape(4, -1)
     return Samples(y4 @ matrices.nodes, y4 @ matrices.slopes)
 
 
-def squares(nodes: Float[Array, "4 *t s"]) -> tuple[Array, Array]:
+def squares(values: Float[Array, "4 *t s"]) -> tuple[Array, Array]:
     """``|f_z|^2`` and ``|f_zbar|^2``."""
-    return nodes[0] ** 2 + nodes[1] ** 2, nodes[2] ** 2 + nodes[3] ** 2
+    return values[0] ** 2 + values[1] ** 2, values[2] ** 2 + values[3] ** 2
 
 
-def directions(nodes: Nodes) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+def directions(values: Values) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
     """Unit vectors along both derivatives; (1, 0) where one vanishes."""
     pairs = []
     for k in (0, 2):
-        modulus = jnp.hypot(nodes[k], nodes[k + 1])
+        modulus = jnp.hypot(values[k], values[k + 1])
         vanishes = modulus == 0
         safe = jnp.where(vanishes, 1, modulus)
-        pairs.append((jnp.where(vanishes, 1, nodes[k] / safe), nodes[k + 1] / safe))
+        pairs.append((jnp.where(vanishes, 1, values[k] / safe), values[k + 1] / safe))
     return pairs[0], pairs[1]
 
 
-def _complex_pair(y: Coefficients) -> tuple[Array, Array]:
-    c = y.shape[0] // 4
-    return lax.complex(y[:c], y[c : 2 * c]), lax.complex(y[2 * c : 3 * c], y[3 * c :])
-
-
-def _complex_rows(a: Nodes) -> tuple[Array, Array]:
-    return lax.complex(a[0], a[1]), lax.complex(a[2], a[3])
+def _complex(a: Coefficients | Values) -> Complex[Array, "2 k"]:
+    """From the parts (Re, Im, Re, Im), one after the other."""
+    return lax.complex(*jnp.moveaxis(a.reshape(2, 2, -1), 1, 0))

@@ -1,10 +1,9 @@
 """The Hessian of the isometric energy and its analytic modification (paper Section 7).
 
-At one sample ``nabla^2 E = B^T K B`` (18). In the orthonormal frame ``f/|f|, i f/|f|`` for ``f_z``
-and likewise for ``g = conj(f_zbar)``, the 4 x 4 matrix ``K`` (19) splits into two 1 x 1 blocks,
-the eigenvalues ``lambda_1 = 2 alpha_1`` and ``lambda_2 = 2 alpha_2`` across ``f`` and ``g``, and
-one symmetric 2 x 2 block along them, whose eigenvalues are ``lambda_3,4`` (23). Written so, the
-eigenvectors (24) need no division by ``|f_zbar|`` and a zero of ``f_zbar`` is no special case.
+At one sample ``nabla^2 E = B^T K B`` (18). In the frames ``f/|f|, i f/|f|`` of ``f_z`` and of ``g =
+conj(f_zbar)``, the 4 x 4 matrix ``K`` (19) splits into the eigenvalues ``lambda_1 = 2 alpha_1`` and
+``lambda_2 = 2 alpha_2`` across ``f`` and ``g`` and a symmetric 2 x 2 block along them, of
+eigenvalues ``lambda_3,4`` (23). So the eigenvectors (24) need no division by ``|f_zbar|``.
 """
 
 import functools
@@ -17,7 +16,7 @@ from glid_nb.energies import Differentials
 Columns = Float[Array, "u h"]
 Square = Float[Array, "u u"]
 
-Samples = Float[Array, " h"]
+PerNode = Float[Array, " h"]
 Pair = tuple[Columns, Columns]
 
 # Elements of a basis matrix that are assembled at once: with more, copies of the matrix would need
@@ -28,16 +27,14 @@ _PIECE = 1 << 19
 class LocalHessian(NamedTuple):
     """``K`` at each sample in the frames of ``f_z`` and ``conj(f_zbar)``."""
 
-    across_f: Samples
-    """``lambda_1``."""
-    across_g: Samples
-    """``lambda_2``."""
-    along_ff: Samples
-    along_gg: Samples
-    along_fg: Samples
+    across_f: PerNode  # lambda_1
+    across_g: PerNode  # lambda_2
+    along_ff: PerNode
+    along_gg: PerNode
+    along_fg: PerNode
 
 
-def local_hessian(d: Differentials, x: Samples, y: Samples) -> LocalHessian:
+def local_hessian(d: Differentials, x: PerNode, y: PerNode) -> LocalHessian:
     """``K`` (19), with ``x = |f_z|^2`` and ``y = |f_zbar|^2``."""
     return LocalHessian(
         2 * d.alpha1,
@@ -70,10 +67,8 @@ def positive_part(k: LocalHessian) -> LocalHessian:
 
 
 def _in_pieces(assembled: Callable[..., Array]) -> Callable[..., Array]:
-    """A sum over samples, the last axis of all arguments, by pieces where it would take much room.
-
-    The first two arguments are the basis matrix and the weights.
-    """
+    """A sum over samples, the last axis of all arguments, by pieces where it would take much room;
+    the first two arguments are the basis matrix and the weights."""
 
     @functools.wraps(assembled)
     def summed(*arguments: Any) -> Array:
@@ -102,23 +97,20 @@ def _in_pieces(assembled: Callable[..., Array]) -> Callable[..., Array]:
 @_in_pieces
 def assemble(
     nodes: Float[Array, "2u h"],
-    weights: Samples,
-    f: tuple[Samples, Samples],
-    g: tuple[Samples, Samples],
+    weights: PerNode,
+    f: tuple[PerNode, PerNode],
+    g: tuple[PerNode, PerNode],
     k: LocalHessian,
 ) -> Float[Array, "4u 4u"]:
-    """Upper triangle of ``sum_i w_i B_i^T K_i B_i`` over ``[Re phi, Im phi, Re psi, Im psi]``.
-
-    Below the diagonal blocks it is zero: a Cholesky factorisation reads no more.
-
-    ``K``'s diagonal block for ``phi`` is ``p I + m R``, with ``p`` and ``m`` half the sum and half
-    the difference of its entries along and across ``f_z`` and ``R`` the reflection about ``f_z``.
-    The first part gives the Hermitian matrix ``D^H p D``, the second the complex symmetric
-    ``(D')^T m D'`` with ``D' = conj(f) D``. Each takes two real products instead of four, for a
-    product may be off by an antisymmetric matrix where only its symmetric part is wanted.
+    """Upper triangle of ``sum_i w_i B_i^T K_i B_i`` over ``[Re phi, Im phi, Re psi, Im psi]``; zero
+    below the diagonal blocks, which a Cholesky factorisation does not read.
 
     ``nodes`` is ``D`` as ``[Re D, -Im D]``, transposed; ``f`` and ``g`` are unit vectors (Re, Im)
-    along ``f_z`` and ``conj(f_zbar)``, any where a derivative vanishes.
+    along ``f_z`` and ``conj(f_zbar)``, any where a derivative vanishes. ``K``'s diagonal block for
+    ``phi`` is ``p I + m R``, with ``p`` and ``m`` half the sum and half the difference of its
+    entries along and across ``f_z`` and ``R`` the reflection about ``f_z``. The first part gives
+    the Hermitian matrix ``D^H p D``, the second the complex symmetric ``(D')^T m D'`` with ``D' =
+    conj(f) D``. Each takes two real products: their symmetric parts are right.
     """
     columns = nodes.shape[0] // 2
     re, im = nodes[:columns], -nodes[columns:]
@@ -138,7 +130,7 @@ def assemble(
 
 @_in_pieces
 def assemble_across_f(
-    nodes: Float[Array, "2u h"], weights: Samples, f: tuple[Samples, Samples], across: Samples
+    nodes: Float[Array, "2u h"], weights: PerNode, f: tuple[PerNode, PerNode], across: PerNode
 ) -> Float[Array, "2u 2u"]:
     """The part of :func:`assemble` that ``across_f`` alone contributes, the block of ``phi``."""
     columns = nodes.shape[0] // 2
@@ -149,18 +141,16 @@ def assemble_across_f(
     return jnp.block([[(w * v) @ v.T, corner.T], [corner, (w * u) @ u.T]])
 
 
-def _rotated(re: Columns, im: Columns, direction: tuple[Samples, Samples]) -> Pair:
+def _rotated(re: Columns, im: Columns, direction: tuple[PerNode, PerNode]) -> Pair:
     """``conj(direction) D`` as real and imaginary part."""
     c, s = direction
     return c * re + s * im, c * im - s * re
 
 
 def _hermitian_products(re: Columns, im: Columns, weights: Array) -> tuple[Array, Array]:
-    """``(re + im) w (re + im)^T`` and ``re w im^T``, each (2, u, u), for (2, h) weights.
-
-    ``re w re^T + im w im^T``, the real part of ``(re + i im)^H w (re + i im)``, is the first less
-    the second and its transpose; the imaginary part is the second less its transpose.
-    """
+    """``(re + im) w (re + im)^T`` and ``re w im^T``, each (2, u, u), for (2, h) weights; the real
+    part of ``(re + i im)^H w (re + i im)`` is the first less the second and its transpose, the
+    imaginary part the second less its transpose."""
     columns = re.shape[0]
 
     def against(left: Columns, right: Columns) -> Float[Array, "2 u u"]:
@@ -170,7 +160,7 @@ def _hermitian_products(re: Columns, im: Columns, weights: Array) -> tuple[Array
     return against(re + im, re + im), against(re, im)
 
 
-def _symmetric_product(u: Columns, v: Columns, weights: Samples) -> tuple[Square, Square]:
+def _symmetric_product(u: Columns, v: Columns, weights: PerNode) -> tuple[Square, Square]:
     """Real and imaginary part of ``(u + iv) diag(weights) (u + iv)^T`` by two real products."""
     # (u - v) w (u + v)^T differs from u w u^T - v w v^T by an antisymmetric matrix.
     real = (u - v) @ (weights * (u + v)).T

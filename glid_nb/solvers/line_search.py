@@ -9,7 +9,7 @@ from typing import NamedTuple
 from glid_nb._jax import AnyArray, Array, Bool, Float, Int, jnp, lax
 from glid_nb.certificate import PanelBounds, fz_vanishes
 from glid_nb.solvers import evaluation
-from glid_nb.solvers.evaluation import Line, Nodes, Number, Point
+from glid_nb.solvers.evaluation import Line, Number, Point, Values
 from glid_nb.solvers.problem import Problem
 
 # How a compiled call can end.
@@ -34,30 +34,29 @@ class Search(NamedTuple):
     steps: Float[Array, " t"]
     acceptable: Bool[Array, " t"]
     """Where the energy decreases sufficiently (Algorithm 1, line 17)."""
-    best: Int[Array, ""]
-    """The candidate of least energy."""
+    best: Int[Array, ""]  # the candidate of least energy
 
 
-def largest_step(nodes: Nodes, change: Nodes) -> Number:
+def largest_step(values: Values, change: Values) -> Number:
     """The step at which the first sample becomes inverted, or infinity: the first zero of
     ``|f + t df|^2 - |g + t dg|^2``, a quadratic in ``t`` that is positive at 0."""
     a = _difference_of_squares(change, change)
-    b = 2 * _difference_of_squares(nodes, change)
-    c = _difference_of_squares(nodes, nodes)
+    b = 2 * _difference_of_squares(values, change)
+    c = _difference_of_squares(values, values)
     discriminant = b * b - 4 * a * c
     denominator = -b + jnp.sqrt(jnp.maximum(discriminant, 0))
     hits = (discriminant >= 0) & (denominator > 0)
     return jnp.min(jnp.where(hits, 2 * c / jnp.where(hits, denominator, 1), jnp.inf))
 
 
-def _difference_of_squares(a: Nodes, b: Nodes) -> Float[Array, " s"]:
+def _difference_of_squares(a: Values, b: Values) -> Float[Array, " s"]:
     """``|f|^2 - |g|^2`` as a bilinear form."""
     return a[0] * b[0] + a[1] * b[1] - a[2] * b[2] - a[3] * b[3]
 
 
 def search(problem: Problem, point: Point, line: Line) -> Search:
     """Energies along the line in batches of candidates, each batch shorter, until one decreases."""
-    nodes, change, positional = point.samples.nodes, line.change.nodes, problem.positional
+    values, change, positional = point.samples.values, line.change.values, problem.positional
     residual = positional.residual(point.coefficients)
     residual_change = positional.matrix @ line.direction
     total = point.energy
@@ -65,7 +64,7 @@ def search(problem: Problem, point: Point, line: Line) -> Search:
     def along(t: Float[Array, " t"]) -> Float[Array, " t"]:
         r = residual + t[:, None] * residual_change
         p2p = 0.5 * jnp.sum(positional.weights * r**2, axis=-1)
-        there = nodes[:, None] + t[:, None] * change[:, None]
+        there = values[:, None] + t[:, None] * change[:, None]
         return evaluation.isometric_energy(there, problem.matrices, problem.energy) + p2p
 
     def acceptable(steps: Array, energies: Array) -> Array:
@@ -77,7 +76,7 @@ def search(problem: Problem, point: Point, line: Line) -> Search:
         steps = jnp.where((steps > 1) & (steps * RATIO < 1), 1.0, steps)
         return steps, along(steps)
 
-    limit = SAFETY * largest_step(nodes, change)
+    limit = SAFETY * largest_step(values, change)
     top = jnp.minimum(limit, LONGEST_STEP) * RATIO ** jnp.arange(CANDIDATES)
     steps, energies = lax.while_loop(
         lambda carry: ~jnp.any(acceptable(*carry)) & (carry[0][0] > LEAST_STEP),
@@ -89,16 +88,11 @@ def search(problem: Problem, point: Point, line: Line) -> Search:
 
 
 class Backtracking(NamedTuple):
-    """Where backtracking ended."""
-
-    outcome: Int[Array, ""]
-    """RUNNING where ``step`` is certified."""
+    outcome: Int[Array, ""]  # RUNNING where step is certified
     step: Number
     point: Point
-    panel: PanelBounds
-    """The bounds at ``point``, a step ``step`` along the line."""
-    refused: Bool[Array, " p"]
-    """Panels that refused the first step."""
+    panel: PanelBounds  # the bounds at the point
+    refused: Bool[Array, " p"]  # panels that refused the first step
 
 
 def backtrack(
@@ -106,11 +100,11 @@ def backtrack(
 ) -> Backtracking:
     """Go from the best candidate to shorter ones until one is certified; ``once``: try one only.
 
-    Where Condition (30) fails, ``f_z`` has zeros inside, and no panel refuses, the step jumps over
-    a map with a zero on the boundary; the panels along which ``f_z`` turned most are where.
+    Where Condition (30) fails and no panel refuses, the step jumps over a map with a zero of
+    ``f_z`` on the boundary: on the panels along which ``f_z`` turned most.
     """
     real, count = problem.matrices.real, found.steps.shape[0]
-    before = evaluation.fz_turning(problem.matrices, point.samples.nodes)
+    before = evaluation.fz_turning(problem.matrices, point.samples.values)
 
     def refusing(panel: PanelBounds) -> Bool[Array, " p"]:
         refuses = real & ~panel.injective

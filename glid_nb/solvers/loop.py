@@ -41,16 +41,12 @@ class Stopwatch:
 
 
 class Ending(NamedTuple):
-    """How a method ended."""
-
     status: Status
     detail: str | None = None
     """A full sentence, where that of the status does not say enough."""
 
 
 class Advance(NamedTuple):
-    """What one advance came to."""
-
     outcome: int = RUNNING
     iterations: int = 0
     refused: Array | None = None
@@ -58,24 +54,18 @@ class Advance(NamedTuple):
 
 
 class Reached(NamedTuple):
-    """Where a method is."""
-
-    entry: Iteration
-    """Without its number and its time."""
+    entry: Iteration  # without its number and its time
     make: Make
 
 
 class Descent:
     """A method at work: what the loop asks of it."""
 
-    initial: Iteration
-    """The start; known at the latest after the first advance."""
-    shows_start = True
-    """Whether a callback is shown the start too."""
+    initial: Iteration  # the start; known at the latest after the first advance
+    shows_start = True  # whether a callback is shown the start too
     uses_lapack = False
     """Whether XLA factorises for it, which several BLAS threads would slow down."""
-    discretisation: Discretisation | None = None
-    """The panels, which may be split."""
+    discretisation: Discretisation | None = None  # the panels, which may be split
     sigma2_lower: Array | None = None
     """(p,) certified bound per panel, once a step was taken."""
     factor: Any = None
@@ -88,8 +78,8 @@ class Descent:
     def advance(self, may_refine: bool) -> Advance:
         """Go on by some iterations, at most those that are left, and extend the history.
 
-        With ``may_refine`` it ends with the outcome REFUSED where a panel refuses a step, instead
-        of trying a shorter one; without, with BLOCKED where no step is certified.
+        Where a panel refuses a step it ends as REFUSED with ``may_refine``; without, it tries
+        shorter steps and ends as BLOCKED where none is certified.
         """
         raise NotImplementedError
 

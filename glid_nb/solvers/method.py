@@ -57,8 +57,8 @@ class Method:
     summary: ClassVar[str]
     """The first paragraph of the class's docstring."""
     family: ClassVar[Family]
-    """Where its maps live: in the harmonic subspace, where they are certified, or on a mesh; a
-    linear method is one on a mesh that solves once."""
+    """Where its maps live: in the harmonic subspace, certified, or on a mesh; "linear" methods are
+    on a mesh, too, and solve once."""
     max_iterations: ClassVar[int] = 200
     """Unless the options say otherwise."""
     window: ClassVar[int | None] = None
@@ -92,7 +92,6 @@ class Method:
 
     @classmethod
     def defaults(cls) -> Mapping[str, Any]:
-        """The settings' defaults."""
         return {f.name: f.default for f in fields(cls) if f.default is not MISSING}
 
     @property
@@ -112,35 +111,23 @@ class Method:
         return cls.package is None or importlib.util.find_spec(cls.package) is not None
 
     def limit(self, options: Options) -> int:
-        """Its most iterations."""
         most = options.max_iterations
         return self.max_iterations if most is None else most
 
-    def check(self, energy: Energy) -> None:
-        """Raise :class:`MethodError` if it cannot run with this energy, saying what to do."""
+    def check(self, energy: Energy, pose: Pose) -> None:
+        """Raise :class:`MethodError` where it cannot run with these, saying what to do."""
         if self.package is not None:
             self._import(self.package)
-        self.check_energy(energy)
-
-    def check_pose(self, pose: Pose) -> None:
-        """Raise :class:`MethodError` if it cannot hold an angle, a scale or a stiff area."""
-        if pose.stiffness and not (self.stiffens and self.certified):
-            raise MethodError(
-                f"the method {self.name!r} knows no stiff areas; clear them, or choose Newton's "
-                "method, L-BFGS or another descent that moves the certified map"
-            )
-        if pose.turned.any() and not self.certified:
-            raise MethodError(
-                f"the method {self.name!r} cannot hold the angle or the scale of handle "
-                f"{int(pose.turned.argmax())}; leave them free, or choose Newton's method, L-BFGS "
-                "or another that moves the certified map"
-            )
-
-    def check_energy(self, energy: Energy) -> None:
-        """Raise :class:`MethodError` if it cannot minimise this energy."""
+        method = f"the method {self.name!r}"
         if self.energies is not None and energy.name not in self.energies:
-            cannot = f"the method {self.name!r} cannot minimise the energy {energy.name!r}"
+            cannot = f"{method} cannot minimise the energy {energy.name!r}"
             raise MethodError(f"{cannot}; choose one of {', '.join(self.energies)}")
+        other = "choose Newton's method, L-BFGS or another that moves the certified map"
+        if pose.stiffness and not (self.stiffens and self.certified):
+            raise MethodError(f"{method} knows no stiff areas; clear them, or {other}")
+        if pose.turned.any() and not self.certified:
+            cannot = f"{method} cannot hold the angle or the scale of handle"
+            raise MethodError(f"{cannot} {int(pose.turned.argmax())}; leave them free, or {other}")
 
     def _import(self, package: str) -> None:
         distribution = _DISTRIBUTIONS.get(package, package)

@@ -173,10 +173,8 @@ class NewtonDescent(SubspaceDescent):
         return True
 
     def _relax_ridge(self) -> None:
-        """Lower an epsilon that one place needed: close to the minimum it would make steps short.
-
-        Where a bar is tied into a loop, 1e-9 outweighed the softest direction 200 times.
-        """
+        """Lower an epsilon that one place needed: close to the minimum it would make steps
+        short."""
         relaxed = self.ridge / _RIDGE_FACTOR
         self.ridge = max(relaxed if relaxed >= _RIDGE else 0.0, self._least_ridge)
 
@@ -192,10 +190,8 @@ _latest: tuple[list[Any], Any] | None = None
 
 
 def _p2p_hessian(problem: Problem) -> Any:
-    """The Hessian of the positional energy, the identity where there is no unknown.
-
-    The latest is kept on the device, for the next targets of the same handles.
-    """
+    """The Hessian of the positional energy, the identity where there is no unknown; the latest is
+    kept on the device, for the next targets of the same handles."""
     global _latest
     positional, unknowns = problem.positional, problem.unknowns
     inputs = [positional.matrix, positional.weights, unknowns.free, problem.matrices.whitening]
@@ -223,10 +219,8 @@ def _is_slow(history: Sequence[Iteration]) -> bool:
 
 
 def _has_stalled(history: Sequence[Iteration]) -> bool:
-    """Whether the last steps gained nothing, or were tiny and gained next to nothing.
-
-    Without a barrier, a map can creep to folding, each step proved on twice as many panels.
-    """
+    """Whether the last steps gained nothing, or were tiny and gained next to nothing: without a
+    barrier, a map can creep to folding, each step proved on twice as many panels."""
     if len(history) <= _STALLED:
         return False
     before, *recent = history[-1 - _STALLED :]

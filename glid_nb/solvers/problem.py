@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from glid_nb._jax import AnyArray, Array, Float, jnp
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
-from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
+from glid_nb.harmonic import HarmonicMap, basis_of, cauchy, rows_of
 from glid_nb.harmonic.basis import Basis
 from glid_nb.harmonic.cauchy import Singularities
 from glid_nb.solvers.discretisation import Matrices, complex_basis
@@ -45,8 +45,7 @@ class Positional(NamedTuple):
     matrix: Float[AnyArray, "2h 4c"]
     """First all rows for the real parts, then those for the imaginary."""
     aims: Float[AnyArray, " 2h"]
-    weights: Float[AnyArray, " 2h"]
-    """``lambda`` for a handle, 0 for padding."""
+    weights: Float[AnyArray, " 2h"]  # lambda for a handle, 0 for padding
 
     def residual(self, y: Float[Array, " 4c"]) -> Float[AnyArray, " 2h"]:
         return self.matrix @ y - self.aims
@@ -123,16 +122,16 @@ def _matrix_at(domain: Domain, handles: bytes, size: int) -> NDArray[Any]:
     return np.block([[re, minus_im, re, minus_im], [-minus_im, re, minus_im, -re]])
 
 
-def handle_images(positional: Positional, basis: Basis, map: HarmonicMap) -> NDArray[Any]:
-    """(h,) complex images of the padded handles."""
-    re, minus_im, *_ = np.split(positional.matrix[: len(positional.aims) // 2], 4, axis=1)
-    rows, (phi, psi) = re - 1j * minus_im, basis.rows(map)
+def handle_images(pose: Pose, map: HarmonicMap) -> NDArray[Any]:
+    """(h,) complex."""
+    rows = _basis_at(map.domain, pose.handles.tobytes(), cauchy.cauchy_coordinates)
+    phi, psi = rows_of(map)
     return rows @ phi + np.conj(rows @ psi)
 
 
-def real_coefficients(basis: Basis, map: HarmonicMap) -> NDArray[Any]:
+def real_coefficients(map: HarmonicMap) -> NDArray[Any]:
     """Padded ``[Re phi, Im phi, Re psi, Im psi]`` of a map."""
-    phi, psi = basis.rows(map)
+    phi, psi = rows_of(map)
     return np.concatenate([np.real(phi), np.imag(phi), np.real(psi), np.imag(psi)])
 
 

@@ -1,13 +1,10 @@
 """Other ways to a minimum, for poses on which the first one ends badly.
 
-The energy has many local minima, and with the usual weight ``lambda = 1e5`` the first Newton steps
-rush the handles to their targets, whatever that does to the shape. Three remedies are tried: to let
-the targets turn into place in stages, either way round (:mod:`glid_nb.solvers.turning`); to raise
-``lambda`` in stages, which lets the shape turn before it bends; and to start at the identity itself
-instead of at the rigidly aligned one. No single one is best on all hard poses, so all are tried and
-the best is kept; on ordinary poses they find the same minimum, which is why they are not tried
-there. An energy that is no barrier (ARAP) can run against the limit of local injectivity far from
-its targets; it then starts at the symmetric Dirichlet minimum.
+The energy has many local minima, and with ``lambda = 1e5`` the first Newton steps rush the handles
+to their targets, whatever that does to the shape. Tried are targets that turn into place in stages,
+either way round (:mod:`glid_nb.solvers.turning`), a ``lambda`` that rises in stages, and the
+identity itself as start; an energy that is no barrier (ARAP) starts at the symmetric Dirichlet
+minimum. None is best on all hard poses, so the best result is kept.
 """
 
 from collections.abc import Callable, Sequence
@@ -22,7 +19,6 @@ from glid_nb.solvers.result import Attempt, Result, Status
 from glid_nb.solvers.turning import turning_of
 
 Descend = Callable[[Inputs], Result]
-"""Follows one way down."""
 
 # Energies above this multiple of an isometry's, if that is at least the last number, are worth all
 # other ways; those above the second are worth turning where joints may turn either way.
@@ -61,10 +57,8 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
 
 
 def _ways(inputs: Inputs) -> list[tuple[str, list[Inputs], int]]:
-    """All other ways by name, those first that help most, and the joints that they turn.
-
-    A way is a list of problems, each solved from the last one's map; ``inputs`` come last.
-    """
+    """All other ways by name, those first that help most: the problems, each solved from the last
+    one's map, ``inputs`` at the end; and the joints that they turn."""
     positions = replace(inputs.pose, angles=None, scales=None)
     turning = turning_of(positions, inputs.domain.cage)
     joints, ways = len(turning.joints), list[tuple[str, list[Inputs], int]]()
@@ -82,7 +76,6 @@ def _ways(inputs: Inputs) -> list[tuple[str, list[Inputs], int]]:
 
 
 def _raised(inputs: Inputs) -> list[Inputs]:
-    """The problem with a rising weight of the targets."""
     weights = [inputs.options.p2p_weight * fraction for fraction in STAGES]
     return [*(_loosened(inputs, STAGE_ITERATIONS, p2p_weight=w) for w in weights), inputs]
 
@@ -105,11 +98,8 @@ def isometry_energy(energy: Energy) -> float:
 
 
 def _followed(stages: Sequence[Inputs], descend: Descend, best: Result) -> Result:
-    """The result of a way; the history of its stages counts where they only differ by weight.
-
-    A shape is distorted the more the further it turns, so a stage that distorts it more than the
-    best result is the last.
-    """
+    """The result of a way, which ends early at a stage that distorts the shape more than the best
+    result; the history of its stages counts where they only differ by weight."""
     final, done = stages[-1], list[Result]()
     for stage in stages:
         start = done[-1] if done else None
@@ -140,10 +130,8 @@ def _times(results: list[Result]) -> dict[str, float]:
 
 
 def _joined(stages: list[Result]) -> Result:
-    """The last stage's result with the histories and the times of all.
-
-    The full weight counts everywhere, so that all energies compare.
-    """
+    """The last stage's result with the histories and times of all, in energies of the full
+    weight."""
     factors = [1 / fraction for fraction in (*STAGES, 1.0)][: len(stages)]
     (initial, *first), *later = (
         [replace(e, energy_p2p=e.energy_p2p * factor) for e in (stage.initial, *stage.history)]

@@ -13,7 +13,7 @@ from glid_nb.solvers.newton import Newton
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose
 from glid_nb.solvers.result import Callback, DeformationMap, Result
-from glid_nb.solvers.subspace import check_belongs
+from glid_nb.solvers.subspace import StartError
 
 
 @double_precision
@@ -88,11 +88,12 @@ def solve(
     if energy is None and method.energies is not None and "iso" not in method.energies:
         energy = method.energies[0]
     energy = as_energy(energy)
-    method.check(energy)
-    method.check_pose(pose)
+    method.check(energy, pose)
     pose.check_inside(domain)
     problem: Any = {"domain": domain, "pose": pose, "energy": energy}
     inputs = Inputs(**problem, options=options or Options(), start=start, callback=callback)
-    if isinstance(inputs.start_map, HarmonicMap):
-        check_belongs(inputs.start_map, domain)
+    start_map = inputs.start_map
+    if isinstance(start_map, HarmonicMap) and not start_map.domain.equals(domain):
+        of = "the map to start from belongs to another domain"
+        raise StartError(f"{of}; start from a map of this one")
     return method.run(inputs)

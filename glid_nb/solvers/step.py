@@ -16,15 +16,11 @@ from glid_nb.solvers.unknowns import expand, restrict_gradient, restrict_hessian
 
 Factor = Float[Array, "4u 4u"]
 
-# A correction that gains more than this share of what the step before it gained is slow: the
-# Hessian has changed, and a new one gains more for its cost.
-_CONTRACTION = 0.3
-# Far from the minimum, after a step that gains more than this share of the energy, corrections
-# creep along the valley that the next Hessian would cross.
-_CLOSE = 0.1
+# Corrections end where one gains more than the first share of what the step before it gained, and
+# begin only after steps that gain less than the second share of the energy.
+_CONTRACTION, _CLOSE = 0.3, 0.1
 LEAST_ENERGY = 1e-6
-"""What a decrease is compared with where the energy is less: ARAP's vanish at rigid motions, where
-nothing is relative to them; below this one, a mean over the boundary, nobody sees a distortion."""
+"""What a decrease is compared with where the energy is less: ARAP's vanish at rigid motions."""
 
 
 class Settings(NamedTuple):
@@ -38,8 +34,7 @@ class Settings(NamedTuple):
     """Added to the Hessian's diagonal, relative to its mean (Section 9.1's epsilon)."""
     reuse: Bool[AnyArray, ""] | bool
     """Whether the first iteration takes the factor that it is given instead of a new one."""
-    corrections: Int[AnyArray, ""] | int
-    """Most corrections of one iteration."""
+    corrections: Int[AnyArray, ""] | int  # most corrections of one iteration
     projects_first: Bool[AnyArray, ""] | bool
     """Whether to project the Hessian before its first factorisation."""
     attempts: Int[AnyArray, ""] | int
@@ -53,28 +48,21 @@ Record = namedtuple(
 
 
 class State(NamedTuple):
-    point: Point
-    """Certified, once a step was taken."""
-    start_iso: Number
-    """Energies before the first iteration of this call."""
+    point: Point  # certified, once a step was taken
+    start_iso: Number  # energies before the first iteration of this call
     start_p2p: Number
     iteration: Int[Array, ""]
     outcome: Int[Array, ""]
     decrement: Number
     records: Float[Array, "i r"]
     """A :class:`Record` in each row."""
-    refused: Bool[Array, " p"]
-    """Panels that refused the last preferred step."""
+    refused: Bool[Array, " p"]  # panels that refused the last preferred step
     sigma2_lower: Float[Array, " p"]
     """Certified bound per panel at ``point``, once a step was taken."""
-    turning: Float[Array, " p"]
-    """The proved change of ``arg f_z`` along each panel there."""
-    factor: Factor
-    """Cholesky factor of the last Hessian, in whitened coordinates."""
-    corrects: Bool[Array, ""]
-    """Whether the next step is a correction."""
-    gain: Number
-    """What the last step gained."""
+    turning: Float[Array, " p"]  # the proved change of arg f_z along each panel there
+    factor: Factor  # Cholesky factor of the last Hessian, in whitened coordinates
+    corrects: Bool[Array, ""]  # whether the next step is a correction
+    gain: Number  # what the last step gained
 
 
 def iterations(
@@ -83,9 +71,8 @@ def iterations(
     """Up to ``settings.iterations`` (at most `MOST_PER_CALL`) Newton iterations, to be compiled.
 
     An iteration is a step with a Hessian of its own and, close to the minimum, corrections: steps
-    by the same factor from gradients of their own (Shamanskii's method), for a fraction of the cost
-    of another Hessian. All are turns of one loop, so that one body is compiled. What can be
-    computed on the host is, for to compile it takes longer.
+    by the same factor from gradients of their own (Shamanskii's method). All are turns of one loop,
+    so that one body is compiled.
     """
 
     def goes_on(state: State) -> Bool[Array, ""]:
@@ -140,16 +127,16 @@ def _step(problem: Problem, settings: Settings, state: State) -> State:
     )
     i = state.iteration - corrects
     known = Record(*state.records[i])
-    first = Record(
+    record = Record(
         energy_iso=there.energy_iso,
         energy_p2p=there.energy_p2p,
-        step=step,
-        decrement=decrement,
+        step=jnp.where(corrects, known.step, step),
+        decrement=jnp.where(corrects, known.decrement, decrement),
         sigma2_lower=jnp.min(jnp.where(problem.matrices.real, sigma2_lower, jnp.inf)),
-        hessian_modified=modified.astype(float),
-        corrections=jnp.array(0.0),
+        hessian_modified=jnp.where(corrects, known.hessian_modified, modified),
+        corrections=jnp.where(corrects, known.corrections + 1, 0),
     )
-    record = jnp.where(stepped, _recorded(known, first, corrects), state.records[i])
+    record = jnp.where(stepped, jnp.stack(record), state.records[i])
     # A correction that fails only ends the iteration, and the solve where it has no more to gain.
     ends = corrects & minimal & (known.corrections > 0)
     outcome = jnp.where(corrects, jnp.where(ends, CONVERGED, RUNNING), outcome)
@@ -170,23 +157,9 @@ def _step(problem: Problem, settings: Settings, state: State) -> State:
     )
 
 
-def _recorded(known: Record, first: Record, corrects: Bool[Array, ""]) -> Float[Array, " r"]:
-    """The row after a step: a new one, or the iteration's own after one more correction."""
-    corrected = known._replace(
-        energy_iso=first.energy_iso,
-        energy_p2p=first.energy_p2p,
-        sigma2_lower=first.sigma2_lower,
-        corrections=known.corrections + 1,
-    )
-    return jnp.where(corrects, jnp.stack(corrected), jnp.stack(first))
-
-
 def _factorised(problem: Problem, settings: Settings, state: State) -> tuple[Factor, Array]:
-    """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected.
-
-    The factor that the call was given, where its first iteration is to take that. A loop, for its
-    turns write into the same memory.
-    """
+    """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected; or the
+    factor that the call was given. A loop, for its turns write into the same memory."""
     matrices, energy = problem.matrices, problem.energy
     first_step = jnp.logical_not(settings.reuse) | (state.iteration > 0)
     wanted = first_step & ~state.corrects
@@ -194,12 +167,12 @@ def _factorised(problem: Problem, settings: Settings, state: State) -> tuple[Fac
 
     def attempt(carry: tuple) -> tuple:
         _, h, count = carry
-        nodes = state.point.samples.nodes[:, matrices.hessian_index]
-        x, y = evaluation.squares(nodes)
+        values = state.point.samples.values[:, matrices.hessian_index]
+        x, y = evaluation.squares(values)
         local = hessian.local_hessian(energy.differentials(x, y), x, y)
         projected = hessian.positive_part(local)
         weights, f, g = jax.tree.map(
-            lambda a: a.astype(dtype), (matrices.hessian_weights, *evaluation.directions(nodes))
+            lambda a: a.astype(dtype), (matrices.hessian_weights, *evaluation.directions(values))
         )
 
         def assembled(_: Any) -> Factor:
@@ -243,7 +216,7 @@ def _newton_line(problem: Problem, point: Point, factor: Factor) -> Line:
 
 
 def _is_ours(problem: Problem, *_: Any) -> bool:
-    """Whether the energy is one of Table 1, not a user's. A kept program needs LAPACK ready."""
+    """Whether the energy is one of Table 1; a kept program also needs LAPACK ready."""
     return cholesky.understood() and type(problem.energy).__module__ == table1.__name__
 
 

@@ -31,8 +31,7 @@ def stiff_matrices(disc: Discretisation, stiffness: Stiffness) -> Matrices:
     """The matrices with the weights of a stiffness; the very same where nothing is stiff.
 
     A node on the boundary weighs ``FULL_WEIGHT**strength`` times as much. What that adds is added
-    for the inside, too, as an integral over the area in place of the boundary's, both shares of
-    the whole.
+    for the inside, too, as the same share of an integral over the area.
     """
     m, panels = disc.matrices, disc.panels
     areas = stiffness.within(disc.domain.cage)

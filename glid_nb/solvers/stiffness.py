@@ -16,8 +16,7 @@ from glid_nb._arrays import Array, number_pairs
 from glid_nb._errors import InputError, about
 from glid_nb.geometry import Cage
 
-FULL_WEIGHT = 1000.0
-"""The weight of a sample where the strength is 1."""
+FULL_WEIGHT = 1000.0  # of a sample where the strength is 1
 _FARTHEST, _MOST_POINTS, _MOST_STROKES = 1e6, 10_000, 2_000
 _ROUND = 8  # segments of a quarter of the brush
 
@@ -37,7 +36,6 @@ class Stroke(NamedTuple):
     strength: float
 
     def over(self, areas: Areas) -> Areas:
-        """The areas when this is painted over them."""
         line = shapely.LineString if len(self.points) > 1 else shapely.Point
         new = line(self.points).buffer(self.radius, quad_segs=_ROUND)
         left = {s: shapely.difference(area, new) for s, area in areas.items()}
@@ -100,11 +98,9 @@ class Stiffness:
 
     @functools.cached_property
     def areas(self) -> Areas:
-        """What is painted."""
         return functools.reduce(lambda areas, stroke: stroke.over(areas), self.strokes, Areas())
 
     def within(self, cage: Cage) -> Areas:
-        """What is painted inside a cage."""
         parts = {s: shapely.intersection(area, cage.polygon) for s, area in self.areas.items()}
         return {s: part for s, part in parts.items() if part.area > 0}
 

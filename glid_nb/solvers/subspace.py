@@ -9,7 +9,7 @@ from glid_nb._arrays import Array
 from glid_nb._errors import InputError
 from glid_nb._jax import jit
 from glid_nb.certificate import Certificate, certificate_of, certify, proved_by
-from glid_nb.geometry import Domain, Panels
+from glid_nb.geometry import Panels
 from glid_nb.harmonic import HarmonicMap, as_complex
 from glid_nb.solvers import evaluation, problem
 from glid_nb.solvers.discretisation import Discretisation, Matrices, discretise
@@ -22,10 +22,8 @@ from glid_nb.solvers.result import Iteration, Result, Status
 from glid_nb.solvers.stiff_matrices import stiff_matrices
 from glid_nb.solvers.unknowns import canonical, unknowns_of
 
-# Measurements of angles and scales, after which the directions found are kept.
-MOST_PINS = 16
-KEPT = 1e9
-"""A damping that keeps them."""
+# Measurements of angles and scales, after which the directions found are kept by that damping.
+MOST_PINS, KEPT = 16, 1e9
 _FAR, _DAMPING = 0.2, 3.0  # a measurement that far from the last one, radians, overshot
 
 
@@ -33,28 +31,16 @@ class StartError(InputError):
     """The map to start from cannot be used."""
 
 
-def check_belongs(map: HarmonicMap, domain: Domain) -> None:
-    """Raise :class:`StartError` for a map of another domain; equal domains are the same."""
-    if map.domain is not domain and map.domain.to_dict() != domain.to_dict():
-        raise StartError(
-            "the map to start from belongs to another domain; start from a map of this one"
-        )
-
-
 class SubspaceDescent(Descent):
-    """A method at work on maps of the harmonic subspace.
-
-    ``reduced``: the unknowns are those of the whitened coordinates, not of all columns.
-    """
+    """A method at work on maps of the harmonic subspace; ``reduced``: its unknowns are the whitened
+    coordinates, not all columns."""
 
     uses_lapack = True
     discretisation: Discretisation
-    point: Point
-    """Where it is; known at the latest after the first advance."""
+    point: Point  # where it is; known at the latest after the first advance
     proved: tuple[Panels, Array, Array] | None = None
     """What the last step was proved by: panels, bounds on sigma_2 and turnings."""
-    just_split = 0
-    """Panels split since the last iteration."""
+    just_split = 0  # panels split since the last iteration
     _pins, _damping = 0, 1.0
 
     def __init__(self, method: Method, inputs: Inputs, reduced: bool) -> None:
@@ -71,11 +57,10 @@ class SubspaceDescent(Descent):
             energy=inputs.energy,
         )
         if options.align:
-            images = problem.handle_images(self.problem.positional, basis, map_)[: len(pose)]
-            map_ = aligned(map_, pose, images)
+            map_ = aligned(map_, pose)
         self.start = map_
         self.pin(map_)
-        self.coefficients: Any = problem.real_coefficients(basis, map_)
+        self.coefficients: Any = problem.real_coefficients(map_)
         self.problem = self.problem._replace(anchor=problem.anchor_of(basis, self.coefficients))
 
     @property
@@ -114,17 +99,14 @@ class SubspaceDescent(Descent):
         return Reached(entry, lambda: proved_by(map_from(domain, point.coefficients), *proof))
 
     def prove(self, sigma2_lower: Any, turning: Any) -> None:
-        """Note what a step was proved by, on the present panels."""
         panels = self.discretisation.panels
         self.sigma2_lower, turns = (np.asarray(a)[: len(panels)] for a in (sigma2_lower, turning))
         self.proved = panels, self.sigma2_lower, turns
 
     @functools.cached_property
     def start_proof(self) -> Certificate:
-        """The proof of the start, made only where no step leads away from it.
-
-        Rounding may leave none after the alignment; then that of the map as it was given.
-        """
+        """The proof of the start, made only where no step leads away from it; that of the map as
+        given where rounding leaves none after the alignment."""
         if self.given is not None and self.given.belongs_to(self.start):
             return self.given
         certificate = certify(self.start)
@@ -139,7 +121,7 @@ class SubspaceDescent(Descent):
         """What a solve returns; the last proved map where the start itself cannot be proved."""
         if self.proved is None and not self.start_proof.belongs_to(self.start):
             ending = Ending(Status.UNPROVED)
-            y = problem.real_coefficients(self.discretisation.basis, self.start_proof.map)
+            y = problem.real_coefficients(self.start_proof.map)
             self.point = _evaluated(self.problem, y)
         return super().result(ending, compile_time, solve_time)
 
@@ -170,28 +152,23 @@ def _starting_point(
             "the map to start from is not conformal (psi is not constant); start from a conformal "
             "map or turn the option conformal off"
         )
-    proof = start.proof if isinstance(start, Result) else None
+    proof, disc = (start.proof, start.discretisation) if isinstance(start, Result) else (None, None)
     if proof is None or not proof.belongs_to(map_):
         proof = certificate_of(map_)
     if not proof.certified:
         raise StartError(f"the map to start from is not certified: {proof.reason}")
-    if isinstance(start, Result):
-        disc, wanted = start.discretisation, (options.sampling, options.certificate)
-        if disc is None or (disc.sampling, disc.certificate) != wanted:
-            disc = fresh()
-        return canonical(map_), proof, disc
-    return canonical(HarmonicMap(domain, map_.phi, map_.psi)), proof, fresh()
+    wanted = options.sampling, options.certificate
+    if disc is None or (disc.sampling, disc.certificate) != wanted:
+        disc = fresh()
+    return canonical(HarmonicMap(disc.domain, map_.phi, map_.psi)), proof, disc
 
 
-def aligned(map: HarmonicMap, pose: Pose, images: Array | None = None) -> HarmonicMap:
-    """The map followed by the rigid motion that brings its handles closest to their targets.
-
-    ``images`` (h, 2) are the handles' images under the map, when they are known.
-    """
+def aligned(map: HarmonicMap, pose: Pose) -> HarmonicMap:
+    """The map followed by the rigid motion that brings its handles closest to their targets."""
     if not len(pose):
         return map
-    known = map(pose.handles) if images is None else images
-    turn, middle, aim = rigid_motion(as_complex(known), as_complex(pose.targets))
+    images = problem.handle_images(pose, map)
+    turn, middle, aim = rigid_motion(images, as_complex(pose.targets))
     phi, psi = map.phi * turn, map.psi * np.conj(turn)
     phi[: len(map.domain.offset_cage.loops_complex[0])] += aim - turn * middle
     return HarmonicMap(map.domain, phi, psi)

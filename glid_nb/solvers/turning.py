@@ -1,17 +1,16 @@
 """Paths of the targets along which parts of a shape turn instead of being pulled straight through.
 
-Handles hang together in the shortest tree of ways inside the shape. From parent to child a pose
-turns and stretches the line between them; a path does that evenly, so that handles that move
-rigidly together do so all the way. A joint is a line that turns so far that either way round may
-lead to the better minimum, or one whose ends come so close that what lies between has to turn.
+Handles hang together in the shortest tree of ways inside the shape. A pose turns and stretches the
+line from parent to child; a path does that evenly. A joint is a line that turns so far that either
+way round may lead to the better minimum, or whose ends come so close that what lies between has to
+turn.
 
-Or the parts of a shape, handles that keep together, move rigidly. A part turns about the fixed
-point of its motion, such as the joint of a limb, or where that is far away (a bar's end that is led
-round) about its own middle, which moves straight on. Turns are against the largest part, in whose
-place all stages are.
+Or the parts of a shape, handles that keep together, move rigidly against the largest: about the
+fixed point of their motion, such as the joint of a limb, or where that is far away (a bar's end
+that is led round) about their own middle, which moves straight on.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -43,13 +42,12 @@ _WAYS = {
 """By the number of joints, or more: what a way is called, and how joints turn, in turn."""
 
 
-class Line(NamedTuple):
+class Link(NamedTuple):
     """From a handle to one that hangs at it; what a pose does to the line between them."""
 
     child: int
     parent: int
-    turn: float
-    """Against the parent's line, in (-pi, pi]."""
+    turn: float  # against the parent's line, in (-pi, pi]
     stretch: float
 
 
@@ -59,17 +57,14 @@ class Turning:
 
     pose: Pose
     root: int
-    whole: float
-    """The turn of the shape as a whole, radians."""
-    lines: tuple[Line, ...]
+    whole: float  # the turn of the shape as a whole, radians
+    lines: tuple[Link, ...]
 
     @property
     def joints(self) -> list[int]:
-        """Places in the order of the lines that may as well turn the other way round.
-
-        They turn by over 100 degrees against their parent's line, or by over 60 and so are the
-        first to turn by over 100 against the shape; or they or their parent's shrink to half.
-        """
+        """Places in the order of the lines that may as well turn the other way round: by over 100
+        degrees against their parent's line, or by over 60 and so first to turn by over 100 against
+        the shape; or those that shrink, or whose parent's shrink, to half."""
         total, stretches, found = {self.root: 0.0}, {self.root: 1.0}, list[int]()
         for k, (i, j, turn, stretch) in enumerate(self.lines):
             total[i], stretches[i] = total[j] + turn, stretch
@@ -93,15 +88,16 @@ class Turning:
         for turn, (i, j, _, _) in zip(turns, self.lines, strict=True):
             angles[i] = angles[j] + turn
         z, w = as_complex(self.pose.handles), as_complex(self.pose.targets)
-        stages = []
-        for time in stage_times([*angles.values(), *turns]):
+
+        def targets(time: float) -> Array:
             at = np.empty_like(z)
             at[root] = z[root] + time * (w[root] - z[root])
             for i, j, _, stretch in self.lines:
                 turned = np.exp(1j * time * angles[i]) * (1 + time * (stretch - 1))
                 at[i] = at[j] + turned * (z[i] - z[j])
-            stages.append(self.pose.with_targets(as_points(at)))
-        return stages
+            return at
+
+        return _staged(self.pose, targets, [*angles.values(), *turns])
 
 
 def turning_of(pose: Pose, cage: Cage) -> Turning:
@@ -116,12 +112,12 @@ def turning_of(pose: Pose, cage: Cage) -> Turning:
     tree = csgraph.minimum_spanning_tree(distances)
     root = int(np.argmin(distances.sum(axis=0)))
     order, before = csgraph.breadth_first_order(tree, root, directed=False)
-    angles, found = {root: whole}, list[Line]()
+    angles, found = {root: whole}, list[Link]()
     for i, j in zip(order[1:].tolist(), before[order[1:]].tolist(), strict=True):
         ratio = (w[i] - w[j]) / (z[i] - z[j])
         turn = float(np.angle(ratio * np.exp(-1j * angles[j])))
         angles[i] = angles[j] + turn
-        found.append(Line(i, j, turn, max(float(abs(ratio)), _LEAST_STRETCH)))
+        found.append(Link(i, j, turn, max(float(abs(ratio)), _LEAST_STRETCH)))
     return Turning(pose, root, whole, tuple(found))
 
 
@@ -147,17 +143,15 @@ class _Motion(NamedTuple):
     shift: complex
 
 
-def stage_times(angles: Sequence[float]) -> list[float]:
-    """Times between 0 and 1 of two stages or more, where nothing turns by over 40 degrees."""
+def _staged(pose: Pose, targets: Callable[[float], Array], angles: Sequence[float]) -> list[Pose]:
+    """Two stages or more at times between 0 and 1, where no angle changes by over 40 degrees."""
     count = max(int(np.ceil(np.abs(angles).max() / _STAGE)), 2)
-    return [k / count for k in range(1, count)]
+    return [pose.with_targets(as_points(targets(k / count))) for k in range(1, count)]
 
 
 def rigid_ways(pose: Pose, parents: dict[int, int]) -> dict[str, list[Pose]]:
-    """The stages of the ways by name: parts turn the short way, or all to one side.
-
-    ``parents``, in an order that has them first, tell which handle each hangs at; the root its own.
-    """
+    """The stages of the ways by name: parts turn the short way, or all to one side. ``parents``,
+    which come first, tell which handle each hangs at; the root at itself."""
     z, w = as_complex(pose.handles), as_complex(pose.targets)
     extent = float(np.abs(z - z.mean()).max())
     largest, *others = sorted(_parts(z, w, parents, _RIGID * extent), key=len, reverse=True)
@@ -168,13 +162,20 @@ def rigid_ways(pose: Pose, parents: dict[int, int]) -> dict[str, list[Pose]]:
     ways = {"rigid parts": 0} if motions and len(sides) != 1 else {}
     if sides:
         ways |= {"rigid parts, left": 1, "rigid parts, right": -1}
-    return {
-        name: [
-            pose.with_targets(as_points(aim + turn * (stage - middle)))
-            for stage in _stages(z, motions, side)
-        ]
-        for name, side in ways.items()
-    }
+
+    def stages(side: int) -> list[Pose]:
+        led = [side if abs(motion.angle) >= _LEAST_TURN else 0 for motion in motions]
+        angles = [_led(motion.angle, way) for motion, way in zip(motions, led, strict=True)]
+
+        def targets(time: float) -> Array:
+            at = z.copy()
+            for angle, (part, _, pivot, shift) in zip(angles, motions, strict=True):
+                at[part] = pivot + np.exp(1j * time * angle) * (z[part] - pivot) + time * shift
+            return aim + turn * (at - middle)
+
+        return _staged(pose, targets, angles)
+
+    return {name: stages(side) for name, side in ways.items()}
 
 
 def _parts(z: Array, w: Array, parents: dict[int, int], tolerance: float) -> list[list[int]]:
@@ -200,15 +201,3 @@ def _motion(part: list[int], z: Array, w: Array, extent: float) -> _Motion:
     if abs(shift) < extent * abs(1 - turn):
         return _Motion(part, angle, middle + shift / (1 - turn), 0j)
     return _Motion(part, angle, middle, shift)
-
-
-def _stages(z: Array, motions: list[_Motion], side: int) -> list[Array]:
-    led = [side if abs(motion.angle) >= _LEAST_TURN else 0 for motion in motions]
-    angles = [_led(motion.angle, way) for motion, way in zip(motions, led, strict=True)]
-    stages = []
-    for time in stage_times(angles):
-        stage = z.copy()
-        for angle, (part, _, pivot, shift) in zip(angles, motions, strict=True):
-            stage[part] = pivot + np.exp(1j * time * angle) * (z[part] - pivot) + time * shift
-        stages.append(stage)
-    return stages

@@ -1,9 +1,9 @@
 """Which coefficients are unknowns, and the tie of the logarithms (paper Section 5).
 
 Real vectors ``[Re phi, Im phi, Re psi, Im psi]`` hold all padded columns, or the coordinates of
-:mod:`glid_nb.solvers.whitening`. What is no unknown among them is masked: its rows and columns of
-the Hessian become those of the identity and its gradient 0. The hole coefficients obey
-``psi_j = conj(phi_j)``; their ``psi`` parts are folded onto the ``phi`` parts.
+:mod:`glid_nb.solvers.whitening`. Entries that are not unknowns are masked: their gradient is 0 and
+their rows and columns of the Hessian are those of the identity. The holes' ``psi_j = conj(phi_j)``
+are folded onto ``phi_j``.
 """
 
 from typing import Any as Array  # of NumPy or of JAX
@@ -29,10 +29,8 @@ class Unknowns(NamedTuple):
 
 
 def unknowns_of(basis: Basis, conformal: bool, whitening: Array | None = None) -> Unknowns:
-    """The unknowns among all columns, or among the coordinates of a whitening (2, c, u).
-
-    ``conformal`` drops ``psi`` and the logarithms.
-    """
+    """The unknowns among all columns, or among the coordinates of a whitening (2, c, u);
+    ``conformal`` drops ``psi`` and the logarithms."""
     n_holes = basis.n_hole_columns
     if whitening is None:
         phi, psi = np.array(basis.phi_free), np.array(basis.psi_free)
@@ -47,7 +45,6 @@ def unknowns_of(basis: Basis, conformal: bool, whitening: Array | None = None) -
 
 
 def restrict_gradient(g: Vector, unknowns: Unknowns) -> Vector:
-    """Gradient with respect to the unknowns, 0 elsewhere."""
     phi, psi, sign = _hole_slices(g.shape[0], unknowns)
     if phi is not None:
         g = g.at[phi].add(sign * g[psi])
@@ -69,11 +66,11 @@ def restrict_hessian(
     other: Square | None = None,
     ridge: Float[AnyArray, ""] | float = 0.0,
 ) -> Square:
-    """Hessian with respect to the unknowns, the identity elsewhere.
+    """Hessian with respect to the unknowns plus ``other``, restricted already; the identity
+    elsewhere.
 
-    Of ``h`` the columns of ``psi`` and the block of ``phi`` are read, not the block below the
-    diagonal ones; there the result means nothing. ``other`` is another Hessian to add, restricted
-    already. The diagonal is raised by ``ridge`` times its mean.
+    Of ``h`` the columns of ``psi`` and the block of ``phi`` are read; below the diagonal blocks the
+    result means nothing. The diagonal is raised by ``ridge`` times its mean.
     """
     phi, psi, sign = _hole_slices(h.shape[0], unknowns)
     if phi is not None:
@@ -112,9 +109,8 @@ def _hole_slices(size: int, unknowns: Unknowns) -> tuple:
 def canonical(map: HarmonicMap) -> HarmonicMap:
     """The same map with the redundant coefficients at zero (Section 5).
 
-    For a hole loop, adding ``a z_j + b`` to its coefficients changes no map (Cauchy's theorem);
-    the pair ``a, b`` is chosen to bring the loop's first two coefficients to zero. A constant
-    moves from ``psi`` to ``phi`` so that the exterior's first ``psi`` is zero.
+    Adding ``a z_j + b`` to a hole loop's coefficients changes no map (Cauchy's theorem): the loop's
+    first two become zero. A constant moves from ``psi`` to ``phi`` to zero the exterior's first.
     """
     phi, psi = map.phi.copy(), map.psi.copy()
     loops = map.domain.offset_cage.loops_complex

@@ -1,18 +1,17 @@
 """Coordinates of the subspace in which the Hessian of an isometric energy is well conditioned.
 
 The derivatives of Cauchy coordinates on the boundary are nearly dependent, and the Hessian's
-condition number is the square of theirs, beyond what single precision resolves. Coordinates ``x``
-with ``phi = T x``, in which the derivatives ``D T`` are orthonormal along the boundary, leave it
-with the condition of ``K`` alone.
+condition is the square of theirs, beyond what single precision resolves. In coordinates ``x`` with
+``phi = T x``, in which the derivatives ``D T`` are orthonormal along the boundary, it is that of
+``K``.
 
 ``T`` has a row for each column, and columns for the translation, for the other unknowns, zeros for
 padding, and last one for each logarithm, its coefficient, scaled. All but the translation vanish at
-one point of the boundary. So none moves a handle by more than its length along the boundary; pinned
-at the first coefficient instead, what oscillates along a fine cage would move all of them by many
-times the shape's size, and the positional energy would swamp the other.
+one point of the boundary, so none moves a handle by more than its length along the boundary: else
+the positional energy would swamp the other.
 
-On a finely divided cage some large coefficients make next to no map, and rounding errors that the
-certificate has to allow for. Directions in which the derivative is small against the slopes of the
+On a finely divided cage some large coefficients make next to no map but rounding errors, for which
+the certificate has to allow. Directions in which the derivative is small against the slopes of the
 coefficients along the offset cage have no coordinate.
 """
 
@@ -38,11 +37,8 @@ def whitening(
     anchor: Complex[np.ndarray, " c"],
     basis: Basis,
 ) -> Float[np.ndarray, "2 c u"]:
-    """``T`` as (Re, Im), with zeros for the coordinates that are padding.
-
-    ``rows`` are ``D`` at samples of the boundary, whose quadrature has the ``weights``; ``anchor``
-    is ``C`` where all new functions but the translation vanish.
-    """
+    """``T`` as (Re, Im), from ``D`` at samples of the boundary (``rows``), their quadrature's
+    ``weights``, and ``C`` at the ``anchor`` where all but the translation vanish."""
     c, scaled = basis.n_columns, np.sqrt(weights)[:, None] * rows
     single_valued = np.flatnonzero(basis.psi_free)
     # The exterior's first is no unknown of psi either.
@@ -70,9 +66,8 @@ def whitening(
 def _without_steep(
     inverse: Complex[np.ndarray, "n n"], chosen: Int[np.ndarray, " n"], basis: Basis
 ) -> Complex[np.ndarray, "k n"]:
-    """The rows whose conjugates are the coordinates of the chosen columns, turned so that those
-    with steep slopes can be left out; as they are where there are none.
-    """
+    """The rows whose conjugates are the coordinates of the chosen columns, without those with steep
+    slopes; as they are where there are none."""
     values = np.zeros((basis.n_columns, len(inverse)), dtype=complex)
     values[chosen] = inverse.conj().T
     vertices, _, previous, _ = basis.singularities

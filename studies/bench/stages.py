@@ -36,7 +36,7 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
     singularities = disc.basis.singularities
     energy = result.energy_measure
     problem = Problem(disc.matrices, singularities, unknowns, positional, energy)
-    y = jnp.asarray(real_coefficients(disc.basis, result.map))
+    y = jnp.asarray(real_coefficients(result.map))
 
     def gradient(problem: Problem, y: Any) -> Any:
         return evaluation.gradient(problem, evaluation.evaluated(problem, y))
@@ -64,10 +64,10 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
 
 def _hessian(problem: Problem, point: Point, projected: bool) -> Any:
     matrices = problem.matrices
-    nodes = point.samples.nodes[:, matrices.hessian_index]
-    x, y = evaluation.squares(nodes)
+    values = point.samples.values[:, matrices.hessian_index]
+    x, y = evaluation.squares(values)
     k = local_hessian(problem.energy.differentials(x, y), x, y)
-    given = (matrices.hessian_weights, *evaluation.directions(nodes))
+    given = (matrices.hessian_weights, *evaluation.directions(values))
     local = tuple(positive_part(k) if projected else k)
     dtype = matrices.whitened.dtype
     given, local = jax.tree.map(lambda a: a.astype(dtype), (given, local))

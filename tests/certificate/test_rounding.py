@@ -128,14 +128,14 @@ def test_the_loop_counts_differences_too(shift: float) -> None:
         as_energy(None),
     )
     with jax.enable_x64(True):
-        y = real_coefficients(disc.basis, map)
+        y = real_coefficients(map)
         problem = problem._replace(anchor=anchor_of(disc.basis, y))
         reach = float(evaluation.reach(problem, y))
         samples = evaluation.products(disc.matrices, y - problem.anchor)
     assert reach < 5 + 0.1 * shift
     panels = disc.panels
     fz, _ = map.wirtinger(panels.start)
-    computed = np.asarray(samples.nodes)[:2, : len(panels)]
+    computed = np.asarray(samples.values)[:2, : len(panels)]
     slack = np.asarray(disc.matrices.rounding)[: len(panels)] * reach
     assert (np.abs(computed[0] + 1j * computed[1] - fz) < slack).all()
 

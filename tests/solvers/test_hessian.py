@@ -313,9 +313,9 @@ def test_a_large_basis_is_assembled_in_pieces(monkeypatch: pytest.MonkeyPatch) -
     y = np.random.default_rng(5).normal(size=2 * len(matrices.nodes))
     with jax.enable_x64(True):
         samples = evaluation.products(matrices, y)
-        x, yy = evaluation.squares(samples.nodes)
+        x, yy = evaluation.squares(samples.values)
         k = local_hessian(SymmetricDirichlet().differentials(x, yy), x, yy)
-        given = matrices.nodes, matrices.weights, *evaluation.directions(samples.nodes), k
+        given = matrices.nodes, matrices.weights, *evaluation.directions(samples.values), k
         at_once = np.asarray(assemble(*given))
         for share in (2.0, 2.7, 7.3):  # pieces that divide the nodes and pieces that do not
             monkeypatch.setattr(hessian, "_PIECE", int(matrices.nodes.size / 2 / share))
@@ -343,11 +343,11 @@ def test_gradient_and_hessian_are_those_of_the_discretised_energy(energy: Energy
     @jax.jit
     def of_the_package(energy: Energy, y: Any) -> tuple[Any, Any]:
         samples = evaluation.products(matrices, y)
-        x, yy = evaluation.squares(samples.nodes)
+        x, yy = evaluation.squares(samples.values)
         differentials = energy.differentials(x, yy)
-        gradient = evaluation.energy_gradient(matrices, samples.nodes, differentials)
+        gradient = evaluation.energy_gradient(matrices, samples.values, differentials)
         k = local_hessian(differentials, x, yy)
-        f, g = evaluation.directions(samples.nodes)
+        f, g = evaluation.directions(samples.values)
         hessian = assemble(matrices.nodes, matrices.weights, f, g, k)
         return restrict_gradient(gradient, unknowns), restrict_hessian(hessian, unknowns)
 

@@ -15,7 +15,7 @@ import scipy
 from glid_nb._arrays import Array
 from glid_nb._jax import jax, jnp
 from glid_nb._runtime import double_precision
-from glid_nb.certificate import Certificate, certify
+from glid_nb.certificate import Certificate
 from glid_nb.geometry import Domain, graded_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.solvers import Pose
@@ -36,7 +36,7 @@ _SLACK = 0.1
 _JOIN, _LEAVE = 0.10, 0.15
 
 
-class Samples(NamedTuple):
+class SampleRows(NamedTuple):
     """``f_z = a v`` and ``conj(f_zbar) = b v`` at samples, both complex."""
 
     a: Array
@@ -65,9 +65,9 @@ class BoundedProblem:
         self._free = np.flatnonzero(unknowns.free)
         changes = jnp.asarray(np.eye(len(unknowns.free))[self._free])
         self._expansion = np.array(jax.vmap(expand, (0, None))(changes, unknowns)).T.copy()
-        self._panels = graded_panels(domain, _RATIO)
-        self._shares = self._panels.length / self._panels.length.sum()
-        self.samples = self.samples_at(self._panels.middle)
+        self.panels = graded_panels(domain, _RATIO)
+        self._shares = self.panels.length / self.panels.length.sum()
+        self.samples = self.samples_at(self.panels.middle)
         self.positional = positional = positional_energy(domain, pose, p2p_weight, map, damping)
         root = np.sqrt(np.asarray(positional.weights))
         rows = root[:, None] * (np.asarray(positional.matrix) @ self._expansion)
@@ -75,25 +75,21 @@ class BoundedProblem:
         self._factor = self._triangular(rows)
         inverse = scipy.linalg.solve_triangular(self._factor, np.eye(len(self._factor)))
         self._expansion = self._expansion @ inverse
-        self.samples = Samples(self.samples.a @ inverse, self.samples.b @ inverse)
+        self.samples = SampleRows(self.samples.a @ inverse, self.samples.b @ inverse)
         self._rows = rows @ inverse
 
     @double_precision
-    def samples_at(self, points: Array) -> Samples:
+    def samples_at(self, points: Array) -> SampleRows:
         d = complex_basis(cauchy.first_derivatives, points, self._basis)
         re_phi, im_phi, re_psi, im_psi = np.split(self._expansion, 4)
-        return Samples(d @ (re_phi + 1j * im_phi), d @ (re_psi + 1j * im_psi))
+        return SampleRows(d @ (re_phi + 1j * im_phi), d @ (re_psi + 1j * im_psi))
 
     def unknowns(self, map: HarmonicMap, align: bool) -> Array:
-        """The unknowns of a map, rigidly moved toward the targets if asked for."""
         map = canonical(aligned(map, self.pose) if align else map)
-        return self._factor @ real_coefficients(self._basis, map)[self._free]
+        return self._factor @ real_coefficients(map)[self._free]
 
     def map_of(self, v: Array) -> HarmonicMap:
         return map_from(self.domain, self._expansion @ v)
-
-    def certified(self, v: Array, tightness: float) -> Certificate:
-        return certify(self.map_of(v), panels=self._panels, tightness=tightness)
 
     def energies(self, v: Array) -> tuple[float, float]:
         """ARAP along the boundary, and the positional part."""
@@ -153,20 +149,16 @@ class DistortionBounds:
 
 @dataclass(frozen=True, eq=False)
 class ActiveSet:
-    """Samples of the boundary, and which of them are held to which bound."""
-
     problem: BoundedProblem
     bounds: DistortionBounds
-    samples: Samples
+    samples: SampleRows
     """First the problem's own, which follow one another, then those that a failed proof added."""
-    chosen: Array
-    """(3, n) bool: where k, sigma_1 and sigma_2 are bounded."""
+    chosen: Array  # (3, n) bool: where k, sigma_1 and sigma_2 are bounded
     excess: float = 1.0
     """How much the next map may keep of what this one has beyond the stricter bounds. With 1 the
     map itself is always admitted; with less it is drawn inward."""
 
     def used(self, v: Array) -> Array:
-        """(3, n) shares of the way from an isometry to each bound."""
         f, g = (np.abs(part) for part in self.samples.values(v))
         return self.bounds.used(g / np.maximum(f, 1e-300), f + g, f - g)
 
@@ -197,7 +189,7 @@ class ActiveSet:
         places = np.concatenate([panels.start[at], panels.end[at], panels.middle[at]])
         parts = zip(self.samples, self.problem.samples_at(places), strict=True)
         chosen = np.concatenate([self.chosen, *[failed[:, at]] * 3], axis=1)
-        return replace(self, samples=Samples(*map(np.concatenate, parts)), chosen=chosen)
+        return replace(self, samples=SampleRows(*map(np.concatenate, parts)), chosen=chosen)
 
     def _peaks(self, used: Array) -> Array:
         """Local extremes; samples that were added are taken for such."""
@@ -212,24 +204,20 @@ def _peaks(used: Array) -> Array:
 
 
 class Step(NamedTuple):
-    """The solution of a program."""
-
     change: Array | None
     """What to add to the unknowns; None where the program was not solved."""
     decrease: float
     """No point that the program admits lowers its energy by more: by weak duality."""
-    status: str
-    """Clarabel's; "Solved" to the accuracy that was asked for."""
+    status: str  # Clarabel's; "Solved" to the accuracy that was asked for
 
 
 def solve_program(gradient: Array, active: ActiveSet, v: Array, gap: float) -> Step:
     """Minimise ``|d|^2 / 2 + gradient^T d`` over ``d`` such that ``v + d`` keeps the bounds.
 
     With the frame ``r`` of a sample (a unit complex number) the bounds become second-order cones:
-    ``|f_zbar| <= k Re(conj(r) f_z)``, ``|f_zbar| <= Re(conj(r) f_z) - sigma2``, and
-    ``|f_z| <= s``, ``|f_zbar| <= sigma1 - s`` with one more unknown ``s``. The first two imply the
-    true bounds, the third is exact. The duality gap is to be at most ``gap``, or
-    1e-8 of the decrease where that is more.
+    ``|f_zbar| <= k Re(conj(r) f_z)``, ``|f_zbar| <= Re(conj(r) f_z) - sigma2``, and ``|f_z| <= s``,
+    ``|f_zbar| <= sigma1 - s`` with one more unknown ``s``. The duality gap is to be at most
+    ``gap``, or 1e-8 of the decrease where that is more.
     """
     i, j, m = (np.flatnonzero(row) for row in active.chosen)
     if not len(i) + len(j) + len(m):
@@ -256,7 +244,6 @@ def solve_program(gradient: Array, active: ActiveSet, v: Array, gap: float) -> S
 
 
 def _triples(head: Array, body: Array) -> Array:
-    """Head, real and imaginary part of each cone, one after the other."""
     three = np.stack([head, np.real(body), np.imag(body)], axis=1)
     return three.reshape(3 * len(head), *head.shape[1:])
 

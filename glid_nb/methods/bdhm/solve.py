@@ -1,10 +1,9 @@
 """BDHM's iteration: a second-order cone program per step, its result certified within the bounds.
 
 With its frames held fixed ARAP lies above ARAP and touches it at the map they are of, and the
-bounds with these frames are convex and imply the true ones (Chen & Weber 2015). So a program that
-admits the current map has a solution toward which the energy falls all the way. The bounds hold at
-samples, by a margin, and are then proved everywhere; where the current map itself, proved only
-without the margin, exceeds it, the sample's bound gives way to what the map has.
+bounds with these frames are convex and imply the true ones (Chen & Weber 2015). So toward the
+solution of a program that admits the current map the energy falls all the way. The bounds hold at
+samples, by a margin, or by what the current map leaves of it, and are then proved everywhere.
 """
 
 import functools
@@ -15,7 +14,7 @@ import numpy as np
 
 from glid_nb._arrays import Array
 from glid_nb._runtime import single_blas_thread
-from glid_nb.certificate import Certificate
+from glid_nb.certificate import Certificate, certify
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.methods.bdhm.program import (
     MARGIN,
@@ -85,8 +84,6 @@ class Iterate(NamedTuple):
 
 
 class _Descent(GeneratedDescent):
-    """One run, and the samples that it adds to as it goes."""
-
     method: BDHM
     far, measured = True, 0
 
@@ -94,7 +91,6 @@ class _Descent(GeneratedDescent):
         super().__init__(method, inputs, self.steps())
 
     def _measure(self, map: HarmonicMap) -> None:
-        """Measure angles and scales of handles from a map."""
         domain, pose, options = self.inputs.domain, self.inputs.pose, self.inputs.options
         with single_blas_thread():
             damping = KEPT if self.measured == MOST_PINS else 1.0
@@ -217,7 +213,8 @@ class _Descent(GeneratedDescent):
         return _blocked(f"no step toward {solution} {share}, {missed}")
 
     def _proved(self, v: Array) -> Certificate:
-        return self.problem.certified(v, _PROOF * MARGIN * self.method.narrowest)
+        tightness = _PROOF * MARGIN * self.method.narrowest
+        return certify(self.problem.map_of(v), panels=self.problem.panels, tightness=tightness)
 
 
 def _blocked(why: str) -> Ending:

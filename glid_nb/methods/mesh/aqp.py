@@ -100,20 +100,16 @@ class AQP(MeshMethod):
 
 @dataclass(frozen=True)
 class _Proxy:
-    """The energy, with the Laplacian in place of its Hessian."""
-
     operators: MeshOperators
     pinned: Pinned
     energy: Energy
-    theta: float
-    """How far ahead to extrapolate."""
+    theta: float  # how far ahead to extrapolate
 
     def state(self, w: Array) -> _State:
         fz, fzb = self.operators.wirtinger(w)
         return _State(w, fz, fzb, self.operators.energy(self.energy, fz, fzb))
 
     def path(self, now: _State) -> Iterator[tuple[_State, float]]:
-        """The states from one on and the steps to them, while steps lower the energy."""
         before, step = now, 1.0
         while True:
             found = self._descended(self._extrapolated(now, before), step)
@@ -173,9 +169,8 @@ def project(
 ) -> tuple[Array, int]:
     """A map close to ``w`` with the same held vertices, and how many iterations it took.
 
-    Projection onto maps of bounded distortion (Kovalsky et al. 2015), triangle by triangle; the
-    next map is the closest one on the hyperplane that separates them, the constraints kept.
-    Triangles may be left that are turned over.
+    Projection onto maps of bounded distortion (Kovalsky et al. 2015): the next map is the closest
+    one on the hyperplane that separates them. Triangles may be left that are turned over.
     """
     for iteration in range(most_iterations):
         fz, fzb = operators.wirtinger(w)

@@ -8,7 +8,7 @@ from glid_nb.energies import Energy
 from glid_nb.geometry import as_points
 from glid_nb.harmonic import as_complex
 from glid_nb.methods.mesh.operators import MeshMethod, MeshProblem, flips
-from glid_nb.solvers import MethodError
+from glid_nb.solvers import MethodError, Pose
 from glid_nb.solvers.loop import Steps
 
 # libigl's names of energies, and libigl's energies in ours.
@@ -49,12 +49,11 @@ class SLIM(MeshMethod):
 
     tolerance: float = 1e-9
 
-    def check_energy(self, energy: Energy) -> None:
-        """Where libigl has something close, say what."""
+    def check(self, energy: Energy, pose: Pose) -> None:
         s = getattr(energy, "s", None)
         if energy.name in _REFUSED and (energy.name, s) != ("exp", 2):
             raise MethodError(f"libigl's SLIM {_REFUSED[energy.name].format(s=s)}")
-        super().check_energy(energy)
+        super().check(energy, pose)
 
     def steps(self, problem: MeshProblem) -> Steps:
         import igl  # noqa: PLC0415

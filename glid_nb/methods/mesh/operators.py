@@ -24,11 +24,9 @@ _AT_VERTEX = 1e-9  # of the shape's longer side
 
 
 class MeshOperators:
-    """A mesh as the solvers see it; images of vertices are (v,) complex.
-
-    On a triangle the map is linear, ``f_z = sum_i conj(G_i) w_i / 2`` and ``f_zbar = sum_i G_i w_i
-    / 2`` with ``G_i`` the complex gradient of the hat function of corner ``i``.
-    """
+    """A mesh as the solvers see it; images of vertices are (v,) complex. On a triangle ``f_z =
+    sum_i conj(G_i) w_i / 2`` and ``f_zbar = sum_i G_i w_i / 2`` with ``G_i`` the complex gradient
+    of corner ``i``'s hat function."""
 
     def __init__(self, mesh: Triangulation) -> None:
         self.mesh = mesh
@@ -48,7 +46,6 @@ class MeshOperators:
         self.rest = z
 
     def wirtinger(self, w: Array) -> tuple[Array, Array]:
-        """``f_z`` and ``f_zbar`` on each triangle, linear in ``w``."""
         return self.to_fz @ w, self.to_fzb @ w
 
     def adjoint(self, a: Array, b: Array) -> Array:
@@ -66,11 +63,8 @@ class MeshOperators:
     def energy(self, energy: Energy, fz: Array, fzb: Array) -> float:
         """The area mean of the density; infinite where a triangle is turned over."""
         x, y = np.abs(fz) ** 2, np.abs(fzb) ** 2
-        if not (x > y).all():
-            if energy.name != "arap":
-                return np.inf
-            # ARAP alone is finite there: (sigma_1 - 1)^2 + (sigma_2 - 1)^2, signed sigma_2.
-            return float(self.weights @ (2 * (x + y) - 4 * np.sqrt(x) + 2))
+        if not (x > y).all() and energy.name != "arap":  # with a signed sigma_2 that is finite
+            return np.inf
         return float(self.weights @ np.asarray(_density(energy, x, y)))
 
     @double_precision
@@ -111,7 +105,6 @@ class Pinned:
 
 
 def flips(fz: Array, fzb: Array) -> int:
-    """Number of triangles that are turned over or flat."""
     return int((~(np.abs(fz) > np.abs(fzb))).sum())
 
 
@@ -132,14 +125,10 @@ _alphas = jit(lambda energy, x, y: energy.differentials(x, y)[:2])
 
 @dataclass(frozen=True, eq=False)
 class MeshProblem:
-    """The mesh, its handles and targets, the energy."""
-
     inputs: Inputs
     operators: MeshOperators
-    handles: Array
-    """(h,) vertex indices."""
-    targets: Array
-    """(h,) complex."""
+    handles: Array  # (h,) vertex indices
+    targets: Array  # (h,) complex
     p2p_weight: float
     start: Array
     """(v,) complex: the images to start from, rigidly moved if that was asked for."""
@@ -163,8 +152,6 @@ class MeshProblem:
         return cls(inputs, operators, handles, targets, weight, images)
 
     def at(self, w: Array, step: float | None = None) -> Callable[[], Reached]:
-        """What tells where a method is that has come to the images ``w``."""
-
         def reached() -> Reached:
             fz, fzb = self.operators.wirtinger(w)
             miss = w[self.handles] - self.targets
@@ -182,9 +169,8 @@ class MeshProblem:
 def _vertices_at(mesh: Triangulation, points: Array, tolerance: float) -> Array:
     if not len(points):
         return np.empty(0, dtype=np.int32)
-    gap = np.linalg.norm(mesh.vertices[:, None] - points, axis=2)
-    index = gap.argmin(axis=0)
-    missing = np.flatnonzero(gap.min(axis=0) > tolerance)
+    gap, index = scipy.spatial.KDTree(mesh.vertices).query(points)
+    missing = np.flatnonzero(gap > tolerance)
     if missing.size:
         i = int(missing[0])
         raise MethodError(
@@ -208,7 +194,6 @@ class MeshMethod(Method):
     n_vertices: int = field(default=10_000, kw_only=True, metadata={"least": 3})
 
     def check_handles(self, inputs: Inputs) -> None:
-        """Raise :class:`MethodError` where these handles do not do."""
         if self.needs_handles and not len(inputs.pose):
             raise MethodError(f"the method {self.name!r} needs at least one handle")
 

@@ -46,8 +46,6 @@ _CREPT = (
 
 @dataclass(frozen=True)
 class SubspaceMethod(Method):
-    """A method in the harmonic subspace; its maps are certified."""
-
     family = "harmonic"
     window = 50
     tolerance: ClassVar[float] = 1e-9
@@ -82,12 +80,9 @@ class DirectedDescent(SubspaceDescent):
     """Follows a method's directions by Newton's own line search and certificate."""
 
     method: SubspaceMethod
-    gradient: Array
-    """(4c,) with respect to the unknowns, 0 elsewhere."""
-    memory: Any = None
-    """What the method remembers of its earlier steps."""
-    step: float | None = None
-    """Length of the last step."""
+    gradient: Array  # (4c,) with respect to the unknowns, 0 elsewhere
+    memory: Any = None  # what the method remembers of its earlier steps
+    step: float | None = None  # length of the last step
     _chosen: Array | None = None
     _ending: Ending | None = None
     _seconds = 0.0
@@ -100,7 +95,6 @@ class DirectedDescent(SubspaceDescent):
 
     @functools.cached_property
     def free(self) -> Array:
-        """(4c,) 1 for an unknown, 0 for what is fixed or tied."""
         return np.asarray(self.problem.unknowns.free)
 
     @functools.cached_property
@@ -179,7 +173,6 @@ class DirectedDescent(SubspaceDescent):
         self._seconds += watch.seconds
 
     def _choose(self) -> Ending | None:
-        """Take the next direction, or end."""
         chosen = self.method.direction(self)
         if isinstance(chosen, Ending):
             return chosen
@@ -190,7 +183,6 @@ class DirectedDescent(SubspaceDescent):
         return Ending(Status.CONVERGED) if minimal else None
 
     def _crept(self) -> Ending | None:
-        """The end, where the last step gains next to nothing."""
         before = self.history[-2] if len(self.history) > 1 else self.initial
         gain = (before.energy - self.history[-1].energy) / self._scale()
         assert self.step is not None
@@ -205,14 +197,11 @@ class DirectedDescent(SubspaceDescent):
 
 
 class Move(NamedTuple):
-    """The outcome of one step."""
-
     outcome: Int[AnyArray, ""]
     point: Point
     gradient: Coefficients
     step: Float[AnyArray, ""]
-    bounds: PanelBounds
-    """The certificate there."""
+    bounds: PanelBounds  # the certificate there
     refused: Bool[AnyArray, " p"]
 
 
@@ -227,13 +216,12 @@ def _evaluate(problem: Problem, coefficients: Coefficients) -> tuple[Point, Coef
 def _hessian(problem: Problem, point: Point, *, curvature: Curvature) -> DeviceArray:
     """(4c, 4c) Hessian of the isometric energy with respect to the unknowns (33).
 
-    ``gauss-newton`` is for ARAP, whose density is ``2 (|f_z| - 1)^2 + 2 |f_zbar|^2``, a sum of
-    squares: second derivatives of the residuals are left out. ``dirichlet`` is the Hessian of the
-    Dirichlet energy ``|f_z|^2 + |f_zbar|^2``.
+    ``gauss-newton`` is for ARAP, ``2 (|f_z| - 1)^2 + 2 |f_zbar|^2``, without the residuals' second
+    derivatives; ``dirichlet`` is that of ``|f_z|^2 + |f_zbar|^2``.
     """
     matrices = problem.matrices
-    nodes = point.samples.nodes[:, matrices.hessian_index]
-    x, y = evaluation.squares(nodes)
+    values = point.samples.values[:, matrices.hessian_index]
+    x, y = evaluation.squares(values)
     if curvature == "gauss-newton":
         zero, four = jnp.zeros_like(x), jnp.full_like(x, 4.0)
         local = LocalHessian(zero, four, four, four, zero)
@@ -244,7 +232,7 @@ def _hessian(problem: Problem, point: Point, *, curvature: Curvature) -> DeviceA
         local = local_hessian(problem.energy.differentials(x, y), x, y)
         if curvature == "projected":
             local = positive_part(local)
-    f, g = evaluation.directions(nodes)
+    f, g = evaluation.directions(values)
     basis = matrices.nodes[:, matrices.hessian_index]
     h = assemble(basis, matrices.hessian_weights, f, g, local)
     upper = jnp.triu(restrict_hessian(h, problem.unknowns))

@@ -19,8 +19,6 @@ from glid_nb.solvers.newton import descend
 
 Initial = Literal["identity", "dirichlet"]
 
-MEMORY = 5
-"""The paper's ``k``."""
 # The published code adds up 10^4 samples and starts from twice the identity; the mean over them
 # is this multiple.
 _SAMPLES = 1e4
@@ -46,7 +44,7 @@ class LBFGS(SubspaceMethod):
     label = "L-BFGS"
     max_iterations = 3000
 
-    memory: int = MEMORY
+    memory: int = 5
     initial: Initial = "identity"
 
     def forget(self, memory: Pairs) -> bool:
@@ -85,8 +83,6 @@ class GradientDescent(SubspaceMethod):
 
 
 class Pairs:
-    """The last pairs of steps and changes of the gradient, and the factor to start from."""
-
     def __init__(self, most: int, factor: Any) -> None:
         self.pairs: deque[tuple[Array, Array]] = deque(maxlen=most)
         self.last: tuple[Array, Array] | None = None
@@ -116,8 +112,6 @@ def two_loop(gradient: Array, pairs: list[tuple[Array, Array]], apply_initial: A
 
 @dataclass(frozen=True)
 class _CompiledNewton(Method):
-    """Our own loop with other options."""
-
     family = "harmonic"
     changed: ClassVar[dict[str, Any]]
     """Options that are not the caller's."""
@@ -275,7 +269,6 @@ def _solve_semidefinite(h: Array, gradient: Array) -> Array | Ending:
 
 
 def _solve(h: Array, gradient: Array) -> Array | None:
-    """``-H^-1 g``; None where H is not positive definite."""
     try:
         factor = scipy.linalg.cho_factor(h, lower=True, check_finite=False)
     except np.linalg.LinAlgError:
