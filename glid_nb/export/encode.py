@@ -9,7 +9,7 @@ import json
 import math
 import subprocess
 import tempfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -23,11 +23,10 @@ from glid_nb._files import zipped
 from glid_nb.imaging.read import png
 from glid_nb.motion.settings import checked
 
-Frames = Iterable[NDArray[np.uint8]]
-Color = tuple[int, int, int]
+RGB = tuple[int, int, int]
 
 
-class Drawn(NamedTuple):
+class Frames(NamedTuple):
     """Frames that are drawn one after the other, when they are wanted."""
 
     size: tuple[int, int]
@@ -70,58 +69,49 @@ def check_settings(size: Any, fps: Any, background: Any, suffix: str) -> None:
 
 
 def encoded(
-    drawn: Drawn, name: str, suffix: str, fps: float, background: Color | None, loop: bool
+    frames: Frames, name: str, suffix: str, fps: float, background: RGB | None, loop: bool = True
 ) -> list[bytes]:
     """The contents of the files that a suffix stands for; for "" every frame as PNG."""
     if suffix in (".gif", ".apng"):
-        _check_count(drawn)
-    if suffix == ".gif" and background is not None:
-        return [gif(drawn.pictures, fps, background, loop)]
-    if suffix == ".apng":
-        return [apng(drawn.pictures, fps, loop)]
+        return [_animation(frames, suffix, fps, background, loop)]
     if suffix in _CODECS:
-        return [_video(drawn, fps, suffix, background is None)]
+        return [_video(frames, fps, suffix, background is None)]
     if suffix == ".sheet.png":
-        return _sprite_sheet(drawn, fps, name)
-    pictures = [png(picture) for picture in drawn.pictures]
-    files = dict(zip(names(drawn.count), pictures, strict=True))
+        return _sprite_sheet(frames, fps, name)
+    pictures = [png(picture) for picture in frames.pictures]
+    files = dict(zip(names(frames.count), pictures, strict=True))
     return [zipped(files, stored=files)] if suffix == ".zip" else pictures
 
 
-def _check_count(drawn: Drawn) -> None:
-    """Raise an InputError if the frames are too large to be in memory at once."""
-    width, height = drawn.size
-    if drawn.count * width * height > _MOST_PIXELS:
-        what = f"{drawn.count} frames of {width} x {height} pixels are too many at once"
+def _animation(
+    frames: Frames, suffix: str, fps: float, background: RGB | None, loop: bool
+) -> bytes:
+    """An animated PNG, or GIF of 256 colours, which counts in hundredths of a second."""
+    width, height = frames.size
+    if frames.count * width * height > _MOST_PIXELS:
+        what = f"{frames.count} frames of {width} x {height} pixels are too many at once"
         raise InputError(f"{what}; choose a smaller size, fewer frames per second, or a video")
-
-
-def gif(frames: Frames, fps: float, background: Color, loop: bool = True) -> bytes:
-    """An animated GIF of 256 colours; it counts in hundredths of a second, on average exactly."""
-    pictures = _with_palette([Image.fromarray(frame[..., :3]) for frame in frames], background)
-    ends = np.round(np.arange(len(pictures) + 1) * 100 / fps)
-    return _saved(pictures, "GIF", (10 * np.diff(ends)).astype(int).tolist(), loop)
-
-
-def apng(frames: Frames, fps: float, loop: bool = True) -> bytes:
-    """An animated PNG; it keeps all colours, and transparency."""
-    pictures = [Image.fromarray(frame) for frame in frames]
-    return _saved(pictures, "PNG", 1000 / fps, loop)
-
-
-def _saved(pictures: list[Image.Image], format: str, duration: Any, loop: bool) -> bytes:
-    repeats = {} if format == "GIF" and not loop else {"loop": int(not loop)}
-    settings = {"save_all": True, "optimize": False, "duration": duration, **repeats}
+    settings: dict[str, Any] = {"duration": 1000 / fps, "loop": int(not loop)}
+    if suffix == ".apng":
+        pictures = [Image.fromarray(frame) for frame in frames.pictures]
+    else:
+        assert background is not None
+        pictures = [Image.fromarray(frame[..., :3]) for frame in frames.pictures]
+        pictures = _with_palette(pictures, background)
+        ends = np.round(np.arange(frames.count + 1) * 100 / fps)
+        settings = {"duration": (10 * np.diff(ends)).astype(int).tolist()}
+        settings |= {"loop": 0} if loop else {}
+    settings |= {"save_all": True, "optimize": False, "append_images": pictures[1:]}
     buffer = io.BytesIO()
-    pictures[0].save(buffer, format, append_images=pictures[1:], **settings)
+    pictures[0].save(buffer, "GIF" if suffix == ".gif" else "PNG", **settings)
     return buffer.getvalue()
 
 
-def _video(drawn: Drawn, fps: float, suffix: str, transparent: bool) -> bytes:
-    """A video of even sides, by an ffmpeg that takes frames as they are drawn."""
+def _video(frames: Frames, fps: float, suffix: str, transparent: bool) -> bytes:
+    """A video of even sides, by an ffmpeg that takes frames as they are frames."""
     from imageio_ffmpeg import get_ffmpeg_exe  # noqa: PLC0415 - an extra
 
-    size = "x".join(map(str, drawn.size))
+    size = "x".join(map(str, frames.size))
     given = ["-f", "rawvideo", "-pix_fmt", "rgba", "-s", size, "-r", str(fps), "-i", "-"]
     pixels = ["-pix_fmt", "yuva420p" if transparent else "yuv420p"]
     with tempfile.TemporaryDirectory(prefix="glid_nb-") as folder:
@@ -133,7 +123,7 @@ def _video(drawn: Drawn, fps: float, suffix: str, transparent: bool) -> bytes:
         ):
             assert ffmpeg.stdin is not None
             try:
-                for frame in drawn.pictures:
+                for frame in frames.pictures:
                     ffmpeg.stdin.write(frame.tobytes())
             except BrokenPipeError:
                 pass  # its log says why
@@ -145,20 +135,20 @@ def _video(drawn: Drawn, fps: float, suffix: str, transparent: bool) -> bytes:
         return path.read_bytes()
 
 
-def _sprite_sheet(drawn: Drawn, fps: float, name: str) -> list[bytes]:
+def _sprite_sheet(frames: Frames, fps: float, name: str) -> list[bytes]:
     """A picture of all frames side by side, and JSON that says where each is.
 
     The JSON is TexturePacker's "hash" with Pixi's ``animations``; durations are milliseconds.
     """
-    (width, height), columns = drawn.size, math.ceil(math.sqrt(drawn.count))
-    sides = columns * width, math.ceil(drawn.count / columns) * height
+    (width, height), columns = frames.size, math.ceil(math.sqrt(frames.count))
+    sides = columns * width, math.ceil(frames.count / columns) * height
     if max(sides) > _LARGEST_SHEET:
-        what = f"{drawn.count} frames of {width} x {height} pixels"
+        what = f"{frames.count} frames of {width} x {height} pixels"
         need = f"need a sheet of {sides[0]} x {sides[1]}; {_LARGEST_SHEET} is the most"
         raise InputError(f"{what} {need}, so choose a smaller size or fewer frames per second")
     sheet = np.zeros((*sides[::-1], 4), np.uint8)
     size, found = {"w": width, "h": height}, {}
-    for i, (picture, frame) in enumerate(zip(drawn.pictures, names(drawn.count), strict=True)):
+    for i, (picture, frame) in enumerate(zip(frames.pictures, names(frames.count), strict=True)):
         x, y = i % columns * width, i // columns * height
         sheet[y : y + height, x : x + width] = picture
         found[frame] = {
@@ -179,7 +169,7 @@ def names(count: int) -> list[str]:
     return [f"frame-{i:0{max(3, len(str(count - 1)))}}.png" for i in range(count)]
 
 
-def _with_palette(pictures: list[Image.Image], background: Color) -> list[Image.Image]:
+def _with_palette(pictures: list[Image.Image], background: RGB) -> list[Image.Image]:
     """The pictures with one palette of at most eight of them, as flat areas flicker if each has
     its own. The exact background comes first; an averaged one would show a dither pattern."""
     chosen = pictures[:: math.ceil(len(pictures) / 8)]

@@ -49,10 +49,10 @@ def textured_mesh(
 ) -> TexturedMesh:
     """Triangulate a map's domain and give each vertex its image and its place in the picture.
 
-    The image, (h, w), (h, w, 3) or (h, w, 4), is the one that the map's cage was traced from. There
-    are about ``n_vertices`` evenly spread vertices, at least 3; edges that stray further from the
-    map than a ``tolerance`` in world units are split. The depths of a pose say which part is in
-    front where the shape overlaps itself. Raises a ValueError that names an argument out of range.
+    The image is the one that the map's cage was traced from. There are about ``n_vertices`` evenly
+    spread vertices, at least 3; edges that stray further from the map than a ``tolerance`` in world
+    units are split. The depths of a pose say which part is in front where the shape overlaps.
+    Raises a ValueError that names an argument out of range.
     """
     return _at_knots(image, MovingMesh.of(map, pose, n_vertices, tolerance))[0]
 

@@ -10,7 +10,7 @@ from glid_nb._arguments import check_type
 from glid_nb._errors import InputError
 from glid_nb._files import write_bytes_atomically
 from glid_nb.export import encode
-from glid_nb.export.encode import Color
+from glid_nb.export.encode import RGB
 from glid_nb.export.formats import file_names, suffix_of
 from glid_nb.export.mesh import motion_glb
 from glid_nb.export.moving import Progress, Stopped, frames
@@ -73,7 +73,7 @@ def motion_files(
     *,
     size: int = 480,
     frames_per_second: float = _FPS,
-    background: Color | None = (255, 255, 255),
+    background: RGB | None = (255, 255, 255),
     loop: bool = True,
     progress: Progress | None = None,
 ) -> dict[str, bytes]:
@@ -82,8 +82,8 @@ def motion_files(
     The suffix says the format: one of `MOTION_FORMATS`, of which .mp4 and .webm need
     ``glid-nb[video]``; .sheet.png comes with .sheet.json, .motion.json with .motion.proof.json, as
     `Motion.save` writes them; without a suffix frames are in a folder.
-    The image, (h, w), (h, w, 3) or (h, w, 4), is the one that the cage was traced from. The depths
-    of poses, one per keyframe, say which part is in front where the shape overlaps itself.
+    The image is the one that the cage was traced from. The depths of poses, one per keyframe, say
+    which part is in front where the shape overlaps itself.
 
     Frames have a longer side of ``size`` pixels, 16 to 8192, and even sides; there are at most 100
     per second, of GIF 50. The background's red, green and blue are 0 to 255; None is transparent,

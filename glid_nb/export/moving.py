@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
-from glid_nb.export.encode import Color, Drawn
+from glid_nb.export.encode import RGB, Frames
 from glid_nb.export.picture import frame_around, on_background
 from glid_nb.harmonic import HarmonicMap, images_under
 from glid_nb.imaging import as_rgba8
@@ -113,9 +113,9 @@ def frames(
     poses: Sequence[Pose] | None,
     size: int,
     fps: float,
-    background: Color | None,
+    background: RGB | None,
     progress: Progress | None = None,
-) -> Drawn:
+) -> Frames:
     """Pictures at even times; all show the same part of the plane, which holds them all."""
     times = motion.frame_times(fps)
     report(progress, 0, len(times))
@@ -131,4 +131,4 @@ def frames(
             yield pixels if background is None else np.asarray(on_background(pixels, background))
             report(progress, i + 1, len(times))
 
-    return Drawn((frame.width, frame.height), len(times), pictures())
+    return Frames((frame.width, frame.height), len(times), pictures())

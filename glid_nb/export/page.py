@@ -72,14 +72,12 @@ def page_html(
 ) -> str:
     """A page that shows the warped picture, with zoom, pan and colours for the distortion.
 
-    The image, (h, w), (h, w, 3) or (h, w, 4), is the one that the cage was traced from. A motion is
-    played and scrubbed; a click on a pose leads there along the motion, so that all that is seen is
-    proved; with ``loop`` it begins again at its end. The shaders are those of the canvas, which
-    evaluate the map itself on the vertices of a triangulation, whose straight edges may stray from
-    it by the tolerance, world units, at any time. With its certificate the page states a map's
-    bounds and whether the shape overlaps itself; a motion has its own. The depths of a pose, of a
-    motion one for each keyframe, say which part is in front where the shape overlaps itself. The
-    security policy blocks the network.
+    The image is the one that the cage was traced from. A motion is played and scrubbed; a click on
+    a pose leads there along the motion, so that all that is seen is proved; with ``loop`` it begins
+    again at its end. The shaders evaluate the map itself on the vertices of a triangulation, whose
+    straight edges may stray from it by the tolerance, world units, at any time. With its
+    certificate the page states a map's bounds and whether the shape overlaps itself; a motion has
+    its own. The depths of a pose, of a motion one for each keyframe, say which part is in front.
     """
     report(progress, 0, 3)
     checked("loop", bool, loop)

@@ -10,7 +10,7 @@ from PIL import Image, ImageDraw
 
 from glid_nb._arrays import Array
 from glid_nb._errors import InputError
-from glid_nb.export.encode import Color, apng, check_settings, gif
+from glid_nb.export.encode import RGB, Frames, check_settings, encoded
 from glid_nb.figures.style import CYAN, INK
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
@@ -49,25 +49,23 @@ def animation_bytes(
     *,
     size: int = 480,
     frames_per_second: float = 20.0,
-    background: Color = (255, 255, 255),
+    background: RGB = (255, 255, 255),
     there_and_back: bool = False,
     format: Format = "gif",
     marks: bool = True,
 ) -> bytes:
     """Warp a picture through a sequence of maps, such as those of a drag.
 
-    The image, (h, w), (h, w, 3) or (h, w, 4), is the one that the maps' cages were traced from.
-    There is one frame per map, at least one, whose longer side has ``size`` pixels, at least 16;
-    all of them show the same part of the plane, which holds every one of the deformed shapes. With
-    poses, one per map, their depths say what is in front, and with ``marks`` their targets are
-    drawn as disks, the images of their handles as dots; rings where another part of the shape
-    covers them.
+    The image is the one that the maps' cages were traced from. There is one frame per map, whose
+    longer side has ``size`` pixels, at least 16; all of them show the same part of the plane, which
+    holds every one of the deformed shapes. With poses, one per map, their depths say what is in
+    front, and with ``marks`` their targets are drawn as disks, the images of their handles as dots;
+    rings where another part of the shape covers them.
 
     There are at most 100 frames per second, of a GIF 50. The background's red, green and blue are 0
-    to 255. ``there_and_back`` appends the frames in reverse order, so that the loop has no jump.
-    The format is "gif", which is supported everywhere but has 256 colours only, or "apng".
-
-    Raises an InputError that names an argument out of range.
+    to 255. ``there_and_back`` appends the frames in reverse order, so that the loop has no jump. A
+    "gif" is supported everywhere but has 256 colours only, an "apng" keeps them all. Raises an
+    InputError that names an argument out of range.
     """
     maps = list(maps)
     if not maps:
@@ -87,12 +85,11 @@ def animation_bytes(
         if pose is not None and marks:
             hidden = Sheets(map, order_of(map.domain.cage, pose), pixels).hidden(pose.handles)
             picture.alpha_composite(_marks(pose, map, frame, hidden))
-        frames.append(np.asarray(picture))
+        frames.append(np.asarray(picture.convert("RGB")))
     if there_and_back:
         frames += frames[-2:0:-1]
-    if format == "gif":
-        return gif(frames, frames_per_second, background)
-    return apng([np.ascontiguousarray(frame[..., :3]) for frame in frames], frames_per_second)
+    drawn = Frames((frame.width, frame.height), len(frames), iter(frames))
+    return encoded(drawn, "", f".{format}", frames_per_second, background)[0]
 
 
 def frame_around(points: NDArray[np.float64], size: int) -> PixelFrame:
@@ -102,7 +99,7 @@ def frame_around(points: NDArray[np.float64], size: int) -> PixelFrame:
     return PixelFrame(width, height).showing([points.min(axis=0), points.max(axis=0)], _MARGIN)
 
 
-def on_background(pixels: NDArray[np.uint8], background: Color) -> Image.Image:
+def on_background(pixels: NDArray[np.uint8], background: RGB) -> Image.Image:
     """RGBA pixels on a colour."""
     picture = Image.new("RGBA", pixels.shape[1::-1], (*background, 255))
     picture.alpha_composite(Image.fromarray(pixels))

@@ -45,7 +45,7 @@ class NotebookFigure(Figure):
         picture = Image.open(io.BytesIO(figure_png(self, _SHOWN_DPI))).convert("RGB")
         # Fields have too many colours for a palette, which would make their colour bars uneven.
         files = [io.BytesIO(), io.BytesIO()]
-        for drawn, file in zip((_with_palette(picture), _rounded(picture)), files, strict=True):
+        for drawn, file in zip((_in_256_colors(picture), _rounded(picture)), files, strict=True):
             drawn.save(file, "png", optimize=True)
         return min((file.getvalue() for file in files), key=len), {"width": width, "height": height}
 
@@ -57,7 +57,7 @@ class NotebookFigure(Figure):
         publish_display_data({"text/plain": repr(self), "image/png": png}, {"image/png": size})
 
 
-def _with_palette(picture: Image.Image) -> Image.Image:
+def _in_256_colors(picture: Image.Image) -> Image.Image:
     """A third as large as a file; the named colours, which may cover few pixels, stay exact."""
     named = [ImageColor.getrgb(color) for color in NAMED]
     drawn = picture.quantize(256 - len(named), Image.Quantize.MEDIANCUT, kmeans=3)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from glid_nb.figures import drawing
 from glid_nb.figures.drawing import Floats, NotebookFigure
 from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot
-from glid_nb.figures.shapes import Sheet, draw_deformed, draw_distortion, hold
+from glid_nb.figures.shapes import DrawnMap, draw_deformed, draw_distortion, hold
 from glid_nb.figures.style import BLUE, FONT_SIZE, GREY, INK, LEGEND
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
@@ -47,15 +47,13 @@ def overview(
     the deformed shape. The lower row: the energies and the Newton steps per iteration, and along
     the boundary the certified lower bound on sigma_2 and the sampled sigma_2.
 
-    The image, (h, w) or (h, w, c), is the one that the cage was traced from; the result is what
-    :func:`glid_nb.solve` returned. A pose has handles and targets to show instead of the solve's.
-    The width is in inches, at least 4.5; the text's size does not depend on it.
+    The image is the one that the cage was traced from, the result what :func:`glid_nb.solve`
+    returned. A pose has handles and targets to show instead of the solve's. The width is in inches,
+    at least 4.5; the text's size does not depend on it.
 
-    The figure has its own Agg canvas and 300 dots per inch, unknown to pyplot. A notebook shows it,
-    ``figure.savefig(path)`` writes it to a file, `figure_png` to memory.
-
-    Raises a ValueError when the width is too small or the image is not a picture, a TypeError when
-    the result's map is a map of a mesh.
+    The figure has 300 dots per inch and is unknown to pyplot. A notebook shows it,
+    ``figure.savefig(path)`` writes it to a file, `figure_png` to memory. Raises a ValueError when
+    the width is too small, a TypeError when the result's map is a map of a mesh.
     """
     if not width >= _NARROWEST:
         raise ValueError(f"width is {width} inches; the text needs at least {_NARROWEST}")
@@ -65,7 +63,7 @@ def overview(
         raise TypeError("the overview shows a certified map; the result's is one of a mesh")
     pose = result.pose if pose is None else pose
     cage, pixels = map.domain.cage, _OVERSAMPLING * _DPI * width / 3
-    sheet = Sheet.of(map, pose, _VERTICES, 0.5 * cage.longer_side / pixels)
+    sheet = DrawnMap.of(map, pose, _VERTICES, 0.5 * cage.longer_side / pixels)
     target = drawing.enlarged(drawing.box_around(np.concatenate(sheet.outline)), pose.targets)
     views = _common_scale(drawing.box_around(map.domain.offset_cage.exterior), target)
 

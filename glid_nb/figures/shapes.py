@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LogNorm, Normalize, to_rgba_array
-from matplotlib.tri import Triangulation as Drawn
+from matplotlib.tri import Triangulation as Triangles
 from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._runtime import double_precision
@@ -44,7 +44,7 @@ _FULL_MARGIN = 0.5  # from this certified sigma_2 on panels have one colour
 _MANY = 400  # panels, among which the dots at their ends would hide the colours
 
 
-class Sheet(NamedTuple):
+class DrawnMap(NamedTuple):
     """A map as triangles, (t,) |f_z| and |f_zbar| on each."""
 
     mesh: DeformedMesh
@@ -56,7 +56,7 @@ class Sheet(NamedTuple):
     @classmethod
     def of(
         cls, map: AnyMap, pose: Pose | None = None, count: int = _VERTICES, tolerance: float = 0.03
-    ) -> Sheet:
+    ) -> DrawnMap:
         """A map's; of a harmonic one with ``count`` vertices, more to stay in the tolerance."""
         if isinstance(map, HarmonicMap):
             mesh = deformed_mesh(map, count, tolerance, pose)
@@ -83,12 +83,11 @@ class Sheet(NamedTuple):
     def values(self, quantity: Quantity | Energy) -> Floats:
         """(t,) values; an energy is infinite where the map folds."""
         sigma1, sigma2 = self.abs_fz + self.abs_fzb, self.abs_fz - self.abs_fzb
-        if quantity in ("sigma1", "sigma2"):
-            return sigma1 if quantity == "sigma1" else sigma2
-        if quantity == "k":
-            return self.abs_fzb / np.maximum(self.abs_fz, 1e-300)
-        if quantity == "distortion":
-            return np.maximum(sigma1, 1 / np.maximum(sigma2, 1e-300))
+        known = {"sigma1": sigma1, "sigma2": sigma2}
+        known["k"] = self.abs_fzb / np.maximum(self.abs_fz, 1e-300)
+        known["distortion"] = np.maximum(sigma1, 1 / np.maximum(sigma2, 1e-300))
+        if isinstance(quantity, str) and quantity in known:
+            return known[quantity]
         energy = SymmetricDirichlet() if quantity == "energy" else quantity
         if not isinstance(energy, Energy):
             raise ValueError(f"unknown quantity {quantity!r}; choose one of {', '.join(_LABELS)}")
@@ -121,7 +120,7 @@ def distortion(
 
 
 def draw_distortion(
-    grid: Sequence[Axes], sheets: Sequence[Sheet], quantity: Quantity | Energy, **bar: Any
+    grid: Sequence[Axes], sheets: Sequence[DrawnMap], quantity: Quantity | Energy, **bar: Any
 ) -> None:
     """Fields of a quantity on sheets, each in its axes, with one scale and a colour bar below."""
     values = [sheet.values(quantity) for sheet in sheets]
@@ -130,7 +129,7 @@ def draw_distortion(
     norm, colors = _scale(quantity, known)
     look: Any = {"norm": norm, "cmap": colors, "edgecolors": "face", "linewidth": 0.2}
     for axes, sheet, field in zip(grid, sheets, values, strict=True):
-        shape = Drawn(*sheet.mesh.images.T, triangles=sheet.mesh.triangles)
+        shape = Triangles(*sheet.mesh.images.T, triangles=sheet.mesh.triangles)
         field = np.clip(field, norm.vmin, norm.vmax)
         drawn = axes.tripcolor(shape, facecolors=field, rasterized=True, zorder=0, **look)
         drawing.loops(axes, sheet.outline, color=INK, linewidth=0.4)
@@ -156,7 +155,7 @@ def picture(
     return figure
 
 
-def draw_deformed(axes: Axes, image: ArrayLike | None, sheet: Sheet, pixels: float) -> None:
+def draw_deformed(axes: Axes, image: ArrayLike | None, sheet: DrawnMap, pixels: float) -> None:
     """A deformed picture behind axes whose limits are set, of so many pixels along them."""
     view = np.transpose([axes.get_xlim(), axes.get_ylim()])
     sides = np.ptp(view, axis=0)
@@ -192,7 +191,7 @@ def basis(domain: Domain, j: int, part: Literal["re", "im", "abs"] = "re") -> No
     least, most, signed = values.min(), values.max(), values.min() < 0
     size = max(-least, most) or 1.0
     figure, (axes,) = _shape_axes(1, drawing.box_around(domain.offset_cage.exterior, 0.04))
-    shape: Any = Drawn(*mesh.vertices.T, triangles=mesh.triangles)
+    shape: Any = Triangles(*mesh.vertices.T, triangles=mesh.triangles)
     norm = Normalize(-size, size) if signed else Normalize(least, most)
     look: Any = {"cmap": "PuOr_r" if signed else distortion_colors(), "norm": norm, "zorder": 0}
     drawn = axes.tripcolor(shape, values, shading="gouraud", rasterized=True, **look)
@@ -241,14 +240,14 @@ def panels(certificate: Certificate) -> NotebookFigure:
     return figure
 
 
-def _listed(maps: Any, pose: Pose | None) -> tuple[list[AnyMap], list[Sheet]]:
+def _listed(maps: Any, pose: Pose | None) -> tuple[list[AnyMap], list[DrawnMap]]:
     found = [*maps] if isinstance(maps, Iterable) else [maps]
     for map in found:
         if not isinstance(map, HarmonicMap | MeshMap):
             raise TypeError(f"{type(map).__name__} is not a map; a result's map is result.map")
     if not found:
         raise ValueError("there is no map to draw")
-    return found, [Sheet.of(map, pose) for map in found]
+    return found, [DrawnMap.of(map, pose) for map in found]
 
 
 def _scale(quantity: Quantity | Energy, known: Floats) -> tuple[Any, Any]:
@@ -267,7 +266,11 @@ def _scale(quantity: Quantity | Energy, known: Floats) -> tuple[Any, Any]:
 
 
 def _side_by_side(
-    maps: list[AnyMap], sheets: list[Sheet], pose: Pose | None, titles: Sequence[str], room: float
+    maps: list[AnyMap],
+    sheets: list[DrawnMap],
+    pose: Pose | None,
+    titles: Sequence[str],
+    room: float,
 ) -> tuple[NotebookFigure, list[Axes]]:
     """Axes with one scale, titles, folds and targets, one for each map; ``room`` is below them."""
     if len(titles) not in (0, len(maps)):

@@ -11,7 +11,7 @@ from glid_nb._arrays import read_only
 from glid_nb.imaging import measure
 from glid_nb.imaging.frame import PixelFrame, TraceError
 from glid_nb.imaging.measure import RGBA, full
-from glid_nb.imaging.options import Color, Method, Point, Scribbles
+from glid_nb.imaging.options import Color, ForegroundMethod, Point, Scribbles
 from glid_nb.imaging.scribbles import scaled_picture, scribble_score
 
 _LEAST_SHARE = 0.001  # of transparent or opaque pixels; fewer are a speck
@@ -59,7 +59,7 @@ class Foreground:
 
 def find_foreground(
     image: RGBA,
-    method: Method = "auto",
+    method: ForegroundMethod = "auto",
     invert: bool | None = None,
     background: Color | None = None,
     background_at: Point | None = None,
@@ -143,7 +143,7 @@ def _check_alpha(alpha: NDArray[np.float32]) -> None:
 
 def _choose_method(
     image: RGBA, background: Color | None, background_at: Point | None, scribbles: Scribbles | None
-) -> tuple[Method, str]:
+) -> tuple[ForegroundMethod, str]:
     """A method and the reason for it, as a note."""
     if scribbles is not None:
         return "scribbles", "scribbles, which were given"

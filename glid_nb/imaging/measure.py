@@ -78,7 +78,7 @@ def border_color(image: RGBA) -> BorderColor | None:
 def border_is_bright(image: RGBA, values: Field, threshold: float) -> bool:
     """Whether most of the border's pixels that are not transparent are above the threshold."""
     border = _border(values)[_border(image[..., 3]) > 0]
-    # What is on nothing is likely dark ink.
+    # A picture with a transparent border is likely dark ink.
     return not border.size or float(np.mean(border > threshold)) >= 0.5
 
 

@@ -17,7 +17,7 @@ from glid_nb._errors import about
 from glid_nb._json import check_fields, check_strokes, read_object
 from glid_nb.imaging.frame import TraceError
 
-Method = Literal["auto", "alpha", "threshold", "color", "scribbles"]
+ForegroundMethod = Literal["auto", "alpha", "threshold", "color", "scribbles"]
 """Ways to tell the foreground from the background."""
 
 Point = tuple[float, float]
@@ -53,8 +53,7 @@ class Scribbles:
 
         It holds an object with the keys ``foreground`` and, optionally, ``background``, each a list
         of strokes; a stroke is a list of pixels ``[x, y]`` from the picture's top left corner.
-        Raises an InputFileError, which names the file and the field, for anything else, and an
-        OSError for a file that cannot be read.
+        Raises an InputFileError, which names the field, or an OSError.
         """
         with about(path):
             data = read_object(path)
@@ -70,7 +69,7 @@ class TraceOptions:
     Raises a TraceError that names a value outside its range.
     """
 
-    method: Method = option("auto", "How the foreground is found")
+    method: ForegroundMethod = option("auto", "How the foreground is found")
     """``"alpha"`` (the alpha channel), ``"threshold"`` (brightness), ``"color"`` (distance from the
     background's colour), ``"scribbles"`` (a user's strokes), or ``"auto"``: scribbles if there are
     any, else alpha if it is informative, else colour if the border is uniform, else threshold."""

@@ -55,15 +55,15 @@ def render_mesh(
     slope = gradients(corners, levels[:, :, None])[:, 0]
     level = levels[:, 0] - (slope * corners[:, 0]).sum(axis=1)
     sampler = Sampler(Texture.from_image(texture), corners, places[triangles])
-    sheets = _Sheets(ScanConverter(corners), sampler, level, slope)
+    surface = _Surface(ScanConverter(corners), sampler, level, slope)
     rows = max(1, _BAND // width)
     for top in range(0, height, rows):
         band = picture[top : top + rows]
         everywhere = np.ones(band.shape[:2], dtype=bool)
-        colours = sheets.draw(top, everywhere, 1)[0][:, 0]
+        colours = surface.draw(top, everywhere, 1)[0][:, 0]
         touched = np.zeros(everywhere.size, dtype=bool)
         touched[outline.samples(top, everywhere, 1).place] = True
-        fine, count = sheets.draw(top, touched.reshape(everywhere.shape), SUBSAMPLES)
+        fine, count = surface.draw(top, touched.reshape(everywhere.shape), SUBSAMPLES)
         # Pixels covered by one sheet keep their colour at the centre, which is sharper.
         partial = (count != 1).any(axis=1)
         colours[np.flatnonzero(touched)[partial]] = fine[partial].mean(axis=1)
@@ -71,7 +71,7 @@ def render_mesh(
     return picture
 
 
-class Samples(NamedTuple):
+class Hits(NamedTuple):
     """Samples of the output inside triangles, (k,) each; one for every triangle over a sample."""
 
     triangle: Ints
@@ -91,7 +91,7 @@ class ScanConverter:
             rise = self._y[:, upper] - self._y[:, lower]
             self._slope = (self._x[:, upper] - self._x[:, lower]) / rise
 
-    def samples(self, top: int, chosen: NDArray[np.bool_], n: int) -> Samples:
+    def samples(self, top: int, chosen: NDArray[np.bool_], n: int) -> Hits:
         """Samples in the chosen pixels (rows, width) of a band that begins at the row ``top``.
 
         A pixel has n rows of n, shifted, so that a vertical edge has n^2 levels of coverage. The
@@ -110,7 +110,7 @@ class ScanConverter:
         hit, column = np.nonzero((x >= left[span, None]) & (x < right[span, None]))
         span, x = span[hit], x[hit, column]
         place = pixel[hit] * n**2 + row[span] % n * n + column
-        return Samples(triangle[span], place, x, (row[span] + 0.5) / n)
+        return Hits(triangle[span], place, x, (row[span] + 0.5) / n)
 
     def _spans(self, low: int, high: int, n: int) -> tuple[Ints, Ints, Floats, Floats]:
         """(s,) triangle, row of samples y = (row + 1/2) / n, half-open interval of each span."""
@@ -126,7 +126,7 @@ class ScanConverter:
         return triangle, row, np.minimum(one, other), np.maximum(one, other)
 
 
-class _Sheets(NamedTuple):
+class _Surface(NamedTuple):
     """Triangles with a texture and heights: ``level`` + ``slope`` (x, y)."""
 
     scan: ScanConverter
@@ -151,7 +151,7 @@ class _Sheets(NamedTuple):
             canvas[place[above]] = below + colours[above]
         return canvas.reshape(-1, n**2, 4), count.reshape(-1, n**2)
 
-    def _shaded(self, samples: Samples, n: int) -> Colours:
+    def _shaded(self, samples: Hits, n: int) -> Colours:
         """(k, 4) colours: one look-up for all samples of a triangle in a pixel, at their centroid,
         as look-ups filter over a whole pixel."""
         pixel, n_triangles = samples.place // n**2, len(self.level)

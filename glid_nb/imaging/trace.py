@@ -172,10 +172,8 @@ class Tracer:
 
 def _doubt(foreground: Foreground, n_components: int, options: TraceOptions) -> str:
     """Why the foreground is a guess; empty where it is none."""
-    given = options.threshold, options.background, options.background_at
-    if options.method != "auto" or foreground.method not in ("color", "threshold"):
-        return ""
-    if any(value is not None for value in given):
+    told = (options.threshold, options.background, options.background_at) != (None, None, None)
+    if told or options.method != "auto" or foreground.method not in ("color", "threshold"):
         return ""
     step = 1 + max(foreground.score.shape) // 1500  # a sample of a large picture suffices
     near = np.mean(np.abs(foreground.score[::step, ::step] - foreground.level()) < _NEAR)
@@ -192,10 +190,8 @@ def _component_notes(components: Components, rank: int, options: TraceOptions) -
     if options.component_at is not None or options.component or share < _LEFT_OUT:
         return []
     count = len(components.areas) - 1
-    left_out = f"component, {share:.0%} of the foreground, was left out"
-    if count > 1:
-        left_out = f"components, {share:.0%} of the foreground, were left out"
-    return [f"{count} smaller {left_out}"]
+    what, were = ("component", "was") if count == 1 else ("components", "were")
+    return [f"{count} smaller {what}, {share:.0%} of the foreground, {were} left out"]
 
 
 def _coverage_notes(outline: Outline, holes: tuple[Hole, ...], simplified: Simplified) -> list[str]:

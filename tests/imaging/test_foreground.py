@@ -14,7 +14,7 @@ from glid_nb import samples
 from glid_nb.imaging import Scribbles, TraceError, TraceOptions, as_rgba, trace
 from glid_nb.imaging.foreground import Foreground, find_foreground, smoothed
 from glid_nb.imaging.measure import border_color, histogram, otsu
-from glid_nb.imaging.options import Method
+from glid_nb.imaging.options import ForegroundMethod
 
 SIZE = 80
 RNG = np.random.default_rng(3)
@@ -32,7 +32,7 @@ def blended(shape, background, coverage: NDArray[np.float64] | None = None):
     return a * np.array(shape) + (1 - a) * np.array(background)
 
 
-def find(image, method: Method = "auto", **options) -> Foreground:
+def find(image, method: ForegroundMethod = "auto", **options) -> Foreground:
     smoothing = options.pop("smoothing", None)
     return smoothed(find_foreground(as_rgba(image), method, **options), smoothing)
 
