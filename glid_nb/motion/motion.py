@@ -160,7 +160,7 @@ class Motion:
 
     @property
     def pieces_forth(self) -> tuple[Piece, ...]:
-        """Those before a ping-pong runs back."""
+        """The pieces of the way there, without a ping-pong's way back."""
         return self._proved[0]
 
     @functools.cached_property
@@ -242,7 +242,7 @@ class Motion:
 
     @functools.cached_property
     def _proved(self) -> tuple[tuple[Piece, ...], tuple[PieceCertificate, ...]]:
-        """The pieces there, and their proofs."""
+        """The pieces of the way there, and their proofs."""
         intervals = [self.interval(i) for i in range(len(self.times) - 1)]
         pieces, proofs = (itertools.chain(*each) for each in zip(*intervals, strict=True))
         return tuple(pieces), tuple(proofs)

@@ -55,19 +55,15 @@ def checked_keyframes(keyframes: Any) -> tuple[HarmonicMap, ...]:
     for i, given in enumerate(keyframes):
         map = given if isinstance(given, HarmonicMap) else getattr(given, "map", None)
         if not isinstance(map, HarmonicMap):
-            raise MotionError(
-                f"keyframe {i} has no harmonic map but is a {type(given).__name__}; give a "
-                "HarmonicMap, or a Result or Certificate of one"
-            )
+            what = f"keyframe {i} has no harmonic map but is a {type(given).__name__}"
+            raise MotionError(f"{what}; give a HarmonicMap, or a Result or Certificate of one")
         proof, domain = certificate_of(map), maps[0].domain if maps else map.domain
         if not proof.certified:
             raise MotionError(f"keyframe {i} is not certified. {proof.reason}")
         if map.domain is not domain:
             if not map.domain.equals(domain):
-                raise MotionError(
-                    f"keyframe {i} lives on another domain than keyframe 0; all keyframes of a "
-                    "motion must be maps of the same cage and offset cage"
-                )
+                what = f"keyframe {i} lives on another domain than keyframe 0"
+                raise MotionError(f"{what}; give maps of the same cage and offset cage")
             map = HarmonicMap(domain, map.phi, map.psi)
         maps.append(map)
         if reason := unlike_turns(certificate_of(maps[0]), proof):
@@ -84,8 +80,7 @@ def unlike_turns(first: Certificate, last: Certificate) -> str:
     return (
         f"cannot be joined without folding: along the {loop_name(loop)} f_z turns "
         f"{turns[loop][0]} times in one and {turns[loop][1]} times in the other, which no motion "
-        "of locally injective maps can change, not even a solved one; choose poses that turn "
-        "alike around the holes"
+        "of locally injective maps can change; choose poses that turn alike around the holes"
     )
 
 

@@ -19,7 +19,7 @@ from glid_nb.energies import Energy
 from glid_nb.geometry import Cage, Domain, place
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion.settings import Easing, Repeat
-from glid_nb.session.document import NamedPose, check_count
+from glid_nb.session.document import NamedPose, check_room
 from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.timeline import LEAST_GAP
 from glid_nb.solvers import Method, Pose
@@ -262,7 +262,7 @@ def record(
 
     The edited one is the last; ``offsets`` are the seconds of these since the first.
     """
-    check_count((*state.poses, *poses, first))
+    check_room((*state.poses, *poses, first))
     names = itertools.islice(_free_names(state, first.name), len(offsets))
     new = (*poses, state.current)
     named = (replace(pose, name=name) for pose, name in zip(new, names, strict=True))
@@ -281,7 +281,7 @@ def _with_inserted(
     state: EditState, index: int, pose: NamedPose, time: float | None = None
 ) -> EditState:
     """The state with a copy of a pose, under another name, which is edited."""
-    check_count((*state.poses, pose))
+    check_room((*state.poses, pose))
     copy = replace(pose, name=next(_free_names(state, pose.name)))
     poses = (*state.poses[:index], copy, *state.poses[index:])
     timeline = state.timeline.inserted(index, time)

@@ -128,7 +128,7 @@ class Document:
             raise DocumentError("cage: it is not the cage of the domain")
         if self.trace_options.scribbles not in (None, self.scribbles):
             raise DocumentError("trace_options: its scribbles are not those of the document")
-        check_count(self.poses)
+        check_room(self.poses)
         for i, pose in enumerate(self.poses):
             _check_kind(f"poses[{i}]", pose, NamedPose)
             if pose.map.domain is not self.domain:
@@ -145,7 +145,7 @@ class Document:
         return self.poses[self.active] if self.poses else None
 
 
-def check_count(poses: Sized) -> None:
+def check_room(poses: Sized) -> None:
     """Raise :class:`DocumentError` for more poses than a document may hold."""
     if len(poses) > _MOST_POSES:
         raise DocumentError(f"poses: there are {len(poses)}; {_MOST_POSES} are allowed")

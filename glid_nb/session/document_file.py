@@ -20,7 +20,7 @@ from glid_nb.harmonic.map import DOMAIN_KEYS, complex_from_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
 from glid_nb.imaging.read import MAX_SIDE, png
 from glid_nb.session.archive import image_png, read_archive, read_png
-from glid_nb.session.document import Document, DocumentError, NamedPose, check_count
+from glid_nb.session.document import Document, DocumentError, NamedPose, check_room
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Newton, Options, Pose
 
@@ -105,7 +105,7 @@ def load_document(path: str | Path) -> Document:
         scribbles = _scribbles_from_members(data.get("scribbles"), members, size)
         domain = _domain_from_dict(data["domain"])
         options = _trace_options_from_dict(data["trace_options"], scribbles)
-        check_count(data["poses"])
+        check_room(data["poses"])
         poses = [_pose_from_dict(i, pose, domain, version) for i, pose in enumerate(data["poses"])]
         given = data.get("timeline")
         timeline = None if given is None else _from_fields(Timeline, given, "timeline")

@@ -7,9 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from glid_nb._arrays import Array
 from glid_nb.geometry import Domain
 from glid_nb.imaging.read import ImageSource
 from glid_nb.session.autosave import (
@@ -27,8 +25,6 @@ from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.model import History, Observed
 from glid_nb.session.timeline import Timeline
 from glid_nb.session.tracing import TracingModel, TracingState
-
-Array = NDArray[np.uint8]
 
 _LOST = "{} outside the new outline and removed with the old one; Undo brings everything back."
 _REPLACED = (

@@ -181,7 +181,7 @@ class TracingModel(Undoable[TracingState]):
 
     @property
     def doubt(self) -> str:
-        """Why the outline is no more than a guess, as in `Tracing`; empty where it is none."""
+        """Why the outline is only a guess, as in `Tracing`; empty if it is not."""
         tracing = self.outcome.tracing
         return "" if tracing is None or self.edited else tracing.doubt
 
