@@ -34,7 +34,6 @@ class Piece(NamedTuple):
     end_map: HarmonicMap
 
     def at(self, time: float) -> HarmonicMap:
-        """The map at a time of the piece."""
         if time in (self.start, self.end):
             return self.start_map if time == self.start else self.end_map
         s = (time - self.start) / (self.end - self.start)
@@ -42,7 +41,6 @@ class Piece(NamedTuple):
 
 
 def linear_pieces(times: Sequence[float], maps: Sequence[HarmonicMap]) -> tuple[Piece, ...]:
-    """The pieces between maps at increasing times."""
     spans = zip(itertools.pairwise(times), itertools.pairwise(maps), strict=True)
     return tuple(Piece(*times, *maps) for times, maps in spans)
 

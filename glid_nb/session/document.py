@@ -146,7 +146,7 @@ class Document:
 
 
 def check_room(poses: Sized) -> None:
-    """Raise :class:`DocumentError` for more poses than a document may hold."""
+    """Raise DocumentError for more poses than a document may hold."""
     if len(poses) > _MOST_POSES:
         raise DocumentError(f"poses: there are {len(poses)}; {_MOST_POSES} are allowed")
 

@@ -29,7 +29,6 @@ class EditState:
     """Everything that undo restores: the domain and all poses, one of them being edited."""
 
     domain: Domain
-    """The domain of all maps."""
     poses: tuple[NamedPose, ...]
     """At least one. Their maps are the best ones so far, and always certified."""
     active: int = 0
@@ -81,7 +80,6 @@ class EditState:
 
     @functools.cached_property
     def identity(self) -> HarmonicMap:
-        """The map that moves nothing."""
         return HarmonicMap.identity(self.domain)
 
     def changed(self, **changes: Any) -> EditState:
@@ -96,10 +94,9 @@ class EditState:
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """What to solve."""
+    """What to solve, and the map to start from."""
 
     pose: NamedPose
-    """Handles, targets, energy, options, method, and the map to start from."""
     chain: int
     """A task continues from the map of the task before it only if both are of one chain."""
     single: bool = False
@@ -133,14 +130,12 @@ class Moment:
     frame: Frame | None
     """The solver's last frame, if it belongs to the state; else None."""
     busy: bool
-    """Whether the solver has work."""
     paused: bool
     error: Exception | None = None
     """The exception that ended the last solve, if one did."""
     selection: tuple[int, ...] = ()
-    """Indices of the selected handles."""
     dragged: tuple[int, ...] = ()
-    """Indices of the handles that are being dragged."""
+    """Indices of handles, as the selection."""
     prepared: float = 1.0
     """How much is done, from 0 to 1, of what the first solve of a shape needs."""
 

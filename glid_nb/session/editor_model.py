@@ -142,7 +142,6 @@ class EditorModel(Observed):
 
     @property
     def has_shape(self) -> bool:
-        """Whether there is something to deform."""
         return self._session is not None
 
     @property
@@ -244,7 +243,6 @@ class EditorModel(Observed):
                 self._autosave.submit(self.document)
 
     def recover(self) -> None:
-        """Go on with the work that was `kept`."""
         if self.kept is not None:
             document = open_document(self.kept)
             with self.locked():
@@ -253,7 +251,6 @@ class EditorModel(Observed):
                 self.kept = None
 
     def discard_kept(self) -> None:
-        """Delete the work that was `kept`."""
         if self.kept is not None:
             self.kept.unlink(missing_ok=True)
             self.kept = None

@@ -19,7 +19,6 @@ Loops: TypeAlias = tuple[Loop, ...]
 
 
 def move_vertex(loops: Loops, loop: int, index: int, to: ArrayLike) -> Loops:
-    """The loops with one vertex moved."""
     vertices = _loop(loops, loop, index).copy()
     vertices[index] = checked_point(to)
     return _with(loops, loop, vertices)
@@ -82,7 +81,6 @@ def around(loops: Loops, point: ArrayLike) -> int | None:
 
 
 def contains(loop: Loop, point: ArrayLike) -> bool:
-    """Whether a point lies inside a loop."""
     return bool(shapely.contains_xy(shapely.Polygon(loop), *checked_point(point)))
 
 
