@@ -364,7 +364,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
     def _part(self, name: str) -> Any:
         makers: dict[str, Callable[[], ipywidgets.Widget]] = {
-            "tracer": lambda: CageTracer(model=self.model.tracing, height=self._size[1]),
+            "tracer": lambda: CageTracer(model=self.model.tracing, height=self._asked["height"]),
             "pins": self._bars,
             "solver": lambda: SolverPanel(self.deformation),
             "files": lambda: FilePanel(self.model, self.timeline.animation),

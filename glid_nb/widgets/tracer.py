@@ -41,8 +41,8 @@ class CageTracer(Pad):
         How to trace at first.
     model : TracingModel, optional
         A model to show, instead of `image` and `options`.
-    height : int
-        Height of the picture's area in CSS pixels.
+    height : int or None
+        Height of the picture's area in CSS pixels, at least 240; None for what the window has.
 
     Raises
     ------
@@ -67,8 +67,8 @@ class CageTracer(Pad):
     shown = traitlets.Dict().tag(sync=True)
     """The state that the page shows; see `described`."""
 
-    height = traitlets.Int(460, min=240).tag(sync=True)
-    """Height of the picture's area in CSS pixels, at least 240."""
+    height = traitlets.Int(460, min=240, allow_none=True).tag(sync=True)
+    """Height of the picture's area in CSS pixels, at least 240; None for what the window has."""
 
     def __init__(
         self,
@@ -76,7 +76,7 @@ class CageTracer(Pad):
         options: TraceOptions | None = None,
         *,
         model: TracingModel | None = None,
-        height: int = 460,
+        height: int | None = 460,
         **kwargs: Any,
     ) -> None:
         if model is not None and (image is not None or options is not None):

@@ -109,5 +109,47 @@ def test_the_canvas_takes_the_room_that_there_is(open_notebook: OpenNotebook) ->
     page.mouse.click(*center(hand.pad.get_by_role("button", name="Full screen")))
     page.wait_for_function("!!document.fullscreenElement")
     book.screenshot("editor-full-screen")
+    buttons = [box(button)[1] for button in page.locator(".glid-bars button").all()]
+    assert len(set(buttons)) > 1  # those of a place and of its shape stay with their numbers
     page.evaluate("document.exitFullscreen()")
     settle("(lambda w, h, alone: not alone and w < 650)({})")
+
+
+def test_the_tracer_takes_the_room_that_there_is(open_notebook: OpenNotebook) -> None:
+    book = open_notebook([SETUP, EDITOR])
+    page = book.page
+    page.get_by_role("tab", name="Trace").click()
+    stage, panel = page.locator(".glid-stage"), page.locator(".glid-panel")
+
+    def scale() -> float:
+        """CSS pixels per pixel of the picture, which is fitted."""
+        page.wait_for_function(
+            """() => {
+              const stage = document.querySelector('.glid-stage[data-viewport]');
+              const [scale, left] = (stage?.dataset.viewport ?? '').split(' ').map(Number);
+              return Math.abs(2 * left + 200 * scale - stage?.clientWidth) < 1
+                && Math.min(left, (stage.clientHeight - 100 * scale) / 2) < 30;
+            }"""
+        )
+        return float((stage.get_attribute("data-viewport") or "").split()[0])
+
+    scales = {}
+    for width, height in ((1366, 768), (800, 768), (1920, 1080), (1366, 768)):
+        page.set_viewport_size({"width": width, "height": height})
+        page.evaluate("new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)))")
+        now = scale()
+        assert scales.setdefault(width, now) == pytest.approx(now)
+        below = box(panel)[1] >= sum(box(stage)[1::2])
+        assert below == (width == 800)
+        assert box(stage)[3] >= (800 if height == 1080 else 480)
+        assert box(stage)[2] > 500
+        book.screenshot(f"tracer-{width}")
+    assert scales[1366] < scales[1920]
+    # A view that a hand has chosen stays.
+    page.get_by_role("button", name="Zoom in (+)").click()
+    zoomed = "document.querySelector('.glid-stage').dataset.viewport.split(' ')[0]"
+    page.wait_for_function(f"scale => {zoomed} > 1.1 * scale", arg=scales[1366])
+    page.set_viewport_size({"width": 1500, "height": 768})
+    page.evaluate("new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)))")
+    assert float(page.evaluate(zoomed)) > 1.1 * scales[1366]
+    page.set_viewport_size({"width": 1366, "height": 768})

@@ -41,7 +41,11 @@ export class Stage {
     this.tool = "edit";
     this.changed = () => this.redraw();
     this.listed = null; // the hole below the pointer in the list
-    this.view = new View(() => this.redraw(), { up: -1, nearest: 1 / MOST_ZOOM, farthest: 1e3 });
+    this.fitted = true; // until a hand moves the view
+    this.view = new View(() => {
+      this.fitted = false;
+      this.redraw();
+    }, { up: -1, nearest: 1 / MOST_ZOOM, farthest: 1e3 });
     this.pad = new Pad(this.canvas, this.view, link, this);
     this.takeFiles(upload);
     this.resizer = new ResizeObserver(() => this.resize());
@@ -113,6 +117,7 @@ export class Stage {
     const room = [element.clientWidth, element.clientHeight].map((n) => Math.max(n - 2 * MARGIN, 1));
     const unit = Math.min(Math.max(w / room[0], h / room[1]), 1e3);
     Object.assign(view, { x: w / 2, y: h / 2, unit, farthest: 4 * unit });
+    this.fitted = true;
     this.redraw();
   }
 
@@ -123,7 +128,7 @@ export class Stage {
   resize() {
     const { clientWidth: width, clientHeight: height } = this.element;
     if (!width || !height) return;
-    if (!this.width) this.fit();
+    if (this.fitted) this.fit();
     Object.assign(this, { width, height });
     Object.assign(this.view, { width, height });
     this.redraw();
