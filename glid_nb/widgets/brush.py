@@ -52,7 +52,7 @@ class BrushGestures(PinGestures):
             super()._down(event)
 
     def _up(self, event: Event) -> None:
-        if self.brush.tool and event.get("path"):
+        if self.brush.tool and self._press is None and event.get("path"):
             self._paint(np.array(event["path"], dtype=float), event["unit"])
         else:
             super()._up(event)

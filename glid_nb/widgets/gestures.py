@@ -196,7 +196,7 @@ class PinGestures(Gestures):
     def _up(self, event: Event) -> None:
         press, self._press = self._press, None
         path = event.get("path") or ()
-        if len(path) > 2:  # a box or a lasso
+        if event.get("encloses") and len(path) > 2:  # a box or a lasso
             inside = shapely.make_valid(shapely.Polygon(path))
             chosen = np.flatnonzero(shapely.contains_xy(inside, *self.deformation.pose.targets.T))
             self.deformation.select([*self.deformation.selection, *chosen.tolist()])

@@ -70,7 +70,9 @@ def test_click_drag_undo_and_redo(open_notebook: OpenNotebook) -> None:
     menu.get_by_role("menuitem", name="Remove, keep the shape").click()
     book.wait_for("len(model.pose) == 3")
     assert book.value("model.map.phi.real.tolist()") == before
-    hand.click([-3.0, 0.0], button="right")
+    hand.click([-3.0, 5.0], button="right")  # beside the shape
+    menu.get_by_role("menuitem", name="Select all pins").wait_for()
+    assert not menu.get_by_role("menuitem", name="Add a pin here").count()
     hand.click([-5.0, 1.0])
     menu.wait_for(state="hidden")
     assert book.value("len(model.pose)") == 3
@@ -303,10 +305,17 @@ def test_the_canvas_says_that_it_is_warming_up_and_takes_pins_meanwhile(
     open_notebook: OpenNotebook,
 ) -> None:
     book = open_notebook([SETUP, EDITOR])
-    hand, shown = Hand(book), book.page.locator(".glid-prepared")
+    hand, page = Hand(book), book.page
+    shown = page.locator(".glid-prepared")
     assert not shown.is_visible()
     book.value("model._prepare(0.5)")
     shown.get_by_text("Warming up: 50 %").wait_for()
+    # In sight where the cell was just run: at the canvas's top, below the hint.
+    pad, hint, box = (one.bounding_box() for one in (hand.pad, page.locator(".glid-notice"), shown))
+    assert pad is not None
+    assert hint is not None
+    assert box is not None
+    assert hint["y"] + hint["height"] <= box["y"] < box["y"] + box["height"] < pad["y"] + 80
     for point in THREE:
         hand.click(point)
     book.wait_for("len(model.pose) == 3")

@@ -232,10 +232,11 @@ def test_a_box_or_a_lasso_selects(hand: Hand) -> None:
     hand.key("Escape")
     loop = [[1, -1], [3, -1], [3, 1], [1, 1]]
     hand.send("down", 1, -1, shift=True)
-    hand.send("up", 3, 1, shift=True, path=loop)
+    hand.send("up", 3, 1, shift=True, path=loop, encloses=True)
     assert hand.model.selection == (0,)
     hand.send("down", -1, -1)
-    hand.send("up", -1, -1, path=[[-1, -1], [-3, -1], [-3, 2], [-1.1, -1]])
+    lasso = [[-1, -1], [-3, -1], [-3, 2], [-1.1, -1]]
+    hand.send("up", -1, -1, path=lasso, encloses=True)
     assert hand.model.selection == (0, 1)
     assert len(hand.model.pose) == 2
     hand.send("down", 1, -1)

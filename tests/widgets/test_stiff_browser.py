@@ -19,6 +19,28 @@ def ratio():
     return float(((fz + fzb) / (fz - fzb)).max())
 """
 
+# All in one task of the page, so that nothing of the kernel comes in between.
+CLICK_AND_PAINT = """([[x, y], [end, _]]) => {
+  const pad = document.querySelector('.glid-pad');
+  const point = (type, clientX) => pad.dispatchEvent(new PointerEvent(type, {
+    bubbles: true, pointerId: 1, pointerType: 'mouse', clientX, clientY: y }));
+  document.querySelector('.glid-tools button:has(.fa-paint-brush)').click();
+  point('pointerdown', x);
+  for (let at = x; at < end; at += 4) point('pointermove', at);
+  point('pointerup', end);
+}"""
+
+PURPLE = """() => {
+  const paper = document.querySelector('.glid-paper');
+  const { data } = paper.getContext('2d').getImageData(0, 0, paper.width, paper.height);
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) {
+    const [r, g, b] = data.subarray(i, i + 3);
+    count += data[i + 3] > 60 && b > r + 20 && r > g + 20;
+  }
+  return count;
+}"""
+
 
 def test_a_hand_paints_a_stiff_head_erases_undoes_and_clears(open_notebook: OpenNotebook) -> None:
     book = open_notebook([SETUP, EDITOR, RATIO])
@@ -31,8 +53,12 @@ def test_a_hand_paints_a_stiff_head_erases_undoes_and_clears(open_notebook: Open
     free = book.value("ratio()")
     before = hand.targets
 
-    page.get_by_role("button", name="Stiff").click()
-    book.wait_for("canvas.brush.tool == 'stiff'")
+    # A stroke counts that begins before the kernel has answered the click.
+    page.evaluate(CLICK_AND_PAINT, hand.places([[-1.0, 0.5], [1.0, 0.5]]))
+    book.wait_for("len(model.pose.stiffness.strokes) == 1")
+    assert book.value("model.pose.stiffness([[-0.9, 0.5], [0.9, 0.5]]).tolist()") == [1, 1]
+    page.keyboard.press("Control+z")
+    book.wait_for("not model.pose.stiffness and canvas.brush.tool == 'stiff'")
     page.get_by_text("Esc when done").wait_for()
     book.value("canvas.brush.set_trait('radius', 2.2)")
     ends = book.value("model.map([[4.6, 0.3], [7.4, 0.3], [7.4, -0.3], [4.6, -0.3]]).tolist()")
@@ -45,6 +71,13 @@ def test_a_hand_paints_a_stiff_head_erases_undoes_and_clears(open_notebook: Open
     assert hand.certified()
     hand.wait_until_drawn()
     book.screenshot("editor-stiff")
+    # A faint outline stays while the brush is laid down.
+    drawn = page.evaluate(PURPLE)
+    page.keyboard.press("Escape")
+    book.wait_for("canvas.brush.tool == ''")
+    page.get_by_text("Esc when done").wait_for(state="hidden")
+    page.wait_for_function(f"drawn => 0 < ({PURPLE})() && ({PURPLE})() < drawn / 2", arg=drawn)
+    book.screenshot("editor-stiff-faint")
 
     page.keyboard.press("e")
     book.wait_for("canvas.brush.tool == 'erase'")

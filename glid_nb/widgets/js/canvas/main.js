@@ -13,7 +13,7 @@ import {
   drawBrush, drawLasso, drawMarks, drawOnion, drawStiff, lostMarks, markAt, ringAt,
 } from "./marks.js";
 import { Room } from "./room.js";
-import { Shapes, drawingTime, uniformVectors } from "./shapes.js";
+import { Shapes, coveredNear, drawingTime, uniformVectors } from "./shapes.js";
 
 const REACH = { mouse: 13, pen: 16, touch: 26 }; // CSS pixels
 const KEYS = new Set([
@@ -22,31 +22,42 @@ const KEYS = new Set([
   "<", ">", "+", "=", "-", ..."xXmMbBeE",
 ]);
 const HELP = [
-  ["Click the shape", "pin a point"],
-  ["Drag a pin, or the shape", "move it there; the shape follows as far as it cannot fold"],
-  ["Right-click, long touch, Menu key", "what can be done with a pin, or with the shape there"],
-  ["Delete", "remove the selected pins; with Shift keep the shape"],
-  ["Shift-click, A", "select several pins, all pins"],
-  ["Shift and drag, Ctrl and drag", "select the pins in a box, in a lasso"],
-  ["Ring around a pin: drag it, or its knob", "turn the shape there, scale it there"],
-  ["< >, + -, X", "turn, scale; leave both free again"],
-  ["Page Down, Page Up", "selected pins and what is around them go back, come forward; also [ and ]"],
-  ["Arrow keys", "nudge selected pins, with Shift farther; else move a cursor"],
-  ["Enter", "show the cursor; pin or select there"],
-  [", .", "select the pin before, the next pin, and bring it into view; so does a click on an arrow at the edge"],
-  ["Ctrl+C, Ctrl+V, M", "copy the pose, put it on this or a similar shape; swap its left and right"],
-  ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
-  ["Esc", "cancel a drag; select nothing"],
-  ["0", "back to the undeformed shape"],
-  ["F", "see everything"],
-  ["B, E", "paint what should stay as it is, erase it; Esc lays the brush down"],
-  ["Space", "play the motion through the poses, pause; in the timeline too"],
-  ["Timeline: arrow keys, Home, End", "step in time, with Shift to the next pose; first, last pose"],
-  ["Timeline: Alt and arrow keys", "move the pose in time; Delete removes it"],
-  ["P", "the picture alone, for lectures; Esc brings the rest back"],
-  ["W", "the whole screen"],
-  ["Wheel, two fingers", "zoom"],
-  ["Middle button, Space and drag", "move the view"],
+  ["Pins", [
+    ["Click the shape", "pin a point"],
+    ["Drag a pin, or the shape", "move it there; the shape follows as far as it cannot fold"],
+    ["Right-click, long touch, Menu key", "what can be done with a pin, or with the shape there"],
+    ["Delete", "remove the selected pins; with Shift keep the shape"],
+    ["Ring around a pin: drag it, or its knob", "turn the shape there, scale it there"],
+    ["< >, + -, X", "turn, scale; leave both free again"],
+    ["Page Down, Page Up, [ ]", "selected pins and what is around them go back, come forward"],
+    ["Arrow keys", "nudge selected pins, with Shift farther; else move a cursor"],
+    ["Enter", "show the cursor; pin or select there"],
+  ]],
+  ["Selecting", [
+    ["Shift-click, A", "select several pins, all pins"],
+    ["Shift and drag, Ctrl and drag", "select the pins in a box, in a lasso"],
+    [", .", "select the pin before, the next pin, and bring it into view; so does a click on an arrow at the edge"],
+    ["Esc", "cancel a drag; select nothing"],
+  ]],
+  ["Poses", [
+    ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
+    ["Ctrl+C, Ctrl+V", "copy the pose, put it on this or a similar shape"],
+    ["M", "swap left and right"],
+    ["0", "back to the undeformed shape"],
+  ]],
+  ["Stiff areas", [["B, E", "paint what should stay as it is, erase it; Esc lays the brush down"]]],
+  ["View", [
+    ["Wheel, two fingers", "zoom"],
+    ["Middle button, Space and drag", "move the view"],
+    ["F", "see everything"],
+    ["P", "the picture alone, for lectures; Esc brings the rest back"],
+    ["W", "the whole screen"],
+  ]],
+  ["Timeline", [
+    ["Space", "play the motion through the poses, pause; on the canvas too"],
+    ["Arrow keys, Home, End", "step in time, with Shift to the next pose; first, last pose"],
+    ["Alt and arrow keys", "move the pose in time; Delete removes it"],
+  ]],
 ];
 const FIRST = "Click the shape to pin a point, then drag the pin · ? shows all keys";
 const PAINT = "Paint what should stay as it is · E erases · Esc when done";
@@ -106,7 +117,7 @@ function render({ model, el }) {
   const bars = make("div", { className: "glid-legend" });
   const notice = make("div", { className: "glid-notice", role: "status" });
   const prepared = make("div", { className: "glid-prepared", role: "status" });
-  const label = "Deformation canvas: arrow keys move, Enter adds a handle";
+  const label = "Deformation canvas: arrow keys move, Enter pins a point";
   const box = make("div", { className: "glid-pad", role: "application", "aria-label": label }, paper, bars, notice, prepared);
   const keys = help(HELP);
   box.dataset.lmSuppressShortcuts = "true"; // JupyterLab must not take the keys first
@@ -121,7 +132,7 @@ function render({ model, el }) {
     const pen = clearedContext(paper, view);
     if (shapes.motion) return; // pins belong to the pose that is edited
     drawOnion(pen, view, model.get("onion"));
-    drawStiff(pen, view, model.get("stiff"));
+    drawStiff(pen, view, model.get("stiff"), paints());
     drawMarks(pen, view, model.get("marks"), { hovered: found?.mark, held, cursor });
     if (paints()) drawBrush(pen, view, model.get("brush"), pad);
     if (pad?.encloses && pad.path.length > 2) drawLasso(pen, view, pad.path);
@@ -150,16 +161,17 @@ function render({ model, el }) {
     const by = (shiftKey = false) => ({ shiftKey, timeStamp: performance.now() });
     const press = (key, shift) => () => pad.press(key, by(shift));
     place ??= view.toScreen(point);
+    const here = coveredNear(box, place) ? [["Add a pin here", "Click", () => pad.send("pin", place, by())], null] : [];
     openMenu(box, place, [
-      ...(mark === undefined ? [["Add a pin here", "Click", () => pad.send("pin", place, by())]] : [
+      ...(mark === undefined ? here : [
         ["Bring forward", "Page Up", press("PageUp")],
         ["Send back", "Page Down", press("PageDown")],
         null,
         [selected.includes(mark) && selected.length > 1 ? `Remove ${selected.length} pins` : "Remove", "Delete", press("Delete")],
         ["Remove, keep the shape", "Shift+Delete", press("Delete", true)],
         ["Leave angle and scale free", "X", press("x")],
+        null,
       ]),
-      null,
       ["Copy the pose", "Ctrl+C", press("copy")],
       ["Paste a pose", "Ctrl+V", () => navigator.clipboard?.readText().then(paste, () => say(NOT_COPIED)) ?? say(NOT_COPIED)],
       ["Swap left and right", "M", press("m")],
@@ -194,7 +206,7 @@ function render({ model, el }) {
         return "grab";
       }
       const covered = found && marks().hidden.includes(found.mark) ? ". Another part of the shape covers it" : "";
-      box.title = found ? `Pin ${found.mark + 1}: ${TIPS[Number(found.reached)]}${covered}` : "";
+      box.title = found ? `${["Pin", found.mark + 1, model.get("names")[found.mark]].join(" ").trim()}: ${TIPS[Number(found.reached)]}${covered}` : "";
       return found ? "grab" : "crosshair";
     },
     changed: soon,

@@ -36,12 +36,14 @@ function hatching(pen, strength) {
   return pen.createPattern(tile, "repeat");
 }
 
-// Painted areas: strength, and loops of points.
-export function drawStiff(pen, view, areas) {
+// Painted areas: strength, and loops of points; faint outlines unless there is a brush.
+export function drawStiff(pen, view, areas, brush) {
+  pen.globalAlpha = brush ? 1 : 0.4;
   for (const [strength, loops] of areas) {
-    fillPath(pen, loops.map((loop) => view.line(loop)), hatching(pen, strength), "nonzero");
+    fillPath(pen, loops.map((loop) => view.line(loop)), brush ? hatching(pen, strength) : "transparent", "nonzero");
     strokePath(pen, [[3.4, BORDER], [1.5, STIFF]]);
   }
+  pen.globalAlpha = 1;
 }
 
 // The brush below the pointer, and what it has painted since it was pressed.

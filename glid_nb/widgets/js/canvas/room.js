@@ -18,7 +18,7 @@ export class Room {
     this.ending = new AbortController();
     const { signal } = this.ending;
     const escape = (e) => {
-      if (e.key !== "Escape" || !this.last[2] || pad.matches(":active, :has(.glid-menu)")) return;
+      if (e.key !== "Escape" || !this.last[2] || pad.matches(":active, :has(.glid-menu, :popover-open)")) return;
       e.stopPropagation();
       this.alone(false);
     };

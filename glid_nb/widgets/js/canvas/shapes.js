@@ -1,6 +1,6 @@
 // Puts the kernel's coefficients and the page's view into pythreejs's objects.
 
-import { toFloats } from "../pad/dom.js";
+import { make, toFloats } from "../pad/dom.js";
 
 // pythreejs keeps three.js's renderers for later, and those keep lists of all that they ever drew.
 const clearLists = (scene, { renderLists }) => renderLists.dispose();
@@ -96,6 +96,16 @@ export class Shapes {
     this.forget();
     this.model.off("change:materials change:camera change:renderer", this.onMaterials);
   }
+}
+
+const NEAR = 8; // pixels: a cage lies a little outside of what is drawn
+
+// Whether something is drawn near a place of the pad.
+export function coveredNear(pad, place) {
+  const drawn = pad.closest(".glid-pane").querySelector(".jupyter-threejs canvas"), size = 2 * NEAR;
+  const pen = make("canvas", { width: size, height: size }).getContext("2d");
+  pen.drawImage(drawn, ...place.map((at) => NEAR - Math.floor((at * drawn.width) / pad.clientWidth)));
+  return pen.getImageData(0, 0, size, size).data.some((value, i) => i % 4 === 3 && value);
 }
 
 // How many vectors of uniforms a vertex shader may have here; 0 without WebGL.

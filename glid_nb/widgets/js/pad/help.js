@@ -1,4 +1,4 @@
-// A "?" and the table of keys and gestures that it shows.
+// A "?" and the table of keys and gestures that it shows over the page.
 
 import { make } from "./dom.js";
 
@@ -8,24 +8,15 @@ export function shield(element, names = ["pointerdown", "pointermove", "wheel", 
   return element;
 }
 
-export function help(rows) {
-  const table = make("table", { className: "glid-help", hidden: true },
-    ...rows.map(([keys, what]) => make("tr", {}, make("th", {}, keys), make("td", {}, what))));
-  let open = new AbortController();
-  const toggle = () => {
-    table.hidden = !table.hidden;
-    open.abort();
-    if (table.hidden) return;
-    open = new AbortController();
-    window.addEventListener("keydown", (e) => {
-      if (!table.isConnected) return open.abort();
-      if (e.key !== "Escape") return;
-      e.stopPropagation();
-      toggle();
-    }, { capture: true, signal: open.signal });
-  };
+// The sections of the table are [title, rows], its rows [keys, what they do].
+export function help(sections) {
+  const row = ([keys, what]) => make("tr", {}, make("th", {}, keys), make("td", {}, what));
+  const section = ([title, rows]) => make("section", {}, make("h4", {}, title), make("table", {}, ...rows.map(row)));
+  const table = make("div", { className: "glid-help", popover: "auto", autofocus: true, tabIndex: -1 }, ...sections.map(section));
   const title = "Keys and gestures (?)";
   const button = make("button", { type: "button", className: "glid-help-button", title, "aria-label": title }, "?");
-  for (const part of [table, button]) shield(part).addEventListener("click", toggle);
-  return { table, button, toggle };
+  button.popoverTargetElement = table;
+  for (const part of [table, button]) shield(part);
+  table.addEventListener("click", () => table.hidePopover());
+  return { table, button, toggle: () => table.togglePopover() };
 }

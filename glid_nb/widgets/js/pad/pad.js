@@ -53,7 +53,7 @@ export class Pad {
     this.mode = null; // what the pressed pointer does: "hand", "pan" or "pinch"
     this.grip = null; // where a drag began, and the points that it moves
     this.held = new Map(); // places of dragged marks
-    this.path = []; // of a pointer that paints, world points
+    this.path = []; // of the left button, world points
     this.found = this.rests = null; // what is below a pointer that hovers, and its place
     this.space = this.focused = false;
     element.tabIndex = 0;
@@ -137,7 +137,7 @@ export class Pad {
     }
     this.pans = left && this.canvas.pans?.(found);
     this.encloses = left && !this.canvas.painting && this.canvas.encloses?.(found, e);
-    this.path = left && (this.canvas.painting || this.encloses) ? [this.view.toWorld(place)] : [];
+    this.path = left ? [this.view.toWorld(place)] : [];
     this.send("down", place, e, { part: found?.part });
     if (e.pointerType === "touch" && this.canvas.menu && !this.canvas.painting) this.longPress = setTimeout(() => this.pressedLong(e, place), LONG_PRESS);
     this.shape();
@@ -162,6 +162,7 @@ export class Pad {
     if (this.mode === "hand") this.send("cancel", this.start, e);
     this.letGo();
     this.held.clear();
+    this.path = [];
   }
 
   move(e) {
@@ -193,9 +194,8 @@ export class Pad {
     } else if (this.path.length) {
       const [x, y] = this.view.toScreen(this.path.at(-1));
       if (Math.hypot(place[0] - x, place[1] - y) >= PATH_STEP) this.path.push(point);
-    } else {
-      this.send("move", place, e, { replaces: `move ${e.pointerId}` });
     }
+    if (!this.encloses && !this.canvas.painting) this.send("move", place, e, { replaces: `move ${e.pointerId}` });
     if (this.grip) {
       const [dx, dy] = [point[0] - this.grip.from[0], point[1] - this.grip.from[1]];
       for (const [mark, [x, y]] of this.grip.points) this.held.set(mark, [x + dx, y + dy]);
@@ -208,8 +208,8 @@ export class Pad {
     const place = this.place(e);
     this.pointers.delete(e.pointerId);
     if (this.mode === "hand") {
-      const { path } = this;
-      this.send(type, place, e, path.length ? { path } : {}).then(() => {
+      const { path } = this; // also without a brush: the kernel may just give one
+      this.send(type, place, e, { path, encloses: Boolean(this.encloses) }).then(() => {
         if (!this.grip) this.held.clear(); // from now on the kernel's places are drawn
         if (this.path === path) this.path = [];
         this.canvas.changed();

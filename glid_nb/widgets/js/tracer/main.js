@@ -18,16 +18,22 @@ const TOOLS = [
   ["rectangle", "Draw a rectangle (R)"],
 ];
 const HELP = [
-  ["V", "edit: drag a vertex, double-click an edge to add one, click a hole to drop or keep it"],
-  ["Right-click, Delete", "remove a vertex"],
-  ["[ ]", "select the vertex before, the next vertex"],
-  ["Arrow keys", "nudge the selected vertex, with Shift farther"],
-  ["B, N", "paint over the shape, over the background"],
-  ["I, C", "pick the background's colour, the component"],
-  ["P, R", "draw the outline, a rectangle; Enter closes an outline, Esc gives it up"],
-  ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
-  ["Wheel, + -, F", "zoom after a click on the picture, fit the picture"],
-  ["Drag beside the outline", "move the view"],
+  ["Outline", [
+    ["V", "edit: drag a vertex, double-click an edge to add one, click a hole to drop or keep it"],
+    ["Right-click, Delete", "remove a vertex"],
+    ["[ ]", "select the vertex before, the next vertex"],
+    ["Arrow keys", "nudge the selected vertex, with Shift farther"],
+    ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
+  ]],
+  ["By hand", [
+    ["B, N", "paint over the shape, over the background"],
+    ["I, C", "pick the background's colour, the component"],
+    ["P, R", "draw the outline, a rectangle; Enter closes an outline, Esc gives it up"],
+  ]],
+  ["View", [
+    ["Wheel, + -, F", "zoom after a click on the picture, fit the picture"],
+    ["Drag beside the outline", "move the view"],
+  ]],
 ];
 const PART = 1 << 20; // bytes of a file per message
 
@@ -154,7 +160,10 @@ function render({ model, el }) {
     });
   }
 
-  const setHeight = () => root.style.setProperty("--glid-height", `${model.get("height")}px`);
+  const setHeight = () => {
+    const height = model.get("height"); // without one it is as high as there is room
+    root.style.setProperty("--glid-height", height ? `${height}px` : "");
+  };
   const unfollow = follow(model, {
     "change:height": setHeight, "change:shown": showState, "change:picture": showPicture,
   });
