@@ -39,10 +39,10 @@ def add_handles(state: EditState, points: ArrayLike, targets: ArrayLike | None =
     for i, (point, inside) in enumerate(zip(points, cage.contains(points), strict=True)):
         where = place(point, 4)
         if not inside:
-            raise EditError(f"{where} lies outside the shape; a handle needs a place on it")
+            raise EditError(f"{where} lies outside the shape; choose a place on it")
         gaps = np.linalg.norm(np.concatenate([pose.handles, points[:i]]) - point, axis=1)
         if (gaps < _LEAST_DISTANCE * cage.longer_side).any():
-            raise EditError(f"there already is a handle at {where}")
+            raise EditError(f"{where} is pinned already")
     wanted = _places_now(state, points) if targets is None else _points(targets, "to")
     depths = state.order.depths(points).round(2) + 0.0
     added = Pose(points, wanted, depths)
@@ -93,6 +93,13 @@ def set_depths(state: EditState, indices: Iterable[int], depths: ArrayLike) -> E
     if np.array_equal(pose.depths, state.pose.depths):
         return state
     return state.with_current(replace(state.current, pose=pose))
+
+
+def name_pin(state: EditState, index: int, name: str) -> EditState:
+    """Give a handle a name."""
+    [chosen], names = _checked_indices(state, [index]), state.pose.names.tolist()
+    names[chosen] = name
+    return state.with_current(replace(state.current, pose=replace(state.pose, names=names)))
 
 
 def set_pins(state: EditState, indices: Iterable[int], **numbers: ArrayLike | None) -> EditState:

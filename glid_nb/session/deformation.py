@@ -172,6 +172,7 @@ class Deformation(Undoable[EditState]):
     nudge = _step(actions.nudge)
     set_depths = _step(actions.set_depths)
     bring_forward = _step(actions.bring_forward)
+    name_pin = _step(actions.name_pin)
     set_pins = _step(actions.set_pins)
     turn = _step(actions.turn)
     mirror_pose = _step(pose_text.mirror_pose)

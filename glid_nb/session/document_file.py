@@ -47,7 +47,8 @@ _POSE_KEYS = {
     "handles": _json.check_points,
     "targets": _json.check_points,
 }
-_ADDED = {3: ("depths",), 4: ("angles", "scales", "weights", "stiffness")}  # by versions, to poses
+# To poses, by versions.
+_ADDED = {3: ("depths",), 4: ("angles", "scales", "weights", "names", "stiffness")}
 _MOST_ITERATIONS = 200  # was written where max_iterations is None, the method's own limit
 _MASK = "mask"  # written instead of strokes; the pixels are in another member
 _NEVER = "never"  # TraceOptions.max_edge == inf, which JSON cannot say

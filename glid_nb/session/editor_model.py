@@ -368,7 +368,7 @@ def _apply(deformation: Deformation, domain: Domain) -> str:
     before = sum(len(pose.pose) for pose in deformation.state.poses)
     deformation.set_domain(domain)
     lost = before - sum(len(pose.pose) for pose in deformation.state.poses)
-    many = f"{lost} handles were" if lost > 1 else "A handle was"
+    many = f"{lost} pins were" if lost > 1 else "A pin was"
     return _LOST.format(many) if lost > 0 else ""
 
 

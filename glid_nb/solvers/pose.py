@@ -25,7 +25,7 @@ _MORE = {
     "scales": (0.01, 100.0, np.nan),
     "weights": (1e-6, 1e6, 1.0),
 }
-PER_HANDLE = ("handles", "targets", *_MORE)
+PER_HANDLE = ("handles", "targets", *_MORE, "names")
 
 
 class PoseError(InputError):
@@ -55,6 +55,8 @@ class Pose:
     """(h,) by how much it is scaled there, likewise."""
     weights: Array
     """(h,) how firmly each handle is held, relative to ``Options.p2p_weight``; by default 1."""
+    names: Array
+    """(h,) texts, by default empty."""
     stiffness: Stiffness
     """Strokes over what should stay as it is, each a dict of ``points`` (n, 2) of the undeformed
     shape, the ``radius`` of the brush and the ``strength`` from 0, which erases, to 1; the last one
@@ -69,6 +71,7 @@ class Pose:
         angles: ArrayLike | None = None,
         scales: ArrayLike | None = None,
         weights: ArrayLike | None = None,
+        names: Sequence[str] | None = None,
         stiffness: Stiffness | Sequence[Mapping[str, Any]] | None = None,
     ) -> None:
         points = {"handles": handles, "targets": targets}
@@ -81,6 +84,7 @@ class Pose:
             )
         more = {"depths": depths, "angles": angles, "scales": scales, "weights": weights}
         vars(self).update({name: _checked_numbers(name, v, n_handles) for name, v in more.items()})
+        vars(self)["names"] = _checked_names(names, n_handles)
         vars(self)["stiffness"] = Stiffness.of(stiffness)
         known: dict[tuple[float, ...], int] = {}
         for j, handle in enumerate(map(tuple, self.handles.tolist())):
@@ -128,6 +132,8 @@ class Pose:
             values = getattr(self, name)
             if not np.array_equal(values, np.full(len(self), default), equal_nan=True):
                 more[name] = [None if np.isnan(value) else value for value in values.tolist()]
+        if any(self.names):
+            more["names"] = self.names.tolist()
         if self.stiffness:
             more["stiffness"] = self.stiffness.to_list()
         return {"handles": self.handles.tolist(), "targets": self.targets.tolist(), **more}
@@ -140,7 +146,7 @@ class Pose:
         for key in ("handles", "targets"):
             if key not in data:
                 raise PoseError(f'the pose lacks the key "{key}"')
-        more = {name: data.get(name) for name in (*_MORE, "stiffness")}
+        more = {name: data.get(name) for name in (*_MORE, "names", "stiffness")}
         return cls(data["handles"], data["targets"], **more)
 
 
@@ -170,6 +176,14 @@ def _checked_points(points: Any, name: str) -> Array:
             why = f"coordinates beyond {_FARTHEST:g} are out of scale ({side})"
         raise PoseError(f"{name}[{wrong[0]}] is {place(point)}; {why}")
     return read_only(array)
+
+
+def _checked_names(names: Sequence[str] | None, count: int) -> Array:
+    texts = [""] * count if names is None else names
+    listed = isinstance(texts, list | tuple | np.ndarray) and len(texts) == count
+    if not listed or not all(isinstance(text, str) for text in texts):
+        raise PoseError(f"names must be {count} texts, one per handle, not {names!r:.60}")
+    return read_only(np.array(texts, dtype=str))
 
 
 def _checked_numbers(name: str, values: ArrayLike | None, count: int) -> Array:

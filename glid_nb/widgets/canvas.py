@@ -227,9 +227,10 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 **self._look(state, color_range),
             )
             self.pane.show(drawing)
+            self.pane.stage.names = pose.names.tolist()
             self.pane.stage.onion = self._onion(state) if self.show_onion else []
             self.pane.stage.brush = self.brush.shown
-            self.pane.stage.stiff = painted_areas(moment) if self.brush.tool else []
+            self.pane.stage.stiff = painted_areas(moment)
             if self.source is not None:
                 cage, offset_cage = drawing.cage, drawing.offset_cage
                 rest = Drawing(

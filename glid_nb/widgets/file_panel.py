@@ -38,8 +38,7 @@ _LABEL = {"width": "58px", "flex": "0 0 auto"}
 _WIDE = {"width": "auto", "min_width": "0", "flex": "1 1 auto"}
 _VIEWS = (("Whole shape", "fit"), ("Original frame", "source"))
 _NO_AUTOSAVE = (
-    "In no file yet. What you do is kept for the next editor of this picture; Editor(…, path=…) "
-    "saves to a file by itself."
+    "What you do is kept for the next editor of this picture. Save writes it to a file, as it is."
 )
 _UNSAVED = (
     "This session is in no file yet. Click again to open the other one without saving, or save it "
@@ -198,7 +197,7 @@ class FilePanel(ipywidgets.VBox):
         tooltip = "Go on with the session file"
         self.open_button = made("Open", "folder-open", tooltip, self._open, "Discard?")
         tooltip = "Write it beside the session file"
-        self.export_button = made("Export", "file-export", tooltip, self._export)
+        self.export_button = made("Write here", "file-export", tooltip, self._export)
         tooltip = "Save it through the browser"
         self.download_button = made("Download", "download", tooltip, self._download)
         tooltip = "Copy the lines that make this map"

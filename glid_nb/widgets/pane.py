@@ -48,10 +48,12 @@ class Stage(Pad):
     marks = traitlets.Dict({key: [] for key in _MARKS}).tag(sync=True)
     """Targets and images of the handles, lists of [x, y], indices of the selected and of the hidden
     ones, and `Drawing.ring`."""
+    names = traitlets.List(traitlets.Unicode(), []).tag(sync=True)
+    """Names of the handles, which may be empty."""
     onion = traitlets.List([]).tag(sync=True)
     """Outlines of other poses: a colour, and loops of [x, y], each."""
     stiff = traitlets.List([]).tag(sync=True)
-    """The painted areas, while there is a brush: strengths, and loops of [x, y], each."""
+    """The painted areas: strengths, and loops of [x, y], each."""
     brush = traitlets.Dict({}).tag(sync=True)
     """The brush that the left button paints with: ``radius`` and ``strength``; empty for none."""
     cursor = traitlets.List(default_value=None, allow_none=True).tag(sync=True)

@@ -8,8 +8,10 @@ import numpy as np
 from glid_nb.session.actions import wrapped
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError
-from glid_nb.solvers.pose import DEEPEST
+from glid_nb.solvers.pose import DEEPEST, Pose
 from glid_nb.widgets.controls import EditControls, button
+
+_NOTHING = Pose([(0, 0)], [(0, 0)])  # what the fields show while nothing is selected
 
 
 class PinBar(EditControls):
@@ -22,17 +24,25 @@ class PinBar(EditControls):
         self._add_fields()
         self._bind_fields(deformation)
         buttons = self._add_buttons(deformation)
-        fields = [self.x, self.y, self.angle, self.scale, self.weight, self.depth]
+        fields = [self.name, self.x, self.y, self.depth, self.angle, self.scale, self.weight]
         self._numbers: list[Any] = [*fields, *buttons]
-        row = [self.list, *self._numbers, self.mirror]
-        layout = {"flex_flow": "row wrap"}
-        super().__init__(deformation, [ipywidgets.HBox(row, layout=layout)], **kwargs)
+        place = [self.list, self.name, self.x, self.y, self.depth, self.back, self.front]
+        shape = [self.angle, self.scale, self.weight, self.release, self.mirror]
+        wrapping = ipywidgets.Layout(flex_flow="row wrap")
+        rows = [ipywidgets.HBox(row, layout=wrapping) for row in (place, shape)]
+        super().__init__(deformation, [ipywidgets.HBox(rows, layout=wrapping)], **kwargs)
 
     def _add_fields(self) -> None:
         style = {"description_width": "initial"}
-        look: dict[str, Any] = {"layout": ipywidgets.Layout(width="92px"), "style": style}
+        look: dict[str, Any] = {"layout": ipywidgets.Layout(width="84px"), "style": style}
         self.list = ipywidgets.Dropdown(
-            options=[("No pin", -1)], tooltip="The selected pin", layout={"width": "92px"}
+            options=[("No pin", -1)], tooltip="The selected pin", layout={"width": "100px"}
+        )
+        self.name = ipywidgets.Text(
+            placeholder="name",
+            tooltip="The selected pin's name",
+            continuous_update=False,
+            layout={"width": "96px"},
         )
         self.x = ipywidgets.FloatText(description="x", step=0.1, tooltip="Target", **look)
         self.y = ipywidgets.FloatText(description="y", step=0.1, tooltip="Target", **look)
@@ -42,7 +52,7 @@ class PinBar(EditControls):
                 placeholder="free",
                 continuous_update=False,
                 tooltip=f"{what} at the pin; empty: free ({keys})",
-                layout={"width": "112px"},
+                layout={"width": "124px"},
                 style=style,
             )
             for name, what, keys in (
@@ -60,7 +70,7 @@ class PinBar(EditControls):
             value=1,
             readout_format=".2g",
             continuous_update=False,
-            layout={"width": "186px"},
+            layout={"width": "196px"},
             style=style,
         )
         tooltip = "Where parts overlap, those near pins of greater depth are in front"
@@ -73,6 +83,7 @@ class PinBar(EditControls):
             model.set_pins(model.selection, **numbers)
 
         self._bind(self.list, lambda chosen: model.select([] if chosen == -1 else [chosen]))
+        self._bind(self.name, lambda name: model.name_pin(model.selection[-1], name))
         self._bind(self.x, lambda x: model.move_target(model.selection[-1], (x, self.y.value)))
         self._bind(self.y, lambda y: model.move_target(model.selection[-1], (self.x.value, y)))
         self._bind(self.angle, lambda text: set_pins(angles=_radians(text)))
@@ -106,20 +117,20 @@ class PinBar(EditControls):
 
     def _show(self) -> None:
         pose, selection = self.deformation.pose, self.deformation.selection
-        names = (("No pin", -1), *((f"Pin {i + 1}", i) for i in range(len(pose))))
+        pins = (f"{i} {name}" if name else f"Pin {i}" for i, name in enumerate(pose.names, 1))
+        names = (("No pin", -1), *((pin, i) for i, pin in enumerate(pins)))
         if self.list.options != names:
             self.list.options = names
         self.list.value = selection[-1] if selection else -1
         for control in self._numbers:
             control.disabled = not selection
         self.mirror.disabled = not len(pose)
-        if selection:
-            last = selection[-1]
-            self.x.value, self.y.value = pose.targets[last].round(4).tolist()
-            self.angle.value = _free_or(np.degrees(pose.angles[last]))
-            self.scale.value = _free_or(pose.scales[last])
-            self.weight.value = float(pose.weights[last])
-            self.depth.value = float(pose.depths[last])
+        shown = pose.only([selection[-1]]) if selection else _NOTHING
+        [(self.x.value, self.y.value)] = shown.targets.round(3).tolist()
+        [self.name.value] = shown.names.tolist()
+        self.angle.value = _free_or(np.degrees(shown.angles[0]))
+        self.scale.value = _free_or(shown.scales[0])
+        self.weight.value, self.depth.value = float(shown.weights[0]), float(shown.depths[0])
 
 
 def _free_or(number: float) -> str:

@@ -107,7 +107,7 @@ class SolverPanel(EditControls):
         self.step = button("Step", "step-forward", "One frame's iterations", model.step)
         self.reset = button("Reset", "refresh", "The undeformed shape (0)", model.reset)
         free = model.clear_handles
-        self.clear = button("Clear handles", "eraser", "Let go of all handles", free)
+        self.clear = button("Clear pins", "eraser", "Remove all pins", free)
         self.steps = ipywidgets.HTML(layout={"height": "96px", "overflow": "hidden auto"})
         """What single steps did, the last one first; hidden while the solver is not paused."""
         buttons = ipywidgets.HBox(

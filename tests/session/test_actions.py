@@ -46,8 +46,8 @@ def test_what_has_moved_is_pinned_where_it_has_moved_to(state: EditState) -> Non
     ("action", "message"),
     [
         (lambda s: actions.add_handles(s, (0, 0)), "outside the shape"),
-        (lambda s: actions.add_handles(s, (2, 0)), "already is a handle"),
-        (lambda s: actions.add_handles(s, [(0, 2), (0, 2)]), "already is a handle"),
+        (lambda s: actions.add_handles(s, (2, 0)), "pinned already"),
+        (lambda s: actions.add_handles(s, [(0, 2), (0, 2)]), "pinned already"),
         (lambda s: actions.add_handles(s, (np.nan, 2)), "not finite"),
         (lambda s: actions.move_targets(s, [0], (np.inf, 2)), "not finite"),
         (lambda s: actions.add_handles(s, "ab"), r"point must be \[x, y\].*not 'ab'"),

@@ -77,6 +77,7 @@ PINS = Pose(
     angles=[None, 1 / 3],
     scales=[0.1 + 0.2, None],
     weights=[1 / 3, 1],
+    names=["head", ""],
 )
 TIMELINE = Timeline((1 / 3, 2.0), ("in", "in-out"), "loop", 0.7)
 
@@ -281,7 +282,7 @@ def zipped(members: dict[str, bytes]) -> bytes:
     return buffer.getvalue()
 
 
-NEW_PINS = ("angles", "scales", "weights")
+NEW_PINS = ("angles", "scales", "weights", "names")
 
 
 def test_a_document_of_version_1_opens_with_our_method(

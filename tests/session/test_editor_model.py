@@ -191,7 +191,7 @@ def test_handles_outside_a_new_outline_come_back_with_the_old_one(model: EditorM
     _pin(model, (-6, 0), (-7.5, 3.5))
     state = model.deformation.state
     _move_corner(model, (-6.5, 2.5))
-    assert model.apply_tracing().startswith("A handle was outside the new outline")
+    assert model.apply_tracing().startswith("A pin was outside the new outline")
     assert model.deformation.pose.handles.tolist() == [[-6, 0]]
     model.tracing.undo()
     assert model.apply_tracing() == ""

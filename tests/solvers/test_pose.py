@@ -57,6 +57,16 @@ def test_a_pose_is_immutable() -> None:
     assert pose.targets.tolist() == [[2, 3]]
 
 
+def test_names_go_where_their_handles_go() -> None:
+    pose = Pose([[0, 0], [1, 0], [2, 0]], [[0, 0]] * 3, names=["head", "", "tail"])
+    assert pose.only([2, 1]).names.tolist() == ["tail", ""]
+    assert Pose.from_dict(pose.to_dict()).names.tolist() == ["head", "", "tail"]
+    assert "names" not in pose.only([1]).to_dict()
+    for wrong in (["head"], "abc", [1, 2, 3], 5):
+        with pytest.raises(PoseError, match="names must be 3 texts, one per handle"):
+            Pose(pose.handles, pose.targets, names=wrong)  # type: ignore[arg-type]
+
+
 def test_targets_may_coincide() -> None:
     assert len(Pose([[0, 0], [1, 0]], [[3, 3], [3, 3]])) == 2
 

@@ -424,6 +424,9 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
         model.select([0, 1])
         assert [name for name, _ in bar.list.options] == ["No pin", "Pin 1", "Pin 2"]
         assert (bar.list.value, bar.x.value, bar.y.value, bar.depth.value) == (1, -2, 0.25, 0)
+        bar.name.value = "tail"
+        assert model.pose.names.tolist() == ["", "tail"]
+        assert [name for name, _ in bar.list.options] == ["No pin", "Pin 1", "2 tail"]
         bar.back.click()
         assert model.pose.depths.tolist() == [-1, -1]
         assert bar.depth.value == -1
@@ -452,6 +455,7 @@ def test_the_numbers_of_pins_and_the_model_show_each_other() -> None:
         bar.list.value = -1
         assert model.selection == ()
         assert bar.depth.disabled
+        assert (bar.x.value, bar.name.value, bar.angle.value, bar.weight.value) == (0, "", "", 1)
         bar.close()
 
 
@@ -668,7 +672,7 @@ def test_lost_handles_are_told(editor: Editor) -> None:
     tracing.move_vertex(0, corner, tracing.frame.to_pixel([-6.5, 0.5]))
     editor.tabs.selected_index = 1
     assert editor.canvas is not None
-    assert "A handle was outside the new outline" in editor.canvas.pane.stage.notice
+    assert "A pin was outside the new outline" in editor.canvas.pane.stage.notice
     assert len(editor.pose) == 0
 
 

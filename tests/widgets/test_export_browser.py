@@ -41,7 +41,7 @@ def test_the_exported_picture_is_the_rendering_and_what_the_canvas_shows(
     width = files.locator("input[type=number]").first
     width.fill("300")
     width.press("Enter")
-    files.get_by_role("button", name="Export").click()
+    files.get_by_role("button", name="Write here").click()
     files.get_by_text("Wrote").wait_for()
     whole = np.array(book.value("glid.render(picture, model.map, (300, 150), view='fit').tolist()"))
     np.testing.assert_array_equal(imread(tmp_path / "bent.png"), whole)
@@ -78,7 +78,7 @@ def test_the_exported_picture_is_the_rendering_and_what_the_canvas_shows(
     width.fill("200")
     width.press("Enter")
     view.select_option(label="Original frame")
-    files.get_by_role("button", name="Export").click()
+    files.get_by_role("button", name="Write here").click()
     book.wait_for(f"glid.read_image({str(tmp_path / 'bent.png')!r}).shape[1] == 200")
     exported = imread(tmp_path / "bent.png")
     rendered = np.array(book.value("glid.render(picture, model.map).tolist()"))

@@ -45,6 +45,8 @@ def test_a_ring_turns_and_scales_and_the_list_takes_numbers(open_notebook: OpenN
     refusal = page.get_by_text("'much' is no number")
     refusal.wait_for()
     refusal.click(trial=True)  # nothing covers it
+    field.fill("-172.4")
+    assert field.evaluate("one => one.scrollWidth <= one.clientWidth")  # nothing is cut off
     field.fill("-20")
     field.press("Enter")
     book.wait_for("abs(np.degrees(model.pose.angles[1]) + 20) < 1e-9")
@@ -59,10 +61,18 @@ def test_a_ring_turns_and_scales_and_the_list_takes_numbers(open_notebook: OpenN
 
     # A box selects, a pin out of sight is brought back, a pose goes through the clipboard.
     keys = page.locator(".glid-pane .glid-help")
-    page.keyboard.press("?")
-    keys.wait_for()
-    page.keyboard.press("Escape")
-    keys.wait_for(state="hidden")
+    for width in (800, 1366):
+        page.set_viewport_size({"width": width, "height": 768})
+        hand.pad.focus()
+        page.keyboard.press("?")
+        keys.get_by_role("heading", name="Timeline").wait_for()
+        place = keys.bounding_box()
+        assert place is not None
+        assert 0 <= place["x"] < place["x"] + place["width"] <= width
+        assert keys.evaluate("one => one.scrollHeight <= one.clientHeight") or width < 1366
+        book.screenshot(f"pins-help-{width}")
+        page.keyboard.press("Escape")
+        keys.wait_for(state="hidden")
     assert book.value("model.selection") != []
     page.keyboard.press("Escape")
     book.wait_for("model.selection == ()")
