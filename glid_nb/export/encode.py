@@ -108,7 +108,7 @@ def _animation(
 
 
 def _video(frames: Frames, fps: float, suffix: str, transparent: bool) -> bytes:
-    """A video of even sides, by an ffmpeg that takes frames as they are frames."""
+    """A video of even sides, by an ffmpeg that takes frames as they are drawn."""
     from imageio_ffmpeg import get_ffmpeg_exe  # noqa: PLC0415 - an extra
 
     size = "x".join(map(str, frames.size))

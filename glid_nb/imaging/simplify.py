@@ -11,6 +11,7 @@ import shapely
 from numpy.typing import NDArray
 
 from glid_nb._arrays import Array, read_only
+from glid_nb.geometry._loops import as_points, subdivided
 from glid_nb.imaging.loops import Loops, Points, repair, significance
 
 # Numbers of vertices for the automatic tolerance: about _VERTICES while it is below the offset, not
@@ -94,8 +95,7 @@ def simplify(
             needed = f"the loops need {kept.sum()} to stay apart"
             notes.append(f"max_vertices={max_vertices} is too few: {needed}")
     moved = _enclosing(whole, kept, _MARGIN * offset, gap)
-    divided = _divide_long_edges(moved, max_edge, max_vertices)
-    exterior, *holes = divided.split(read_only(divided.points))
+    exterior, *holes = map(read_only, _divided(moved, max_edge, max_vertices))
     return Simplified(exterior, tuple(holes), float(tolerance), tuple(notes))
 
 
@@ -177,17 +177,15 @@ def _clear(loops: Loops, vertices: NDArray[np.intp], gap: float) -> NDArray[np.b
     return clear
 
 
-def _divide_long_edges(loops: Loops, max_edge: float | None, max_vertices: int | None) -> Loops:
-    """Divide edges longer than `max_edge` evenly, into fewer parts to respect `max_vertices`."""
+def _divided(loops: Loops, max_edge: float | None, max_vertices: int | None) -> list[Points]:
+    """The loops, with edges longer than `max_edge` in even parts; fewer for `max_vertices`."""
     length = loops.lengths
     longest = _MAX_EDGE * float(length.sum()) if max_edge is None else max_edge
     most = np.inf if max_vertices is None else max(max_vertices, len(length))
     while (pieces := np.maximum(np.ceil(length / longest), 1).astype(int)).sum() > most:
         longest *= 1.1
-    edge = np.repeat(np.arange(len(length)), pieces)
-    share = (np.arange(len(edge)) - (np.cumsum(pieces) - pieces)[edge]) / pieces[edge]
-    points = loops.points[edge] + share[:, np.newaxis] * loops.edges[edge]
-    return Loops(points, loops.number[edge])
+    z = loops.points @ np.array([1, 1j])
+    return list(map(as_points, map(subdivided, loops.split(z), loops.split(pieces))))
 
 
 def _enclosing(loops: Loops, kept: NDArray[np.bool_], margin: float, gap: float) -> Loops:
