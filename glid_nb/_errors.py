@@ -2,6 +2,7 @@
 
 import difflib
 import re
+import traceback
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -16,6 +17,19 @@ class InputError(ValueError):
     def __init__(self, message: str, plain: str | None = None) -> None:
         super().__init__(message)
         self.plain = message if plain is None else plain
+
+    def _render_traceback_(self) -> list[str]:
+        """What IPython prints: the lines that lead to the package, none of IPython or of ours."""
+        from IPython import get_ipython  # noqa: PLC0415 - only where it asks
+
+        ours, name_of = str(Path(__file__).parent), get_ipython().compile.format_code_name
+        lines = []
+        for frame in traceback.extract_tb(self.__traceback__)[1:]:
+            if frame.filename.startswith(ours):
+                break
+            where = " ".join(name_of(frame.filename) or ("File", frame.filename))
+            lines.append(f"{where}, line {frame.lineno}\n    {frame.line}")
+        return [*lines, f"{type(self).__name__}: {self}"]
 
 
 class InputFileError(InputError):

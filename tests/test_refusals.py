@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import ast
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -48,3 +51,22 @@ def test_a_bug_is_left_alone() -> None:
 def test_a_name_that_is_near_is_offered() -> None:
     assert did_you_mean("holse", ("cage", "holes")) == "; did you mean 'holes'?"
     assert did_you_mean("q", ("cage", "holes")) == ""
+
+
+def test_ipython_prints_the_line_of_the_cell_and_one_sentence(tmp_path: Path) -> None:
+    """Not our frames, nor the errors that led to this one."""
+    path = tmp_path / "picture.png"
+    path.write_bytes(b"no picture")
+    code = f"import glid_nb as glid\ndef opened():\n    glid.Editor({str(path)!r})\nopened()"
+    command = [sys.executable, "-m", "IPython", "--quick", "--colors=nocolor", "-c", code]
+    environment = {**os.environ, "IPYTHONDIR": str(tmp_path)}
+    printed = subprocess.run(command, env=environment, capture_output=True, text=True).stdout
+    lines = printed.strip().splitlines()
+    assert lines[:-1] == [
+        "Cell In[1], line 4",
+        "    opened()",
+        "Cell In[1], line 3",
+        f"    glid.Editor({str(path)!r})",
+    ]
+    assert lines[-1].startswith("TraceError: ")
+    assert path.name in lines[-1]

@@ -21,7 +21,7 @@ def paragraph(text: str, style: str = "") -> str:
 
 
 def button(
-    label: str, icon: str, tooltip: str, act: Callable[[], None], layout: Any = "auto"
+    label: str, icon: str, tooltip: str, act: Callable[[], object], layout: Any = "auto"
 ) -> ipywidgets.Button:
     """A button whose click calls ``act``; ``layout`` is its width or a layout that it shares."""
     layout = {"width": layout, "flex": "0 0 auto"} if isinstance(layout, str) else layout
