@@ -7,6 +7,7 @@
 # make compare  the paper's comparisons measured anew (half an hour); ARGUMENTS=--help tells more
 # make bench  the solver's speed on this machine (a quarter of an hour); ARGUMENTS=--help likewise
 # make docs   the site in site/, checked: pages, links, and each page in Chromium
+# make notebooks  all chapters, run in place and saved; ARGUMENTS="03 07" runs these two
 # make browser  Chromium for the browser tests, by apt
 SHELL := /bin/sh
 VENV := .venv
@@ -17,7 +18,7 @@ WORKERS = $(shell expr $$(nproc) + 1)
 # Without bytecode every process of the tests compiles the package and the test files anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test unit leaks lint format dev compare bench docs browser clean
+.PHONY: demo test unit leaks lint format dev compare bench docs notebooks browser clean
 .DEFAULT_GOAL := demo
 
 demo: $(VENV)/.demo
@@ -56,6 +57,9 @@ docs: $(VENV)/.docs
 	$(VENV)/bin/sphinx-build -q -b html -W --keep-going -c docs -d build/doctrees . site
 	tools/chromium.sh
 	$(VENV)/bin/python tools/check_site.py site
+
+notebooks: $(VENV)/.test
+	$(VENV)/bin/python tools/run_notebooks.py $(ARGUMENTS)
 
 browser:
 	tools/chromium.sh

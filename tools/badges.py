@@ -17,7 +17,7 @@ import nbformat
 FOLDER = Path(__file__).resolve().parent.parent / "notebooks"
 
 COLAB = """\
-# On Google Colab (untested there): install the package and allow its widgets. Elsewhere: nothing.
+# Google Colab (untested there): install the package, allow its widgets. Elsewhere: nothing.
 import sys
 
 if "google.colab" in sys.modules:

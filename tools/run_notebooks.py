@@ -1,0 +1,59 @@
+"""Run notebooks in place and save their outputs: ``python tools/run_notebooks.py [NUMBER ...]``.
+
+Without numbers all chapters are run, one after the other. What is saved is the same however often
+it is run: no widgets, which a page without a kernel cannot show, no times, no versions.
+"""
+
+from __future__ import annotations
+
+import itertools
+import sys
+import time
+from pathlib import Path
+
+import nbformat
+from nbclient import NotebookClient
+
+FOLDER = Path(__file__).resolve().parent.parent / "notebooks"
+WIDGET = "application/vnd.jupyter.widget-view+json"
+
+
+def without_widgets(cell: nbformat.NotebookNode) -> None:
+    """Keep a widget's picture, if it has one; leave out what shows nothing without a kernel."""
+    for output in list(cell.outputs):
+        if output.get("data", {}).pop(WIDGET, None) and "image/png" not in output.data:
+            cell.outputs.remove(output)
+
+
+def run(path: Path) -> None:
+    book = nbformat.read(path, as_version=4)
+    metadata = dict(book.metadata)
+    client = NotebookClient(
+        book,
+        kernel_name="python3",
+        resources={"metadata": {"path": str(path.parent)}},
+        timeout=600,
+        record_timing=False,
+        coalesce_streams=True,
+    )
+    client.execute()
+    book.metadata = metadata  # without the widgets' states and the version of Python
+    for cell in book.cells:
+        if cell.cell_type == "code":
+            without_widgets(cell)
+    nbformat.write(book, path)
+
+
+def main(numbers: list[str]) -> None:
+    found = (sorted(FOLDER.glob(f"{number}_*.ipynb")) for number in numbers or ["[0-9][0-9]"])
+    paths = list(itertools.chain.from_iterable(found))
+    if not paths:
+        raise SystemExit(f"no chapter has a number of {', '.join(numbers)}\n\n{__doc__}")
+    for path in paths:
+        begin = time.perf_counter()
+        run(path)
+        print(f"{path.name}: {time.perf_counter() - begin:.0f} s", flush=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
