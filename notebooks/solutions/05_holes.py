@@ -18,10 +18,10 @@ def count(vertices_of_loops):
 
 
 # %% exercise 2: solution
-def find_omega(map, radius=6.0):
+def find_omega(f, radius=6.0):
     """The coefficient omega of ln|z| in (3), from f_z on a circle."""
     points = circle(radius, 400)
-    fz, _ = map.wirtinger(points)
+    fz, _ = f.wirtinger(points)
     z = points @ [1, 1j]
     # On the circle dz = i z dtheta, and f_z has the term (omega / 2) / z.
     integral = (fz * 1j * z).mean() * 2 * np.pi
@@ -30,10 +30,10 @@ def find_omega(map, radius=6.0):
 
 # %% exercise 2: a typical wrong answer
 # Divides by 2 pi i, as for a residue: that is phi, half of omega.
-def find_omega(map, radius=6.0):
+def find_omega(f, radius=6.0):
     """The coefficient omega of ln|z| in (3), from f_z on a circle."""
     points = circle(radius, 400)
-    fz, _ = map.wirtinger(points)
+    fz, _ = f.wirtinger(points)
     z = points @ [1, 1j]
     integral = (fz * 1j * z).mean() * 2 * np.pi
     return integral / (2j * np.pi)

@@ -39,7 +39,7 @@ def lambda_34(sigma1, sigma2):
 
 # %% exercise 3: solution
 def minimise(v):
-    """A local minimum of energy, by Newton's method from v. Use gradient(v) and hessian(v)."""
+    """A local minimum of energy by Newton's method from v, with gradient and hessian."""
     for _ in range(60):
         g = np.asarray(gradient(v))
         values, vectors = np.linalg.eigh(hessian(v))
@@ -54,7 +54,7 @@ def minimise(v):
 # %% exercise 3: a typical wrong answer
 # Newton's method as it stands, with full steps and the exact Hessian.
 def minimise(v):
-    """A local minimum of energy, by Newton's method from v. Use gradient(v) and hessian(v)."""
+    """A local minimum of energy by Newton's method from v, with gradient and hessian."""
     for _ in range(60):
         v = v - np.linalg.solve(hessian(v), gradient(v))
     return v

@@ -1,6 +1,6 @@
 # %% exercise 1: solution
 def largest_step(fz, fzb, dfz, dfzb):
-    """The least t > 0 at which |fz + t dfz| = |fzb + t dfzb| at one of the samples, or infinity."""
+    """The least t > 0 with |fz + t dfz| = |fzb + t dfzb| at a sample, or infinity."""
     a = abs(dfz) ** 2 - abs(dfzb) ** 2
     b = 2 * (np.conj(fz) * dfz - np.conj(fzb) * dfzb).real
     c = abs(fz) ** 2 - abs(fzb) ** 2
@@ -24,7 +24,7 @@ def largest_step(fz, fzb, dfz, dfzb):
 def backtrack(energy, slope, first, certified):
     """Halve the step, beginning with first, until it passes both tests of Algorithm 1.
 
-    energy(t) and certified(t) are functions of the step, slope is the derivative of energy at 0.
+    energy(t) and certified(t) are functions of the step, slope is energy's derivative at 0.
     """
     t = first
     while not (energy(t) < energy(0.0) + 1e-4 * t * slope and certified(t)):
@@ -43,7 +43,7 @@ def backtrack(energy, slope, first, certified):
 
 # %% exercise 3: solution
 def longest_certified(line, longest):
-    """A certified step within 1 % of one that is not; the step longest is not certified."""
+    """A certified step within 1 % of one that is not; the step longest is not."""
     good, bad = 0.0, longest
     while bad > 1.01 * good:
         middle = (good + bad) / 2

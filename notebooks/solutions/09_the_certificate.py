@@ -16,19 +16,19 @@ def sigma2_bound(fz, fzb, lipschitz_fz, lipschitz_fzb, length):
 
 
 # %% exercise 2: solution
-def zeros_inside(map, n):
-    """The number of zeros of f_z in the domain, from about n panels: the sum (30) over 2 pi."""
-    panels = uniform_panels(map.domain.cage, n)
-    at_start, at_end = map.wirtinger(panels.start)[0], map.wirtinger(panels.end)[0]
+def zeros_inside(f, n):
+    """The number of zeros of f_z, a whole number: (30) over 2 pi, from about n panels."""
+    panels = uniform_panels(f.domain.cage, n)
+    at_start, at_end = f.wirtinger(panels.start)[0], f.wirtinger(panels.end)[0]
     return round(np.angle(at_end / at_start).sum() / (2 * np.pi))
 
 
 # %% exercise 2: a typical wrong answer
 # It walks around the exterior only, and leaves the holes out.
-def zeros_inside(map, n):
-    panels = uniform_panels(map.domain.cage, n)
+def zeros_inside(f, n):
+    panels = uniform_panels(f.domain.cage, n)
     outer = panels.loop == 0
-    at_start, at_end = map.wirtinger(panels.start[outer])[0], map.wirtinger(panels.end[outer])[0]
+    at_start, at_end = f.wirtinger(panels.start[outer])[0], f.wirtinger(panels.end[outer])[0]
     return round(np.angle(at_end / at_start).sum() / (2 * np.pi))
 
 

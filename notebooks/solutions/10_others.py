@@ -1,6 +1,6 @@
 # %% exercise 1: solution
 def iterations_to(result, best, gap):
-    """The first iteration after which the energy is at most (1 + gap) * best, or None if never."""
+    """The first iteration with an energy of at most (1 + gap) * best, None if never."""
     for iteration in [result.initial, *result.history]:
         if iteration.energy <= (1 + gap) * best:
             return iteration.iteration
@@ -15,7 +15,7 @@ def iterations_to(result, best, gap):
 
 # %% exercise 2: solution
 def two_loop(gradient, pairs):
-    """The inverse Hessian that the pairs (s, y), oldest first, stand for, applied to a gradient."""
+    """The inverse Hessian of the pairs (s, y), oldest first, applied to a gradient."""
     q, alphas = gradient.copy(), []
     for s, y in reversed(pairs):
         alphas.append((s @ q) / (s @ y))
@@ -35,10 +35,10 @@ def two_loop(gradient, pairs):
 
 
 # %% exercise 3: solution
-def area_mean(map, points, h=1e-6):
+def area_mean(f, points, h=1e-6):
     """The mean of E_iso over points inside, by finite differences of the map itself."""
-    across = (map(points + np.array([h, 0])) - map(points - np.array([h, 0]))) / (2 * h)
-    up = (map(points + np.array([0, h])) - map(points - np.array([0, h]))) / (2 * h)
+    across = (f(points + np.array([h, 0])) - f(points - np.array([h, 0]))) / (2 * h)
+    up = (f(points + np.array([0, h])) - f(points - np.array([0, h]))) / (2 * h)
     squares = np.sum(across**2 + up**2, axis=1)
     det = across[:, 0] * up[:, 1] - across[:, 1] * up[:, 0]
     return np.mean(squares * (1 + det**-2) / 2)
@@ -46,7 +46,7 @@ def area_mean(map, points, h=1e-6):
 
 # %% exercise 3: a typical wrong answer
 # It forgets the inverse's half of E_iso, so that shrinking looks free.
-def area_mean(map, points, h=1e-6):
-    across = (map(points + np.array([h, 0])) - map(points - np.array([h, 0]))) / (2 * h)
-    up = (map(points + np.array([0, h])) - map(points - np.array([0, h]))) / (2 * h)
+def area_mean(f, points, h=1e-6):
+    across = (f(points + np.array([h, 0])) - f(points - np.array([h, 0]))) / (2 * h)
+    up = (f(points + np.array([0, h])) - f(points - np.array([0, h]))) / (2 * h)
     return np.mean(np.sum(across**2 + up**2, axis=1))

@@ -1,6 +1,6 @@
 # %% exercise 1: solution
 def hessian_block(D, K):
-    """D^T K D / |H| for the real matrix D (2 |H|, 2 n) and the 2 by 2 blocks K (|H|, 2, 2)."""
+    """D^T K D / |H| for the real matrix D (2 |H|, 2 n) and the blocks K (|H|, 2, 2)."""
     rows = D.reshape(len(K), 2, -1)
     return D.T @ (K @ rows).reshape(D.shape) / len(K)
 
@@ -14,7 +14,7 @@ def hessian_block(D, K):
 
 # %% exercise 2: solution
 def with_old_factor(gradient, factor, x, count):
-    """count steps from x by the same Cholesky factor, each with a gradient of its own."""
+    """count steps from x by one Cholesky factor, each with a gradient of its own."""
     for _ in range(count):
         x = x - cho_solve(factor, gradient(x))
     return x

@@ -1,7 +1,7 @@
 # Answers to the exercises of 12_what_lies_between.ipynb, run by tests/notebooks.
 # %% exercise 1: solution
 def shortest(first, last):
-    """The least modulus of (1 - t) first + t last for t in [0, 1], of complex numbers."""
+    """The least modulus of (1 - t) first + t last for t in [0, 1]; both complex."""
     step = last - first
     t = 0 if step == 0 else -(np.conj(step) * first).real / abs(step) ** 2
     return abs(first + np.clip(t, 0, 1) * step)
@@ -16,7 +16,7 @@ def shortest(first, last):
 
 # %% exercise 2: solution
 def between(fz, fzb, t):
-    """f_z and f_zbar at time t along a loop, (n,) each; fz and fzb are (2, n), at t = 0 and 1."""
+    """f_z and f_zbar at time t along a loop, (n,); fz and fzb are (2, n), at t = 0, 1."""
     logs = np.log(abs(fz)) + 1j * np.unwrap(np.angle(fz), axis=1)
     nus = np.conj(fzb) / fz
     a = np.exp((1 - t) * logs[0] + t * logs[1])
@@ -36,7 +36,7 @@ def between(fz, fzb, t):
 def all_times_bound(fz, fzb):
     """A lower bound on |f_z| - |f_zbar| for all t in [0, 1].
 
-    fz and fzb hold the two complex values at t = 0 and t = 1, between which both move straight.
+    fz and fzb hold the complex values at t = 0 and t = 1, between which both move straight.
     """
     u = np.exp(2j * np.pi * np.arange(720) / 720)
     at_ends = [(np.conj(u) * a).real - abs(b) for a, b in zip(fz, fzb)]

@@ -21,27 +21,27 @@ def my_pose():
 
 
 # %% exercise 2: solution
-def bounds_everywhere(map):
-    proof = glid.certify(map)
+def bounds_everywhere(f):
+    proof = glid.certify(f)
     return proof.sigma2_lower, proof.sigma1_upper
 
 
 # %% exercise 2: a typical wrong answer
 # Samples bound nothing between them.
-def bounds_everywhere(map):
-    points = glid.triangulate(map.domain.cage, 500).vertices
-    return map.sigma2(points).min(), map.sigma1(points).max()
+def bounds_everywhere(f):
+    points = glid.triangulate(f.domain.cage, 500).vertices
+    return f.sigma2(points).min(), f.sigma1(points).max()
 
 
 # %% exercise 2: many samples and a margin
 # A margin is a guess: the dent lies between two of the samples, and is deeper than the margin.
-def bounds_everywhere(map):
+def bounds_everywhere(f):
     low, high = np.inf, 0.0
-    for loop in map.domain.cage.loops:
+    for loop in f.domain.cage.loops:
         for a, b in zip(loop, np.roll(loop, -1, axis=0)):
             points = a + np.linspace(0, 1, 5_000)[:, None] * (b - a)
-            low = min(low, map.sigma2(points).min())
-            high = max(high, map.sigma1(points).max())
+            low = min(low, f.sigma2(points).min())
+            high = max(high, f.sigma1(points).max())
     return 0.98 * low, 1.02 * high
 
 

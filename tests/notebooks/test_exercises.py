@@ -21,7 +21,6 @@ from glid_nb import figures
 
 FOLDER = Path(__file__).parents[2] / "notebooks"
 NOTEBOOKS = sorted(FOLDER.glob("[0-9][0-9]_*.ipynb"))
-CHAPTERS = [path for path in NOTEBOOKS if path.stem >= "03"]
 _HEADING = re.compile(r"^# %% exercise (\d+): (.+)$", re.MULTILINE)
 _FENCE = re.compile(r"<details>.*?```python\n(.*?)\n```.*?</details>", re.DOTALL)
 
@@ -107,7 +106,7 @@ def without_figures(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("without_figures")
-@pytest.mark.parametrize("path", CHAPTERS, ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.stem)
 def test_a_check_tells_a_solution_from_a_skeleton_and_from_wrong_answers(path: Path) -> None:
     for exercise, answer, text in outcomes(path):
         right, wrong = f"exercise {exercise}: right", f"exercise {exercise}: not yet: "
@@ -117,7 +116,7 @@ def test_a_check_tells_a_solution_from_a_skeleton_and_from_wrong_answers(path: P
             assert text.startswith(wrong), f"exercise {exercise}, {answer}: {text}"
 
 
-@pytest.mark.parametrize("path", CHAPTERS, ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.stem)
 def test_a_chapter_has_two_or_three_exercises_each_with_a_wrong_answer(path: Path) -> None:
     book = cells(path)
     n = sum(has(cell, "check") for cell in book)
@@ -127,7 +126,7 @@ def test_a_chapter_has_two_or_three_exercises_each_with_a_wrong_answer(path: Pat
     assert all("solution" in of and len(of) >= 2 for of in names)
 
 
-@pytest.mark.parametrize("path", CHAPTERS, ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.stem)
 def test_a_check_assigns_no_name_of_the_chapter(path: Path) -> None:
     book = [cell for cell in cells(path) if cell.cell_type == "code"]
     others = [symtable.symtable(c.source, "cell", "exec") for c in book if not has(c, "check")]
@@ -136,7 +135,7 @@ def test_a_check_assigns_no_name_of_the_chapter(path: Path) -> None:
         assert not assigned(cell.source) & names, f"exercise {exercise}"
 
 
-@pytest.mark.parametrize("path", CHAPTERS, ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.stem)
 def test_the_collapsed_solutions_are_those_that_are_run(path: Path) -> None:
     text = "\n".join(cell.source for cell in cells(path) if cell.cell_type == "markdown")
     shown = [code.strip() for code in _FENCE.findall(text)]
@@ -152,7 +151,7 @@ def test_a_notebook_is_saved_with_pictures_and_without_widgets(path: Path) -> No
     assert not [out for out in outputs if out.output_type == "error" or out.get("name") == "stderr"]
 
 
-@pytest.mark.parametrize("path", CHAPTERS, ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.stem)
 def test_what_is_saved_is_the_skeletons_check(path: Path) -> None:
     saved = [c.outputs[0].text.strip() for c in cells(path) if has(c, "check")]
     assert all(": not yet: " in text for text in saved)
