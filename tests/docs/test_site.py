@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import doctest
 import re
 from pathlib import Path
 
 import pytest
 
 import glid_nb
+from glid_nb import figures, methods
 
 from ..test_public_face import public_names
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 DOCS = REPOSITORY / "docs"
 REFERENCE = "\n".join(p.read_text(encoding="utf-8") for p in (DOCS / "reference").glob("*.md"))
+EXAMPLES = [part.source + part.want for part in doctest.DocTestParser().get_examples(REFERENCE)]
+EXPORTS = re.findall(r"(?<=glid_nb\.export\n   :members: ).+", REFERENCE)[0].split(", ")
+KINDS = [method.__name__ for method in methods.METHODS.values()]
 
 
 def test_the_course_lists_every_notebook() -> None:
@@ -31,6 +36,11 @@ def test_the_reference_has_every_public_name(name: str) -> None:
 @pytest.mark.parametrize("name", glid_nb.__all__)
 def test_the_references_table_has_every_public_name(name: str) -> None:
     assert f"`glid.{name}`" in (DOCS / "reference" / "index.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", [*public_names(), *figures.__all__, *EXPORTS, *KINDS])
+def test_every_name_of_the_reference_has_an_example(name: str) -> None:
+    assert any(re.search(rf"\b{name}\b", example) for example in EXAMPLES)
 
 
 @pytest.mark.parametrize("page", sorted((DOCS / "reference").glob("*.md")), ids=lambda p: p.stem)
