@@ -28,6 +28,7 @@ extensions = [
     "course",
     "front_page",
     "mathml",
+    "pictures",
     "reference",
     "source_pages",
 ]

@@ -40,16 +40,17 @@ def hide_live_widgets(_app: Sphinx, document: nodes.document) -> None:
 
 
 class Course(SphinxDirective):
-    """A table of all notebooks: title, question, minutes."""
+    """A table of all notebooks: title, question, minutes, the file."""
 
     def run(self) -> list[nodes.Node]:
-        lines = ["| | chapter | minutes |", "| --- | --- | ---: |"]
+        lines = ["| | chapter | minutes | |", "| --- | --- | ---: | --- |"]
         for path in sorted(Path(self.env.srcdir, "notebooks").glob("*.ipynb")):
             self.env.note_dependency(str(path))
             title, question, minutes = chapter(path)
             question = f"<br>{question}" if question else ""
             link = f"[{title or path.stem}](/notebooks/{path.name})"
-            lines.append(f"| {path.stem[:2]} | {link}{question} | {minutes} |")
+            file = f"{{download}}`download </notebooks/{path.name}>`"
+            lines.append(f"| {path.stem[:2]} | {link}{question} | {minutes} | {file} |")
         self.content = StringList(lines)
         return self.parse_content_to_nodes()
 
