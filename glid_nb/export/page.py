@@ -18,6 +18,7 @@ from glid_nb.certificate import Certificate, global_injectivity
 from glid_nb.certificate.rounding import rounded_down, rounded_up
 from glid_nb.export.moving import MovingMesh, Progress, report
 from glid_nb.figures.style import COLORS, rgb
+from glid_nb.geometry import Domain
 from glid_nb.harmonic import FixedPoints, HarmonicMap, ShaderMap
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.imaging.read import png
@@ -34,6 +35,7 @@ _GRID_LINES = 20  # along the longer side
 # where it is 2000 pixels long.
 _STEP = 1e-5
 _HEIGHT = 2.0**-16
+_MOST_STEPS = 2**28  # of a coefficient
 _LONGEST_CHAIN = 1024  # vectors that a block of uniforms holds on every device
 # By the verdict on global injectivity.
 _OVERLAPS = {
@@ -83,9 +85,10 @@ def page_html(
     mesh = MovingMesh.of(map, pose, _VERTICES, tolerance)
     report(progress, 1, 3)
     proof = map.certificate if isinstance(map, Motion) else certificate
+    step = _STEP * map.domain.cage.longer_side
     data = {
-        **_shape(mesh, _STEP * map.domain.cage.longer_side),
-        **_shaders(mesh, map),
+        **_shape(mesh, step),
+        **_shaders(mesh, map, step),
         "frame": [*PixelFrame(*texture.shape[1::-1]).bounds],
         "margin": _MARGIN,
         "grid": map.domain.cage.longer_side / _GRID_LINES,
@@ -124,9 +127,10 @@ def _shape(mesh: MovingMesh, step: float) -> dict[str, Any]:
     }
 
 
-def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion) -> dict[str, Any]:
+def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion, step: float) -> dict[str, Any]:
     """The shaders of the canvas, and the maps at the knots as they take them."""
-    domain, shader = shown.domain, ShaderMap(shown.domain)
+    domain = shown.domain
+    shader = ShaderMap(domain)
     wire, head = shader.wire, shader.defines() + glsl("harmonic.glsl")
     # Blocks hold more than plain uniforms do.
     head = re.sub(r"uniform vec4 (\w+)(\[\w+\]);", r"uniform \1_block { vec4 \1\2; };", head)
@@ -140,10 +144,10 @@ def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion) -> dict[str, Any]:
         motion, arrays = playing(shown, wire)
     else:
         motion, arrays = {"times": [0, 1], "keyframes": [], "repeat": "once"}, 2 * wire(shown)
+    step *= 1 if in_kernel else 1 / _spread(domain, mesh.vertices)
     undeformed = wire(HarmonicMap.identity(domain))
     rows = np.frombuffer(undeformed + arrays, "<f4").reshape(-1, len(undeformed) // 4)
-    # Coefficients cancel: they keep single precision.
-    step = float(np.abs(rows).max()) * (_STEP if in_kernel else 2.0**-24)
+    step = max(step, float(np.abs(rows).max()) / _MOST_STEPS)
     parts = (glsl(name) for name in ("colors.glsl", "energy.glsl", "picture.frag"))
     return {
         "vertex": _VERTEX + head + glsl("picture.vert"),
@@ -178,6 +182,15 @@ def playing(motion: Motion, wire: Callable[[HarmonicMap], bytes]) -> tuple[dict[
         "until": certificate.until,
     }
     return values, b"".join(map(wire, maps))
+
+
+def _spread(domain: Domain, points: Array) -> float:
+    """How far images of points move at most where coefficients are rounded to whole numbers: half
+    as much again as in a sample."""
+    n, holes = domain.n_coefficients, domain.n_holes
+    phi, psi = np.random.default_rng(0).uniform(-0.5, 0.5, (2, n, 2)) @ [1, 1j]
+    psi[n - holes :] = phi[n - holes :].conj()
+    return 1.5 * float(np.abs(HarmonicMap(domain, phi, psi)(points)).max())
 
 
 def _ranges(proof: Certificate | MotionCertificate | None) -> dict[str, list[float]]:
