@@ -3,7 +3,7 @@
 import { copied } from "../pad/clipboard.js";
 import { follow, make } from "../pad/dom.js";
 import { help, shield } from "../pad/help.js";
-import { icon } from "../pad/icons.js";
+import { iconButton } from "../pad/icons.js";
 import { Link } from "../pad/link.js";
 import { openMenu } from "../pad/menu.js";
 import { Pad, undoAround } from "../pad/pad.js";
@@ -211,8 +211,7 @@ function render({ model, el }) {
     },
     changed: soon,
   }) : null;
-  const button = (name, title, onclick) =>
-    make("button", { type: "button", className: "glid-help-button", title, "aria-label": title, onclick }, icon(name));
+  const button = (...look) => iconButton(...look, "glid-help-button");
   const buttons = [keys.button, button("fit", "Full screen (W)", whole), button("rectangle", "The picture alone (P)", alone)];
   if (pad) box.append(shield(make("div", { className: "glid-corner" }, ...buttons)), keys.table, resizeGrip(model));
   const forget = pad && undoAround(box, (e) => pad.keydown(e));

@@ -34,6 +34,6 @@ export function icon(name) {
   return svg;
 }
 
-export function iconButton(name, label, onclick) {
-  return make("button", { type: "button", title: label, "aria-label": label, className: "glid-icon", onclick }, icon(name));
+export function iconButton(name, label, onclick, className = "glid-icon") {
+  return make("button", { type: "button", title: label, "aria-label": label, className, onclick }, icon(name));
 }
