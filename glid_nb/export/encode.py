@@ -136,10 +136,8 @@ def _video(frames: Frames, fps: float, suffix: str, transparent: bool) -> bytes:
 
 
 def _sprite_sheet(frames: Frames, fps: float, name: str) -> list[bytes]:
-    """A picture of all frames side by side, and JSON that says where each is.
-
-    The JSON is TexturePacker's "hash" with Pixi's ``animations``; durations are milliseconds.
-    """
+    """A picture of all frames side by side, and JSON that says where each is: TexturePacker's
+    "hash" with Pixi's ``animations``; durations are milliseconds."""
     (width, height), columns = frames.size, math.ceil(math.sqrt(frames.count))
     sides = columns * width, math.ceil(frames.count / columns) * height
     if max(sides) > _LARGEST_SHEET:

@@ -112,7 +112,6 @@ def page_html(
 
 
 def _shape(mesh: MovingMesh, step: float) -> dict[str, Any]:
-    """The triangulation, its layers and its extent."""
     first = mesh.triangles.argmin(axis=1)[:, None]
     corners = np.take_along_axis(mesh.triangles, (first + np.arange(3)) % 3, axis=1)
     corners = corners[np.lexsort(corners.T[::-1])]  # so that they pack well

@@ -100,7 +100,6 @@ def frame_around(points: NDArray[np.float64], size: int) -> PixelFrame:
 
 
 def on_background(pixels: NDArray[np.uint8], background: RGB) -> Image.Image:
-    """RGBA pixels on a colour."""
     picture = Image.new("RGBA", pixels.shape[1::-1], (*background, 255))
     picture.alpha_composite(Image.fromarray(pixels))
     return picture

@@ -50,10 +50,7 @@ Floats = NDArray[np.float64]
 
 
 class Plot:
-    """Axes, whose look is set here, and artists in them that are updated.
-
-    Animated artists are left out of a normal draw, to be blitted.
-    """
+    """Axes, whose look is set here, and artists that are updated, or animated to be blitted."""
 
     artists: tuple[Artist, ...]
     """What ``update`` changes."""
@@ -129,12 +126,8 @@ class _OverIterations(Plot):
             self.artists = *self._lines, self._within
 
     def _join(self, x: Floats, values: Floats, starts: Collection[int], solving: bool) -> Floats:
-        """Show the lines' (l, n) values over the numbers of iterations; returns those joined.
-
-        ``starts`` are the iterations that began with moved targets, ``solving`` says whether the
-        solver still runs: the lines join the last iterations of the finished solves, or all if
-        they belong to one solve only.
-        """
+        """Show the lines' (l, n) values over the numbers of iterations; returns those joined: the
+        last of each solve that has ended, or all of a single one. Solves begin at ``starts``."""
         begins = np.isin(x[1:], np.fromiter(starts, dtype=float))
         ends = np.append(begins, not solving)[: len(x)]
         ends |= not begins.any()
@@ -258,8 +251,7 @@ class TimePlot(_OverIterations):
 class CertificatePlot(Plot):
     """The certified lower bound on sigma_2 along the boundary of a cage, and the sampled sigma_2.
 
-    The loops are drawn side by side, with their names below, or their numbers where names do not
-    fit; so the axes must have about their final size.
+    The loops lie side by side. Which names fit is found once: by the final size of the axes.
     """
 
     def __init__(self, axes: Axes, cage: Cage, animated: bool = False) -> None:
@@ -346,10 +338,8 @@ def _rounded_up(value: float) -> float:
 
 
 def _loop_names(starts: Floats, character: float) -> list[tuple[float, str]]:
-    """(place along the boundary, name) of the loops; neighbours too short for theirs share one.
-
-    ``starts`` are the loops' starts and the boundary's end, ``character`` is a character's width.
-    """
+    """(place along the boundary, name) of the loops between ``starts``; neighbours too short for
+    their names, with characters of this width, share one."""
 
     def fits(name: str, loop: int) -> bool:
         return (len(name) + 1) * character <= starts[loop + 1] - starts[loop]

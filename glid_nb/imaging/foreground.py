@@ -66,10 +66,7 @@ def find_foreground(
     scribbles: Scribbles | None = None,
     scaled: Callable[[RGBA], NDArray[np.float64]] = scaled_picture,
 ) -> Foreground:
-    """The foreground of an (h, w, 4) image by options of `TraceOptions`, without smoothing.
-
-    Callers may keep what ``scaled`` returns.
-    """
+    """The foreground of an (h, w, 4) image by options of `TraceOptions`, without smoothing."""
     _check_not_uniform(image)
     notes: list[str] = []
     if method == "auto":

@@ -62,10 +62,8 @@ class PixelFrame:
         return x - w, y - h, x + w, y + h
 
     def showing(self, bounds: ArrayLike, margin: float = 0.0) -> PixelFrame:
-        """The frame of a picture of this size that shows a rectangle as large as possible.
-
-        ``margin`` is the least room around it, as a share of the picture's sides.
-        """
+        """The frame of a picture of this size that shows a rectangle as large as possible, with a
+        ``margin`` of a share of the picture's sides."""
         low, high = np.reshape(bounds, (2, 2))
         pixels_per_unit = (2 * self._middle / (high - low)).min() * (1 - 2 * margin)
         zoom = float(pixels_per_unit * LONGER_SIDE / max(self.width, self.height))

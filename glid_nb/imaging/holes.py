@@ -101,7 +101,6 @@ def filled_mask(outline: Outline, holes: tuple[Hole, ...]) -> NDArray[np.bool_]:
 
 
 def _holds_any(loop: NDArray[np.float64], points: Sequence[Point]) -> bool:
-    """Whether a loop goes around one of the points."""
     return any(shapely.contains_xy(shapely.Polygon(loop), *point) for point in points)
 
 

@@ -134,10 +134,8 @@ def _jumped(simplified: Loops, over: list[NDArray[np.intp]]) -> list[int]:
 
 
 def significance(loop: Points) -> NDArray[np.float64]:
-    """(n,) tolerances at which Ramer, Douglas and Peucker's algorithm drops the points of a loop.
-
-    Infinite for two vertices far apart. One computation serves all tolerances.
-    """
+    """(n,) tolerances at which Ramer, Douglas and Peucker's algorithm drops the points of a loop;
+    infinite for two that are far apart."""
     n = len(loop)
     start = int(np.argmax(np.hypot(*(loop - loop.mean(axis=0)).T)))
     points = np.roll(loop, -start, axis=0)

@@ -32,10 +32,8 @@ def brightness(image: RGBA) -> Field:
 
 
 def color_distance(image: RGBA, color: tuple[float, float, float]) -> Field:
-    """(h, w) Euclidean distance from a colour in sRGB, over sqrt(3): black to white is 1.
-
-    It is linear along an anti-aliased edge, and sixty times as fast as a distance in CIELAB.
-    """
+    """(h, w) Euclidean distance from a colour in sRGB, black to white being 1: linear along an
+    anti-aliased edge, and sixty times as fast as a distance in CIELAB."""
     scale = np.float32(1 / (full(image) * np.sqrt(3)))
     centre = np.array(color, dtype=np.float32) * np.float32(1 / np.sqrt(3))
     total = np.zeros(image.shape[:2], dtype=np.float32)
@@ -105,10 +103,8 @@ def histogram(score: NDArray[np.float32]) -> NDArray[np.float64]:
 
 
 def otsu(shares: NDArray[np.float64]) -> float:
-    """Otsu's threshold in [0, 1], which maximises the variance between the two classes.
-
-    Of a range that separates equally well the middle; scikit-image's is at anti-aliased pixels.
-    """
+    """Otsu's threshold in [0, 1]; of a range that separates equally well the middle, where
+    scikit-image takes the low end, at anti-aliased pixels."""
     centres = (np.arange(_BINS) + 0.5) / _BINS
     low = np.cumsum(shares)[:-1]
     high = 1 - low
@@ -124,11 +120,8 @@ def otsu(shares: NDArray[np.float64]) -> float:
 
 
 def color_threshold(distance: NDArray[np.float32], spread: float) -> float:
-    """A threshold for the distance from the background's colour.
-
-    Otsu's, which gives the best edges, unless parts of the shape resemble the background: then it
-    is as low as the background's own spread allows.
-    """
+    """A threshold for the distance from the background's colour: Otsu's, or, if parts of the shape
+    resemble the background, as low as the background's own spread allows."""
     shares = histogram(distance)
     middle, floor = otsu(shares), min(1.5 * spread + 0.02, 0.9)
     if middle <= floor:

@@ -76,10 +76,8 @@ def deformed_mesh(
 def fine_mesh(
     cage: Cage, image: Evaluation, n_vertices: int, tolerance: float | None
 ) -> tuple[Floats, Floats, Ints]:
-    """Vertices (v, 2), their images (v, 2 m) under m maps, as ``image`` evaluates, and triangles.
-
-    The mesh is as fine as the map that bends most needs it.
-    """
+    """Vertices (v, 2), their images (v, 2 m) under m maps, as ``image`` evaluates, and triangles,
+    as fine as the map that bends most needs them."""
     if tolerance is not None and not tolerance > 0:
         raise ValueError(f"tolerance is {tolerance}; it must be positive")
     start = triangulate(cage, n_vertices)

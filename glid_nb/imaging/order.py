@@ -34,10 +34,8 @@ _OPAQUE = 128  # of 255
 
 
 class Order:
-    """Heights of a shape's points: where its image overlaps itself, the higher covers the lower.
-
-    They grow from the trunk to the limbs; depths of handles outweigh that around their pins.
-    """
+    """Heights of a shape's points, by which one part covers another: they grow from the trunk to
+    the limbs; depths of handles outweigh that around their pins."""
 
     def __init__(self, mesh: Triangulation, limbs: Array, depths: Array) -> None:
         self._mesh, self._limbs, self._depths = mesh, limbs, depths
@@ -124,10 +122,8 @@ class Sheets:
         self._near = _NEAR * float(np.ptp(self._mesh.vertices, axis=0).max())
 
     def source(self, point: Any) -> Array | None:
-        """The point (2,) of the undeformed shape that is seen at ``point``; None outside the shape.
-
-        Of transparent parts alone the highest's.
-        """
+        """The point (2,) of the undeformed shape that is seen at ``point``, or that of the highest
+        of transparent parts; None outside the shape."""
         curved = isinstance(self._map, HarmonicMap)
         place = np.reshape(np.asarray(point, dtype=float), (1, 2))
         _, found = self._drawn_at(place, _OVERHANG if curved else 0.0)

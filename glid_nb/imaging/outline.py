@@ -93,10 +93,8 @@ def find_components(mask: NDArray[np.bool_]) -> Components:
 
 @dataclass(frozen=True, eq=False)
 class Outline:
-    """Read-only loops in pixel coordinates that neither cross nor touch.
-
-    Where the component meets the border of the image, the outline runs along the border.
-    """
+    """Read-only loops in pixel coordinates that neither cross nor touch; they run along the border
+    of the image where the component meets it."""
 
     component: Component
     exterior: NDArray[np.float64]
@@ -166,10 +164,8 @@ def _fill_specks(inside: NDArray[np.bool_], least: float) -> int:
 
 
 def _field(score: NDArray[np.float32], level: float, inside: Array) -> NDArray[np.float32]:
-    """Score minus level, positive exactly in the component, with a frame of one pixel outside it.
-
-    Values near 0 are moved away: a level set through the centre of a pixel could touch itself.
-    """
+    """Score minus level, positive exactly in the component, in a frame of one pixel."""
+    # Values near 0 are moved away: a level set through the centre of a pixel could touch itself.
     field = np.pad(score - np.float32(level), 1, mode="edge")
     np.abs(field, out=field)
     least = np.float32(_LEAST_DIFFERENCE * max(min(level, 1 - level), 0.05))

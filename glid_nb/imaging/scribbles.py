@@ -35,10 +35,8 @@ def scaled_picture(image: NDArray[np.unsignedinteger]) -> NDArray[np.float64]:
 def scribble_score(
     scaled: NDArray[np.float64], scribbles: Scribbles, shape: tuple[int, int]
 ) -> tuple[NDArray[np.float32], tuple[str, ...]]:
-    """Probability that a random walker from a pixel meets the foreground strokes first, and notes.
-
-    The walk is on a `scaled_picture`, its result has the picture's ``shape`` (h, w).
-    """
+    """(h, w) probability that a random walker on a `scaled_picture` meets the foreground strokes
+    first, and notes; ``shape`` is the picture's."""
     from skimage.segmentation import random_walker  # noqa: PLC0415  (slow to import)
 
     labels, notes = _labels(scribbles, shape, (scaled.shape[0], scaled.shape[1]))
