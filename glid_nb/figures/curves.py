@@ -54,10 +54,12 @@ def energy_levels(*energies: Energy | str) -> NotebookFigure:
         least = float(energy.density(*isometry)[0])
         above = np.where(sigma2 <= sigma1, density - least, np.nan)
         levels = 0.02 * 3.0 ** np.arange(10)
+        labels = [_round_nearby(least + levels[i], 0.25 * levels[i]) for i in (2, 4, 6)]
+        levels[2:8:2] = np.array(labels) - least
         look: Any = {"levels": levels, "norm": LogNorm(levels[0], levels[-1])}
         axes.contourf(sigma1, sigma2, above, cmap=style.distortion_colors(), extend="both", **look)
         lines = axes.contour(sigma1, sigma2, above, colors=INK, linewidths=0.4, **look)
-        label_levels(axes, lines, {level: f"{level + least:.3g}" for level in levels[2:8:2]})
+        label_levels(axes, lines, dict(zip(levels[2:8:2], map("{:g}".format, labels), strict=True)))
         axes.axhspan(-0.4, 0.0, facecolor="white", edgecolor=VERMILION, hatch="////", linewidth=0)
         axes.axhline(0.0, color=VERMILION, linewidth=style.LINE)
         axes.plot([0, 2.4], [0, 2.4], color=GREY, linewidth=0.6)
@@ -92,7 +94,7 @@ def derivative_curve(map: HarmonicMap, which: Literal["fz", "fzb"] = "fz") -> No
         axes.plot(*as_points(curve[:1]).T, "o", color=look["color"], markersize=3.5)
     axes.plot(0, 0, "+", color=INK, markersize=12, markeredgewidth=1.5, zorder=4)
     axes.set_aspect("equal", adjustable="datalim")
-    name = "f_z" if which == "fz" else "f_z̄"
+    name = "$f_z$" if which == "fz" else r"$f_{\overline{z}}$"
     _named(axes, f"Re {name}", f"Im {name}", "")
     axes.legend(loc="best", **style.LEGEND)
     return figure
@@ -157,7 +159,7 @@ def function(
     for axis in log:
         getattr(axes, f"set_{axis}scale")("log")
         low, high = getattr(axes, f"get_{axis}lim")()
-        if high < 30 * low:  # powers of ten would be too few
+        if high < 1000 * low:  # powers of ten would be too few
             ticks = log_ticks(low, high)
             getattr(axes, f"set_{axis}ticks")(ticks, [f"{tick:g}" for tick in ticks])
             getattr(axes, f"{axis}axis").set_minor_formatter(NullFormatter())
@@ -165,6 +167,12 @@ def function(
     if len(curves) + len(lines) > 1:
         axes.legend(**style.LEGEND)
     return figure
+
+
+def _round_nearby(value: float, most: float) -> float:
+    """The number of fewest digits that differs from a value by at most so much."""
+    rounded = (float(f"{value:.{digits}g}") for digits in range(1, 18))
+    return next(number for number in rounded if abs(number - value) <= most)
 
 
 def _named(axes: Axes, x: str, y: str, title: str) -> None:

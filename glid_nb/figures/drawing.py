@@ -43,11 +43,9 @@ class NotebookFigure(Figure):
     def _repr_png_(self) -> tuple[bytes, dict[str, int]]:
         width, height = (_CSS_DPI * self.get_size_inches()).round().astype(int).tolist()
         picture = Image.open(io.BytesIO(figure_png(self, _SHOWN_DPI))).convert("RGB")
-        # Fields have too many colours for a palette, which would make their colour bars uneven.
-        files = [io.BytesIO(), io.BytesIO()]
-        for drawn, file in zip((_in_256_colors(picture), _rounded(picture)), files, strict=True):
-            drawn.save(file, "png", optimize=True)
-        return min((file.getvalue() for file in files), key=len), {"width": width, "height": height}
+        file = io.BytesIO()
+        _in_256_colors(picture).save(file, "png", optimize=True)
+        return file.getvalue(), {"width": width, "height": height}
 
     def _ipython_display_(self) -> None:
         # Not by IPython's formatters: ipywidgets' interact gives them one of its own for figures.
@@ -58,21 +56,15 @@ class NotebookFigure(Figure):
 
 
 def _in_256_colors(picture: Image.Image) -> Image.Image:
-    """A third as large as a file; the named colours, which may cover few pixels, stay exact."""
+    """A quarter as large as a file; the named colours, which may cover few pixels, stay exact."""
     named = [ImageColor.getrgb(color) for color in NAMED]
-    drawn = picture.quantize(256 - len(named), Image.Quantize.MEDIANCUT, kmeans=3)
+    drawn = picture.quantize(256 - len(named), Image.Quantize.MAXCOVERAGE, kmeans=3)
     colors = (drawn.getpalette() or [])[: 3 * (256 - len(named))]
     for color in named:
         drawn.paste(len(colors) // 3, mask=Image.fromarray((np.asarray(picture) == color).all(2)))
         colors += color
     drawn.putpalette(colors)
     return drawn
-
-
-def _rounded(picture: Image.Image) -> Image.Image:
-    """All colours, off by at most 3 of 255: half as large as a file."""
-    step = 255 / 47
-    return Image.fromarray(np.round(np.round(np.asarray(picture) / step) * step).astype(np.uint8))
 
 
 def figure_png(figure: Figure, dpi: float | None = None) -> bytes:

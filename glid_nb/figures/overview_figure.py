@@ -13,7 +13,7 @@ from glid_nb.figures import drawing
 from glid_nb.figures.drawing import Floats, NotebookFigure
 from glid_nb.figures.plots import CertificatePlot, EnergyPlot, StepPlot
 from glid_nb.figures.shapes import DrawnMap, draw_deformed, draw_distortion, hold
-from glid_nb.figures.style import BLUE, FONT_SIZE, GREY, INK, LEGEND
+from glid_nb.figures.style import BLUE, FONT_SIZE, GREY, INK, LEGEND, SMALL
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging import PixelFrame, as_rgba8
 from glid_nb.solvers.restarts import isometry_energy
@@ -86,6 +86,7 @@ def overview(
     draw_distortion(pictures[2:], [sheet], "distortion", extendfrac=0.04)
     minimum = isometry_energy(result.energy_measure)
     EnergyPlot(plots[0]).update(result.history, result.start_energy, minimum=minimum)
+    plots[0].set_ylabel(f"E − {minimum:.3g}" if minimum else "E", fontsize=SMALL, labelpad=0)
     StepPlot(plots[1]).update(result.history)
     CertificatePlot(plots[2], cage).update(certificate, map)
     figure.draw_without_rendering()  # lays out the axes

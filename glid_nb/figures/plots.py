@@ -260,7 +260,7 @@ class CertificatePlot(Plot):
         self._name_loops(np.concatenate([[0.0], np.cumsum(lengths)]))
         axes.axhline(0.0, color=VERMILION, linewidth=style.LINE, zorder=1)
         self._beside("threshold 0", (0, 0), -_AXIS_NAME, va="top", color=VERMILION)
-        self._bound = self._line(BLUE, 0.9, label="certified bound", zorder=3)
+        self._bound = self._line(BLUE, 0.9, label="certified", zorder=3)
         self._truth = self._line(INK, 0.45, label="σ₂, sampled", zorder=4)
         self._fill = self._area(SKY, alpha=0.35, zorder=2)
         ring = {"marker": "o", "markersize": 3.5, "markerfacecolor": "white"}

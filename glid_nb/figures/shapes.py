@@ -27,12 +27,13 @@ from glid_nb.imaging.rasterise import render_mesh
 from glid_nb.imaging.texture import Texture
 from glid_nb.methods.mesh.operators import MeshOperators
 from glid_nb.solvers import Pose
+from glid_nb.solvers.restarts import isometry_energy
 
 Quantity = Literal["sigma1", "sigma2", "k", "energy", "distortion"]
 AnyMap = HarmonicMap | MeshMap
 Maps = AnyMap | Sequence[AnyMap]
 
-_LABELS = {"sigma1": "σ₁", "sigma2": "σ₂", "k": "k = |f_z̄| / |f_z|"}
+_LABELS = {"sigma1": "σ₁", "sigma2": "σ₂", "k": r"$k = |f_{\overline{z}}| / |f_z|$"}
 _LABELS |= {"energy": "energy density", "distortion": "max(σ₁, 1/σ₂)"}
 _VERTICES = 3000
 _PIXELS = 600  # of the longer side of one drawn picture
@@ -204,7 +205,7 @@ def basis(domain: Domain, j: int, part: Literal["re", "im", "abs"] = "re") -> No
     axes.plot(*singular[n_vertices:].T, "x", color=INK, markersize=4, zorder=4)
     axes.plot(*singular[j], "X" if is_log else "o", color=GREEN, markersize=7, zorder=5)
     figure.legend(loc="outside lower center", ncols=3, **style.LEGEND)
-    name = "ln|z − ρ|" if is_log else f"C_{j}(z)"
+    name = "ln|z − ρ|" if is_log else f"$C_{{{j}}}(z)$"
     label = {"re": "Re ", "im": "Im ", "abs": "modulus of "}[part] + name
     drawing.color_bar(axes, drawn, label).set_xlim(least, most)
     return figure
@@ -261,7 +262,8 @@ def _scale(quantity: Quantity | Energy, known: Floats) -> tuple[Any, Any]:
         return Normalize(0.0, float(np.clip(high, 0.1, 1.0))), colors
     if quantity == "distortion":
         return LogNorm(1.0, float(np.clip(high, 1.25, 1e4))), colors
-    low = max(least, 1e-3)
+    isometric = isometry_energy(SymmetricDirichlet() if quantity == "energy" else quantity)
+    low = max(isometric if 0 < isometric < least else least, 1e-3)
     return LogNorm(low, float(np.clip(high, 2 * low, 100 * low))), colors
 
 

@@ -124,8 +124,21 @@ def test_panels_are_counted_and_the_unproved_ones_too() -> None:
     assert " 0 of them" not in texts(figures.panels(failed))
 
 
+def test_a_bar_of_energies_begins_at_the_isometrys() -> None:
+    scale = HarmonicMap(RING.domain, 1.5 * RING.phi, RING.psi)
+    *_, bar = figures.distortion(scale, "energy").axes
+    assert bar.get_xticklabels()[0].get_text() == "2"
+    assert bar.get_xlim()[0] == 2.0
+
+
+def test_a_short_logarithmic_axis_has_more_labels_than_its_powers_of_ten() -> None:
+    (axes,) = figures.function([0, 1], {"line": [0.3, 60.0]}, log="y").axes
+    assert len(axes.get_yticks()) >= 5
+
+
 def test_level_sets_and_convergence_are_labelled() -> None:
-    assert "Symmetric Dirichlet" in texts(figures.energy_levels("iso", AMIPS()))
+    labels = set(texts(figures.energy_levels("iso", AMIPS())).split("\n"))
+    assert {"Symmetric Dirichlet", "2.2", "4", "20"} <= labels
     steps = [SimpleNamespace(iteration=i, energy=2 + 0.1**i, time=0.1) for i in range(4)]
     result: Any = SimpleNamespace(initial=steps[0], history=tuple(steps[1:]))
     for against in ("iterations", "seconds"):

@@ -129,6 +129,7 @@ def test_the_figure_has_six_lettered_panels_and_a_colour_bar(figure: Figure):
     texts = [text.get_text() for axes in figure.axes for text in axes.texts]
     assert [text for text in texts if len(text) == 1] == list("abcdef")
     assert {"Source", "Deformation", "Energy", "Newton steps", "Certificate"} < set(texts)
+    assert "E − 2" in [axes.get_ylabel() for axes in figure.axes]
     keys = [axes.get_legend() for axes in figure.axes[:2]]
     legends = {text.get_text() for key in keys if key for text in key.get_texts()}
     assert legends == {"cage", "offset cage", "handles", "targets", "handles' images"}
