@@ -1,4 +1,4 @@
-"""Draws docs/walk.png: a bundled picture walks, from five keyframes; proved at every instant.
+"""Draws docs/walk.gif: a bundled picture walks, from five keyframes; proved at every instant.
 
 Usage: python -m studies.draw_walk [OUT ...]    other names, such as walk.mp4 or walk.html, too
 """

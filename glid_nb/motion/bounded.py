@@ -10,18 +10,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from glid_nb._arrays import Array
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion.boundary import Boundary, boundary_of
 from glid_nb.solvers.pose import rigid_motion
 
-# A spline may exceed the worse end by this much, else its tangents are shortened.
-_EXCESS = 0.01
+# A spline may exceed the worse end by this share, else its tangents are shortened step by step.
+_EXCESS = 0.02
+_SHORTER = 0.8
+_MOST_STEPS = 12
 _PROBES = np.linspace(0, 1, 9)[1:-1]
-_MOST_HALVINGS = 6
 
 Coefficients = tuple[Array, Array]
 """phi and psi."""
@@ -96,29 +99,25 @@ class Bounded:
         return before, after - before, span * self.tangents[piece], span * self.tangents[piece + 1]
 
     def _shortened(self, closed: bool) -> Bounded:
-        """With tangents short enough that no piece exceeds its worse end."""
-        size, tangents = np.ones(len(self.maps)), self.tangents
-        ends = [_extremes(row) for row in self.rows]
-        curve = self
-        for halving in range(_MOST_HALVINGS + 1):
-            wild = [i for i in range(len(size) - 1) if curve._exceeds(i, ends[i], ends[i + 1])]
-            if not wild:
-                break
-            for i in {*wild, *(i + 1 for i in wild)}:
-                size[i] = 0 if halving == _MOST_HALVINGS - 1 else size[i] / 2
-            if closed:
-                size[[0, -1]] = min(size[0], size[-1])
-            new = size[:, None] * tangents
-            new[:, -2:] = tangents[:, -2:]  # the rigid motion distorts nothing
-            curve = replace(self, tangents=new)
-        return curve
+        """With tangents short enough that no piece exceeds its worse end.
 
-    def _exceeds(self, piece: int, *ends: tuple[float, float]) -> bool:
-        within = [_extremes(self._row(piece, s)) for s in _PROBES]
-        (least, most), (least_within, most_within) = (
-            (min(sigma2 for sigma2, _ in each), max(k for _, k in each)) for each in (ends, within)
-        )
-        return least_within < least * (1 - _EXCESS) or most_within > most * (1 + _EXCESS)
+        Those of nu where k would, and of ``log f_z`` where sigma_2 would.
+        """
+        ends = np.array([_worst(row) for row in self.rows])
+        worse = np.maximum(ends[:-1], ends[1:])
+        share, curve = np.ones(ends.shape), self
+        for step in range(1, _MOST_STEPS + 1):
+            within = [[_worst(curve._row(i, s)) for s in _PROBES] for i in range(len(worse))]
+            wild = np.max(within, axis=1) > worse + _EXCESS * np.abs(worse)
+            if not wild.any():
+                break
+            wild |= wild.any(axis=1, keepdims=True) & (step == _MOST_STEPS)
+            at = np.vstack([wild, wild[:1] & closed]) | np.vstack([wild[-1:] & closed, wild])
+            share[at] *= _SHORTER if step < _MOST_STEPS else 0
+            fields = np.repeat(share, len(self.boundary.mean), axis=1) * self.tangents[:, :-2]
+            # The rigid motion, which distorts nothing, stays.
+            curve = replace(self, tangents=np.hstack([fields, self.tangents[:, -2:]]))
+        return curve
 
 
 def _freed(
@@ -149,11 +148,11 @@ def _fitted(boundary: Boundary, fields: Array) -> Array:
     return np.stack([boundary.translated(phi, -boundary.images(phi, psi).mean()), psi])
 
 
-def _extremes(row: Array) -> tuple[float, float]:
-    """The least sigma_2 and the largest k at the nodes."""
+def _worst(row: Array) -> Array:
+    """The least sigma_2 at the nodes, times -1, and the largest k."""
     log, nu = np.split(row[:-2], 2)
     k = np.abs(nu)
-    return float((np.exp(np.real(log)) * (1 - k)).min()), float(k.max())
+    return np.array([-(np.exp(np.real(log)) * (1 - k)).min(), k.max()])
 
 
 def _nearest(angle: float, to: float) -> float:
@@ -161,7 +160,7 @@ def _nearest(angle: float, to: float) -> float:
 
 
 def _tangents(rows: Array, times: Array, closed: bool) -> Array:
-    """Slopes of the parabola through each row and its neighbours; of the chord at open ends.
+    """Slopes of the cubic spline that bends continuously; of the chord at open ends.
 
     Where one side is much slower the motion would run away there: slopes are at most three times
     those of either chord (de Boor & Swartz 1977), of the fields all by one factor, as they are
@@ -173,13 +172,13 @@ def _tangents(rows: Array, times: Array, closed: bool) -> Array:
         size[:, :-2] = size[:, :-2].max(axis=1, keepdims=True)
         return size
 
-    span = np.diff(times)
-    slopes = np.diff(rows, axis=0) / span[:, None]
-    before, after, back = np.roll(span, 1)[:, None], span[:, None], np.roll(slopes, 1, axis=0)
-    inner = (after * back + before * slopes) / (before + after)
-    most = 3 * np.minimum(sizes(back), sizes(slopes)) / np.maximum(sizes(inner), 1e-300)
-    inner *= np.minimum(1, most)
-    tangents = np.concatenate([inner, inner[:1]])
-    if not closed:
-        tangents[0], tangents[-1] = slopes[0], slopes[-1]
-    return tangents
+    slopes = np.diff(rows, axis=0) / np.diff(times)[:, None]
+    before = np.vstack([slopes[-1 if closed else 0], slopes])
+    after = np.vstack([slopes, slopes[0 if closed else -1]])
+    mean = (rows[-1] - rows[0]) / (times[-1] - times[0])
+    flat = rows - np.outer(times - times[0], mean)
+    flat[-1] = flat[0]  # up to rounding: a loop may end some turns later
+    ends: Any = "periodic" if closed else ((1, before[0] - mean), (1, after[-1] - mean))
+    tangents = mean + CubicSpline(times, flat, bc_type=ends)(times, 1)
+    most = 3 * np.minimum(sizes(before), sizes(after)) / np.maximum(sizes(tangents), 1e-300)
+    return np.minimum(1, most) * tangents

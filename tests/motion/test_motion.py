@@ -138,6 +138,28 @@ def test_many_turns_are_cut_into_as_many_pieces_as_they_need(turns: int) -> None
     assert motion.certificate.certified
 
 
+@pytest.mark.parametrize("name", ["ell", "ring", "twin"])
+def test_a_motion_hardly_slows_down_at_its_keyframes(name: str) -> None:
+    """The shape swings evenly, so an even speed is right, but for what k and sigma_2 allow."""
+    one, two = (random_map(name, 0.02, i) for i in (1, 2))
+    rest = HarmonicMap.identity(domain(name))
+
+    def swung(angle: float, key: str) -> np.ndarray:
+        a, b, c = (getattr(map, key) for map in (rest, one, two))
+        return a + np.cos(angle) * (b - a) + np.sin(angle) * (c - a)
+
+    turns = 2 * np.pi * np.arange(5) / 5
+    maps = [HarmonicMap(domain(name), swung(a, "phi"), swung(a, "psi")) for a in turns]
+    curve = Motion(maps, repeat="loop")._curve
+    speeds = [curve.map(t % 5).distance(curve.map(t + 1e-4)) for t in np.arange(0, 5, 0.5) - 5e-5]
+    assert np.mean(speeds[::2]) > 0.75 * np.mean(speeds[1::2])
+    worst = [extremes(map) for map in (*maps, maps[0])]
+    for i, (ends, t) in enumerate(itertools.product(itertools.pairwise(worst), (0.2, 0.5, 0.8))):
+        sigma2, k = extremes(curve.map(i // 3 + t))
+        assert sigma2 >= 0.98 * min(s for s, _ in ends)
+        assert k <= 1.05 * max(k for _, k in ends)  # by 3 % these coarse bases miss what they fit
+
+
 def test_a_motion_that_slows_down_does_not_spin() -> None:
     motion = Motion(poses("ell", 0, 1.0, 1.1), [0, 0.01, 10])
     seen = angles(motion, np.linspace(0.01, 10, 60))
