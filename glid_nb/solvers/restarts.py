@@ -1,29 +1,42 @@
 """Other ways to a minimum, for poses on which the first one ends badly.
 
-The energy has many local minima, and with ``lambda = 1e5`` the first Newton steps rush the handles
-to their targets, whatever that does to the shape. Tried are targets that turn into place in stages,
-either way round (:mod:`glid_nb.solvers.turning`), a ``lambda`` that rises in stages, and the
-identity itself as start; an energy that is no barrier (ARAP) starts at the symmetric Dirichlet
-minimum. None is best on all hard poses, so the best result is kept.
+The energy has many local minima. Which one a map leads to is decided by how it turns the lines
+between handles (:mod:`glid_nb.solvers.turning`): so where one of them turns by about half a circle,
+its targets are led the other way round in stages. A line that is squeezed though it could bend is
+freed by starting at the identity itself instead of at the rigidly aligned one, which breaks the
+symmetry. Where the first way does not converge or ends very high, everything is tried: all turns
+that may go either way, and ``lambda`` raised in stages, for with the usual ``1e5`` the first Newton
+steps rush the handles to their targets, whatever that does to the shape. An energy that is no
+barrier (ARAP) can run against the limit of local injectivity far from its targets; it then starts
+at the symmetric Dirichlet minimum.
 """
 
+import functools
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from glid_nb._jax import jnp
 from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy, SymmetricDirichlet
+from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.result import Attempt, Result, Status
 from glid_nb.solvers.turning import turning_of
 
 Descend = Callable[[Inputs], Result]
 
-# Energies above this multiple of an isometry's, if that is at least the last number, are worth all
-# other ways; those above the second are worth turning where joints may turn either way.
-HIGH_ENERGY, HIGH_ENERGY_OF_JOINTS, LEAST_ISOMETRY = 2.0, 1.02, 0.5
+# Multiples of an isometry's energy, if that is at least the last number: below the first no other
+# way is tried, above the second all are.
+LOW_ENERGY, HIGH_ENERGY, LEAST_ISOMETRY = 1.02, 5.0, 0.5
 SAME_ENERGY = 1e-6
+# Lines that turn by so much may turn the other way round: what that costs grows with the square.
+HALF_CIRCLE, FAR = np.deg2rad(160), np.deg2rad(100)
+# What a shape costs above an isometry grows faster on the way than this power of the time.
+_GROWTH = 1.75
 # The stages' fractions of lambda, and how far each is followed.
 STAGES = (1e-5, 1e-3, 1e-1)
 STAGE_ITERATIONS, STAGE_TOLERANCE = 8, 1e-3
@@ -31,20 +44,31 @@ TURNING_ITERATIONS = 4
 FEW_ITERATIONS = 20  # fewer most iterations than these ask for a look at them, not for the minimum
 
 
+class Way(NamedTuple):
+    """Problems, each solved from the last one's map; the last one is the one to be solved."""
+
+    name: str
+    problems: list[Inputs]
+    last_resort: bool = True
+    """Whether it is for poses on which nothing better than a high energy is known."""
+    times: Sequence[float] = ()
+    """From 0 to 1, where the targets of the other problems are on their way."""
+
+
 def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
     """The best of ``first``, of ``inputs``, and if it is poor of ``options.restarts`` others."""
-    if not (inputs.options.restarts and len(inputs.pose)) or not _is_poor(first, 1):
+    if not (inputs.options.restarts and len(inputs.pose)) or not _is_above(first, LOW_ENERGY):
         return first
     best, tried = first, [("direct", first)]
-    for name, stages, joints in _ways(inputs)[: inputs.options.restarts]:
-        if not _is_poor(best, joints):
+    for way in _ways(first, inputs)[: inputs.options.restarts]:
+        if way.last_resort and not _is_above(best, HIGH_ENERGY):
             continue
-        result = _followed(stages, descend, best)
-        tried.append((name, result))
+        result = _followed(way, descend, best)
+        tried.append((way.name, result))
         if result.status is Status.STOPPED:
             best = replace(min(best, result, key=lambda r: r.energy), status=Status.STOPPED)
             break
-        if result.energy < best.energy * (1 - SAME_ENERGY):
+        if result.pose is inputs.pose and result.energy < best.energy * (1 - SAME_ENERGY):
             best = result
     if len(tried) == 1:
         return first
@@ -56,23 +80,27 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
     return replace(best, options=inputs.options, attempts=attempts, **times)
 
 
-def _ways(inputs: Inputs) -> list[tuple[str, list[Inputs], int]]:
-    """All other ways by name, those first that help most: the problems, each solved from the last
-    one's map, ``inputs`` at the end; and the joints that they turn."""
-    positions = replace(inputs.pose, angles=None, scales=None)
-    turning = turning_of(positions, inputs.domain.cage)
-    joints, ways = len(turning.joints), list[tuple[str, list[Inputs], int]]()
-    if not inputs.energy.is_barrier:
+def _ways(first: Result, inputs: Inputs) -> list[Way]:
+    """All other ways that may end lower than the first, those first that help most."""
+    assert isinstance(first.map, HarmonicMap)
+    turning, hard = turning_of(first.map, inputs.pose), _is_above(first, HIGH_ENERGY)
+    paths = turning.ways(FAR if hard else HALF_CIRCLE)
+    squeezed = any(line.squeezed for line in turning.lines)
+    ways = list[Way]()
+    if hard and not inputs.energy.is_barrier:
         barrier = replace(inputs, energy=SymmetricDirichlet())
-        ways.append(("from the symmetric Dirichlet minimum", [barrier, inputs], 0))
-    loose = _loosened(inputs, TURNING_ITERATIONS, align=True)
-    for name, poses in turning.ways.items():
-        ways.append((name, [*(replace(loose, pose=pose) for pose in poses), inputs], joints))
-    if inputs.options.align:
+        ways.append(Way("from the symmetric Dirichlet minimum", [barrier, inputs]))
+    if hard:
+        paths["staged targets"] = turning.stages()
+    for name, stages in paths.items():
+        loose = _loosened(inputs, TURNING_ITERATIONS, align=True)
+        problems = [*(replace(loose, pose=stage.pose) for stage in stages), inputs]
+        ways.append(Way(name, problems, False, [stage.time for stage in stages]))
+    if inputs.options.align and (hard or squeezed):
         still = _with(inputs, align=False)
-        ways.append(("staged weights from the identity", _raised(still), 0))
-        ways.append(("from the identity", [still], 0))
-    return [*ways, ("staged weights", _raised(inputs), 0)]
+        ways.append(Way("from the identity", [still], not squeezed))
+        ways.append(Way("staged weights from the identity", _raised(still)))
+    return [*ways, Way("staged weights", _raised(inputs))] if hard else ways
 
 
 def _raised(inputs: Inputs) -> list[Inputs]:
@@ -80,37 +108,43 @@ def _raised(inputs: Inputs) -> list[Inputs]:
     return [*(_loosened(inputs, STAGE_ITERATIONS, p2p_weight=w) for w in weights), inputs]
 
 
-def _is_poor(result: Result, joints: int) -> bool:
-    """Whether a way that turns so many joints may well end lower."""
+def _is_above(result: Result, multiple: float) -> bool:
+    """Whether another way may well end lower: it has not converged, or above a multiple."""
     if result.status in (Status.STOPPED, Status.INDEFINITE):
         return False
     if result.status is Status.MAX_ITERATIONS and result.iterations < FEW_ITERATIONS:
         return False
     isometry = max(isometry_energy(result.energy_measure), LEAST_ISOMETRY)
-    high = HIGH_ENERGY_OF_JOINTS if joints else HIGH_ENERGY
-    return not result.status.ok or result.energy > high * isometry
+    return not result.status.ok or result.energy > multiple * isometry
 
 
+@functools.lru_cache
 @double_precision
 def isometry_energy(energy: Energy) -> float:
     """``E(1, 0)``, the density of an isometry."""
     return float(energy.density(jnp.ones(1), jnp.zeros(1))[0])
 
 
-def _followed(stages: Sequence[Inputs], descend: Descend, best: Result) -> Result:
-    """The result of a way, which ends early at a stage that distorts the shape more than the best
-    result; the history of its stages counts where they only differ by weight."""
-    final, done = stages[-1], list[Result]()
-    for stage in stages:
+def _followed(way: Way, descend: Descend, best: Result) -> Result:
+    """The result of a way; the history of its stages counts where they only differ by weight.
+
+    A shape is distorted the more the further it turns, so a stage that distorts it more than the
+    best result will have at that time is the last.
+    """
+    final, done = way.problems[-1], list[Result]()
+    isometry = isometry_energy(final.energy)
+    for stage, time in itertools.zip_longest(way.problems, way.times):
         start = done[-1] if done else None
         stage = _with(stage, align=stage.options.align and not done)
         done.append(descend(replace(stage, start=start)))
-        turns_too_far = stage.pose is not final.pose and done[-1].energy_iso > best.energy
-        if done[-1].status is Status.STOPPED or turns_too_far:
+        costs = done[-1].energy_iso - isometry
+        if done[-1].status is Status.STOPPED or (
+            time is not None and costs > time**_GROWTH * (best.energy - isometry)
+        ):
             break
-    if stages[0].options.p2p_weight != final.options.p2p_weight:
+    if way.problems[0].options.p2p_weight != final.options.p2p_weight:
         return _joined(done)
-    if done[-1].status is Status.STOPPED and len(done) < len(stages):
+    if done[-1].status is Status.STOPPED and len(done) < len(way.problems):
         return replace(best, status=Status.STOPPED)
     return replace(done[-1], **_times(done))
 

@@ -159,8 +159,8 @@ class Attempt:
     energy: float
     iterations: int
     given_up: bool = False
-    """Whether it was left on the way, for it distorted the shape far more than the best so far; its
-    energy is that of the stage that it had come to."""
+    """Whether it was left on the way, for it distorted the shape more than the best so far would
+    there; its energy is that of the stage that it had come to."""
 
 
 @dataclass(frozen=True)

@@ -115,13 +115,14 @@ def test_a_coarse_certificate_does_not_end_a_solve() -> None:
 
 def test_restarts_keep_the_best_attempt() -> None:
     handles = np.array(INSIDE["ell"])
-    pose = Pose(handles, handles[[1, 0, 3, 2]] * 1.5)
+    pose = Pose(handles, handles[[1, 3, 0, 2]] * 1.5)
     alone = solve(domain("ell"), pose, options=Options(restarts=0))
     several = solve(domain("ell"), pose)
-    assert several.energy <= alone.energy * (1 + 1e-6)
+    assert several.energy < 0.7 * alone.energy
     assert several.attempts[0].name == "direct"
     assert several.attempts[0].energy == pytest.approx(alone.energy)
-    assert min(a.energy for a in several.attempts) >= several.energy * (1 - 1e-6)
+    ended = [a.energy for a in several.attempts if not a.given_up]
+    assert several.energy == pytest.approx(min(ended))
     check_certified(several)
 
 
@@ -132,9 +133,9 @@ def test_ends_that_turn_over_do_so_in_opposite_directions_where_that_is_better()
     energies: list[float] = []
     pose = Pose(handles, handles * [1, -1])
     result = solve(domain, pose, callback=lambda p: energies.append(p.energy) or False)
-    reached = {attempt.name: attempt.energy for attempt in result.attempts}
+    reached = {a.name: a.energy for a in result.attempts if not a.given_up}
     assert result.energy * (1 - SAME_ENERGY) < min(reached.values())
-    assert reached["staged targets, left and right"] < 0.95 * reached["direct"]
+    assert result.energy < 0.95 * reached["direct"]
     check_certified(result)
     # It can be stopped on another way; then the first way's end is the best so far.
     starts: list[float] = []
@@ -148,6 +149,18 @@ def test_ends_that_turn_over_do_so_in_opposite_directions_where_that_is_better()
     assert stopped.status is Status.STOPPED
     assert stopped.energy == pytest.approx(reached["direct"], rel=1e-6)
     check_certified(stopped)
+
+
+def test_a_squeezed_bar_bends_instead() -> None:
+    """Aligned with its targets it stays straight, for nothing tells it to which side to bend."""
+    domain = Domain.from_cage(Cage([[-10, -0.5], [10, -0.5], [10, 0.5], [-10, 0.5]]))
+    end = np.array([2.851, 6.8829])
+    pose = Pose([[-9.5, 0], [0, 0], [9.5, 0]], [-end, [0, 0], end])
+    identity = solve(domain, pose, options=Options(restarts=0, align=False))
+    result = solve(domain, pose)
+    assert result.energy == pytest.approx(identity.energy, rel=1e-6)
+    assert result.attempts[0].energy > 1.03 * result.energy
+    check_certified(result)
 
 
 @pytest.mark.parametrize("turn", ["end", "over"])
