@@ -67,22 +67,22 @@ class Boundary:
         """(s,) ``log f_z`` at the nodes, of one branch: continuous along loops and their links."""
         result = np.log(np.abs(fz)).astype(complex)
         for branch in self.branches:
-            phase = np.angle(fz[branch.nodes[0]])
+            phase = np.angle(fz[branch.indices[0]])
             if branch.link is not None:
                 along = np.concatenate(
-                    [fz[[branch.linked]], branch.link @ phi, fz[branch.nodes[:1]]]
+                    [fz[[branch.linked]], branch.link @ phi, fz[branch.indices[:1]]]
                 )
                 phase = result[branch.linked].imag + _turns(along).sum()
-            turns = _turns(fz[branch.nodes])
-            result[branch.nodes] += 1j * (phase + np.append(0, np.cumsum(turns)))
+            turns = _turns(fz[branch.indices])
+            result[branch.indices] += 1j * (phase + np.append(0, np.cumsum(turns)))
         return result
 
 
 @dataclass(frozen=True, eq=False)
 class Branch:
-    """A loop's nodes in order, and its link through the domain to a node of another loop."""
+    """A loop's nodes by index, in order, and the way through the domain to one of another loop."""
 
-    nodes: Array
+    indices: Array
     linked: int = 0
     link: Array | None = None
     """(q, n) ``D`` along the way from that node to the first."""

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from glid_nb._arguments import check_fields
 from glid_nb._arrays import read_only
 from glid_nb._errors import InputFileError, about
 from glid_nb.energies import Energy
@@ -19,8 +20,7 @@ from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Iteration, Method, Newton, Options, Pose, Status
 
 _MOST_POSES, _LONGEST_NAME = 1000, 200
-# What a solve of a pose depends on, by the names of the fields.
-_ASKED = {"pose": Pose, "energy": Energy, "options": Options, "method": Method}
+_ASKED = ("pose", "energy", "options", "method")  # what a solve of a pose depends on
 
 
 class DocumentError(InputFileError):
@@ -71,12 +71,10 @@ class NamedPose:
     """How the solve of all that ended with ``map``; not saved."""
 
     def __post_init__(self) -> None:
-        _check_kind("the name of a pose", self.name, str)
+        check_fields(self, DocumentError, lambda field: f"{field} of the pose {self.name!r:.60}")
         if not 1 <= (count := len(self.name)) <= _LONGEST_NAME:
             wanted = f"the name of a pose must have 1 to {_LONGEST_NAME} characters"
             raise DocumentError(f"{wanted}, not {count}")
-        for key, kind in {**_ASKED, "map": HarmonicMap}.items():
-            _check_kind(f"{key} of the pose {self.name!r}", getattr(self, key), kind)
         with about(f"the pose {self.name!r}", DocumentError):
             self.pose.check_inside(self.map.domain)
 

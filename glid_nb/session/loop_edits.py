@@ -14,23 +14,23 @@ Loop: TypeAlias = NDArray[np.float64]
 _DRAWN = 0.002  # of a picture's longer side; drawn lines keep no finer detail
 _LONGEST = 0.04  # of a drawn outline's length; longer edges are divided
 
-Loops: TypeAlias = tuple[Loop, ...]
+AnyLoops: TypeAlias = tuple[Loop, ...]
 """The exterior, then the holes: read-only (n, 2) arrays, valid as a cage or not."""
 
 
-def move_vertex(loops: Loops, loop: int, index: int, to: ArrayLike) -> Loops:
+def move_vertex(loops: AnyLoops, loop: int, index: int, to: ArrayLike) -> AnyLoops:
     vertices = _loop(loops, loop, index).copy()
     vertices[index] = checked_point(to)
     return _with(loops, loop, vertices)
 
 
-def insert_vertex(loops: Loops, loop: int, edge: int, at: ArrayLike) -> Loops:
+def insert_vertex(loops: AnyLoops, loop: int, edge: int, at: ArrayLike) -> AnyLoops:
     """The loops with a vertex between vertex ``edge`` and the next one."""
     vertices = _loop(loops, loop, edge)
     return _with(loops, loop, np.insert(vertices, edge + 1, checked_point(at), axis=0))
 
 
-def delete_vertices(loops: Loops, vertices: Iterable[tuple[int, int]]) -> Loops:
+def delete_vertices(loops: AnyLoops, vertices: Iterable[tuple[int, int]]) -> AnyLoops:
     """The loops without some vertices (loop, index); holes with fewer than three left are removed.
 
     A GeometryError when the exterior would have fewer than three left.
@@ -63,7 +63,7 @@ def drawn(points: ArrayLike, size: tuple[int, int]) -> Loop:
     return shapely.get_coordinates(ring.segmentize(_LONGEST * ring.length))[:-1]
 
 
-def nearest_edge(loops: Loops, point: ArrayLike) -> tuple[int, int, Loop]:
+def nearest_edge(loops: AnyLoops, point: ArrayLike) -> tuple[int, int, Loop]:
     """The edge (loop, index) nearest to a point, and its nearest point to that."""
     p = shapely.Point(checked_point(point))
     places = [(i, j) for i, loop in enumerate(loops) for j in range(len(loop))]
@@ -74,7 +74,7 @@ def nearest_edge(loops: Loops, point: ArrayLike) -> tuple[int, int, Loop]:
     return *places[nearest], shapely.get_coordinates(way)[0]
 
 
-def around(loops: Loops, point: ArrayLike) -> int | None:
+def around(loops: AnyLoops, point: ArrayLike) -> int | None:
     """Index of the loop of the hole around a point, or None."""
     holes = enumerate(loops[1:], start=1)
     return next((i for i, loop in holes if contains(loop, point)), None)
@@ -93,7 +93,7 @@ def checked_point(point: ArrayLike) -> Loop:
     return p
 
 
-def _loop(loops: Loops, loop: int, index: int) -> Loop:
+def _loop(loops: AnyLoops, loop: int, index: int) -> Loop:
     if not 0 <= loop < len(loops):
         raise GeometryError(f"there is no loop {loop}; there are {len(loops)}, counted from 0")
     count = len(loops[loop])
@@ -102,5 +102,5 @@ def _loop(loops: Loops, loop: int, index: int) -> Loop:
     return loops[loop]
 
 
-def _with(loops: Loops, index: int, loop: Loop) -> Loops:
+def _with(loops: AnyLoops, index: int, loop: Loop) -> AnyLoops:
     return (*loops[:index], read_only(loop), *loops[index + 1 :])

@@ -21,7 +21,7 @@ from glid_nb.imaging.read import ImageSource, as_rgba8, read_image
 from glid_nb.imaging.trace import with_changes
 from glid_nb.session import loop_edits
 from glid_nb.session.document import Document
-from glid_nb.session.loop_edits import Loops
+from glid_nb.session.loop_edits import AnyLoops
 from glid_nb.session.model import History, Undoable
 from glid_nb.session.worker import weakly
 
@@ -52,7 +52,7 @@ class TracingState:
     """How to trace; with scribbles only if the method uses them."""
     scribbles: Scribbles | None = None
     """The painted strokes, used or not."""
-    loops: Loops | None = None
+    loops: AnyLoops | None = None
     """The loops as edited by hand, world coordinates; None when they are as traced."""
     fallback: Domain | None = None
     """The last valid domain before this state, used while this state's own is not valid."""
@@ -72,7 +72,7 @@ class TracingOutcome:
 
     tracing: Tracing | None
     """The result of automatic tracing; None if it failed, or the loops were drawn without it."""
-    loops: Loops
+    loops: AnyLoops
     """The loops to show, world coordinates, valid or not."""
     domain: Domain | None
     """From the loops if they are valid, else the state's fallback."""
@@ -268,7 +268,7 @@ class TracingModel(Undoable[TracingState]):
     def move_vertex(self, loop: int, index: int, to: Point, gesture: Any = None) -> None:
         """Move a vertex of a loop that is shown."""
 
-        def moved(loops: Loops) -> Loops:
+        def moved(loops: AnyLoops) -> AnyLoops:
             return loop_edits.move_vertex(loops, loop, index, self._world(to))
 
         self._edit(moved, gesture)
@@ -295,7 +295,7 @@ class TracingModel(Undoable[TracingState]):
             if self.edited:
                 self._step(replace(self.state, loops=None))
 
-    def set_loops(self, loops: Loops) -> None:
+    def set_loops(self, loops: AnyLoops) -> None:
         """Replace the loops, world coordinates, exterior first, as an edit by hand."""
         self._edit(lambda _: loops)
 
@@ -332,7 +332,7 @@ class TracingModel(Undoable[TracingState]):
                 fallback = self.outcome.domain if state.image is before.image else None
             self._go_to(history.step(replace(state, fallback=fallback), gesture))
 
-    def _edit(self, change: Callable[[Loops], Loops], gesture: Any = None) -> None:
+    def _edit(self, change: Callable[[AnyLoops], AnyLoops], gesture: Any = None) -> None:
         with self.locked():
             self._step(replace(self.state, loops=change(self.outcome.loops)), gesture)
 
@@ -363,7 +363,7 @@ class TracingModel(Undoable[TracingState]):
             problems = (_problem(error, frame),)
         return TracingOutcome(tracing, loops, domain, problems)
 
-    def _loops_with(self, state: TracingState, loops: Loops, hole: Hole) -> Loops:
+    def _loops_with(self, state: TracingState, loops: AnyLoops, hole: Hole) -> AnyLoops:
         """The edited loops without a hole that is dropped, or with one that is kept again."""
         inside = self._world(hole.pixel)
         if hole.kept:
@@ -388,7 +388,7 @@ class TracingModel(Undoable[TracingState]):
         return frame
 
 
-def _shares_vertices(loops: Loops, others: Loops) -> bool:
+def _shares_vertices(loops: AnyLoops, others: AnyLoops) -> bool:
     """Whether loops have a common vertex: those that were drawn anew have none with traced ones."""
     known = {tuple(vertex) for loop in others for vertex in loop.tolist()}
     return any(tuple(vertex) in known for loop in loops for vertex in loop.tolist())
