@@ -26,6 +26,7 @@ from glid_nb.solvers import Pose
 from ..browser import ARTEFACTS, watched_page
 from ..export import shapes
 
+_LOW = ("header p", "main canvas", "#poses", "#play", "#time", "#clock", "#overlay", "#fit")
 # Pauses in the frame in which the condition holds: a slow browser would be elsewhere afterwards.
 _PAUSED_NEAR_POSE_2 = """() => {
     if (Math.abs(document.querySelector("#time").value - 1) > 0.6) return false;
@@ -110,6 +111,20 @@ def test_a_phone_shows_a_page_that_plays_by_itself(browser: Browser, tmp_path: P
             assert box["y"] + box["height"] <= 844
             assert min(box["width"], box["height"]) >= 20
         page.screenshot(path=ARTEFACTS / "page-phone.png")
+        # On its side, and in a small frame of another page: most of it is the picture's.
+        for width, height in ((844, 390), (640, 360), (320, 360)):
+            page.set_viewport_size({"width": width, "height": height})
+            places: Any = {name: page.locator(name).bounding_box() for name in _LOW}
+            assert all(places.values())
+            assert places["main canvas"]["height"] >= height / 2
+            row = [places[name] for name in ("#poses", "#play", "#time", "#clock")]
+            middles = [box["y"] + box["height"] / 2 for box in row]
+            assert max(middles) - min(middles) < 10
+            assert max(box["y"] + box["height"] for box in places.values()) <= height
+            assert max(box["x"] + box["width"] for box in places.values()) <= width
+            assert places["header p"]["height"] <= 20
+            assert not page.locator("#here, footer small").locator("visible=true").count()
+            page.screenshot(path=ARTEFACTS / f"page-{width}x{height}.png")
 
 
 @pytest.mark.browser
