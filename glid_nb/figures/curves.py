@@ -96,7 +96,7 @@ def derivative_curve(map: HarmonicMap, which: Literal["fz", "fzb"] = "fz") -> No
     axes.set_aspect("equal", adjustable="datalim")
     name = "$f_z$" if which == "fz" else r"$f_{\overline{z}}$"
     _named(axes, f"Re {name}", f"Im {name}", "")
-    axes.legend(loc="best", **style.LEGEND)
+    figure.legend(loc="outside lower center", ncols=2, **style.LEGEND)
     return figure
 
 

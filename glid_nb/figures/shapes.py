@@ -153,6 +153,7 @@ def picture(
     figure, grid = _side_by_side(maps, sheets, pose, titles, 0.05)
     for axes, sheet in zip(grid, sheets, strict=True):
         draw_deformed(axes, image, sheet, _PIXELS)
+    figure.draw_without_rendering()  # as above
     return figure
 
 
