@@ -29,8 +29,7 @@ RGB = tuple[int, int, int]
 class Frames(NamedTuple):
     """Frames that are drawn one after the other, when they are wanted."""
 
-    size: tuple[int, int]
-    """Width and height, pixels."""
+    size: tuple[int, int]  # width and height, pixels
     count: int
     pictures: Iterator[NDArray[np.uint8]]
 

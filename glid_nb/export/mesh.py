@@ -35,8 +35,7 @@ class TexturedMesh:
     viewers with a depth buffer draw an overlapping shape in the right order."""
     texture_coordinates: NDArray[np.float64]
     """(v, 2) (u, v) in the picture, (0, 0) at its bottom left corner."""
-    triangles: NDArray[np.int32]
-    """(t, 3) counter-clockwise, the lower ones first."""
+    triangles: NDArray[np.int32]  # (t, 3) counter-clockwise, the lower ones first
     texture: NDArray[np.uint8]
 
 

@@ -52,8 +52,7 @@ Floats = NDArray[np.float64]
 class Plot:
     """Axes, whose look is set here, and artists that are updated, or animated to be blitted."""
 
-    artists: tuple[Artist, ...]
-    """What ``update`` changes."""
+    artists: tuple[Artist, ...]  # what ``update`` changes
     _show: Any
 
     def __init__(self, axes: Axes, animated: bool = False) -> None:

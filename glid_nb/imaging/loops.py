@@ -21,8 +21,7 @@ class Loops:
     """Closed loops, concatenated, the exterior first; edge i is from vertex i to ``after[i]``."""
 
     points: Points
-    number: NDArray[np.intp]
-    """(n,) the loop of each vertex, ascending from 0."""
+    number: NDArray[np.intp]  # (n,) the loop of each vertex, ascending from 0
 
     def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Loops:
         return Loops(self.points[chosen], self.number[chosen])

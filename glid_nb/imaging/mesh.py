@@ -44,10 +44,8 @@ class DeformedMesh:
     """A triangulated domain and its image."""
 
     vertices: Floats
-    images: Floats
-    """(v, 2) the vertices and where the map takes them, world coordinates."""
-    triangles: Ints
-    """(t, 3) counter-clockwise, the lower ones first."""
+    images: Floats  # (v, 2) the vertices and where the map takes them, world coordinates
+    triangles: Ints  # (t, 3) counter-clockwise, the lower ones first
     heights: Floats
     """(v,) where the image overlaps itself the higher part lies over the lower; see `order_of`."""
 

@@ -24,22 +24,17 @@ class Boundary:
     """Nodes on the boundary, the ends and middles of panels, with the basis on them."""
 
     domain: Domain
-    points: Array
-    """(k,) even points of the boundary."""
-    values: Array
-    """(k, n) ``C`` there."""
-    first: Array
-    """(s, n) ``D`` at the nodes: ``f_z`` of phi, ``conj(f_zbar)`` of psi."""
-    mean: Array
-    """(s,) weights of the nodes, which add up to 1."""
+    points: Array  # (k,) even points of the boundary
+    values: Array  # (k, n) ``C`` there
+    first: Array  # (s, n) ``D`` at the nodes: ``f_z`` of phi, ``conj(f_zbar)`` of psi
+    mean: Array  # (s,) weights of the nodes, which add up to 1
     branches: tuple[Branch, ...]
     """The exterior loop, then the holes, each after the loop that it hangs on."""
     single_valued: Array
     """(n, s) coefficients of the best fit from values at the nodes, without logarithms."""
     logarithms: Array
     """(N, s) likewise, scaled coefficients of the logarithms of the best fits to two functions."""
-    with_logarithms: Array
-    """(n, N) what these add to the coefficients."""
+    with_logarithms: Array  # (n, N) what these add to the coefficients
 
     def images(self, phi: Array, psi: Array) -> Array:
         """(k,) images of the even points."""
@@ -84,8 +79,7 @@ class Branch:
 
     indices: Array
     linked: int = 0
-    link: Array | None = None
-    """(q, n) ``D`` along the way from that node to the first."""
+    link: Array | None = None  # (q, n) ``D`` along the way from that node to the first
 
 
 @functools.lru_cache(maxsize=8)

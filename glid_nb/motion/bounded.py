@@ -44,10 +44,8 @@ class Bounded:
     rows: Array
     """(k, 2 s + 2) of the keyframes: ``log f_z`` and ``nu`` at the nodes, then angle and mean of
     the rigid motion ``z -> exp(i angle) z + mean`` that they are freed from."""
-    lost: Array
-    """(k, 2, n) what the projection loses of phi and psi."""
-    tangents: Array
-    """(k, 2 s + 2) slopes of the rows."""
+    lost: Array  # (k, 2, n) what the projection loses of phi and psi
+    tangents: Array  # (k, 2 s + 2) slopes of the rows
 
     @classmethod
     def through(

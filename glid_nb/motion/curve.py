@@ -54,8 +54,7 @@ class Curve:
     easing: tuple[str, ...]
     between: Callable[[int, float], Coefficients]
     """Coefficients between keyframe i and the next, by the eased time in [0, 1]."""
-    laps: tuple[int, ...]
-    """Of each interval, see `Bounded.laps`."""
+    laps: tuple[int, ...]  # of each interval, see `Bounded.laps`
     known: dict[float, HarmonicMap] = field(default_factory=dict)
 
     def map(self, time: float) -> HarmonicMap:

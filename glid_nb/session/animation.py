@@ -36,15 +36,12 @@ class Span(NamedTuple):
 
     start: float
     end: float
-    map: HarmonicMap
-    """Of its first keyframe."""
+    map: HarmonicMap  # of its first keyframe
     status: Literal["computing", "proved", "fails", "refused"] = "computing"
-    reason: str = ""
-    """Why it fails, and until when it is proved, or why it is refused."""
+    reason: str = ""  # why it fails, and until when it is proved, or why it is refused
     pieces: tuple[Piece, ...] = ()
     """What is proved, from the start on; all of it where it is proved."""
-    sigma2: tuple[float, ...] = ()
-    """The certified bound on each piece."""
+    sigma2: tuple[float, ...] = ()  # the certified bound on each piece
 
 
 class Animation(Observed):
@@ -59,8 +56,7 @@ class Animation(Observed):
         self.deformation = deformation
         self.spans: tuple[Span, ...] = ()
         """From each keyframe to the next, and from the last to the first of a loop."""
-        self.recording = False
-        """Whether the next drag, or the present one, is kept as keyframes."""
+        self.recording = False  # whether the next drag, or the present one, is kept as keyframes
         self._task: EditState | None = None
         self._asked = False
         self._began: tuple[float, EditState] | None = None

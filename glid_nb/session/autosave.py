@@ -31,8 +31,7 @@ class OwnFiles:
 
     def __init__(self) -> None:
         self._owners: dict[Path, tuple[Path, tuple[int, ...] | None]] = {}
-        self.session: Path | None = None
-        """The session file that was saved or opened last."""
+        self.session: Path | None = None  # the session file that was saved or opened last
 
     def note(self, paths: Iterable[Path], owner: Path) -> None:
         """Remember files that were written for ``owner``, or opened."""

@@ -33,10 +33,8 @@ class Solution:
 
     status: Status
     message: str
-    history: tuple[Iteration, ...]
-    """The latest iterations of the gesture."""
-    starts: tuple[int, ...]
-    """Numbers of the iterations at which the targets had moved."""
+    history: tuple[Iteration, ...]  # the latest iterations of the gesture
+    starts: tuple[int, ...]  # numbers of the iterations at which the targets had moved
 
     @property
     def ended(self) -> bool:

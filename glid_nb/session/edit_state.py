@@ -31,8 +31,7 @@ class EditState:
     domain: Domain
     poses: tuple[NamedPose, ...]
     """At least one. Their maps are the best ones so far, and always certified."""
-    active: int = 0
-    """Index of the pose that is edited."""
+    active: int = 0  # index of the pose that is edited
     timeline: Timeline = field(default_factory=Timeline)
     """When the poses are shown: each is a keyframe, and they are in the order of time."""
 
@@ -97,10 +96,8 @@ class Task:
     """What to solve, and the map to start from."""
 
     pose: NamedPose
-    chain: int
-    """A task continues from the map of the task before it only if both are of one chain."""
-    single: bool = False
-    """Stop after one compiled call, or one iteration of another method."""
+    chain: int  # a task continues from the map of the task before it only if both are of one chain
+    single: bool = False  # stop after one compiled call, or one iteration of another method
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,18 +105,12 @@ class Frame:
     """A map during a solve, or its final one."""
 
     task: Task
-    map: HarmonicMap
-    """Certified; for a method on a mesh the task's own."""
-    history: tuple[Iteration, ...]
-    """The latest iterations of this gesture."""
-    starts: tuple[int, ...]
-    """Numbers of the iterations at which the targets had moved."""
-    solution: Solution | None = None
-    """None while the solve goes on."""
-    proof: Certificate | None = None
-    """The solver's, of ``map``; None for a method on a mesh."""
-    mesh: MeshMap | None = None
-    """The map of a method on a mesh, which may fold."""
+    map: HarmonicMap  # certified; for a method on a mesh the task's own
+    history: tuple[Iteration, ...]  # the latest iterations of this gesture
+    starts: tuple[int, ...]  # numbers of the iterations at which the targets had moved
+    solution: Solution | None = None  # None while the solve goes on
+    proof: Certificate | None = None  # the solver's, of ``map``; None for a method on a mesh
+    mesh: MeshMap | None = None  # the map of a method on a mesh, which may fold
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,17 +118,13 @@ class Moment:
     """Everything that a view of a deformation draws, read at one moment and so consistent."""
 
     state: EditState
-    frame: Frame | None
-    """The solver's last frame, if it belongs to the state; else None."""
+    frame: Frame | None  # the solver's last frame, if it belongs to the state; else None
     busy: bool
     paused: bool
-    error: Exception | None = None
-    """The exception that ended the last solve, if one did."""
+    error: Exception | None = None  # the exception that ended the last solve, if one did
     selection: tuple[int, ...] = ()
-    dragged: tuple[int, ...] = ()
-    """Indices of handles, as the selection."""
-    prepared: float = 1.0
-    """How much is done, from 0 to 1, of what the first solve of a shape needs."""
+    dragged: tuple[int, ...] = ()  # indices of handles, as the selection
+    prepared: float = 1.0  # how much is done, from 0 to 1, of what the first solve of a shape needs
 
     @property
     def map(self) -> HarmonicMap:

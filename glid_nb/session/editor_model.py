@@ -41,8 +41,7 @@ class _Session:
     tracing: TracingState
     domain: Domain | None
     deformation: Deformation
-    path: Path | None = None
-    """Its file, while undo or redo of the tracing may bring it back."""
+    path: Path | None = None  # its file, while undo or redo of the tracing may bring it back
 
     @property
     def image(self) -> Array:
@@ -87,8 +86,7 @@ class EditorModel(Observed):
         self._autosave: Autosave | None = None
         self.save_error: Exception | None = None
         """Why the last save in the background failed; None when it did not."""
-        self.own_files = OwnFiles()
-        """The files that were saved, opened and exported."""
+        self.own_files = OwnFiles()  # the files that were saved, opened and exported
         self._session: _Session | None = None
         # Sessions of other pictures, which undo of the tracing may bring back.
         self._shelf: list[_Session] = []

@@ -24,12 +24,9 @@ class History(Generic[S]):
 
     present: S
     past: tuple[S, ...] = ()
-    future: tuple[S, ...] = ()
-    """The states that redo restores, the next one first."""
-    gesture: Any = None
-    """The gesture that made the present and may go on; None for a complete step."""
-    origin: History[S] | None = None
-    """The history before the gesture."""
+    future: tuple[S, ...] = ()  # the states that redo restores, the next one first
+    gesture: Any = None  # the gesture that made the present and may go on; None for a complete step
+    origin: History[S] | None = None  # the history before the gesture
 
     def step(self, state: S, gesture: Any = None) -> History[S]:
         """Add ``state``, or replace the present within the same gesture; redo is cleared."""
@@ -122,8 +119,7 @@ class Undoable(Observed, Generic[S]):
 
     def __init__(self, state: S) -> None:
         super().__init__()
-        self.history = History(state)
-        """The undo history."""
+        self.history = History(state)  # the undo history
 
     @property
     def state(self) -> S:

@@ -37,13 +37,11 @@ class Timeline:
     Raises MotionError for times that do not increase, and other settings that are not valid.
     """
 
-    times: tuple[float, ...] = (0.0,)
-    """Seconds, at least 0, increasing."""
+    times: tuple[float, ...] = (0.0,)  # seconds, at least 0, increasing
     easing: tuple[Easing, ...] = ("linear",)
     """From each keyframe to the next; the last one's is that of a loop's way back."""
     repeat: Repeat = "once"
-    back: float = _USUAL
-    """Seconds that a loop takes from the last keyframe to the first."""
+    back: float = _USUAL  # seconds that a loop takes from the last keyframe to the first
 
     def __post_init__(self) -> None:
         if not self.times or not isinstance(self.times, list | tuple):

@@ -34,12 +34,9 @@ _KEPT_OUTCOMES = 12  # each holds a mask of the picture's size
 class TracingProblem:
     """Why the loops that are shown are not a valid cage."""
 
-    message: str
-    """What is wrong and what to do."""
-    plain: str
-    """The same beside the picture: without code words and coordinates."""
-    point: Point | None = None
-    """Where, (x, y) in pixels; None if at no particular place."""
+    message: str  # what is wrong and what to do
+    plain: str  # the same beside the picture: without code words and coordinates
+    point: Point | None = None  # where, (x, y) in pixels; None if at no particular place
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,14 +47,12 @@ class TracingState:
     """(h, w, 4) read-only uint8, or None before there is a picture."""
     options: TraceOptions = field(default_factory=TraceOptions)
     """How to trace; with scribbles only if the method uses them."""
-    scribbles: Scribbles | None = None
-    """The painted strokes, used or not."""
+    scribbles: Scribbles | None = None  # the painted strokes, used or not
     loops: AnyLoops | None = None
     """The loops as edited by hand, world coordinates; None when they are as traced."""
     fallback: Domain | None = None
     """The last valid domain before this state, used while this state's own is not valid."""
-    name: str = ""
-    """The name of the picture's file, without its suffix; empty if it came from none."""
+    name: str = ""  # the name of the picture's file, without its suffix; empty if it came from none
 
     def __post_init__(self) -> None:
         used = self.options.method == "scribbles"
@@ -72,12 +67,9 @@ class TracingOutcome:
 
     tracing: Tracing | None
     """The result of automatic tracing; None if it failed, or the loops were drawn without it."""
-    loops: AnyLoops
-    """The loops to show, world coordinates, valid or not."""
-    domain: Domain | None
-    """From the loops if they are valid, else the state's fallback."""
-    problems: tuple[TracingProblem, ...]
-    """Why the loops are not valid; empty when they are."""
+    loops: AnyLoops  # the loops to show, world coordinates, valid or not
+    domain: Domain | None  # from the loops if they are valid, else the state's fallback
+    problems: tuple[TracingProblem, ...]  # why the loops are not valid; empty when they are
 
 
 _NO_SCRIBBLES = Scribbles([], [])

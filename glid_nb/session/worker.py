@@ -42,10 +42,8 @@ class LatestWins(Generic[T]):
         self._changed = threading.Condition()
         self._pending: tuple[T] | None = None
         self._busy = self._cancelled = self._hurried = False
-        self.closed = False
-        """Whether this was closed."""
-        self.thread: threading.Thread | None = None
-        """The thread; None before the first task."""
+        self.closed = False  # whether this was closed
+        self.thread: threading.Thread | None = None  # the thread; None before the first task
         self._ended = -float("inf")
         self._finalizer = weakref.finalize(owner, self._close)
 

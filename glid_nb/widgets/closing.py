@@ -16,10 +16,8 @@ _made: dict[str, tuple[str, weakref.WeakSet[Any]]] = {}  # by cell: its last run
 class ClosingWidget(ipywidgets.Widget):
     """Refuses unknown keywords, and closes with all that it holds; a widget's first base."""
 
-    _endings: tuple[Callable[[], Any], ...] = ()
-    """What closing ends."""
-    _closed = False
-    """Whether closing has begun: what draws in another thread asks this first."""
+    _endings: tuple[Callable[[], Any], ...] = ()  # what closing ends
+    _closed = False  # whether closing has begun: what draws in another thread asks this first
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Any:
         """Check the keywords, before anything is made."""

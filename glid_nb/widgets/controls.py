@@ -37,8 +37,7 @@ class EditControls(ClosingWidget, ipywidgets.VBox):
     def __init__(
         self, deformation: Deformation, children: Sequence[ipywidgets.Widget], **kwargs: Any
     ) -> None:
-        self.deformation = deformation
-        """The model that this is a view of."""
+        self.deformation = deformation  # the model that this is a view of
         self.refusal = ipywidgets.HTML().add_class("glid-refusal")
         """Why the last change was refused."""
         # Whether controls follow the model; per thread, as they may be used in another meanwhile.

@@ -134,8 +134,7 @@ class FilePanel(ipywidgets.VBox):
         session = model.own_files.session or Path(f"{model.name}{_SUFFIX}")
         self.path = ipywidgets.Text(str(session), placeholder="Name.glid", layout=_WIDE)
         """Where to save, and what to open; relative to the notebook."""
-        self.autosave = ipywidgets.HTML()
-        """Where changes are saved automatically."""
+        self.autosave = ipywidgets.HTML()  # where changes are saved automatically
         formats = [(one.label, suffix) for suffix, one in FORMATS.items()]
         if self.motion is not None:
             moving = MOTION_FORMATS.items()
@@ -159,8 +158,7 @@ class FilePanel(ipywidgets.VBox):
         self.code = ipywidgets.Textarea(rows=9, layout={"width": "auto", "display": "none"})
         """The lines of "Copy as Python"."""
         self.clipboard = Clipboard()
-        self.message = ipywidgets.HTML()
-        """What was done, or why it was not."""
+        self.message = ipywidgets.HTML()  # what was done, or why it was not
         self._asked: tuple[ipywidgets.Button | None, float] = (None, 0.0)
         self._labels: dict[ipywidgets.Button, str] = {}
         self._add_buttons()

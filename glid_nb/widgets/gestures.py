@@ -69,8 +69,7 @@ class _PinPress:
     targets: Array | None
     """Where the dragged targets were when the pointer was at ``start``; None without a handle."""
     dragging: bool = False
-    part: str = ""
-    """Of the ring around a handle: "turn" or "scale"."""
+    part: str = ""  # of the ring around a handle: "turn" or "scale"
     turned: tuple[Array, Array] | None = None
     """Angles and scales of the selected handles when the pointer was at ``start``."""
 
@@ -90,10 +89,8 @@ class PinGestures(Gestures):
         self.deformation, self._image = deformation, image
         self._fit = fit
         self._press: _PinPress | None = None
-        self.copy: Callable[[str], None] = lambda _: None
-        """Puts text into the clipboard."""
-        self.cursor: list[float] | None = None
-        """Where the keyboard's cursor is."""
+        self.copy: Callable[[str], None] = lambda _: None  # puts text into the clipboard
+        self.cursor: list[float] | None = None  # where the keyboard's cursor is
 
     def hit(self, point: Array, reach: float) -> int | None:
         """The handle whose target, or else whose image, is nearest within reach.

@@ -67,10 +67,8 @@ class Layer:
         energies = energy_defines() + glsl("energy.glsl") if shader == "picture" else ""
         self._uniforms = uniforms
         self._geometry = three.BufferGeometry(attributes=self.attributes)
-        self.materials: list[Any] = []
-        """The materials in drawing order."""
-        self.meshes: list[Any] = []
-        """What is drawn, the lowest first."""
+        self.materials: list[Any] = []  # the materials in drawing order
+        self.meshes: list[Any] = []  # what is drawn, the lowest first
         self.draw(energies + glsl(f"{shader}.frag"), uniforms, depth=shader == "picture")
         self.material, self.mesh = self.materials[0], self.meshes[0]
 

@@ -43,16 +43,12 @@ _SHARE = 0.98  # of the boundary, where distortion is largest, lies within a col
 class Overlay:
     """One way to colour the shape."""
 
-    number: int
-    """As ``picture.frag`` counts them."""
-    label: str
-    """What a menu calls it."""
+    number: int  # as ``picture.frag`` counts them
+    label: str  # what a menu calls it
     values: Callable[[Array, Array], Array] | None = None
     """The value shown, by ``|f_z|`` and ``|f_zbar|``; None if nothing is computed."""
-    start: float = 0.0
-    """The value of an isometry."""
-    ends: tuple[float, ...] = (1.0,)
-    """Where the colour map may end, the narrowest range first."""
+    start: float = 0.0  # the value of an isometry
+    ends: tuple[float, ...] = (1.0,)  # where the colour map may end, the narrowest range first
 
 
 OVERLAYS: dict[str, Overlay] = {

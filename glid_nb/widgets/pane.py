@@ -102,8 +102,7 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         self._fewest_vertices = _FEWEST_VERTICES if n_vertices is None else n_vertices
         self._evaluated_in: EvaluatedIn | None = evaluated_in
         self._drawing = Drawing(map)
-        self.scene = self._new_scene(0)
-        """What pythreejs draws."""
+        self.scene = self._new_scene(0)  # what pythreejs draws
         self._renderer = renderer(self.scene)
         self.stage = Stage(
             width=size[0],

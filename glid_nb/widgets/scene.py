@@ -44,22 +44,15 @@ class Drawing:
     """Everything that is seen of a deformation at one moment."""
 
     map: HarmonicMap
-    comparison: MeshMap | None = None
-    """A map of a mesh, drawn in place of the harmonic one."""
-    targets: Any = ()
-    """(h, 2) where the handles should go."""
-    images: Any = ()
-    """(h, 2) where they are."""
-    selected: tuple[int, ...] = ()
-    """Indices of selected handles."""
+    comparison: MeshMap | None = None  # a map of a mesh, drawn in place of the harmonic one
+    targets: Any = ()  # (h, 2) where the handles should go
+    images: Any = ()  # (h, 2) where they are
+    selected: tuple[int, ...] = ()  # indices of selected handles
     ring: tuple[float, ...] = ()
     """Angle and scale of the handle that is selected last, and whether each is wanted."""
-    hidden: Any = ()
-    """(h,) whether another part of the shape covers a handle."""
-    order: Order | None = None
-    """Which part of the shape covers which; by default as without depths."""
-    overlay: str = "texture"
-    """One of `glid_nb.widgets.overlays.OVERLAYS`."""
+    hidden: Any = ()  # (h,) whether another part of the shape covers a handle
+    order: Order | None = None  # which part of the shape covers which; by default as without depths
+    overlay: str = "texture"  # one of `glid_nb.widgets.overlays.OVERLAYS`
     energy: Energy = field(default_factory=SymmetricDirichlet)
     """Whose density the overlay "energy" shows."""
     color_range: Range = "fit"

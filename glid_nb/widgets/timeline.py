@@ -59,8 +59,7 @@ class TimelinePanel(Pad):
         self, canvas: DeformCanvas, on_export: Callable[[], None] | None = None, **kwargs: Any
     ) -> None:
         self.canvas, self.on_export = canvas, on_export
-        self.animation = Animation(canvas.deformation)
-        """What is proved between the poses."""
+        self.animation = Animation(canvas.deformation)  # what is proved between the poses
         self._pictures = weakref.WeakKeyDictionary[HarmonicMap, tuple[str, str]]()
         self._latest: dict[str, tuple[str, str]] = {}  # by the poses' names
         self._texture: Texture | None = None
