@@ -30,8 +30,8 @@ from glid_nb.solvers.turning import turning_of
 Descend = Callable[[Inputs], Result]
 
 # Multiples of an isometry's energy, if that is at least the last number: below the first no other
-# way is tried, above the second all are.
-LOW_ENERGY, HIGH_ENERGY, LEAST_ISOMETRY = 1.02, 5.0, 0.5
+# way is tried, above the second lines that turn less too, above the third everything.
+LOW_ENERGY, HIGH_ENERGY, HIGHEST_ENERGY, LEAST_ISOMETRY = 1.02, 5.0, 25.0, 0.5
 SAME_ENERGY = 1e-6
 # Lines that turn by so much may turn the other way round: what that costs grows with the square.
 HALF_CIRCLE, FAR = np.deg2rad(160), np.deg2rad(100)
@@ -61,7 +61,7 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
         return first
     best, tried = first, [("direct", first)]
     for way in _ways(first, inputs)[: inputs.options.restarts]:
-        if way.last_resort and not _is_above(best, HIGH_ENERGY):
+        if way.last_resort and not _is_above(best, HIGHEST_ENERGY):
             continue
         result = _followed(way, descend, best)
         tried.append((way.name, result))
@@ -83,24 +83,23 @@ def improve(first: Result, inputs: Inputs, descend: Descend) -> Result:
 def _ways(first: Result, inputs: Inputs) -> list[Way]:
     """All other ways that may end lower than the first, those first that help most."""
     assert isinstance(first.map, HarmonicMap)
-    turning, hard = turning_of(first.map, inputs.pose), _is_above(first, HIGH_ENERGY)
-    paths = turning.ways(FAR if hard else HALF_CIRCLE)
-    squeezed = any(line.squeezed for line in turning.lines)
-    ways = list[Way]()
-    if hard and not inputs.energy.is_barrier:
+    turning, hopeless = turning_of(first.map, inputs.pose), _is_above(first, HIGHEST_ENERGY)
+    ways, paths = list[Way](), turning.ways(FAR if _is_above(first, HIGH_ENERGY) else HALF_CIRCLE)
+    if hopeless and not inputs.energy.is_barrier:
         barrier = replace(inputs, energy=SymmetricDirichlet())
         ways.append(Way("from the symmetric Dirichlet minimum", [barrier, inputs]))
-    if hard:
+    if hopeless:
         paths["staged targets"] = turning.stages()
     for name, stages in paths.items():
         loose = _loosened(inputs, TURNING_ITERATIONS, align=True)
         problems = [*(replace(loose, pose=stage.pose) for stage in stages), inputs]
         ways.append(Way(name, problems, False, [stage.time for stage in stages]))
-    if inputs.options.align and (hard or squeezed):
+    squeezed = any(line.squeezed for line in turning.lines)
+    if inputs.options.align and (hopeless or squeezed):
         still = _with(inputs, align=False)
         ways.append(Way("from the identity", [still], not squeezed))
         ways.append(Way("staged weights from the identity", _raised(still)))
-    return [*ways, Way("staged weights", _raised(inputs))] if hard else ways
+    return [*ways, Way("staged weights", _raised(inputs))] if hopeless else ways
 
 
 def _raised(inputs: Inputs) -> list[Inputs]:
