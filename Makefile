@@ -1,5 +1,5 @@
 # make demo   one picture from file to certified deformation, in an environment of its own
-# make test   everything that continuous integration runs
+# make test   everything that continuous integration runs; GLID_NB_REFERENCE=DIR adds the paper's shapes
 # make unit   the fast tests only (under a minute)
 # make leaks  ten minutes of random editing and 36 runs of a cell: does memory grow?
 # make lint   ruff and pyright

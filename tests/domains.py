@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from glid_nb.geometry import Cage, Domain
+from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
 
 from .reference_map import DenseCheck, ReferenceMap
@@ -83,6 +85,18 @@ def random_map(name: str, size: float, seed: int) -> HarmonicMap:
     phi, psi = HarmonicMap.identity(d).phi + size * change[0], size * change[1]
     psi[n - n_holes :] = phi[n - n_holes :].conj()
     return HarmonicMap(d, phi, psi)
+
+
+def divided(domain: Domain, pieces: Callable[[int], Array]) -> Domain:
+    """The same domain, each edge of both its cages cut into pieces: for the edges of a loop."""
+    counts = [pieces(len(loop)) for loop in domain.cage.loops]
+
+    def finer(cage: Cage) -> Cage:
+        ends = zip(cage.loops_complex, counts, strict=True)
+        exterior, *holes = (real(subdivided(loop, count)) for loop, count in ends)
+        return Cage(exterior, holes)
+
+    return Domain(finer(domain.cage), finer(domain.offset_cage), domain.hole_points)
 
 
 def real(z: Array) -> Array:

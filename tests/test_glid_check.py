@@ -30,6 +30,7 @@ from glid_nb.certificate.certify import Certificate, PanelCertificate
 from glid_nb.certificate.proof import dyadic_panels, proof_text
 from glid_nb.geometry import Cage, Domain, Panels, graded_panels, uniform_panels
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.solvers import Options, Pose, solve
 
 from .domains import circle, dense_check, domain, random_map
 from .reference_map import DenseCheck, Measured
@@ -196,6 +197,17 @@ def test_what_the_certificate_saves_is_verified(tmp_path: Path) -> None:
     map.save(tmp_path / "map.json")
     certify(map).save(tmp_path / "proof.json")
     assert glid_check.main([str(tmp_path / "map.json"), str(tmp_path / "proof.json")]) == 0
+
+
+def test_a_hard_pose_is_verified(tmp_path: Path) -> None:
+    """sigma_2 is 0.044 at least, and the energy fifty times an isometry's."""
+    handles = np.array([[-2.5, 2.5], [2.5, -2.5], [-2.0, -2.0], [-0.5, -0.5]])
+    pose = Pose(handles, handles[[1, 3, 0, 2]] * 1.5)
+    result = solve(domain("ell"), pose, options=Options(restarts=0))
+    assert 0.03 < result.certificate.sigma2_lower < 0.05
+    result.map.save(tmp_path / "map.json")
+    result.certificate.save(tmp_path / "proof.json")
+    assert glid_check.main([str(tmp_path / name) for name in ("map.json", "proof.json")]) == 0
 
 
 def test_no_proof_is_written_of_a_map_that_is_not_certified(tmp_path: Path) -> None:

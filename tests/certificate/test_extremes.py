@@ -87,7 +87,7 @@ def test_what_is_certified_is_true(
     map = HarmonicMap(domain, phi, psi)
     c = certify(map, kind)
     assert not np.isnan([c.sigma2_lower, c.sigma1_upper, c.k_upper]).any()
-    assert not c.certified or sum(c.windings) == 0
+    assert not c.certified or (sum(c.windings) == 0 and c.k_upper <= 1)
     flint.ctx.prec = 200
     for loop in domain.cage.loops_complex:
         for a, b in zip(loop, np.roll(loop, -1), strict=True):

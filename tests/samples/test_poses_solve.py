@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import get_args
 
 import numpy as np
@@ -10,11 +11,14 @@ import pytest
 import shapely
 from numpy.typing import NDArray
 
+import glid_check
 from glid_nb import samples
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.trace import trace
-from glid_nb.solvers import Pose, Status, solve
+from glid_nb.solvers import Options, Pose, Status, solve
+
+from ..domains import divided
 
 pytestmark = pytest.mark.slow
 
@@ -36,7 +40,7 @@ def boundary_image(map: HarmonicMap) -> shapely.Polygon:
 
 
 @pytest.mark.parametrize("name", samples.names())
-def test_the_poses_are_reached_certified_and_in_the_frame(name: str) -> None:
+def test_the_poses_are_reached_certified_and_in_the_frame(name: str, tmp_path: Path) -> None:
     image = samples.image(name)
     height, width = image.shape[:2]
     x, y = 10 * width / max(width, height), 10 * height / max(width, height)
@@ -54,3 +58,18 @@ def test_the_poses_are_reached_certified_and_in_the_frame(name: str) -> None:
         shape = boundary_image(result.map)
         assert shape.is_valid, f"{kind}: limbs overlap"
         assert frame.contains(shape), f"{kind}: leaves the picture"
+        paths = [tmp_path / "map.json", tmp_path / "proof.json"]
+        result.map.save(paths[0])
+        result.certificate.save(paths[1])
+        assert glid_check.main([str(path) for path in paths]) == 0
+
+
+@pytest.mark.parametrize("name", ["bar", "frog"])
+def test_a_random_division_of_the_edges_changes_neither_energy_nor_iterations(name: str) -> None:
+    domain = Domain.from_cage(trace(samples.image(name)).cage)
+    pose = Pose.from_dict(json.loads(samples.pose_path(name, "extreme").read_text("utf-8")))
+    fine = divided(domain, lambda n: np.random.default_rng(n).integers(1, 6, n))
+    result, least = (solve(d, pose, options=Options(restarts=0)) for d in (fine, domain))
+    assert result.status is Status.CONVERGED
+    assert result.energy < 1.01 * least.energy
+    assert result.iterations <= least.iterations + 3

@@ -12,8 +12,9 @@ import pytest
 import glid_check
 from glid_nb.energies import energy_by_name
 from glid_nb.geometry import Domain
-from glid_nb.solvers import Options, Pose, Result, solve
+from glid_nb.solvers import Options, Pose, Result, Status, solve
 
+from ..domains import divided
 from .checks import measured
 
 pytestmark = [pytest.mark.reference, pytest.mark.slow]
@@ -50,16 +51,28 @@ def test_defaults_reach_the_reference_energy(reference_folder: Path, name: str, 
     assert result.certificate.certified
 
 
-@pytest.mark.parametrize("name", ["colorbar", "giraffe", "rex"])
+@pytest.mark.parametrize(("name", "key"), PUBLISHED)
 def test_an_independent_checker_verifies_the_proof(
-    reference_folder: Path, name: str, tmp_path: Path
+    reference_folder: Path, name: str, key: str, tmp_path: Path
 ) -> None:
-    result, _ = solved(reference_folder, name, "iso,s=1.0", False)
+    result, _ = solved(reference_folder, name, key, False)
     paths = [tmp_path / "map.json", tmp_path / "proof.json"]
     result.map.save(paths[0])
     result.certificate.save(paths[1])
     assert paths[1].stat().st_size < 300_000
     assert glid_check.main([str(path) for path in paths]) == 0
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_random_division_of_the_edges_changes_neither_energy_nor_iterations(
+    reference_folder: Path, name: str
+) -> None:
+    whole, pose, _ = problem(reference_folder, name)
+    fine = divided(whole, lambda n: np.random.default_rng(n).integers(1, 6, n))
+    result, least = (solve(d, pose, options=Options(restarts=0)) for d in (fine, whole))
+    assert result.status is Status.CONVERGED
+    assert result.energy < 1.01 * least.energy
+    assert result.iterations <= least.iterations + 3
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -9,7 +9,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from glid_nb.geometry import Cage, Domain
-from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import basis_of
 from glid_nb.harmonic.cauchy import cauchy_coordinates
 from glid_nb.solvers import Options, Pose, Status, solve, step
@@ -19,7 +18,7 @@ from glid_nb.solvers.line_search import INDEFINITE
 from glid_nb.solvers.unknowns import expand, unknowns_of
 from glid_nb.solvers.whitening import coefficients, pulled_back, whitened
 
-from ..domains import domain, real
+from ..domains import divided, domain
 
 pytestmark = pytest.mark.slow  # most of the time is compiling
 
@@ -148,19 +147,10 @@ def test_a_fine_cage_keeps_the_hessian_definite_in_single_precision(
     assert matrices.whitened.shape[1] >= 2.25 * matrices.whitening.shape[2]
 
 
-def divided(domain: Domain, count: int) -> Domain:
-    """The same domain, each edge of both its cages cut into pieces."""
-    cages = []
-    for cage in (domain.cage, domain.offset_cage):
-        loops = [subdivided(loop, np.full(len(loop), count)) for loop in cage.loops_complex]
-        cages.append(Cage(*(real(loop) for loop in loops)))
-    return Domain(*cages)
-
-
 def test_a_finely_divided_cage_does_not_stop_the_solver() -> None:
     """What oscillates along it is no coordinate; the rest reaches the same minimum or a lower."""
     pose = Pose([[-2, -2], [2, -2], [-2, 2]], [[-2, -2], [2, -1.5], [-1.5, 2]])
-    coarse, fine = domain("ell"), divided(domain("ell"), 24)
+    coarse, fine = domain("ell"), divided(domain("ell"), lambda n: np.full(n, 24))
     t = np.asarray(discretise(fine).matrices.whitening)
     assert np.count_nonzero(t.any(axis=(0, 1))) < 0.9 * fine.n_coefficients
     assert discretise(coarse).matrices.whitening.any(axis=(0, 1)).sum() == 6
