@@ -235,7 +235,8 @@ def _assembled(
     sigma2, sigma1, k = (np.asarray(values) for values in bounds[:3])
     along = (panels.start, panels.end, panels.loop, panels.depth, panels.next)
     per_panel = PanelCertificate(*along, sigma2, sigma1, k)
-    extremes = (float(sigma2.min()), float(sigma1.max()), float(k.max()))
+    largest_k = min(float(k.max()), 1.0) if certified else float(k.max())
+    extremes = (float(sigma2.min()), float(sigma1.max()), largest_k)
     return Certificate(certified, *extremes, turns, per_panel, kind, reason, map)
 
 
