@@ -26,8 +26,8 @@ from threadpoolctl import threadpool_limits
 import glid_check
 from glid_nb._errors import InputError
 from glid_nb.certificate import certify
-from glid_nb.certificate.certify import Certificate, PanelCertificate
-from glid_nb.certificate.proof import dyadic_panels, proof_text
+from glid_nb.certificate.certify import Certificate, PanelCertificate, proof_text
+from glid_nb.certificate.proof import dyadic_panels
 from glid_nb.geometry import Cage, Domain, Panels, graded_panels, uniform_panels
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Options, Pose, solve

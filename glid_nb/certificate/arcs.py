@@ -21,9 +21,8 @@ class Jets(NamedTuple):
     """A map to second order at the starts of panels; every field is an array over the panels.
 
     The image is relative to the first coefficients, so that a translation costs no accuracy. The
-    errors bound those of the image and its derivatives in any unit direction, and what a start
-    beside its edge adds. ``third`` bounds the third derivative along the panel, times its length
-    squared.
+    errors allow for any unit direction and for starts beside their edge; ``third`` bounds the third
+    derivative along the panel, times its length squared.
     """
 
     f: Array
@@ -48,12 +47,9 @@ class Jets(NamedTuple):
 
 
 class Arcs(NamedTuple):
-    """Images of panels by the panel's arc length; every field is an array.
-
-    The images of the ends are accurate to ``error``, the derivatives ``tangent_start`` and
-    ``tangent_end`` there to ``tangent_error``; ``bend`` bounds the second derivative along the
-    panel.
-    """
+    """Images of panels by the panel's arc length; every field is an array. The images of the ends
+    are accurate to ``error``, the tangents there to ``tangent_error``; ``bend`` bounds the second
+    derivative along the panel."""
 
     start: Array
     end: Array

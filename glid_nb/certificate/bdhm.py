@@ -23,8 +23,7 @@ class BDHM(NamedTuple):
 
     length: PerPanel  # l, and what ends beside their edge add
     weights: Float[Array, "n p"]  # L_j
-    first: Int[Array, "m p"]
-    """The vertex with the largest ``L`` on the loop of ``z_j``, for each segment."""
+    first: Int[Array, "m p"]  # the vertex with the largest L on the loop of z_j
     second: Int[Array, "m p"]  # the neighbour of first with the larger L
 
     slack_share = 2

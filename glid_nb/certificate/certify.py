@@ -23,7 +23,7 @@ from glid_nb.certificate.panels import (
     split,
 )
 from glid_nb.certificate.paper import Lipschitz, beside, jumps, windings
-from glid_nb.certificate.proof import proof_text
+from glid_nb.certificate.proof import FORMAT, FORMAT_VERSION, dyadic_panels, exact_text
 from glid_nb.geometry import Panels, graded_panels, place
 from glid_nb.harmonic import HarmonicMap, cauchy, run_on
 from glid_nb.harmonic.cauchy import Singularities
@@ -92,6 +92,29 @@ class Certificate:
     def save(self, path: str | Path) -> None:
         """Write the proof file that ``glid-check`` reads; InputError if nothing is certified."""
         write_text_atomically(Path(path), proof_text(self))
+
+
+def proof_text(certificate: Certificate) -> str:
+    """The proof file of a certificate, as text; InputError for one that proves nothing."""
+    if not certificate.certified:
+        raise InputError(f"there is no proof to write: {certificate.reason}")
+    map_, bounds = certificate.map, ("sigma2_lower", "sigma1_upper", "k_upper")
+    loops = map_.domain.cage.loops_complex
+    pieces = dyadic_panels(certificate.panels, loops)
+    if pieces is None:
+        # What is claimed does not depend on the panels, and these are fewer than uniform ones.
+        pieces = dyadic_panels(graded_panels(map_.domain), loops)
+    values = {key: value for key, value in map_.to_dict().items() if key != "notes"}
+    return exact_text(
+        {
+            **values,
+            "format": FORMAT,
+            "version": FORMAT_VERSION,
+            **{key: getattr(certificate, key) for key in bounds},
+            "windings": list(certificate.windings),
+            "panels": pieces,
+        }
+    )
 
 
 class Known(NamedTuple):
@@ -257,8 +280,8 @@ def _kernel(
 def end_values(
     start: Any, end: Any, coefficients: Any, singularities: Singularities
 ) -> tuple[EndValues, Any]:
-    """``sum_j D_j coefficients_j``, the derivatives of (k, c) coefficients, at the ends of panels,
-    (k, p) arrays, and bounds on the errors."""
+    """``sum_j D_j coefficients_j`` at the ends of panels, (k, p) arrays, and bounds on the
+    errors."""
     chord: Any = end - start
     edges: Any = cauchy.edge_coefficients(coefficients, singularities)
     both: Any = np.concatenate([start, end])

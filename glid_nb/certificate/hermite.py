@@ -44,11 +44,9 @@ class Hermite(NamedTuple):
         remainder: Float[Array, "2 p"],
         direction: Ends | None = None,
     ) -> PanelBounds:
-        """Bounds on each whole panel, whose interpolants are halved once to tighten them.
-
-        With unit vectors ``u`` as ``direction``, the bounds on sigma_2 and k hold with ``Re(conj(u)
-        f_z)``, proved positive where the turning is known, in place of ``|f_z|``.
-        """
+        """Bounds on each whole panel, whose interpolants are halved once to tighten them. With unit
+        vectors ``u`` as ``direction``, the bounds on sigma_2 and k hold with ``Re(conj(u) f_z)``,
+        proved positive where the turning is known, in place of ``|f_z|``."""
         p, q = _control_points(fz), _control_points(fzb_conj)
         e_f, e_g = remainder[0], remainder[1]
         p_most = _greatest([modulus(point) for point in p])

@@ -104,7 +104,14 @@ def global_injectivity(
         if not wanted.any() or len(panels) + wanted.sum() > max_panels:
             break
         panels, jets = split(panels, jets, wanted, evaluate)
-    return _undecided(panels, pairs, unresolved)
+    if pairs.size:
+        closest = pairs[:, np.argmin(panels.length[pairs].max(axis=0))]
+        where = places(panels.middle[closest])
+        what = f"the images of the boundary near {where} touch or nearly do"
+    else:
+        what = f"the image of the boundary is too curved near {place(panels.middle[unresolved][0])}"
+    reason = f"Undecided: {what}; {len(panels)} pieces of the boundary do not tell."
+    return GlobalInjectivity("undecided", reason, len(panels))
 
 
 def _pairs_not_apart(arcs: Arcs, panels: Panels) -> Array:
@@ -130,11 +137,9 @@ def _corner_simple(arcs: Arcs, following: Array) -> Array:
 
 
 def _proved_crossing(map: HarmonicMap, panels: Panels, arcs: Arcs, pairs: Array) -> Any:
-    """A double point of the boundary's image and the two points mapped to it, or None.
-
-    Newton's method finds candidates from pairs of panels whose chords cross; they are proved on
-    windows around them on the two edges, which may extend over several panels.
-    """
+    """A double point of the boundary's image and the two points mapped to it, or None. Newton's
+    method finds candidates from pairs of panels whose chords cross; they are proved on windows
+    around them on the two edges, which may extend over several panels."""
     a, b = (arcs.at(index) for index in pairs)
     pairs = pairs[:, segments_cross(a.start, a.end, b.start, b.end)]
     if not pairs.size:
@@ -187,14 +192,3 @@ def _certainly_cross(pair: Arcs) -> Array:
         for end in (arc.start, arc.end):
             clear = clear & (point_distance(end, other.start, other.end) > arc.error + other.radius)
     return clear
-
-
-def _undecided(panels: Panels, pairs: Array, unresolved: Array) -> GlobalInjectivity:
-    if pairs.size:
-        closest = pairs[:, np.argmin(panels.length[pairs].max(axis=0))]
-        where = places(panels.middle[closest])
-        what = f"the images of the boundary near {where} touch or nearly do"
-    else:
-        what = f"the image of the boundary is too curved near {place(panels.middle[unresolved][0])}"
-    reason = f"Undecided: {what}; {len(panels)} pieces of the boundary do not tell."
-    return GlobalInjectivity("undecided", reason, len(panels))

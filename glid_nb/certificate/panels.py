@@ -19,8 +19,7 @@ Rows = Complex[Array, "k n"]
 
 
 class EndValues(NamedTuple):
-    """A holomorphic function, ``f_z`` or ``conj(f_zbar)``, at the two ends of each panel; slopes
-    are the complex derivative times ``end - start``."""
+    """``f_z`` or ``conj(f_zbar)`` at both ends of panels; slopes are times ``end - start``."""
 
     start: Ends
     end: Ends
@@ -32,8 +31,7 @@ class PanelBounds(NamedTuple):
     sigma2_lower: PerPanel
     sigma1_upper: PerPanel
     k_upper: PerPanel
-    turning_known: Bool[Array, " p"]
-    """Whether the change of ``arg f_z`` along the panel is proved to be ``turning`` (29)."""
+    turning_known: Bool[Array, " p"]  # whether arg f_z is proved to change by turning (29)
     turning: PerPanel  # principal Arg of f_z(end) / f_z(start)
 
     @property
@@ -43,8 +41,7 @@ class PanelBounds(NamedTuple):
 
 
 class PanelProof(Protocol):
-    """A kind of proof; an instance, a pytree of arrays with panels along the last axis, holds the
-    constants that depend on the panels only."""
+    """A kind of proof: a pytree of arrays, panels last, that depend on the panels only."""
 
     slack_share: int  # how many times the error of the end values enters the remainder
 
@@ -100,8 +97,7 @@ def _not_tiled(what: str) -> GeometryError:
 
 
 def split(panels: Panels, known: T, chosen: Array, evaluate: Callable[..., T]) -> tuple[Panels, T]:
-    """With the chosen, divisible panels halved, and what is ``known`` of each, a pytree of arrays
-    over the panels that ``evaluate(start, end)`` makes for new ones."""
+    """With chosen, divisible panels halved, and the pytree over panels that ``evaluate`` makes."""
     finer, parent = panels.split(chosen)
     new = chosen[parent]
 

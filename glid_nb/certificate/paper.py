@@ -72,11 +72,9 @@ class Lipschitz(NamedTuple):
 
 
 def variation(f: EndValues, remainder: PerPanel) -> PerPanel:
-    """``L l``, with the paper's Lipschitz constant of ``f_z`` or ``f_zbar`` on each segment.
-
-    ``L_fz = (|f_z'(v_i)| + |f_z'(v_{i+1})|) / 2 + l/2 (sum_j L_j |s_j - s_{j+1}| + sum_j L_j^h
-    |phi_j|)``; ``remainder`` is the second term times ``l``.
-    """
+    """``L l``, with the paper's Lipschitz constant of ``f_z`` or ``f_zbar`` on each segment. ``L_fz
+    = (|f_z'(v_i)| + |f_z'(v_{i+1})|) / 2 + l/2 (sum_j L_j |s_j - s_{j+1}| + sum_j L_j^h |phi_j|)``;
+    ``remainder`` is the second term times ``l``."""
     return (modulus(f.slope_start) + modulus(f.slope_end)) / 2 + remainder
 
 
@@ -115,10 +113,8 @@ def beside(start: Ends, end: Ends, singularities: Singularities) -> Float[Array,
 
 def clearance(start: Ends, end: Ends, singularities: Singularities) -> tuple[Weights, Weights]:
     """Lower bounds on :func:`distances` around each segment, and ``l / d``; 0 and inf where none.
-
-    The computed nearest point is off by 16 roundoffs of the distance to ``start``, at most
-    ``d + l``, and the segment's ends by `rounding.BESIDE`.
-    """
+    The computed nearest point is off by 16 roundoffs of the distance to ``start``, at most ``d +
+    l``, and the segment's ends by `rounding.BESIDE`."""
     d, length = distances(start, end, singularities), modulus(end - start)[:, None]
     u, off = 32 * rounding.UNIT_ROUNDOFF, beside_by(singularities)
     d = start.__array_namespace__().maximum(d * (1 - u) - u * length - off, 0)

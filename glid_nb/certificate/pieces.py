@@ -67,10 +67,8 @@ class _Values(NamedTuple):
 @np.errstate(all="ignore")
 def certify_pieces(maps: Sequence[HarmonicMap], tightness: float = 0.05) -> Proofs:
     """Prove the linear motion from each map of one domain to the next, or say how far that goes.
-
     Panels, and time down to an eighth of a piece, are halved where the proof fails or bounds are
-    further than the relative ``tightness`` from values that are attained.
-    """
+    further than the relative ``tightness`` from values that are attained."""
     panels = graded_panels(maps[0].domain)
     size = np.abs(rows_of(*maps)).max(axis=0)
     proofs = []

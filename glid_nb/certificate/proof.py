@@ -3,50 +3,21 @@
 ``docs/checking.md`` documents the format, ``glid_check.py`` reads it.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from glid_nb._arrays import Array
-from glid_nb._errors import InputError
 from glid_nb._json import json_text
-from glid_nb.geometry import Panels, graded_panels
-
-if TYPE_CHECKING:
-    from glid_nb.certificate.certify import Certificate
+from glid_nb.geometry import Panels
 
 FORMAT = "glid_nb-proof"
 FORMAT_VERSION = 1
 
 _MOST_BISECTIONS = 60  # an edge is not bisected more often than its positions can tell apart
 _ROUNDING = 0.1  # how far rounding moves a panel's middle, in lengths of the panel
-
-
-def proof_text(certificate: Certificate) -> str:
-    """The proof file of a certificate, as text; InputError for one that proves nothing."""
-    if not certificate.certified:
-        raise InputError(f"there is no proof to write: {certificate.reason}")
-    map_, bounds = certificate.map, ("sigma2_lower", "sigma1_upper", "k_upper")
-    loops = map_.domain.cage.loops_complex
-    pieces = dyadic_panels(certificate.panels, loops)
-    if pieces is None:
-        # What is claimed does not depend on the panels, and these are fewer than uniform ones.
-        pieces = dyadic_panels(graded_panels(map_.domain), loops)
-    values = {key: value for key, value in map_.to_dict().items() if key != "notes"}
-    return exact_text(
-        {
-            **values,
-            "format": FORMAT,
-            "version": FORMAT_VERSION,
-            **{key: getattr(certificate, key) for key in bounds},
-            "windings": list(certificate.windings),
-            "panels": pieces,
-        }
-    )
 
 
 def exact_text(values: dict[str, Any]) -> str:

@@ -5,10 +5,10 @@ added to each panel's remainder. `docs/proof.md` derives every constant (Lemmas 
 """
 
 import math
-from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from typing import Any as Array  # of NumPy or of JAX
 
-from glid_nb._jax import Bool, Complex, Float
+from glid_nb._jax import Complex, Float
 from glid_nb.harmonic import cauchy
 from glid_nb.harmonic.cauchy import Points, Singularities
 
@@ -48,23 +48,18 @@ def carried_slack_factor(n_columns: int) -> float:
 def allowance(slack: Float[Array, "*k p"], probe: Float[Array, ""]) -> Float[Array, "*k p"]:
     """Errors with that of underflow; infinite under fast math (Lemmas 13 and 14), which is probed
     by any positive number that the compiler does not know."""
-    xp = slack.__array_namespace__()
-    return xp.where(_is_exact(probe), slack + UNDERFLOW, xp.inf)
-
-
-def _is_exact(a: Float[Array, ""]) -> Bool[Array, ""]:
-    """Whether the error of ``a + 2^-60 a`` is computed exactly, which reassociation would lose."""
-    b = a * 2.0**-60
-    total = a + b
-    second = total - a
-    return (a - (total - second)) + (b - second) == b
+    xp, small = slack.__array_namespace__(), probe * 2.0**-60
+    total = probe + small
+    second = total - probe
+    # The error of that sum is computed exactly, unless operations are reassociated.
+    exact = (probe - (total - second)) + (small - second) == small
+    return xp.where(exact, slack + UNDERFLOW, xp.inf)
 
 
 def derivatives(
     z: Points, edges: Complex[Array, "2 n"], singularities: Singularities
 ) -> tuple[Complex[Array, "2 k"], Complex[Array, "2 k"], Float[Array, "2 k"], Float[Array, "2 k"]]:
-    """``f_z`` and ``conj(f_zbar)``, their derivatives, and bounds on the errors of both, from the
-    :func:`~glid_nb.harmonic.cauchy.edge_coefficients` of phi and psi."""
+    """``f_z`` and ``conj(f_zbar)``, their derivatives, and bounds on the errors of both."""
     first = cauchy.first_by_edges(z, singularities)
     second = cauchy.second_by_edges(z, singularities)
     xp, m = z.__array_namespace__(), singularities.vertices.shape[0]
@@ -108,18 +103,13 @@ def term_scale(
 
 def rounded_down(value: float, digits: int = 3) -> str:
     """A lower bound as text that is a bound too, with ``digits`` significant digits."""
-    return _written(value, digits, ROUND_FLOOR, -math.inf)
+    exact = Context(digits, ROUND_FLOOR).create_decimal_from_float(float(value))
+    return f"{float(exact):.{digits}g}"
 
 
 def rounded_up(value: float, digits: int = 3) -> str:
     """An upper bound as text, with ``digits`` significant digits and at most so many decimals."""
-    return _written(value, digits, ROUND_CEILING, -digits)
-
-
-def _written(value: float, digits: int, rounding: str, least_exponent: float) -> str:
-    if not (value and math.isfinite(value)):
-        return f"{value:.{digits}g}"
-    exact = Decimal(float(value))
-    exponent = int(max(exact.adjusted() + 1 - digits, least_exponent))
-    rounded = exact.quantize(Decimal(1).scaleb(exponent), rounding)
-    return f"{float(rounded):.{digits}g}"
+    exact = Context(digits, ROUND_CEILING).create_decimal_from_float(float(value))
+    if exact.is_finite() and exact.adjusted() < 0:
+        exact = exact.quantize(Decimal(1).scaleb(-digits), ROUND_CEILING)
+    return f"{float(exact):.{digits}g}"

@@ -54,9 +54,8 @@ class Energy(ABC):
         return super().__new__(cls)
 
     def __post_init__(self) -> None:
-        for parameter in self.parameters():
-            value = _checked_parameter(self.name, parameter, getattr(self, parameter))
-            object.__setattr__(self, parameter, value)
+        for name, value in list(vars(self).items()):
+            vars(self)[name] = _checked_parameter(self.name, name, value)
 
     @classmethod
     def parameters(cls) -> tuple[str, ...]:
@@ -79,11 +78,9 @@ ENERGIES: dict[str, type[Energy]] = {}
 
 
 def register_energy(cls: type[E]) -> type[E]:
-    """Class decorator: register a frozen dataclass of numbers in ENERGIES and as a JAX pytree.
-
-    The class is part of the tree's structure. JAX's ``register_dataclass`` does not do: jaxlib 0.10
-    takes different dataclasses with the same fields for equal and may run the wrong program.
-    """
+    """Class decorator: register a frozen dataclass of numbers in ENERGIES and as a JAX pytree. The
+    class is part of the tree's structure. JAX's ``register_dataclass`` does not do: jaxlib 0.10
+    takes different dataclasses with the same fields for equal and may run the wrong program."""
     once_loaded(
         lambda: jax.tree_util.register_pytree_node(
             cls, lambda energy: (tuple(vars(energy).values()), cls), _rebuilt
@@ -96,8 +93,7 @@ def register_energy(cls: type[E]) -> type[E]:
 def _rebuilt(cls: type[E], parameters: tuple[Any, ...]) -> E:
     """An energy whose parameters are whatever JAX puts into a tree, unchecked."""
     energy = object.__new__(cls)
-    for name, value in zip(cls.parameters(), parameters, strict=True):
-        object.__setattr__(energy, name, value)
+    vars(energy).update(zip(cls.parameters(), parameters, strict=True))
     return energy
 
 

@@ -37,9 +37,11 @@ class Cage:
         loops = [checked_vertices(exterior, loop_name(0))]
         loops += [checked_vertices(hole, loop_name(i + 1)) for i, hole in enumerate(holes)]
         check_loops(loops)
-        oriented = [_oriented(loop, ccw=i == 0) for i, loop in enumerate(loops)]
-        object.__setattr__(self, "exterior", oriented[0])
-        object.__setattr__(self, "holes", tuple(oriented[1:]))
+        for i, loop in enumerate(loops):
+            if (signed_area(loop) > 0) != (i == 0):
+                loop[1:] = loop[:0:-1].copy()
+        oriented = map(read_only, loops)
+        vars(self).update(exterior=next(oriented), holes=tuple(oriented))
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Cage:
@@ -129,10 +131,3 @@ class Cage:
             rest = rest[shapely.intersects_xy(wider, flat[rest, 0], flat[rest, 1])]
             inside[rest] = shapely.dwithin(self.polygon, shapely.points(flat[rest]), reach)
         return inside.reshape(xy.shape[:-1])
-
-
-def _oriented(loop: NDArray[np.float64], ccw: bool) -> NDArray[np.float64]:
-    """A read-only copy of the loop with the given orientation and the same vertex 0."""
-    if (signed_area(loop) > 0) != ccw:
-        loop = np.concatenate([loop[:1], loop[:0:-1]])
-    return read_only(np.array(loop))

@@ -81,17 +81,20 @@ class Domain:
         are chosen; loops are reoriented where needed. ``offset_holes`` needs ``offset_cage``, and
         ``offset`` has no effect beside it.
         """
-        cage, notes = Cage.from_dict(data), _checked_notes(data.get("notes") or ())
+        cage, notes = Cage.from_dict(data), data.get("notes")
+        notes = () if notes is None else (notes,) if isinstance(notes, str) else notes
+        if not isinstance(notes, list | tuple) or not all(isinstance(note, str) for note in notes):
+            raise GeometryError(f"'notes' must be a list of sentences, not {notes!r:.60}")
         holes = loop_list(data.get("offset_holes"), "offset_holes")
         points = data.get("hole_points")
         if data.get("offset_cage") is not None:
             with about("offset cage", GeometryError):
                 outer = Cage(data["offset_cage"], holes)
-            return cls(cage, outer, points, notes)
+            return cls(cage, outer, points, tuple(notes))
         if holes:
             raise GeometryError("'offset_holes' is given without 'offset_cage'; give both or none")
         outer, chosen = _chosen_offset(cage, data.get("offset"))
-        return cls(cage, outer, points, notes + chosen)
+        return cls(cage, outer, points, (*notes, *chosen))
 
     def to_dict(self) -> dict[str, Any]:
         """Nested lists under the keys that `from_dict` reads, ready for JSON."""
@@ -127,13 +130,6 @@ def _chosen_offset(cage: Cage, distance: float | None) -> tuple[Cage, tuple[str,
     distance = _DEFAULT_OFFSET * cage.longer_side if distance is None else distance
     offset = offset_cage(cage, distance)
     return _divided(offset.cage, cage), offset.notes
-
-
-def _checked_notes(notes: Any) -> tuple[str, ...]:
-    notes = (notes,) if isinstance(notes, str) else notes
-    if not isinstance(notes, list | tuple) or not all(isinstance(note, str) for note in notes):
-        raise GeometryError(f"'notes' must be a list of sentences, not {notes!r:.60}")
-    return tuple(notes)
 
 
 def _check_enclosed(cage: Cage, offset_cage: Cage) -> None:
@@ -180,8 +176,7 @@ def _checked_hole_points(points: ArrayLike, offset_cage: Cage) -> NDArray[np.flo
 
 
 def _divided(offset_cage: Cage, cage: Cage) -> Cage:
-    """The offset cage, which has a vertex for each of the cage, with more on the long edges: along
-    an edge boundary values are linear, too stiff to bend a bar of four vertices."""
+    """The offset cage with more vertices on long edges, which would be too stiff to bend."""
     least = _LEAST_PIECE * cage.longer_side
     start = np.concatenate(cage.loops_complex)
     end = np.concatenate([np.roll(loop, -1) for loop in cage.loops_complex])

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pythoncdt
+import scipy
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
@@ -22,9 +23,6 @@ from glid_nb.geometry._loops import (
     subdivided,
 )
 from glid_nb.geometry.cage import Cage
-
-if TYPE_CHECKING:
-    import scipy.sparse
 
 # Least distances of lattice points from the boundary (closer ones make flat triangles) and from the
 _MARGIN, _CLEARANCE = 0.55, 0.6  # wanted points, in spacings
@@ -49,12 +47,11 @@ class Triangulation:
     @cached_property
     def graph(self) -> scipy.sparse.csr_array:
         """(v, v) lengths of the edges, symmetric."""
-        from scipy.sparse import coo_array  # noqa: PLC0415 - slow to import
-
         a, b = self.triangles.ravel(), np.roll(self.triangles, -1, axis=1).ravel()
         lengths = np.linalg.norm(self.vertices[a] - self.vertices[b], axis=1)
         # All triangles are counter-clockwise, so no directed edge occurs twice.
-        one_way: Any = coo_array((lengths, (a, b)), shape=(len(self.vertices),) * 2).tocsr()
+        shape = (len(self.vertices),) * 2
+        one_way: Any = scipy.sparse.coo_array((lengths, (a, b)), shape=shape).tocsr()
         return one_way.maximum(one_way.T)
 
     @cached_property
@@ -72,8 +69,6 @@ class Triangulation:
 
     def weights(self, points: ArrayLike) -> Any:
         """(k, v) sparse: interpolates at (k, 2) points, off the mesh by the nearest triangle."""
-        from scipy.sparse import csr_array  # noqa: PLC0415 - not always needed
-
         points = np.reshape(np.asarray(points, dtype=float), (-1, 2))
         triangle = self.find(*points.T)
         beside = triangle < 0
@@ -81,7 +76,7 @@ class Triangulation:
         corners = self.triangles[triangle]
         weights = barycentric(self.vertices[corners], points)
         rows, shape = np.repeat(np.arange(len(points)), 3), (len(points), len(self.vertices))
-        return csr_array((weights.ravel(), (rows, corners.ravel())), shape)
+        return scipy.sparse.csr_array((weights.ravel(), (rows, corners.ravel())), shape)
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,10 +155,9 @@ def triangulate(
     inside = _lattice(cage, spacing)
     border = as_points(boundary)
     if len(wanted):
-        from scipy.spatial import KDTree  # noqa: PLC0415 - slow to import, and not always needed
-
-        wanted = wanted[KDTree(border).query(wanted)[0] > _SAME * cage.longer_side]
-        near = KDTree(inside).query_ball_point(wanted, _CLEARANCE * spacing)
+        tree = scipy.spatial.KDTree
+        wanted = wanted[tree(border).query(wanted)[0] > _SAME * cage.longer_side]
+        near = tree(inside).query_ball_point(wanted, _CLEARANCE * spacing)
         inside = np.delete(inside, sorted({i for found in near for i in found}), axis=0)
     vertices = np.concatenate([border, wanted, inside])
     return Triangulation(vertices, _constrained_delaunay(vertices, loops), len(boundary))

@@ -159,8 +159,8 @@ class _Corners:
         return [part.copy() for part in np.split(values, self.starts[1:-1])]
 
     def passage_limits(self, min_ratio: float) -> Array:
-        """(n,) greatest distances where a vertex faces an edge of its loop across the outside; only
-        pairs count whose way along the loop is at least `min_ratio` times their gap."""
+        """(n,) greatest distances where a vertex faces an edge of its loop across the outside, the
+        way along the loop being at least `min_ratio` times their gap."""
         points, reach = shapely.points(self.points), self.distance / _PASSAGE_SHARE
         w, e = self.tree.query(points, predicate="dwithin", distance=reach)
         apart = (e != w) & (self.next[e] != w) & (self.loop[e] == self.loop[w])

@@ -22,14 +22,10 @@ class Panels:
     """Consecutive pieces of the cage's edges, loop by loop; every field is a (p,) array."""
 
     start: Array
-    end: Array
-    """Complex end points; ``end[i] == start[next[i]]``."""
-    loop: Array
-    """The loop of the cage: 0 exterior, then the holes."""
-    depth: Array
-    """How often the panel was split since the first grading."""
-    next: Array
-    """The panel that follows on the same closed loop."""
+    end: Array  # complex end points; end[i] == start[next[i]]
+    loop: Array  # of the cage: 0 exterior, then the holes
+    depth: Array  # how often the panel was split since the first grading
+    next: Array  # the panel that follows on the same closed loop
 
     def __post_init__(self) -> None:
         for array in vars(self).values():
@@ -88,9 +84,9 @@ def graded_panels(domain: Domain, ratio: float = 1.0) -> Panels:
 
 
 def paired(panels: Panels, domain: Domain, ratio: float) -> Array:
-    """(p,) bool: the first panels of pairs, without overlap, that one panel could replace: two
-    consecutive ones of equal length on one straight piece, together no longer than ``ratio`` times
-    their distance to the nearest singularity of ``f_z``."""
+    """(p,) bool: the first of two consecutive panels of equal length on one straight piece,
+    together no longer than ``ratio`` times their distance to the nearest singularity; pairs do not
+    overlap."""
     after = np.roll(np.arange(len(panels)), -1)
     chord, following = panels.end - panels.start, panels.end[after] - panels.start[after]
     even = np.abs(chord - following) <= _EVEN * np.abs(chord)

@@ -23,16 +23,13 @@ def column_bucket(count: int) -> int:
 
 
 class Basis(NamedTuple):
-    """Columns of the harmonic subspace on a domain (paper Section 5), padded.
-
-    Padding columns have zero coefficients, so they change no map; domains with the same number of
-    padded columns share compiled programs.
-    """
+    """Columns of the harmonic subspace on a domain (paper Section 5), padded. Padding columns have
+    zero coefficients, so they change no map; domains with the same number of padded columns share
+    compiled programs."""
 
     singularities: Singularities
     """The offset cage's vertices, then padding on a far circle; hole points, then padding."""
-    columns: Int[Array, " n"]
-    """The padded columns of the domain's own ``n = m + N`` coefficients."""
+    columns: Int[Array, " n"]  # the padded columns of the domain's own coefficients
     phi_free: Bool[Array, " c"]
     """Which columns are unknowns: not the first two of each hole loop, nor padding."""
     psi_free: Bool[Array, " c"]

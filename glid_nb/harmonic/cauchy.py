@@ -63,10 +63,8 @@ def second_derivatives(z: Points, singularities: Singularities) -> Matrix:
 
 def first_by_edges(z: Points, singularities: Singularities) -> Matrix:
     """The matrix ``L(z)`` with ``f_z = L @ edge_coefficients``; (D.2) summed by edges.
-
     ``Log(B_{j+1} / B_j) / (2 pi i)`` for the edge from vertex ``j``, ``1 / (z - rho)`` for holes.
-    Adding a constant to a loop's coefficients changes no slope, so it costs no accuracy.
-    """
+    Adding a constant to a loop's coefficients changes no slope, so it costs no accuracy."""
     logarithms = _logarithms(singularities.vertices - z[:, None], singularities)
     rest = 1 / (z[:, None] - singularities.hole_points)
     return z.__array_namespace__().concat([logarithms / _TWO_PI_I, rest], axis=1)
@@ -95,10 +93,8 @@ def edge_slopes(coefficients: Values, singularities: Singularities) -> Values:
 
 def slope_jumps(coefficients: Rows, singularities: Singularities) -> Rows:
     """``s_j - s_{j+1}`` for the vertices and the coefficient itself for the holes (Appendix H,
-    whose first sum has the wrong sign):
-
-    ``f_z' = -1/(2 pi i) sum_j (s_j - s_{j+1}) / B_j - sum_k phi_{m+k} / (z - rho_k)^2``.
-    """
+    whose first sum has the wrong sign): ``f_z' = -1/(2 pi i) sum_j (s_j - s_{j+1}) / B_j - sum_k
+    phi_{m+k} / (z - rho_k)^2``."""
     m, xp = singularities.vertices.shape[0], coefficients.__array_namespace__()
     slopes = edge_slopes(coefficients[..., :m], singularities)
     jumps = slopes - slopes[..., singularities.next]

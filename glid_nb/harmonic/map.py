@@ -168,8 +168,7 @@ class HarmonicMap:
 
 
 def run_on(map: HarmonicMap, program: Callable[..., R], *points: Array) -> R:
-    """``program(*points, coefficients, singularities)`` for a map's (2, c) padded coefficients and
-    some of the points, (p,) complex arrays, at a time."""
+    """``program(*points, rows, singularities)`` for a map's (2, c) rows, some points at a time."""
     basis = basis_of(map.domain)
     return in_chunks(program, basis.n_columns, points, rows_of(map), basis.singularities)
 

@@ -103,7 +103,9 @@ def solve_batch(
         device = free.get()
         try:
             with jax.default_device(device):
-                return _alone(group) if alone else _in_lockstep(group)
+                if not alone:
+                    return _in_lockstep(group)
+                return [replace(Newton().run(inputs), factor=None) for inputs in group]
         finally:
             free.put(device)
 
@@ -114,10 +116,6 @@ def solve_batch(
     finally:
         pool.shutdown(cancel_futures=True)
     return tuple(by_group[i % len(groups)][i // len(groups)] for i in range(len(given)))
-
-
-def _alone(group: list[Inputs]) -> list[Result]:
-    return [replace(Newton().run(inputs), factor=None) for inputs in group]
 
 
 @double_precision

@@ -26,20 +26,16 @@ _EXPECTED = (
 
 
 def factorise(h: Float[Array, "n n"]) -> Float[Array, "n n"]:
-    """The factor of a symmetric matrix, of which the upper half is read, for :func:`solve`; its
-    last diagonal entry is NaN where the matrix is not positive definite."""
-
-    def portable(h: Array) -> Array:
-        return lax.linalg.cholesky(h.T, symmetrize_input=False)
-
-    return _by_platform(_lapack_factor, portable, h)
+    """The factor of a matrix's upper half, for :func:`solve`; NaN last where it is indefinite."""
+    return _by_platform(
+        _lapack_factor, lambda h: lax.linalg.cholesky(h.T, symmetrize_input=False), h
+    )
 
 
 def solve(factor: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n"]:
-    def portable(factor: Array, b: Array) -> Array:
-        return jax.scipy.linalg.cho_solve((factor, True), b)
-
-    return _by_platform(_lapack_solve, portable, factor, b)
+    return _by_platform(
+        _lapack_solve, lambda factor, b: jax.scipy.linalg.cho_solve((factor, True), b), factor, b
+    )
 
 
 def _by_platform(lapack: Callable, portable: Callable, *arguments: Array) -> Array:

@@ -51,15 +51,12 @@ class Matrices(NamedTuple):
     nodes: Float[Array, "2c p+q"]  # D at the panels' starts, then at their midpoints
     slopes: Float[Array, "2c p"]  # D' at the panels' starts
     hessian_index: Int[Array, " h"]  # which nodes are those of the Hessian's quadrature
-    whitened: Float[Array, "2u h"]
-    """``D T`` there; single precision serves (see `solvers.whitening`)."""
+    whitened: Float[Array, "2u h"]  # D T there; single precision serves
     whitening: Float[Array, "2 c u"]  # T as (Re, Im)
-    weights: Float[Array, " p+q"]
-    """Quadrature weights of the energy at the nodes; their sum is 1, and :attr:`stiff`."""
+    weights: Float[Array, " p+q"]  # quadrature at the nodes; their sum is 1, and stiff
     hessian_weights: Float[Array, " h"]
     proof: PanelProof  # the constants of the certificate on the panels
-    rounding: Float[Array, " p"]
-    """Rounding slack per largest modulus of a coefficient, for values carried along."""
+    rounding: Float[Array, " p"]  # slack of carried values, per largest coefficient
     chord: Float[Array, "2 p"]  # end - start as (Re, Im)
     next: Int[Array, " p"]
     real: Bool[Array, " p"]  # False for padding
@@ -94,8 +91,7 @@ class Discretisation:
 
     @double_precision
     def full(self, m: Matrices) -> Matrices:
-        """Matrices with the Hessian in double precision, on graded panels on all nodes of the
-        energy, of which it is then the exact Hessian; the uniform sampling keeps its own (33)."""
+        """With the Hessian in double precision, on graded panels on all nodes of the energy."""
         if self.sampling == "graded":
             index = jax.device_put(np.arange(len(m.weights)))
             m = m._replace(hessian_index=index, hessian_weights=m.weights)
@@ -149,12 +145,9 @@ class Discretisation:
 def discretise(
     domain: Domain, sampling: Sampling = "graded", certificate: CertificateKind = "hermite"
 ) -> Discretisation:
-    """The discretisation that a solve on ``domain`` starts from; the last few are kept.
-
-    ``graded``: panels no longer than their distance to the nearest singularity, with Simpson's
-    rule on each, and the midpoint rule for the Hessian, on pairs of panels where they are small.
-    ``uniform``: the paper's samples with the plain mean (31), the Hessian on every tenth (33).
-    """
+    """The discretisation that a solve on ``domain`` starts from; the last few are kept. ``graded``:
+    Simpson's rule on graded panels, for the Hessian the midpoint rule on pairs of them.
+    ``uniform``: the paper's samples with the plain mean (31), the Hessian on every tenth (33)."""
     stage("basis")
     basis, graded = basis_of(domain), sampling == "graded"
     panels = graded_panels(domain) if graded else uniform_panels(domain.cage, UNIFORM_SAMPLES)
@@ -239,8 +232,7 @@ def _assembled(
 def _hessian_nodes(
     panels: Panels, domain: Domain, length: np.ndarray, weights: np.ndarray, t: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Which nodes the Hessian's quadrature takes, and their weights, the fewest that will do: the
-    middle of each pair of panels and of each single one, that of every panel, or all nodes."""
+    """Which nodes the Hessian's quadrature takes, the fewest that will do, and their weights."""
     n_coordinates, n_unknown = np.count_nonzero(t.any(axis=(0, 1))), basis_of(domain).phi_free.sum()
     wanted = _NODES_PER_COORDINATE * n_coordinates
     p, count = len(weights) // 2, len(panels)

@@ -70,8 +70,7 @@ def _point(problem: Problem, y: Coefficients, samples: Samples, largest: Number)
 def isometric_energy(
     values: Float[Array, "4 *t s"], matrices: Matrices, energy: Energy
 ) -> Float[Array, "*t"]:
-    """Equation (31) less what stiff areas add to an isometry's; infinite where a sample is
-    inverted."""
+    """Equation (31) less what stiff areas add to an isometry's; infinite at inverted samples."""
     weights = matrices.weights
     x, y = squares(values)
     valid = x > y
@@ -117,8 +116,7 @@ def bounds(problem: Problem, point: Point) -> PanelBounds:
 
 
 def tightened_by_splitting(problem: Problem, point: Point) -> Bool[np.ndarray, " p"]:
-    """Panels, on the host, whose bounds are loose by more than rounding, which no splitting
-    lessens."""
+    """Panels, on the host, whose bounds are loose by more than rounding: splitting helps."""
     matrices: Matrices = jax.tree.map(np.asarray, problem.matrices)
     re, im = np.moveaxis(np.asarray(point.coefficients).reshape(2, 2, -1), 1, 0)
     truncation = matrices.proof.remainder(re + 1j * im, problem.singularities)
@@ -126,8 +124,7 @@ def tightened_by_splitting(problem: Problem, point: Point) -> Bool[np.ndarray, "
 
 
 def reach(problem: Problem, y: Coefficients) -> Number:
-    """What rounding errors are relative to: the largest coefficient beside the anchor, and the
-    share that the largest one's own rounding has in them."""
+    """What errors are relative to: the largest coefficient beside the anchor, and its rounding."""
     share = 8 * rounding.UNIT_ROUNDOFF / rounding.slack_factor(y.shape[0] // 4)
     near = modulus(_complex(y - problem.anchor)).max()
     return near + share * (near + 2 * jnp.max(jnp.abs(problem.anchor)))

@@ -67,8 +67,7 @@ def positive_part(k: LocalHessian) -> LocalHessian:
 
 
 def _in_pieces(assembled: Callable[..., Array]) -> Callable[..., Array]:
-    """A sum over samples, the last axis of all arguments, by pieces where it would take much room;
-    the first two arguments are the basis matrix and the weights."""
+    """A sum over samples, the arguments' last axis, by pieces where it would take much room."""
 
     @functools.wraps(assembled)
     def summed(*arguments: Any) -> Array:
@@ -148,9 +147,9 @@ def _rotated(re: Columns, im: Columns, direction: tuple[PerNode, PerNode]) -> Pa
 
 
 def _hermitian_products(re: Columns, im: Columns, weights: Array) -> tuple[Array, Array]:
-    """``(re + im) w (re + im)^T`` and ``re w im^T``, each (2, u, u), for (2, h) weights; the real
-    part of ``(re + i im)^H w (re + i im)`` is the first less the second and its transpose, the
-    imaginary part the second less its transpose."""
+    """``(re + im) w (re + im)^T`` and ``re w im^T``, each (2, u, u), for (2, h) weights: of ``(re +
+    i im)^H w (re + i im)`` the imaginary part is the second less its transpose, the real part the
+    first less the second and its transpose."""
     columns = re.shape[0]
 
     def against(left: Columns, right: Columns) -> Float[Array, "2 u u"]:

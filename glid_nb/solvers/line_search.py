@@ -21,9 +21,8 @@ RATIO = 0.8
 # costs nothing and saved up to a tenth of the iterations on the reference shapes.
 LONGEST_STEP = 2.0
 ARMIJO = 1e-4  # sufficient decrease, the constant c of Algorithm 1
-# Closest that a step may come to the first inversion at a sample. Going further lowers the energy
-# more at once, but leaves the next iterations next to the barrier (0.95 took 12 instead of 8
-# iterations on one reference shape).
+# Closest that a step may come to the first inversion at a sample: next to the barrier iterations
+# are short (0.95 took 12 instead of 8 on one reference shape).
 SAFETY = 0.7
 LEAST_STEP = 1e-12
 
@@ -32,8 +31,7 @@ class Search(NamedTuple):
     """Candidate steps, longest first."""
 
     steps: Float[Array, " t"]
-    acceptable: Bool[Array, " t"]
-    """Where the energy decreases sufficiently (Algorithm 1, line 17)."""
+    acceptable: Bool[Array, " t"]  # sufficient decrease (Algorithm 1, line 17)
     best: Int[Array, ""]  # the candidate of least energy
 
 
@@ -99,10 +97,8 @@ def backtrack(
     problem: Problem, point: Point, line: Line, found: Search, once: Bool[AnyArray, ""] | bool
 ) -> Backtracking:
     """Go from the best candidate to shorter ones until one is certified; ``once``: try one only.
-
     Where Condition (30) fails and no panel refuses, the step jumps over a map with a zero of
-    ``f_z`` on the boundary: on the panels along which ``f_z`` turned most.
-    """
+    ``f_z`` on the boundary: on the panels along which ``f_z`` turned most."""
     real, count = problem.matrices.real, found.steps.shape[0]
     before = evaluation.fz_turning(problem.matrices, point.samples.values)
 

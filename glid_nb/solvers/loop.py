@@ -42,15 +42,14 @@ class Stopwatch:
 
 class Ending(NamedTuple):
     status: Status
-    detail: str | None = None
-    """A full sentence, where that of the status does not say enough."""
+    detail: str | None = None  # a full sentence, where that of the status says too little
 
 
 class Advance(NamedTuple):
     outcome: int = RUNNING
     iterations: int = 0
-    refused: Array | None = None
-    """(p,) bool: panels that refused a step and may allow it once they are split."""
+    refused: Array | None = None  # (p,) bool: panels that refused a step and may be split
+    ending: Ending | None = None  # where the method itself came to an end
 
 
 class Reached(NamedTuple):
@@ -63,24 +62,19 @@ class Descent:
 
     initial: Iteration  # the start; known at the latest after the first advance
     shows_start = True  # whether a callback is shown the start too
-    uses_lapack = False
-    """Whether XLA factorises for it, which several BLAS threads would slow down."""
+    uses_lapack = False  # which several BLAS threads would slow down
     discretisation: Discretisation | None = None  # the panels, which may be split
-    sigma2_lower: Array | None = None
-    """(p,) certified bound per panel, once a step was taken."""
-    factor: Any = None
-    """Cholesky factor of the last Hessian, for a solve that goes on from here."""
+    sigma2_lower: Array | None = None  # (p,) certified, once a step was taken
+    factor: Any = None  # of the last Hessian, for a solve that goes on from here
 
     def __init__(self, method: Method, inputs: Inputs) -> None:
         self.method, self.inputs = method, inputs
         self.history: list[Iteration] = []
 
     def advance(self, may_refine: bool) -> Advance:
-        """Go on by some iterations, at most those that are left, and extend the history.
-
-        Where a panel refuses a step it ends as REFUSED with ``may_refine``; without, it tries
-        shorter steps and ends as BLOCKED where none is certified.
-        """
+        """Go on by some iterations, at most those that are left, and extend the history. Where a
+        panel refuses a step it ends as REFUSED with ``may_refine``; without, it tries shorter steps
+        and ends as BLOCKED where none is certified."""
         raise NotImplementedError
 
     def reached(self) -> Reached:
@@ -96,7 +90,8 @@ class Descent:
 
     @property
     def left(self) -> int:
-        return self.method.limit(self.inputs.options) - len(self.history)
+        most = self.inputs.options.max_iterations
+        return (self.method.max_iterations if most is None else most) - len(self.history)
 
     def record(self, entry: Iteration) -> None:
         self.history.append(replace(entry, iteration=len(self.history) + 1))
@@ -196,7 +191,6 @@ class GeneratedDescent(Descent):
     def __init__(self, method: Method, inputs: Inputs, steps: Steps) -> None:
         super().__init__(method, inputs)
         self._steps = steps
-        self._ending: Ending | None = None
         self.initial = self._step()
 
     def _step(self) -> Iteration:
@@ -211,8 +205,7 @@ class GeneratedDescent(Descent):
         try:
             self.record(self._step())
         except StopIteration as stop:
-            self._ending = stop.value
-            return Advance()
+            return Advance(ending=stop.value)
         return Advance(iterations=1)
 
     def reached(self) -> Reached:
@@ -220,4 +213,4 @@ class GeneratedDescent(Descent):
 
     def adapt(self, done: Advance) -> Ending | None:
         gains = self.method.window is not None and done.iterations
-        return self.stagnation() if gains else self._ending
+        return self.stagnation() if gains else done.ending

@@ -50,27 +50,20 @@ class Method:
     says which setting is of another kind than its annotation says, or out of its range.
     """
 
-    name: ClassVar[str]
-    """A short name, for files and the shell."""
-    label: ClassVar[str]
-    """What menus call it."""
-    summary: ClassVar[str]
-    """The first paragraph of the class's docstring."""
+    name: ClassVar[str]  # for files and the shell
+    label: ClassVar[str]  # for menus
+    summary: ClassVar[str]  # the first paragraph of the class's docstring
     family: ClassVar[Family]
     """Where its maps live: in the harmonic subspace, certified, or on a mesh; "linear" methods are
     on a mesh, too, and solve once."""
-    max_iterations: ClassVar[int] = 200
-    """Unless the options say otherwise."""
+    max_iterations: ClassVar[int] = 200  # unless the options say otherwise
     window: ClassVar[int | None] = None
     """It has converged where so many iterations together change the energy by no more than
     ``tolerance`` of it; None for a method that ends otherwise."""
     tolerance: ClassVar[float] = 0.0
-    energies: ClassVar[tuple[str, ...] | None] = None
-    """Names of the energies that it can minimise; None for any."""
-    stiffens: ClassVar[bool] = True
-    """Whether it keeps stiff areas, where its maps are certified."""
-    package: ClassVar[str | None] = None
-    """The optional package that it needs."""
+    energies: ClassVar[tuple[str, ...] | None] = None  # that it can minimise; None for any
+    stiffens: ClassVar[bool] = True  # whether it keeps stiff areas, where its maps are certified
+    package: ClassVar[str | None] = None  # the optional package that it needs
     options: ClassVar[tuple[str, ...]] = ("p2p_weight", "align", "max_iterations")
     """Names of the :class:`~glid_nb.Options` that count."""
 
@@ -97,8 +90,7 @@ class Method:
     @property
     def settings(self) -> dict[str, Any]:
         """The settings that are not the defaults."""
-        values = {name: getattr(self, name) for name in self.defaults()}
-        return {k: v for k, v in values.items() if v != self.defaults()[k]}
+        return {k: getattr(self, k) for k, v in self.defaults().items() if getattr(self, k) != v}
 
     @property
     def certified(self) -> bool:
@@ -109,10 +101,6 @@ class Method:
     def available(cls) -> bool:
         """Whether its package is installed."""
         return cls.package is None or importlib.util.find_spec(cls.package) is not None
-
-    def limit(self, options: Options) -> int:
-        most = options.max_iterations
-        return self.max_iterations if most is None else most
 
     def check(self, energy: Energy, pose: Pose) -> None:
         """Raise :class:`MethodError` where it cannot run with these, saying what to do."""

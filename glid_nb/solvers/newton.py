@@ -65,6 +65,7 @@ class NewtonDescent(SubspaceDescent):
 
     def __init__(self, method: Method, inputs: Inputs) -> None:
         super().__init__(method, inputs, reduced=True)
+        self.problem = self.problem._replace(p2p_hessian=_p2p_hessian(self.problem))
         singular = len(inputs.pose) < 2
         self.ridge, self._least_ridge = (_SINGULAR_RIDGE, _RIDGE) if singular else (0.0, 0.0)
         self.full_since: int | None = None
@@ -146,7 +147,13 @@ class NewtonDescent(SubspaceDescent):
                 self._take_full_hessian()
         if done.outcome == line_search.INDEFINITE:
             # Rounding or the nodes may have made it so.
-            return None if self._take_full_hessian() else self._raise_ridge()
+            if self._take_full_hessian():
+                return None
+            # The Hessian is singular to rounding where two handles are in one place.
+            if self.inputs.options.hessian == "exact":
+                return Ending(Status.INDEFINITE)
+            self.ridge = max(_RIDGE_FACTOR * self.ridge, _RIDGE)
+            return Ending(Status.BLOCKED) if self.ridge > _LARGEST_RIDGE else None
         stalled = done.iterations and _has_stalled(self.history[self.full_since or 0 :])
         if not (done.outcome == line_search.NO_DECREASE or stalled) or self._take_full_hessian():
             return None
@@ -173,25 +180,16 @@ class NewtonDescent(SubspaceDescent):
         return True
 
     def _relax_ridge(self) -> None:
-        """Lower an epsilon that one place needed: close to the minimum it would make steps
-        short."""
+        """Lower an epsilon that one place needed: at the minimum it would make steps short."""
         relaxed = self.ridge / _RIDGE_FACTOR
         self.ridge = max(relaxed if relaxed >= _RIDGE else 0.0, self._least_ridge)
-
-    def _raise_ridge(self) -> Ending | None:
-        # The Hessian is singular to rounding where two handles are in one place.
-        if self.inputs.options.hessian == "exact":
-            return Ending(Status.INDEFINITE)
-        self.ridge = max(_RIDGE_FACTOR * self.ridge, _RIDGE)
-        return Ending(Status.BLOCKED) if self.ridge > _LARGEST_RIDGE else None
 
 
 _latest: tuple[list[Any], Any] | None = None
 
 
 def _p2p_hessian(problem: Problem) -> Any:
-    """The Hessian of the positional energy, the identity where there is no unknown; the latest is
-    kept on the device, for the next targets of the same handles."""
+    """The positional energy's Hessian, else the identity; the latest is kept on the device."""
     global _latest
     positional, unknowns = problem.positional, problem.unknowns
     inputs = [positional.matrix, positional.weights, unknowns.free, problem.matrices.whitening]
@@ -219,8 +217,7 @@ def _is_slow(history: Sequence[Iteration]) -> bool:
 
 
 def _has_stalled(history: Sequence[Iteration]) -> bool:
-    """Whether the last steps gained nothing, or were tiny and gained next to nothing: without a
-    barrier, a map can creep to folding, each step proved on twice as many panels."""
+    """Whether the last steps gained nothing, or were tiny and gained next to nothing."""
     if len(history) <= _STALLED:
         return False
     before, *recent = history[-1 - _STALLED :]

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from glid_nb._jax import AnyArray, Array, Float, jnp
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
-from glid_nb.harmonic import HarmonicMap, basis_of, cauchy, rows_of
+from glid_nb.harmonic import HarmonicMap, as_complex, basis_of, cauchy, rows_of
 from glid_nb.harmonic.basis import Basis
 from glid_nb.harmonic.cauchy import Singularities
 from glid_nb.solvers.discretisation import Matrices, complex_basis
-from glid_nb.solvers.pose import Pose
+from glid_nb.solvers.pose import Pose, rigid_motion
 from glid_nb.solvers.unknowns import Unknowns
 
 _HANDLE_BUCKET = 8
@@ -32,8 +32,7 @@ class Problem(NamedTuple):
     unknowns: Unknowns
     positional: Positional
     energy: Energy
-    p2p_hessian: Any = None
-    """(4u, 4u), of the positional energy in whitened coordinates; for Newton's method."""
+    p2p_hessian: Any = None  # (4u, 4u), in whitened coordinates; for Newton's method
     anchor: Float[AnyArray, " 4c"] | float = 0.0
     """Coefficients of a constant map, relative to which derivatives are computed: a translation
     then costs no accuracy."""
@@ -42,8 +41,7 @@ class Problem(NamedTuple):
 class Positional(NamedTuple):
     """The positional energy ``1/2 |A y - b|^2`` with weights (20), as (F.5) writes it."""
 
-    matrix: Float[AnyArray, "2h 4c"]
-    """First all rows for the real parts, then those for the imaginary."""
+    matrix: Float[AnyArray, "2h 4c"]  # all rows for the real parts, then for the imaginary
     aims: Float[AnyArray, " 2h"]
     weights: Float[AnyArray, " 2h"]  # lambda for a handle, 0 for padding
 
@@ -58,11 +56,7 @@ class Positional(NamedTuple):
 
 
 def positional_energy(
-    domain: Domain,
-    pose: Pose,
-    weight: float,
-    map: HarmonicMap | None = None,
-    damping: float = 1.0,
+    map: HarmonicMap, pose: Pose, weight: float, damping: float = 1.0
 ) -> Positional:
     """The positional energy of a pose, its rows padded to a bucket.
 
@@ -70,12 +64,12 @@ def positional_energy(
     towards the wanted angle by at most a radian. A scale alone asks for ``|f_z|``, whose level sets
     bend: its second derivative along them is a row too, larger by ``damping``.
     """
-    count, turned = len(pose), np.flatnonzero(pose.turned) if map is not None else []
+    domain, count, turned = map.domain, len(pose), np.flatnonzero(pose.turned)
     size = _HANDLE_BUCKET * max(1, -(-(count + len(turned)) // _HANDLE_BUCKET))
     aims, weights = np.zeros((2, size)), np.zeros((2, size))
     aims[:, :count], weights[:, :count] = pose.targets.T, weight * pose.weights
     matrix = _matrix_at(domain, pose.handles.tobytes(), size)
-    if map is not None and len(turned):
+    if len(turned):
         basis, pinned = basis_of(domain), slice(count, count + len(turned))
         d = _basis_at(domain, pose.handles[turned].tobytes(), cauchy.first_derivatives)
         fz, angles, scales = d @ basis.pad(map.phi), pose.angles[turned], pose.scales[turned]
@@ -97,8 +91,6 @@ def positional_energy(
 
 def measured_apart(a: Positional, b: Positional) -> float:
     """By how much measurements of angles and scales differ, about radians; 0 where that is all."""
-    if a.matrix.shape != b.matrix.shape:
-        return _FARTHEST_TURN
     gaps, lengths = (np.linalg.norm(m, axis=1) for m in (a.matrix - b.matrix, a.matrix))
     apart = float((gaps / np.maximum(lengths, 1e-300)).max())
     alike = apart <= _SAME_DIRECTION and np.allclose(a.weights, b.weights, rtol=0.1, atol=0.1)
@@ -122,11 +114,17 @@ def _matrix_at(domain: Domain, handles: bytes, size: int) -> NDArray[Any]:
     return np.block([[re, minus_im, re, minus_im], [-minus_im, re, minus_im, -re]])
 
 
-def handle_images(pose: Pose, map: HarmonicMap) -> NDArray[Any]:
-    """(h,) complex."""
+def aligned(map: HarmonicMap, pose: Pose) -> HarmonicMap:
+    """The map followed by the rigid motion that brings its handles closest to their targets."""
+    if not len(pose):
+        return map
     rows = _basis_at(map.domain, pose.handles.tobytes(), cauchy.cauchy_coordinates)
     phi, psi = rows_of(map)
-    return rows @ phi + np.conj(rows @ psi)
+    images = rows @ phi + np.conj(rows @ psi)
+    turn, middle, aim = rigid_motion(images, as_complex(pose.targets))
+    phi, psi = map.phi * turn, map.psi * np.conj(turn)
+    phi[: len(map.domain.offset_cage.loops_complex[0])] += aim - turn * middle
+    return HarmonicMap(map.domain, phi, psi)
 
 
 def real_coefficients(map: HarmonicMap) -> NDArray[Any]:

@@ -28,17 +28,12 @@ class Settings(NamedTuple):
 
     tolerance: Float[AnyArray, ""] | float
     iterations: Int[AnyArray, ""] | int
-    may_refine: Bool[AnyArray, ""] | bool
-    """Whether to return as soon as a panel refuses a step, so that it can be split."""
-    ridge: Float[AnyArray, ""] | float
-    """Added to the Hessian's diagonal, relative to its mean (Section 9.1's epsilon)."""
-    reuse: Bool[AnyArray, ""] | bool
-    """Whether the first iteration takes the factor that it is given instead of a new one."""
+    may_refine: Bool[AnyArray, ""] | bool  # whether to return when a panel refuses a step
+    ridge: Float[AnyArray, ""] | float  # added to the diagonal, relative to its mean
+    reuse: Bool[AnyArray, ""] | bool  # whether to begin with the factor that is given
     corrections: Int[AnyArray, ""] | int  # most corrections of one iteration
-    projects_first: Bool[AnyArray, ""] | bool
-    """Whether to project the Hessian before its first factorisation."""
-    attempts: Int[AnyArray, ""] | int
-    """Factorisations of one iteration; the second is of the projected Hessian."""
+    projects_first: Bool[AnyArray, ""] | bool  # before the first factorisation
+    attempts: Int[AnyArray, ""] | int  # factorisations of one iteration
 
 
 Record = namedtuple(
@@ -54,11 +49,9 @@ class State(NamedTuple):
     iteration: Int[Array, ""]
     outcome: Int[Array, ""]
     decrement: Number
-    records: Float[Array, "i r"]
-    """A :class:`Record` in each row."""
+    records: Float[Array, "i r"]  # a Record in each row
     refused: Bool[Array, " p"]  # panels that refused the last preferred step
-    sigma2_lower: Float[Array, " p"]
-    """Certified bound per panel at ``point``, once a step was taken."""
+    sigma2_lower: Float[Array, " p"]  # certified at the point, once a step was taken
     turning: Float[Array, " p"]  # the proved change of arg f_z along each panel there
     factor: Factor  # Cholesky factor of the last Hessian, in whitened coordinates
     corrects: Bool[Array, ""]  # whether the next step is a correction

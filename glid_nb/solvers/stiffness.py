@@ -1,4 +1,4 @@
-"""Stiff areas: where a shape should stay as it is."""
+"""Stiff areas: where a shape should stay as it is, and what they change of a solve's matrices."""
 
 from __future__ import annotations
 
@@ -14,14 +14,26 @@ from numpy.typing import ArrayLike
 from glid_nb._arguments import check_type, unmet
 from glid_nb._arrays import Array, number_pairs
 from glid_nb._errors import InputError, about
-from glid_nb.geometry import Cage
+from glid_nb._jax import jax
+from glid_nb._runtime import double_precision
+from glid_nb.geometry import Cage, Domain, as_points
+from glid_nb.harmonic import as_complex, basis_of, cauchy
+from glid_nb.solvers.discretisation import (
+    Discretisation,
+    Matrices,
+    complex_basis,
+    padded,
+    real_columns,
+)
+from glid_nb.solvers.whitening import whitened
 
 FULL_WEIGHT = 1000.0  # of a sample where the strength is 1
 _FARTHEST, _MOST_POINTS, _MOST_STROKES = 1e6, 10_000, 2_000
 _ROUND = 8  # segments of a quarter of the brush
+NODES = 128  # inside the areas; always as many, so that painting more compiles nothing
+_COARSER, _MOST_LINES = 1.03, 400  # of their grid
 
-Areas = dict[float, shapely.Geometry]
-"""Parts of the plane by their strengths, above 0; they do not overlap."""
+Areas = dict[float, shapely.Geometry]  # by strengths above 0, without overlap
 
 
 class StiffnessError(InputError):
@@ -115,3 +127,59 @@ class Stiffness:
             shapely.prepare(area)
             strengths[shapely.intersects_xy(area, x, y)] = strength
         return strengths
+
+
+@functools.lru_cache(maxsize=4)
+@double_precision
+def stiff_matrices(disc: Discretisation, stiffness: Stiffness) -> Matrices:
+    """The matrices with the weights of a stiffness; the very same where nothing is stiff. A node on
+    the boundary weighs ``FULL_WEIGHT**strength`` times as much. What that adds is added for the
+    inside, too, as the same share of an integral over the area."""
+    m, panels = disc.matrices, disc.panels
+    areas = stiffness.within(disc.domain.cage)
+    if not areas:
+        return m
+    p, count = len(m.real), len(panels)
+    added = np.zeros(len(m.weights))
+    added[:count] = _added(stiffness, panels.start)
+    if disc.can_refine:
+        added[p : p + count] = _added(stiffness, panels.middle)
+    weights, index = np.asarray(m.weights), np.asarray(m.hessian_index)
+    inner, nodes = _inside(disc.domain, stiffness)
+    at_nodes = whitened(nodes, np.arange(NODES), m.whitening, np.asarray(m.whitened).dtype.type)
+    hessian = np.asarray(m.hessian_weights) * (1 + added[index])
+    changed = {
+        "nodes": np.hstack([m.nodes, nodes]),
+        "weights": np.concatenate([weights * (1 + added), inner]),
+        "hessian_index": np.concatenate([index, len(weights) + np.arange(NODES)]),
+        "hessian_weights": np.concatenate([hessian, inner]),
+        "whitened": np.hstack([m.whitened, at_nodes]),
+        "stiff": weights @ added + inner.sum(),
+    }
+    return m._replace(**jax.device_put(changed))
+
+
+def _added(stiffness: Stiffness, z: Array) -> Array:
+    return FULL_WEIGHT ** stiffness(as_points(z)) - 1
+
+
+@functools.lru_cache(maxsize=4)
+def _inside(domain: Domain, stiffness: Stiffness) -> tuple[Array, Array]:
+    """Weights and ``D`` at nodes on a square grid inside the areas."""
+    whole = shapely.union_all(list(stiffness.within(domain.cage).values()))
+    shapely.prepare(whole)
+    left, bottom, right, top = whole.bounds
+    step = max(np.sqrt(whole.area / NODES), max(right - left, top - bottom) / _MOST_LINES)
+    while True:
+        x, y = np.meshgrid(np.arange(left, right, step), np.arange(bottom, top, step))
+        x, y = x.ravel() + step / 2, y.ravel() + step / 2
+        inside = shapely.contains_xy(whole, x, y)
+        if np.count_nonzero(inside) <= NODES:
+            break
+        step *= _COARSER
+    z = (x + 1j * y)[inside]
+    if not len(z):
+        z = as_complex(shapely.get_coordinates(whole.representative_point()))
+    weights = _added(stiffness, z) * whole.area / len(z) / domain.cage.area
+    d = complex_basis(cauchy.first_derivatives, z, basis_of(domain))
+    return padded(weights, NODES, 0.0), real_columns(padded(d, NODES))

@@ -10,16 +10,15 @@ from glid_nb._errors import InputError
 from glid_nb._jax import jit
 from glid_nb.certificate import Certificate, certificate_of, certify, proved_by
 from glid_nb.geometry import Panels
-from glid_nb.harmonic import HarmonicMap, as_complex
+from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import evaluation, problem
 from glid_nb.solvers.discretisation import Discretisation, Matrices, discretise
 from glid_nb.solvers.evaluation import Point
 from glid_nb.solvers.loop import Descent, Ending, Reached
 from glid_nb.solvers.method import Inputs, Method
-from glid_nb.solvers.pose import Pose, rigid_motion
 from glid_nb.solvers.problem import Problem, map_from
 from glid_nb.solvers.result import Iteration, Result, Status
-from glid_nb.solvers.stiff_matrices import stiff_matrices
+from glid_nb.solvers.stiffness import stiff_matrices
 from glid_nb.solvers.unknowns import canonical, unknowns_of
 
 # Measurements of angles and scales, after which the directions found are kept by that damping.
@@ -32,8 +31,7 @@ class StartError(InputError):
 
 
 class SubspaceDescent(Descent):
-    """A method at work on maps of the harmonic subspace; ``reduced``: its unknowns are the whitened
-    coordinates, not all columns."""
+    """A method on maps of the harmonic subspace; ``reduced``: in whitened coordinates."""
 
     uses_lapack = True
     discretisation: Discretisation
@@ -41,27 +39,24 @@ class SubspaceDescent(Descent):
     proved: tuple[Panels, Array, Array] | None = None
     """What the last step was proved by: panels, bounds on sigma_2 and turnings."""
     just_split = 0  # panels split since the last iteration
-    _pins, _damping = 0, 1.0
+    _pins, _damping = 1, 1.0
 
     def __init__(self, method: Method, inputs: Inputs, reduced: bool) -> None:
         super().__init__(method, inputs)
         options, pose = inputs.options, inputs.pose
         map_, self.given, self.discretisation = _starting_point(method, inputs)
+        self.start = problem.aligned(map_, pose) if options.align else map_
+        self.coefficients: Any = problem.real_coefficients(self.start)
         basis = self.discretisation.basis
         whitening = self.discretisation.matrices.whitening if reduced else None
         self.problem = Problem(
             matrices=self.matrices,
             singularities=basis.singularities,
             unknowns=unknowns_of(basis, options.conformal, whitening),
-            positional=problem.positional_energy(inputs.domain, pose, options.p2p_weight),
+            positional=problem.positional_energy(self.start, pose, options.p2p_weight),
             energy=inputs.energy,
+            anchor=problem.anchor_of(basis, self.coefficients),
         )
-        if options.align:
-            map_ = aligned(map_, pose)
-        self.start = map_
-        self.pin(map_)
-        self.coefficients: Any = problem.real_coefficients(map_)
-        self.problem = self.problem._replace(anchor=problem.anchor_of(basis, self.coefficients))
 
     @property
     def matrices(self) -> Matrices:
@@ -76,9 +71,9 @@ class SubspaceDescent(Descent):
             return False
         self._damping = KEPT if self._pins == MOST_PINS else self._damping
         weight, damping = inputs.options.p2p_weight, self._damping
-        now = problem.positional_energy(inputs.domain, inputs.pose, weight, map, damping)
+        now = problem.positional_energy(map, inputs.pose, weight, damping)
         apart = problem.measured_apart(before, now)
-        self._damping *= _DAMPING if self._pins and apart > _FAR and damping != KEPT else 1
+        self._damping *= _DAMPING if apart > _FAR and damping != KEPT else 1
         self._pins += 1
         self.problem = self.problem._replace(positional=now)
         return apart > 0
@@ -161,14 +156,3 @@ def _starting_point(
     if disc is None or (disc.sampling, disc.certificate) != wanted:
         disc = fresh()
     return canonical(HarmonicMap(disc.domain, map_.phi, map_.psi)), proof, disc
-
-
-def aligned(map: HarmonicMap, pose: Pose) -> HarmonicMap:
-    """The map followed by the rigid motion that brings its handles closest to their targets."""
-    if not len(pose):
-        return map
-    images = problem.handle_images(pose, map)
-    turn, middle, aim = rigid_motion(images, as_complex(pose.targets))
-    phi, psi = map.phi * turn, map.psi * np.conj(turn)
-    phi[: len(map.domain.offset_cage.loops_complex[0])] += aim - turn * middle
-    return HarmonicMap(map.domain, phi, psi)

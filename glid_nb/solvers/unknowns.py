@@ -22,15 +22,12 @@ Square = Float[Array, "4u 4u"]
 class Unknowns(NamedTuple):
     """The unknowns of one domain, as data for compiled programs."""
 
-    free: Float[AnyArray, " 4u"]
-    """1 for an unknown, 0 for padding and what is fixed or tied."""
-    holes: Float[AnyArray, " N"]
-    """One entry per padded hole column (its length is what matters)."""
+    free: Float[AnyArray, " 4u"]  # 1 for an unknown, 0 for padding and what is fixed or tied
+    holes: Float[AnyArray, " N"]  # one entry per padded hole column: its length matters
 
 
 def unknowns_of(basis: Basis, conformal: bool, whitening: Array | None = None) -> Unknowns:
-    """The unknowns among all columns, or among the coordinates of a whitening (2, c, u);
-    ``conformal`` drops ``psi`` and the logarithms."""
+    """Among all columns or the coordinates of a whitening (2, c, u); ``conformal`` drops psi."""
     n_holes = basis.n_hole_columns
     if whitening is None:
         phi, psi = np.array(basis.phi_free), np.array(basis.psi_free)
@@ -66,12 +63,9 @@ def restrict_hessian(
     other: Square | None = None,
     ridge: Float[AnyArray, ""] | float = 0.0,
 ) -> Square:
-    """Hessian with respect to the unknowns plus ``other``, restricted already; the identity
-    elsewhere.
-
+    """Hessian with respect to the unknowns plus ``other``, restricted already; else the identity.
     Of ``h`` the columns of ``psi`` and the block of ``phi`` are read; below the diagonal blocks the
-    result means nothing. The diagonal is raised by ``ridge`` times its mean.
-    """
+    result means nothing. The diagonal is raised by ``ridge`` times its mean."""
     phi, psi, sign = _hole_slices(h.shape[0], unknowns)
     if phi is not None:
         sign = sign.astype(h.dtype)
@@ -107,11 +101,9 @@ def _hole_slices(size: int, unknowns: Unknowns) -> tuple:
 
 
 def canonical(map: HarmonicMap) -> HarmonicMap:
-    """The same map with the redundant coefficients at zero (Section 5).
-
-    Adding ``a z_j + b`` to a hole loop's coefficients changes no map (Cauchy's theorem): the loop's
-    first two become zero. A constant moves from ``psi`` to ``phi`` to zero the exterior's first.
-    """
+    """The same map with the redundant coefficients at zero (Section 5). Adding ``a z_j + b`` to a
+    hole loop's coefficients changes no map (Cauchy's theorem): the loop's first two become zero. A
+    constant moves from ``psi`` to ``phi`` to zero the exterior's first."""
     phi, psi = map.phi.copy(), map.psi.copy()
     loops = map.domain.offset_cage.loops_complex
     first = len(loops[0])

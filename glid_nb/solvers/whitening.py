@@ -66,8 +66,7 @@ def whitening(
 def _without_steep(
     inverse: Complex[np.ndarray, "n n"], chosen: Int[np.ndarray, " n"], basis: Basis
 ) -> Complex[np.ndarray, "k n"]:
-    """The rows whose conjugates are the coordinates of the chosen columns, without those with steep
-    slopes; as they are where there are none."""
+    """The chosen columns' coordinates, conjugate rows, without those of steep slopes if any is."""
     values = np.zeros((basis.n_columns, len(inverse)), dtype=complex)
     values[chosen] = inverse.conj().T
     vertices, _, previous, _ = basis.singularities

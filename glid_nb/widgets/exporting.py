@@ -9,7 +9,7 @@ from typing import Any
 from glid_nb._files import write_bytes_atomically, zipped
 from glid_nb._json import json_text
 from glid_nb._runtime import data_directory
-from glid_nb.certificate.proof import proof_text
+from glid_nb.certificate.certify import proof_text
 from glid_nb.export.formats import FORMATS, ExportError, file_names, suffix_of
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View

@@ -31,7 +31,7 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
     disc, options = result.discretisation, result.options
     assert disc is not None
     assert isinstance(result.map, HarmonicMap)
-    positional = positional_energy(disc.domain, result.pose, options.p2p_weight)
+    positional = positional_energy(result.map, result.pose, options.p2p_weight)
     unknowns = unknowns_of(disc.basis, options.conformal, disc.matrices.whitening)
     singularities = disc.basis.singularities
     energy = result.energy_measure

@@ -124,7 +124,7 @@ def test_the_loop_counts_differences_too(shift: float) -> None:
         disc.matrices,
         disc.basis.singularities,
         unknowns_of(disc.basis, False),
-        positional_energy(domain("ring"), pose, 1.0),
+        positional_energy(map, pose, 1.0),
         as_energy(None),
     )
     with jax.enable_x64(True):

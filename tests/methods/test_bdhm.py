@@ -144,7 +144,7 @@ def test_within_binding_bounds_it_finds_the_least_energy_up_to_the_margin() -> N
 def penalised(start: HarmonicMap, share: float, weight: float = 1e4, count: int = 80) -> float:
     """The least energy within a share of each bound's range at dense samples, from below."""
     domain, pose = problem("ring")
-    problem_ = BoundedProblem(domain, pose, 1e5)
+    problem_ = BoundedProblem(HarmonicMap.identity(domain), pose, 1e5)
     k, sigma1, sigma2 = TIGHT
     along = (np.arange(count) + 0.5) / count
     loops = domain.cage.loops_complex

@@ -19,8 +19,7 @@ from glid_nb.solvers import MethodError, Options, Pose, evaluation, solve, solve
 from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.hessian import assemble, local_hessian
 from glid_nb.solvers.problem import real_coefficients
-from glid_nb.solvers.stiff_matrices import NODES, stiff_matrices
-from glid_nb.solvers.stiffness import FULL_WEIGHT, Stiffness, StiffnessError
+from glid_nb.solvers.stiffness import FULL_WEIGHT, NODES, Stiffness, StiffnessError, stiff_matrices
 
 from ..domains import domain, random_map, real, reference
 from ..reference_map import points_inside

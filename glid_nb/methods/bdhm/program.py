@@ -16,12 +16,11 @@ from glid_nb._arrays import Array
 from glid_nb._jax import jax, jnp
 from glid_nb._runtime import double_precision
 from glid_nb.certificate import Certificate
-from glid_nb.geometry import Domain, graded_panels
+from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.solvers import Pose
 from glid_nb.solvers.discretisation import complex_basis
-from glid_nb.solvers.problem import map_from, positional_energy, real_coefficients
-from glid_nb.solvers.subspace import aligned
+from glid_nb.solvers.problem import aligned, map_from, positional_energy, real_coefficients
 from glid_nb.solvers.unknowns import canonical, expand, unknowns_of
 
 _RATIO = 0.5  # panels this long relative to their distance from the singularities carry the samples
@@ -51,14 +50,10 @@ class BoundedProblem:
 
     @double_precision
     def __init__(
-        self,
-        domain: Domain,
-        pose: Pose,
-        p2p_weight: float,
-        map: HarmonicMap | None = None,
-        damping: float = 1.0,
+        self, map: HarmonicMap, pose: Pose, p2p_weight: float, damping: float = 1.0
     ) -> None:
-        self.domain, self.pose = domain, pose
+        domain = self.domain = map.domain
+        self.pose = pose
         self._basis = basis_of(domain)
         # The holes' psi = conj(phi) are no unknowns of their own.
         unknowns = unknowns_of(self._basis, False)
@@ -68,11 +63,16 @@ class BoundedProblem:
         self.panels = graded_panels(domain, _RATIO)
         self._shares = self.panels.length / self.panels.length.sum()
         self.samples = self.samples_at(self.panels.middle)
-        self.positional = positional = positional_energy(domain, pose, p2p_weight, map, damping)
+        self.positional = positional = positional_energy(map, pose, p2p_weight, damping)
         root = np.sqrt(np.asarray(positional.weights))
         rows = root[:, None] * (np.asarray(positional.matrix) @ self._expansion)
         self._aims = root * np.asarray(positional.aims)
-        self._factor = self._triangular(rows)
+        # R with R^T R the energy's matrix, without squaring its condition.
+        share = np.sqrt(4 * self._shares)[:, None]
+        stacked = [share * part(row) for row in self.samples for part in (np.real, np.imag)]
+        ridge = np.sqrt(_RIDGE) * np.eye(rows.shape[1])
+        stacked += [rows, ridge] if len(pose) < 2 else [rows]
+        self._factor = np.asarray(np.linalg.qr(np.concatenate(stacked), mode="r"))
         inverse = scipy.linalg.solve_triangular(self._factor, np.eye(len(self._factor)))
         self._expansion = self._expansion @ inverse
         self.samples = SampleRows(self.samples.a @ inverse, self.samples.b @ inverse)
@@ -103,15 +103,6 @@ class BoundedProblem:
         pull = self.samples.a.conj().T @ (4 * self._shares * (f - f / np.abs(f)))
         pull += self.samples.b.conj().T @ (4 * self._shares * g)
         return np.real(pull) + self._rows.T @ (self._rows @ v - self._aims)
-
-    def _triangular(self, positional: Array) -> Array:
-        """``R`` with ``R^T R`` the energy's matrix, without squaring its condition."""
-        root = np.sqrt(4 * self._shares)[:, None]
-        rows = [root * self.samples.a, root * self.samples.b]
-        stacked = [*(part for row in rows for part in (row.real, row.imag)), positional]
-        if len(self.pose) < 2:
-            stacked.append(np.sqrt(_RIDGE) * np.eye(positional.shape[1]))
-        return np.asarray(np.linalg.qr(np.concatenate(stacked), mode="r"))
 
 
 def _bound(default: float, **limits: float) -> Any:
@@ -151,8 +142,7 @@ class DistortionBounds:
 class ActiveSet:
     problem: BoundedProblem
     bounds: DistortionBounds
-    samples: SampleRows
-    """First the problem's own, which follow one another, then those that a failed proof added."""
+    samples: SampleRows  # the problem's own in order, then those that failed proofs added
     chosen: Array  # (3, n) bool: where k, sigma_1 and sigma_2 are bounded
     excess: float = 1.0
     """How much the next map may keep of what this one has beyond the stricter bounds. With 1 the
@@ -204,10 +194,8 @@ def _peaks(used: Array) -> Array:
 
 
 class Step(NamedTuple):
-    change: Array | None
-    """What to add to the unknowns; None where the program was not solved."""
-    decrease: float
-    """No point that the program admits lowers its energy by more: by weak duality."""
+    change: Array | None  # to add to the unknowns; None where it was not solved
+    decrease: float  # by weak duality no admitted point lowers its energy by more
     status: str  # Clarabel's; "Solved" to the accuracy that was asked for
 
 

@@ -91,10 +91,10 @@ class _Descent(GeneratedDescent):
         super().__init__(method, inputs, self.steps())
 
     def _measure(self, map: HarmonicMap) -> None:
-        domain, pose, options = self.inputs.domain, self.inputs.pose, self.inputs.options
+        weight = self.inputs.options.p2p_weight
         with single_blas_thread():
             damping = KEPT if self.measured == MOST_PINS else 1.0
-            self.problem = BoundedProblem(domain, pose, options.p2p_weight, map, damping)
+            self.problem = BoundedProblem(map, self.inputs.pose, weight, damping)
         samples = self.problem.samples
         none = np.zeros((3, len(samples.a)), dtype=bool)
         self.active = ActiveSet(self.problem, self.method, samples, none)
@@ -114,6 +114,7 @@ class _Descent(GeneratedDescent):
     def steps(self) -> Steps:
         identity = HarmonicMap.identity(self.inputs.domain)
         start = self.method.harmonic_start(self.inputs) or identity
+        start = HarmonicMap(identity.domain, start.phi, start.psi)
         self._measure(start)
         for map_ in (start, identity):
             v = self.problem.unknowns(map_, self.inputs.options.align)
@@ -170,9 +171,9 @@ class _Descent(GeneratedDescent):
             if program.decrease <= none and program.status == "Solved":
                 if self.active.excess < 1:
                     return _blocked("giving back some of the margin costs more than it gains")
-                least = f"an energy that is lower by more than {self.method.tolerance:g} of it"
-                none = f"with the frames held fixed no map within the bounds has {least}"
-                return Ending(Status.CONVERGED, f"The solver converged: {none}.")
+                why = "with the frames held fixed no map within the bounds has an energy that is"
+                why = f"{why} lower by more than {self.method.tolerance:g} of it"
+                return Ending(Status.CONVERGED, f"The solver converged: {why}.")
             reached = now.v + program.change
             wider = self.active.and_violated(reached)
             if wider is self.active:

@@ -87,8 +87,10 @@ class AQP(MeshMethod):
         """ARAP, projected, and smoothed for other energies than the symmetric Dirichlet energy."""
         operators, w = problem.operators, problem.start
         if np.abs(w[problem.handles] - problem.targets).max(initial=0) > 0:
-            for _ in range(self.arap_iterations):
-                w = _arap_step(operators, proxy.pinned, w, problem.targets)
+            for _ in range(self.arap_iterations):  # local and global steps (Liu et al. 2008)
+                rotation = _unit(operators.wirtinger(w)[0])
+                pull = 2 * operators.adjoint(rotation, 0 * rotation)
+                w = proxy.pinned.solve(pull, problem.targets)
             w, _ = project(operators, proxy.pinned, w)
         if problem.inputs.energy.name != "iso":
             # The projection leaves slender triangles, where an exponential energy overflows.
@@ -156,22 +158,12 @@ class _Proxy:
         return None
 
 
-def _arap_step(operators: MeshOperators, pinned: Pinned, w: Array, targets: Array) -> Array:
-    """A local and a global step of ARAP (Liu et al. 2008); triangles may turn over."""
-    fz, _ = operators.wirtinger(w)
-    modulus = np.abs(fz)
-    rotation = np.where(modulus > 0, fz / np.where(modulus > 0, modulus, 1), 1)
-    return pinned.solve(2 * operators.adjoint(rotation, 0 * rotation), targets)
-
-
 def project(
     operators: MeshOperators, pinned: Pinned, w: Array, most_iterations: int = 500
 ) -> tuple[Array, int]:
-    """A map close to ``w`` with the same held vertices, and how many iterations it took.
-
-    Projection onto maps of bounded distortion (Kovalsky et al. 2015): the next map is the closest
-    one on the hyperplane that separates them. Triangles may be left that are turned over.
-    """
+    """A map close to ``w`` with the same held vertices, and how many iterations it took. Projection
+    onto maps of bounded distortion (Kovalsky et al. 2015): the next map is the closest one on the
+    hyperplane that separates them. Triangles may be left that are turned over."""
     for iteration in range(most_iterations):
         fz, fzb = operators.wirtinger(w)
         if (np.abs(fzb) < ENOUGH * np.abs(fz)).all():
@@ -193,7 +185,11 @@ def closest(fz: Array, fzb: Array, bound: float) -> tuple[Array, Array]:
     a, b = np.abs(fz), np.abs(fzb)
     t = (a + bound * b) / (1 + bound**2)
     outside = b > bound * a
-    safe_a, safe_b = np.where(a > 0, a, 1), np.where(b > 0, b, 1)
-    pz = np.where(outside, t * np.where(a > 0, fz / safe_a, 1), fz)
-    pzb = np.where(outside, bound * t * fzb / safe_b, fzb)
-    return pz, pzb
+    pzb = bound * t * fzb / np.where(b > 0, b, 1)
+    return np.where(outside, t * _unit(fz), fz), np.where(outside, pzb, fzb)
+
+
+def _unit(z: Array) -> Array:
+    """``z / |z|``, 1 at 0."""
+    size = np.abs(z)
+    return np.where(size > 0, z / np.where(size > 0, size, 1), 1)

@@ -24,9 +24,9 @@ _AT_VERTEX = 1e-9  # of the shape's longer side
 
 
 class MeshOperators:
-    """A mesh as the solvers see it; images of vertices are (v,) complex. On a triangle ``f_z =
-    sum_i conj(G_i) w_i / 2`` and ``f_zbar = sum_i G_i w_i / 2`` with ``G_i`` the complex gradient
-    of corner ``i``'s hat function."""
+    """A mesh as the solvers see it; images are (v,) complex. On a triangle ``f_z = sum_i conj(G_i)
+    w_i / 2`` and ``f_zbar = sum_i G_i w_i / 2``, ``G_i`` the complex gradient of a corner's hat
+    function."""
 
     def __init__(self, mesh: Triangulation) -> None:
         self.mesh = mesh
@@ -83,9 +83,7 @@ class Pinned:
         self.free, self.held = np.flatnonzero(free), held
         k = operators.laplacian
         self._coupling = k[self.free][:, held]
-        from scipy.sparse.linalg import splu  # noqa: PLC0415 - slow to import
-
-        self._factor = splu(
+        self._factor = scipy.sparse.linalg.splu(
             k[self.free][:, self.free].tocsc(),
             permc_spec="MMD_AT_PLUS_A",
             diag_pivot_thresh=0.0,
@@ -130,8 +128,7 @@ class MeshProblem:
     handles: Array  # (h,) vertex indices
     targets: Array  # (h,) complex
     p2p_weight: float
-    start: Array
-    """(v,) complex: the images to start from, rigidly moved if that was asked for."""
+    start: Array  # (v,) complex images, rigidly moved if that was asked for
 
     @classmethod
     def of(cls, inputs: Inputs, n_vertices: int) -> MeshProblem:

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import functools
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Literal, NamedTuple
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
 from glid_nb._arrays import Array
-from glid_nb._jax import AnyArray, Bool, Float, Int, jit, jnp
+from glid_nb._jax import AnyArray, Bool, jit, jnp
 from glid_nb._jax import Array as DeviceArray
 from glid_nb._runtime import COMPILER_OPTIONS, double_precision
-from glid_nb.certificate import PanelBounds
 from glid_nb.solvers import Inputs, Method, Result, Status, evaluation, line_search
 from glid_nb.solvers.evaluation import Coefficients, Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
@@ -84,7 +83,6 @@ class DirectedDescent(SubspaceDescent):
     memory: Any = None  # what the method remembers of its earlier steps
     step: float | None = None  # length of the last step
     _chosen: Array | None = None
-    _ending: Ending | None = None
     _seconds = 0.0
 
     @double_precision
@@ -114,18 +112,17 @@ class DirectedDescent(SubspaceDescent):
         if not self.left:
             return Advance()
         watch = Stopwatch()
-        self._ending = self._choose() if self._chosen is None else None
-        if self._ending is not None:
-            return Advance()
+        if self._chosen is None and (ending := self._choose()) is not None:
+            return Advance(ending=ending)
         refining = may_refine and self.discretisation.can_refine
-        move = _advance(self.problem, self.point, self.gradient, self._chosen, refining)
+        move, gradient = _advance(self.problem, self.point, self.gradient, self._chosen, refining)
         end = int(move.outcome)
         self._seconds += watch.seconds
         if end != RUNNING:
             return Advance(end, refused=np.asarray(move.refused))
-        self.point, self.gradient = move.point, np.asarray(move.gradient)
+        self.point, self.gradient = move.point, np.asarray(gradient)
         self.coefficients, self.step, self._chosen = move.point.coefficients, float(move.step), None
-        self.prove(move.bounds.sigma2_lower, move.bounds.turning)
+        self.prove(move.panel.sigma2_lower, move.panel.turning)
         self.record(replace(self.reached().entry, time=self._seconds, step=self.step))
         self.just_split, self._seconds = 0, 0.0
         return Advance(iterations=1)
@@ -144,8 +141,8 @@ class DirectedDescent(SubspaceDescent):
 
     def _adapted(self, done: Advance) -> Ending | None:
         """End where steps gain nothing; try without memory where none lowers the energy."""
-        if self._ending is not None:
-            return self._ending
+        if done.ending is not None:
+            return done.ending
         if done.outcome == NO_DECREASE:
             if self.method.forget(self.memory):
                 self._chosen = None
@@ -155,7 +152,12 @@ class DirectedDescent(SubspaceDescent):
             return Ending(Status.STATIONARY) if hides else Ending(Status.BLOCKED, _JAMMED)
         if not done.iterations:
             return None
-        return self._crept() if self.method.window is None else self.stagnation()
+        if self.method.window is not None:
+            return self.stagnation()
+        before = self.history[-2] if len(self.history) > 1 else self.initial
+        gain = (before.energy - self.history[-1].energy) / self._scale()
+        crept = max(self.step or 0.0, gain) < _CREEPING
+        return Ending(Status.BLOCKED, _CREPT) if crept else None
 
     def split(self, refused: Array) -> int:
         # The direction stays, the values are computed anew.
@@ -182,27 +184,12 @@ class DirectedDescent(SubspaceDescent):
         minimal = second_order and self._promised() / 2 <= least
         return Ending(Status.CONVERGED) if minimal else None
 
-    def _crept(self) -> Ending | None:
-        before = self.history[-2] if len(self.history) > 1 else self.initial
-        gain = (before.energy - self.history[-1].energy) / self._scale()
-        assert self.step is not None
-        return Ending(Status.BLOCKED, _CREPT) if max(self.step, gain) < _CREEPING else None
-
     def _promised(self) -> float:
         assert self._chosen is not None
         return -float(self.gradient @ self._chosen)
 
     def _scale(self) -> float:
         return max(abs(float(self.point.energy)), LEAST_ENERGY)
-
-
-class Move(NamedTuple):
-    outcome: Int[AnyArray, ""]
-    point: Point
-    gradient: Coefficients
-    step: Float[AnyArray, ""]
-    bounds: PanelBounds  # the certificate there
-    refused: Bool[AnyArray, " p"]
 
 
 @functools.partial(jit, compiler_options=COMPILER_OPTIONS)
@@ -214,11 +201,9 @@ def _evaluate(problem: Problem, coefficients: Coefficients) -> tuple[Point, Coef
 
 @functools.partial(jit, static_argnames="curvature", compiler_options=COMPILER_OPTIONS)
 def _hessian(problem: Problem, point: Point, *, curvature: Curvature) -> DeviceArray:
-    """(4c, 4c) Hessian of the isometric energy with respect to the unknowns (33).
-
-    ``gauss-newton`` is for ARAP, ``2 (|f_z| - 1)^2 + 2 |f_zbar|^2``, without the residuals' second
-    derivatives; ``dirichlet`` is that of ``|f_z|^2 + |f_zbar|^2``.
-    """
+    """(4c, 4c) Hessian of the isometric energy with respect to the unknowns (33). ``gauss-newton``
+    is for ARAP, ``2 (|f_z| - 1)^2 + 2 |f_zbar|^2``, without the residuals' second derivatives;
+    ``dirichlet`` is that of ``|f_z|^2 + |f_zbar|^2``."""
     matrices = problem.matrices
     values = point.samples.values[:, matrices.hessian_index]
     x, y = evaluation.squares(values)
@@ -246,7 +231,7 @@ def _advance(
     gradient: Coefficients,
     direction: Coefficients,
     may_refine: Bool[AnyArray, ""] | bool,
-) -> Move:
+) -> tuple[line_search.Backtracking, Coefficients]:
     """The best certified step along ``direction``, a change of the unknowns."""
     slope = jnp.dot(gradient, direction)
     line = evaluation.line_along(problem, expand(direction, problem.unknowns), slope)
@@ -257,4 +242,4 @@ def _advance(
     y = point.coefficients + end.step * line.direction
     after = evaluation.evaluated(problem, y)
     gradient = restrict_gradient(evaluation.gradient(problem, after), problem.unknowns)
-    return Move(end.outcome, after, gradient, end.step, end.panel, end.refused)
+    return end._replace(point=after), gradient

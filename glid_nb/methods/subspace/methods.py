@@ -19,12 +19,9 @@ from glid_nb.solvers.newton import descend
 
 Initial = Literal["identity", "dirichlet"]
 
-# The published code adds up 10^4 samples and starts from twice the identity; the mean over them
-# is this multiple.
-_SAMPLES = 1e4
+_SAMPLES = 1e4  # that the published code adds up, starting from twice the identity
 _RIDGE = 1e-9
-FLOOR = 1e-10
-"""What negative eigenvalues become (Section 10)."""
+FLOOR = 1e-10  # what negative eigenvalues become (Section 10)
 
 
 @dataclass(frozen=True)
@@ -113,8 +110,7 @@ def two_loop(gradient: Array, pairs: list[tuple[Array, Array]], apply_initial: A
 @dataclass(frozen=True)
 class _CompiledNewton(Method):
     family = "harmonic"
-    changed: ClassVar[dict[str, Any]]
-    """Options that are not the caller's."""
+    changed: ClassVar[dict[str, Any]]  # options that are not the caller's
 
     tolerance: float = 1e-10
 
