@@ -32,7 +32,6 @@ CertificateKind = Literal["hermite", "lipschitz", "bdhm"]
 
 PROOFS: dict[CertificateKind, type[PanelProof]]
 PROOFS = {"hermite": Hermite, "lipschitz": Lipschitz, "bdhm": BDHM}
-"""The kinds of proof by name."""
 
 _MAX_ROUNDS = 40
 _MAX_PANELS = 400_000

@@ -1,8 +1,8 @@
 """Many poses of one shape at once, spread over all local devices.
 
-Every CPU takes the next pose when it has done one. Other devices take a share of the poses each and
-run it vectorised, in lockstep. After every call those that have ended leave the batch, and those
-that need the host, because a panel must be split for one, are set aside and finished one by one.
+Every CPU takes the next pose when it has done one. Other devices run their share of the poses
+vectorised, in lockstep; those that need the host, because a panel must be split, leave the batch
+and are finished one by one.
 """
 
 import functools

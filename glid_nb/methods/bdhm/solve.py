@@ -42,11 +42,9 @@ _NOTHING = 1e-10  # an energy as good as none, to which the tolerance is not rel
 # What a program's duality gap may be: relative to the decrease that counts as none, and in itself.
 _GAP, _LEAST_GAP, _MOST_GAP = 0.01, 1e-12, 1e-6
 
+# The share of the energy that a program may still promise to gain where the method has converged;
+# the energy may be some twenty times that above its least, for the method is of first order.
 TOLERANCE = 1e-5
-"""The share of the energy that a program may still promise to gain where the method has converged.
-
-The energy itself may be some twenty times that above its least, for the method is of first order.
-"""
 
 
 @dataclass(frozen=True)

@@ -28,9 +28,7 @@ _LEAST_STEP = 1e-14
 # A decrease promised by the proxy that rounding of the energy can hide.
 _ROUNDING = 1e-8
 _SMOOTHING = 30
-BOUND, ENOUGH = 0.9, 0.95
-"""The little dilatation is projected onto the first bound until it is below the second, at which
-the singular values' ratio is 39."""
+BOUND, ENOUGH = 0.9, 0.95  # the little dilatation is projected onto the first until below this
 
 
 class _State(NamedTuple):

@@ -33,14 +33,9 @@ _LONGEST = 10.0
 # Newton's steps that are shorter, and gain less of the energy, creep: each is dearer than the last,
 # for it splits panels next to where the map folds.
 _CREEPING = 1e-6
-_JAMMED = (
-    "No step along the search direction lowers the energy, though its gradient is not zero: the "
-    "map is too close to folding for this method; the last certified map is returned."
-)
-_CREPT = (
-    "Steps gain next to nothing any more, though the gradient is not zero: the map is too close to "
-    "folding for this method; the last certified map is returned."
-)
+_FOLDS = "the map is too close to folding for this method; the last certified map is returned."
+_JAMMED = f"No step on the search direction lowers the energy, whose gradient is not zero: {_FOLDS}"
+_CREPT = f"Steps gain next to nothing any more, though the gradient is not zero: {_FOLDS}"
 
 
 @dataclass(frozen=True)
