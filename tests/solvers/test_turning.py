@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from glid_nb.geometry import Cage, Domain
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Options, Pose, solve
+from glid_nb.solvers.problem import aligned
 from glid_nb.solvers.restarts import HALF_CIRCLE
-from glid_nb.solvers.subspace import aligned
 from glid_nb.solvers.turning import turning_of
 
 DOMAIN = Domain.from_cage(Cage([[-10, -1], [10, -1], [10, 1], [-10, 1]]))
