@@ -132,10 +132,10 @@ def test_the_shell_does_not_succeed_where_nothing_was_proved(
 ) -> None:
     result = solve(domain("ring"), POSE, options=Options(restarts=0))
     report = build_report(result)
-    finish(result, report, {}, json=True)
+    finish(result, report, {}, as_json=True)
     unproved = replace(result, status=Status.UNPROVED)
     with pytest.raises(ValueError, match="could be proved"):
-        finish(unproved, report, {}, json=True)
+        finish(unproved, report, {}, as_json=True)
     with pytest.raises(ValueError, match="The solver converged"):
-        finish(result, {**report, "certified": False, "proof": "Undecided"}, {}, json=True)
+        finish(result, {**report, "certified": False, "proof": "Undecided"}, {}, as_json=True)
     assert '"certified": true' in capsys.readouterr().out
