@@ -1,6 +1,5 @@
 """A user's own energy, differentiated automatically."""
 
-import math
 import weakref
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -40,17 +39,19 @@ class CustomEnergy(Energy):
         if self.function in _checked:
             return
         try:
-            values = _at_isometry(self)
+            with jax.ensure_compile_time_eval(), jax.enable_x64(True):
+                start = jnp.ones(1), jnp.zeros(1)
+                values = {"value": self.density(*start), **self.differentials(*start)._asdict()}
         except TypeError as error:
             raise EnergyError(
                 "the custom energy must be a function E(x, y) of two numbers that returns one "
                 f"and that JAX can differentiate; trying it out gave: {error}"
             ) from error
         for name, value in values.items():
-            if not math.isfinite(value):
+            if not jnp.isfinite(value).all():
                 raise EnergyError(
-                    f"the custom energy's {name} at the isometry E(1, 0) is {value}; it must be "
-                    "finite there, with finite first and second derivatives"
+                    f"the custom energy's {name} at the isometry E(1, 0) is {float(value[0])}; it "
+                    "must be finite there, with finite first and second derivatives"
                 )
         _checked.add(self.function)
 
@@ -74,11 +75,3 @@ class CustomEnergy(Energy):
 
 
 once_loaded(lambda: jax.tree_util.register_dataclass(CustomEnergy, [], ["function"]))
-
-
-def _at_isometry(energy: CustomEnergy) -> dict[str, float]:
-    """The value and the derivatives where solves start."""
-    with jax.ensure_compile_time_eval(), jax.enable_x64(True):
-        one, zero = jnp.ones(1), jnp.zeros(1)
-        values = {"value": energy.density(one, zero), **energy.differentials(one, zero)._asdict()}
-        return {name: float(value[0]) for name, value in values.items()}

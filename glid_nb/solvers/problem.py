@@ -129,8 +129,8 @@ def aligned(map: HarmonicMap, pose: Pose) -> HarmonicMap:
 
 def real_coefficients(map: HarmonicMap) -> NDArray[Any]:
     """Padded ``[Re phi, Im phi, Re psi, Im psi]`` of a map."""
-    phi, psi = rows_of(map)
-    return np.concatenate([np.real(phi), np.imag(phi), np.real(psi), np.imag(psi)])
+    rows = rows_of(map)
+    return np.stack([np.real(rows), np.imag(rows)], axis=1).ravel()
 
 
 def anchor_of(basis: Basis, coefficients: NDArray[Any]) -> NDArray[Any]:

@@ -125,9 +125,8 @@ class _Proxy:
         promised = float(np.real(np.vdot(gradient, self.pinned.solve(gradient))))
         if promised <= _ROUNDING * abs(now.energy):
             return Ending(Status.STATIONARY)
-        stuck = "No step along the search direction lowers the energy, though its gradient is"
-        why = "not zero: triangles are too close to flat for this method."
-        return Ending(Status.BLOCKED, f"{stuck} {why}")
+        stuck = "No step lowers the energy, though its gradient is not zero"
+        return Ending(Status.BLOCKED, f"{stuck}: triangles are too close to flat for this method.")
 
     def _extrapolated(self, now: _State, before: _State) -> _State:
         if before is now:

@@ -164,8 +164,6 @@ class MeshProblem:
 
 
 def _vertices_at(mesh: Triangulation, points: Array, tolerance: float) -> Array:
-    if not len(points):
-        return np.empty(0, dtype=np.int32)
     gap, index = scipy.spatial.KDTree(mesh.vertices).query(points)
     missing = np.flatnonzero(gap > tolerance)
     if missing.size:
