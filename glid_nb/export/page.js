@@ -18,15 +18,24 @@ import { View } from "../widgets/js/pad/view.js";
     const packed = new Uint8Array(await new Response(stream).arrayBuffer());
     const n = packed.length / 4, whole = new Int32Array(n);
     for (let i = 0; i < n; i++) {
-      const fresh = packed[i] | packed[n + i] << 8 | packed[2 * n + i] << 16 | packed[3 * n + i] << 24;
-      whole[i] = fresh + (whole[i - width] ?? 0);
+      const folded = packed[i] | packed[n + i] << 8 | packed[2 * n + i] << 16 | packed[3 * n + i] << 24;
+      whole[i] = ((folded >>> 1) ^ -(folded & 1)) + 2 * (whole[i - width] ?? 0) - (whole[i - 2 * width] ?? 0);
     }
     return Float32Array.from(whole, (value) => step * value);
   };
+  const restored = async ({ sizes, rows, shares }, width) => { // what `_factored` wrote
+    const few = await unpacked(rows, rows.width), each = await unpacked(shares, sizes.length);
+    const values = new Float64Array((each.length / sizes.length) * width);
+    each.forEach((share, i) => {
+      const k = i % sizes.length, to = width * Math.floor(i / sizes.length);
+      for (let j = 0; j < width; j++) values[to + j] += (share / sizes[k]) * few[width * k + j];
+    });
+    return Float32Array.from(values);
+  };
   const source = await unpacked(data.source, 2), count = source.length / 2, wide = count > 65535;
-  const rows = await unpacked(data.coefficients, data.width);
+  const rows = await restored(data.coefficients, data.width);
   const undeformed = rows.subarray(0, data.width), motion = new Motion(data.motion, rows.subarray(data.width));
-  const cage = new Float32Array(bytes(data.cage)), heights = await unpacked(data.heights, count);
+  const cage = new Float32Array(bytes(data.cage)), heights = await restored(data.heights, count);
   const layers = new Motion({ times: data.height_times.length ? data.height_times : [0], repeat: motion.repeat }, heights);
   const corners = await unpacked(data.triangles, 3), height = ([a, b, c]) => heights[a] + heights[b] + heights[c];
   const faces = Array.from({ length: corners.length / 3 }, (_, i) => [0, 1, 2].map((k) => corners[3 * i] + (k && corners[3 * i + k])));

@@ -31,9 +31,9 @@ _VERTICES = 4000
 _TOLERANCE = 0.004  # world units; the picture is 20 long
 _MARGIN = 0.04  # of the canvas, as in a rendering with view="fit"
 _GRID_LINES = 20  # along the longer side
-# Vertices and images are rounded by this share of the shape's size: less than a fiftieth of a pixel
-# where it is 2000 pixels long.
-_STEP = 1e-5
+# Vertices and images are rounded by this share of the shape's size: a twentieth of a pixel where it
+# is 2000 pixels long.
+_STEP = 2.5e-5
 _HEIGHT = 2.0**-16
 _MOST_STEPS = 2**28  # of a coefficient
 _LONGEST_CHAIN = 1024  # vectors that a block of uniforms holds on every device
@@ -118,7 +118,7 @@ def _shape(mesh: MovingMesh, step: float) -> dict[str, Any]:
     heights = mesh.heights - mesh.heights.mean()
     return {
         "source": _packed(mesh.vertices, step),
-        "heights": _packed(heights / (2 * np.abs(heights).max() or 1.0), _HEIGHT),
+        "heights": _factored(heights / (2 * np.abs(heights).max() or 1.0), _HEIGHT, 1),
         "height_times": list(mesh.height_times) if len(heights) > 1 else [],
         "triangles": _packed(corners - corners[:, :1] * [0, 1, 1], 1),
         "bounds": _bounds(mesh.images.reshape(-1, 2)),
@@ -146,13 +146,13 @@ def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion, step: float) -> dict
     step *= 1 if in_kernel else 1 / _spread(domain, mesh.vertices)
     undeformed = wire(HarmonicMap.identity(domain))
     rows = np.frombuffer(undeformed + arrays, "<f4").reshape(-1, len(undeformed) // 4)
-    step = max(step, float(np.abs(rows).max()) / _MOST_STEPS)
+    step = max(step, float(np.linalg.norm(rows, axis=1).max()) / _MOST_STEPS)
     parts = (glsl(name) for name in ("colors.glsl", "energy.glsl", "picture.frag"))
     return {
         "vertex": _VERTEX + head + glsl("picture.vert"),
         "fragment": _FRAGMENT + "\n".join(["precision highp float; out vec4 shown;", *parts]),
         "motion": motion,
-        "coefficients": _packed(rows, step),
+        "coefficients": _factored(rows, step, 6 if in_kernel else 4),
         "width": rows.shape[1],
         "cage": "" if in_kernel else _base64(shader.cage.astype("<f4")),
     }
@@ -222,11 +222,31 @@ def _bounds(points: Array) -> list[float]:
     return [*points.min(axis=0).tolist(), *points.max(axis=0).tolist()]
 
 
+def _factored(values: Array, step: float, width: int) -> dict[str, Any]:
+    """(n, m) values for `restored` in the page, as sums of few rows; off by a step at most.
+
+    The maps of a motion lie near a space of few dimensions, also where it turns. In a row what
+    belongs together is ``width`` numbers wide.
+    """
+    shares, scale, rows = np.linalg.svd(values, full_matrices=False)
+    missed = np.sqrt(np.cumsum(scale[::-1] ** 2))[::-1]  # by so many rows, in all
+    count = max(np.count_nonzero(missed > step * np.sqrt(len(values))), 1)
+    shares, rows = shares[:, :count] * scale[:count], rows[:count]
+    sizes = np.maximum(np.abs(shares).max(axis=0), 1e-300)
+    rows = (rows * sizes[:, None]).reshape(-1, width)
+    return {
+        "sizes": sizes.tolist(),
+        "rows": {**_packed(rows, step / 4), "width": width},
+        "shares": _packed(shares, step / 2),
+    }
+
+
 def _packed(values: Array, step: float) -> dict[str, Any]:
-    """(n, m) values for `unpacked` in the page: whole steps, differences down the columns, the
-    least significant bytes of all first; deflated."""
-    whole = np.rint(np.asarray(values, dtype=float) / step).astype("<i4")
-    planes = np.diff(whole, axis=0, prepend=0 * whole[:1]).reshape(-1, 1).view("u1").T
+    """(n, m) values for `unpacked` in the page: whole steps, second differences down the columns,
+    odd ones negative, the least significant bytes of all first; deflated."""
+    whole = np.rint(np.asarray(values, dtype=float) / step).astype(np.int64)
+    fresh = np.diff(whole, 2, axis=0, prepend=np.zeros((2, whole.shape[1]), np.int64))
+    planes = ((fresh << 1) ^ (fresh >> 63)).astype("<u4").reshape(-1, 1).view("u1").T
     return {"step": step, "bytes": _base64(zlib.compress(planes.tobytes(), 9))}
 
 
