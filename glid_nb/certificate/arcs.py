@@ -10,8 +10,7 @@ from glid_nb._arrays import Array
 from glid_nb.certificate import rounding
 from glid_nb.certificate.panels import modulus
 from glid_nb.certificate.paper import beside_by, derivative_bound_weights, jumps
-from glid_nb.harmonic import HarmonicMap, cauchy, run_on
-from glid_nb.harmonic.cauchy import Singularities
+from glid_nb.harmonic import HarmonicMap, Singularities, cauchy, run_on
 
 # Roundings of the few operations made with the kernel's outputs, relative.
 _FINAL_ROUNDING = 1 + 1e-12

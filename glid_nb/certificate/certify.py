@@ -12,7 +12,6 @@ from glid_nb._arrays import Array
 from glid_nb._errors import InputError
 from glid_nb._files import write_text_atomically
 from glid_nb.certificate import rounding
-from glid_nb.certificate.bdhm import BDHM
 from glid_nb.certificate.hermite import Hermite
 from glid_nb.certificate.panels import (
     EndValues,
@@ -22,11 +21,10 @@ from glid_nb.certificate.panels import (
     modulus,
     split,
 )
-from glid_nb.certificate.paper import Lipschitz, beside, jumps, windings
+from glid_nb.certificate.paper import BDHM, Lipschitz, beside, jumps, windings
 from glid_nb.certificate.proof import FORMAT, FORMAT_VERSION, dyadic_panels, exact_text
 from glid_nb.geometry import Panels, graded_panels, place
-from glid_nb.harmonic import HarmonicMap, cauchy, run_on
-from glid_nb.harmonic.cauchy import Singularities
+from glid_nb.harmonic import HarmonicMap, Singularities, cauchy, run_on
 
 CertificateKind = Literal["hermite", "lipschitz", "bdhm"]
 
@@ -279,8 +277,7 @@ def _kernel(
 def end_values(
     start: Any, end: Any, coefficients: Any, singularities: Singularities
 ) -> tuple[EndValues, Any]:
-    """``sum_j D_j coefficients_j`` at the ends of panels, (k, p) arrays, and bounds on the
-    errors."""
+    """``sum_j D_j coefficients_j`` at the ends of panels, (k, p), and bounds on the errors."""
     chord: Any = end - start
     edges: Any = cauchy.edge_coefficients(coefficients, singularities)
     both: Any = np.concatenate([start, end])

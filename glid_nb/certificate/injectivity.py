@@ -69,7 +69,7 @@ def global_injectivity(
     certificate = certify(map) if certificate is None else certificate
     if not certificate.belongs_to(map):
         raise CertificateError(
-            "the certificate belongs to another map; give this map's, certify(map), or leave it out"
+            "the certificate belongs to another map; leave it out, or give its own"
         )
     if not certificate.certified:
         reason = f"Undecided, because local injectivity is not certified: {certificate.reason}"

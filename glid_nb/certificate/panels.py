@@ -90,10 +90,8 @@ def check_tiling(panels: Panels, cage: Cage) -> None:
 
 
 def _not_tiled(what: str) -> GeometryError:
-    remedy = "make them of this cage, as graded_panels does, or leave them out"
-    return GeometryError(
-        f"the panels do not tile the boundary of this map's cage: {what}; {remedy}"
-    )
+    which = "the panels do not tile the boundary of this map's cage"
+    return GeometryError(f"{which}: {what}; leave them out, or take graded_panels(map.domain)")
 
 
 def split(panels: Panels, known: T, chosen: Array, evaluate: Callable[..., T]) -> tuple[Panels, T]:

@@ -2,7 +2,8 @@
 
 A segment of the boundary runs from ``v_i`` to ``v_{i+1}`` and has the length ``l``. On it ``f_z``
 and ``f_zbar`` are Lipschitz continuous with constants ``L_fz`` and ``L_fzbar``. If Condition (27)
-holds on all segments and the sum (30) is 0, the map is locally injective.
+holds on all segments and the sum (30) is 0, the map is locally injective. Last, the proof that
+Figure 7 compares it with.
 """
 
 import functools
@@ -14,7 +15,7 @@ from typing import NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from glid_nb._jax import Bool, Float
+from glid_nb._jax import Bool, Complex, Float, Int
 from glid_nb.certificate import rounding
 from glid_nb.certificate.panels import Ends, EndValues, PanelBounds, PerPanel, Rows, modulus
 from glid_nb.harmonic.cauchy import Singularities, slope_jumps
@@ -156,3 +157,66 @@ def fz_vanishes(turning: PerPanel) -> Bool[Array, ""]:
     """Whether ``f_z`` has zeros in the domain: the sum (30) of all turnings, a multiple of ``2 pi``
     up to rounding if all are known, is not 0 (Corollary 8.2)."""
     return abs(turning.sum()) > 1
+
+
+class BDHM(NamedTuple):
+    """The proof by the larger constants of bounded distortion harmonic mappings (Figure 7).
+
+    On a segment, ``|f_z'| <= sum_j L_j |phi_j|`` with ``L_j = |z_{j+1} - z_{j-1}| / (2 pi
+    d(z_{j-1}) d(z_j) d(z_{j+1}))``, a bound on ``|D_j'|`` (Chen & Weber 2015). Adding an affine
+    function of ``z_j`` to a loop's coefficients changes ``f_z`` by a constant at most, so on every
+    loop the one through the vertex of largest ``L_j`` and the larger of its neighbours is
+    subtracted; a hole's logarithm has ``1 / d^2``. There are ``n = m + N`` vertices and holes.
+    """
+
+    length: PerPanel  # l, and what ends beside their edge add
+    weights: Float[Array, "n p"]  # L_j
+    first: Int[Array, "m p"]  # the vertex with the largest L on the loop of z_j
+    second: Int[Array, "m p"]  # the neighbour of first with the larger L
+
+    slack_share = 2
+
+    @classmethod
+    def on(cls, start: Ends, end: Ends, singularities: Singularities) -> Self:
+        vertices, following, preceding, _ = map(np.asarray, singularities)
+        m = len(vertices)
+        d, _ = clearance(start, end, singularities)
+        near = d[:, :m]
+        chord = modulus(vertices[following] - vertices[preceding])
+        weights = chord / (2 * np.pi * near[:, preceding] * near * near[:, following])
+        begins = np.roll(following <= np.arange(m), 1)
+        loop = np.cumsum(begins) - 1
+
+        def largest(values: Array) -> Array:
+            return np.maximum.reduceat(values, np.flatnonzero(begins), axis=1)[:, loop]
+
+        first = largest(np.where(weights == largest(weights), np.arange(m), -1))
+        take = np.take_along_axis
+        after = take(weights, following[first], 1) >= take(weights, preceding[first], 1)
+        second = np.where(after, following[first], preceding[first])
+        weights = np.concatenate([weights, 1 / d[:, m:] ** 2], axis=1)
+        # An end that is off by delta changes the value there by delta L.
+        length = rounding.UPWARD * (modulus(end - start) + 4 * beside_by(singularities))
+        return cls(length, weights.T, first.T, second.T)
+
+    def constants(self, coefficients: Rows, singularities: Singularities) -> Float[Array, "k p"]:
+        """Lipschitz constants on each segment, one row per row of coefficients."""
+        z, m = singularities.vertices, self.first.shape[0]
+        first, second, weights = self.first.T, self.second.T, self.weights.T
+        z1, z2 = z[first], z[second]
+
+        def one(row: Complex[Array, " n"]) -> PerPanel:
+            phi = row[:m]
+            phi1 = phi[first]
+            slope = (phi[second] - phi1) / (z2 - z1)
+            rest = modulus(phi - phi1 - slope * (z - z1))
+            return (weights[:, :m] * rest).sum(axis=1) + weights[:, m:] @ modulus(row[m:])
+
+        return coefficients.__array_namespace__().stack([one(row) for row in coefficients])
+
+    def remainder(self, coefficients: Rows, singularities: Singularities) -> Float[Array, "k p"]:
+        return self.length * self.constants(coefficients, singularities)
+
+    @staticmethod
+    def bounds(fz: EndValues, fzb_conj: EndValues, remainder: Float[Array, "2 p"]) -> PanelBounds:
+        return segment_bounds(fz, fzb_conj, remainder)

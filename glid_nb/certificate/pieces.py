@@ -22,8 +22,7 @@ from glid_nb.certificate.hermite import Hermite
 from glid_nb.certificate.panels import EndValues, PanelBounds
 from glid_nb.certificate.paper import beside, jumps
 from glid_nb.geometry import graded_panels
-from glid_nb.harmonic import HarmonicMap, basis_of, cauchy, rows_of
-from glid_nb.harmonic.cauchy import Singularities
+from glid_nb.harmonic import HarmonicMap, Singularities, basis_of, cauchy, rows_of
 
 _SHORTEST = 2.0**-12  # time, of a piece
 _TIGHT = 1 / 8  # likewise, for tight bounds

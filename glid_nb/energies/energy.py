@@ -1,13 +1,15 @@
-"""The interface of an isometric energy, and the registry of the energies by name."""
+"""The interface of an isometric energy, the registry of the energies by name, and a user's own."""
 
 import math
+import weakref
 from abc import ABC, abstractmethod
-from dataclasses import fields
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields
 from numbers import Real
 from typing import Any, ClassVar, NamedTuple, Self, TypeVar
 
 from glid_nb._errors import InputError
-from glid_nb._jax import Array, Float, jax, once_loaded, settle
+from glid_nb._jax import Array, Float, jax, jnp, once_loaded, settle
 
 Scalars = Float[Array, " *samples"]
 
@@ -60,7 +62,7 @@ class Energy(ABC):
     @classmethod
     def parameters(cls) -> tuple[str, ...]:
         """Names of the parameters."""
-        return tuple(field.name for field in fields(cls))  # type: ignore[arg-type]
+        return tuple(f.name for f in fields(cls))  # type: ignore[arg-type]
 
     @abstractmethod
     def density(self, x: Scalars, y: Scalars) -> Scalars:
@@ -116,10 +118,8 @@ def as_energy(energy: Energy | str | None) -> Energy:
     if isinstance(energy, str | None):
         return energy_by_name(energy or "iso")
     if not isinstance(energy, Energy):
-        raise EnergyError(
-            f"energy is {energy!r}; pass an energy, such as SymmetricDirichlet() or "
-            f"CustomEnergy(function), or one of the names {', '.join(ENERGIES)}"
-        )
+        wanted = f"SymmetricDirichlet(), CustomEnergy(function) or a name: {', '.join(ENERGIES)}"
+        raise EnergyError(f"energy is {energy!r}; pass an energy, such as {wanted}")
     return energy
 
 
@@ -130,6 +130,70 @@ def _checked_parameter(energy: str, name: str, value: Any) -> Any:
         return number
     if isinstance(value, jax.Array):
         return value
-    raise EnergyError(
-        f"{name} of the energy {energy!r} must be positive and finite, got {value!r:.60}"
-    )
+    what = f"{name} of the energy {energy!r}"
+    raise EnergyError(f"{what} must be positive and finite, got {value!r:.60}")
+
+
+# JAX rebuilds energies often; each function is checked once.
+_checked: weakref.WeakSet[Callable[..., Any]] = weakref.WeakSet()
+
+
+@dataclass(frozen=True)
+class CustomEnergy(Energy):
+    """An energy given as one function ``E(x, y)`` of scalars, written with ``jax.numpy``.
+
+    ``x = |f_z|^2 > y = |f_zbar|^2 >= 0``. The function is twice differentiable by JAX, with its
+    minimum at the isometry ``E(1, 0)``. Use one function object for many solves; each new one is
+    compiled anew. An EnergyError says so if it does not make one number of two, cannot be
+    differentiated, or is not finite at the isometry. The alphas and betas come from automatic
+    differentiation; the projection of the Hessian from Equations (23)-(24).
+
+    Examples
+    --------
+    >>> dirichlet = CustomEnergy(lambda x, y: (x + y) * (1 + 1 / (x - y) ** 2))
+    """
+
+    function: Callable[[Scalars, Scalars], Scalars] = field()
+
+    name: ClassVar[str] = "custom"
+    label: ClassVar[str] = "Your own"
+    is_barrier: ClassVar[bool] = False
+
+    def __post_init__(self) -> None:
+        if not callable(self.function):
+            raise EnergyError(f"a custom energy must be a function E(x, y), got {self.function!r}")
+        if self.function in _checked:
+            return
+        try:
+            with jax.ensure_compile_time_eval(), jax.enable_x64(True):
+                start = jnp.ones(1), jnp.zeros(1)
+                values = {"value": self.density(*start), **self.differentials(*start)._asdict()}
+        except TypeError as error:
+            wanted = "a function E(x, y) of two numbers that returns one, differentiable by JAX"
+            raise EnergyError(f"the custom energy must be {wanted}; it gave: {error}") from error
+        for name, value in values.items():
+            if not jnp.isfinite(value).all():
+                what = f"the custom energy's {name} at the isometry E(1, 0) is {float(value[0])}"
+                raise EnergyError(f"{what}; its value and derivatives must be finite there")
+        _checked.add(self.function)
+
+    @classmethod
+    def parameters(cls) -> tuple[str, ...]:
+        """Empty: its parameters are constants of the function."""
+        return ()
+
+    def density(self, x: Scalars, y: Scalars) -> Scalars:
+        return jnp.vectorize(self.function)(x, y)
+
+    def differentials(self, x: Scalars, y: Scalars) -> Differentials:
+        gradient = jax.grad(self.function, argnums=(0, 1))
+
+        def at_one_sample(x: Scalars, y: Scalars) -> Differentials:
+            alpha1, alpha2 = gradient(x, y)
+            (beta1, beta3), (_, beta2) = jax.jacfwd(gradient, argnums=(0, 1))(x, y)
+            return Differentials(alpha1, alpha2, beta1, beta2, beta3)
+
+        return Differentials(*jnp.vectorize(at_one_sample)(x, y))
+
+
+once_loaded(lambda: jax.tree_util.register_dataclass(CustomEnergy, [], ["function"]))

@@ -11,9 +11,14 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arrays import read_only
-from glid_nb.geometry._checks import RESOLUTION, check_loops, checked_vertices
-from glid_nb.geometry._loops import GeometryError, edge_lengths, loop_list, loop_name, signed_area
+from glid_nb._arrays import Array, number_pairs, read_only
+from glid_nb.geometry import _loops
+from glid_nb.geometry._loops import GeometryError, loop_name, place, plain_name, segments
+
+# Parts of the boundary closer than this share of the cage's size count as touching: a few thousand
+# roundings, below which neither an offset nor a normal direction can be computed.
+_RESOLUTION = 1e-12
+_EDGES = 64  # whose crossings are looked for at a time
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -34,11 +39,11 @@ class Cage:
     """Each (k, 2) read-only, clockwise."""
 
     def __init__(self, exterior: ArrayLike, holes: Iterable[ArrayLike] = ()) -> None:
-        loops = [checked_vertices(exterior, loop_name(0))]
-        loops += [checked_vertices(hole, loop_name(i + 1)) for i, hole in enumerate(holes)]
-        check_loops(loops)
+        loops = [_checked_vertices(exterior, loop_name(0))]
+        loops += [_checked_vertices(hole, loop_name(i + 1)) for i, hole in enumerate(holes)]
+        _check_loops(loops)
         for i, loop in enumerate(loops):
-            if (signed_area(loop) > 0) != (i == 0):
+            if (_loops.signed_area(loop) > 0) != (i == 0):
                 loop[1:] = loop[:0:-1].copy()
         oriented = map(read_only, loops)
         vars(self).update(exterior=next(oriented), holes=tuple(oriented))
@@ -48,7 +53,7 @@ class Cage:
         """The cage of a mapping with the keys ``cage`` and, optionally, ``holes``."""
         if "cage" not in data:
             raise GeometryError("the key 'cage' is missing: give the exterior loop there")
-        return cls(data["cage"], loop_list(data.get("holes"), "holes"))
+        return cls(data["cage"], _loops.loop_list(data.get("holes"), "holes"))
 
     def to_dict(self) -> dict[str, Any]:
         """The loops as nested lists under the keys ``cage`` and ``holes``, ready for JSON."""
@@ -94,12 +99,12 @@ class Cage:
     @cached_property
     def area(self) -> float:
         """Area of the domain without its holes."""
-        return float(sum(signed_area(loop) for loop in self.loops))
+        return float(sum(_loops.signed_area(loop) for loop in self.loops))
 
     @cached_property
     def perimeter(self) -> float:
         """Length of the boundary over all loops."""
-        return float(sum(edge_lengths(loop).sum() for loop in self.loops))
+        return float(sum(_loops.edge_lengths(loop).sum() for loop in self.loops))
 
     @cached_property
     def polygon(self) -> shapely.Polygon:
@@ -120,7 +125,7 @@ class Cage:
         if not tolerance >= 0:
             raise GeometryError(f"tolerance must be at least 0, not {tolerance}")
         flat = xy.reshape(-1, 2)
-        rounding = RESOLUTION * max(self.longer_side, float(np.abs(self.bounds).max()))
+        rounding = _RESOLUTION * max(self.longer_side, float(np.abs(self.bounds).max()))
         reach = max(tolerance, rounding)
         inside = shapely.intersects_xy(self.polygon, flat[:, 0], flat[:, 1])
         rest = np.flatnonzero(~inside)
@@ -131,3 +136,149 @@ class Cage:
             rest = rest[shapely.intersects_xy(wider, flat[rest, 0], flat[rest, 1])]
             inside[rest] = shapely.dwithin(self.polygon, shapely.points(flat[rest]), reach)
         return inside.reshape(xy.shape[:-1])
+
+
+def _checked_vertices(vertices: ArrayLike, name: str) -> Array:
+    """A float64 copy of (n, 2) finite vertices, n >= 3."""
+    pairs = f"{name}: vertices must be pairs of numbers [[x, y], ...]"
+    loop = number_pairs(vertices, pairs, GeometryError)
+    if len(loop) < 3:
+        raise GeometryError(f"{name}: {len(loop)} vertices given, a loop needs at least 3")
+    wrong = np.flatnonzero(~(np.abs(loop) <= 1e100).all(axis=1))
+    if wrong.size:
+        x, y = loop[wrong[0]]
+        problem = f"is ({x}, {y}); replace the NaN or infinite coordinate or leave it out"
+        if np.isfinite([x, y]).all():
+            problem = f"at {place([x, y])} is too large to compute with; rescale the cage"
+        raise GeometryError(f"{name}: vertex {wrong[0]} {problem}")
+    return loop
+
+
+def _check_loops(loops: list[Array]) -> None:
+    """Raise unless the loops, the exterior first, bound a domain."""
+    corners = np.concatenate(loops)
+    resolution = _RESOLUTION * float(max(np.ptp(corners, axis=0).max(), np.abs(corners).max()))
+    for i, loop in enumerate(loops):
+        _check_distinct(loop, i, resolution)
+        _check_not_flat(loop, i, resolution)
+        _check_fold_back(loop, i, resolution)
+    _check_crossings(loops, resolution)
+    _check_nesting(loops)
+
+
+def _check_distinct(loop: Array, number: int, resolution: float) -> None:
+    name, plain = loop_name(number), plain_name(number)
+    # Two of the copies are enough; thousands in one place would make millions of pairs.
+    first = np.unique(loop, axis=0, return_index=True)[1]
+    copies = np.setdiff1d(np.arange(len(loop)), first)
+    kept = np.union1d(first, copies[:2])
+    points: Any = shapely.points(loop[kept])
+    near = shapely.STRtree(points).query(points, predicate="dwithin", distance=resolution)
+    pairs = sorted((i, j) for i, j in kept[near].T.tolist() if i < j)
+    if not pairs:
+        return
+    i, j = pairs[0]
+    closes = pairs == [(0, len(loop) - 1)]
+    problem = "touches itself; move one of the points that meet"
+    if closes or j == i + 1:
+        problem = "has two points in one place; leave one of them out"
+    what = f"{name}: vertices {i} and {j} coincide at {place(loop[i])}"
+    if closes:
+        what = f"{name}: the last vertex {j} repeats vertex 0 at {place(loop[0])}; loops close by "
+        what += "themselves, leave the last vertex out"
+    raise GeometryError(f"{plain} {problem}", loop[i], what)
+
+
+def _check_not_flat(loop: Array, number: int, resolution: float) -> None:
+    arms = loop - loop[0]
+    far = int(np.argmax(np.hypot(*arms.T)))
+    axis = arms[far] / np.hypot(*arms[far])
+    if np.abs(arms[:, 0] * axis[1] - arms[:, 1] * axis[0]).max() <= resolution:
+        plain = "is flat, so its area is zero; move one of its points off the line, or remove it"
+        what = f"{loop_name(number)}: all {len(loop)} vertices lie on one line, through vertex 0 at"
+        what += f" {place(loop[0])} and vertex {far} at {place(loop[far])}"
+        raise GeometryError(f"{plain_name(number)} {plain}", loop[0], what)
+
+
+def _check_fold_back(loop: Array, number: int, resolution: float) -> None:
+    before, after = np.roll(segments(loop), 1), segments(loop)
+    corner_before, corner_after = np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0)
+    near_after = shapely.distance(before, shapely.points(corner_after)) <= resolution
+    near_before = shapely.distance(after, shapely.points(corner_before)) <= resolution
+    folded = np.flatnonzero(near_after | near_before)
+    if folded.size:
+        i, n = int(folded[0]), len(loop)
+        plain = f"{plain_name(number)} has a spike without width; leave out its tip"
+        both = f"{loop_name(number)}: the edges {_edge((i - 1) % n, n)} and {_edge(i, n)}"
+        what = f"{both} lie on top of each other up to vertex {i} at {place(loop[i])}"
+        raise GeometryError(plain, loop[i], what)
+
+
+def _check_crossings(loops: list[Array], resolution: float) -> None:
+    """Raise for the first pair of edges that cross, or else touch other than as neighbours."""
+    edges = np.concatenate([segments(loop) for loop in loops])
+    sizes = np.array([len(loop) for loop in loops])
+    number = np.repeat(np.arange(len(loops)), sizes)
+    index = np.arange(len(edges)) - (np.cumsum(sizes) - sizes)[number]
+
+    tree, found = shapely.STRtree(edges), None
+    # Some edges at a time: a tangle has millions of crossings, and the first one is enough.
+    for start in range(0, len(edges), _EDGES):
+        chunk = edges[start : start + _EDGES]
+        e, f = tree.query(chunk, predicate="dwithin", distance=resolution)
+        e += start
+        step = np.where(number[e] == number[f], index[f] - index[e], -1)
+        apart = (e < f) & (step != 1) & (step != sizes[number[e]] - 1)
+        e, f = e[apart], f[apart]
+        crossing = shapely.crosses(edges[e], edges[f])
+        if crossing.any() or (found is None and len(e)):
+            first = np.lexsort((f, e, ~crossing))[0]
+            found = int(e[first]), int(f[first]), bool(crossing[first])
+        if crossing.any():
+            break
+    if found is None:
+        return
+    e, f, crosses = found
+    pair = edges[e], edges[f]
+    common = shapely.get_coordinates(shapely.intersection(*pair))
+    point = common[0] if len(common) else shapely.get_coordinates(shapely.shortest_line(*pair))[0]
+    a, b = int(number[e]), int(number[f])
+    edge_a, edge_b = (_edge(int(index[i]), int(sizes[number[i]])) for i in (e, f))
+    verb = "cross" if crosses else "touch"
+    if a != b:
+        plain = f"{plain_name(b)} {verb}es {plain_name(a)}; move it away or merge the two"
+        name_a = "the exterior loop" if a == 0 else loop_name(a)
+        what = f"edge {edge_b} of {loop_name(b)} and edge {edge_a} of {name_a}"
+    else:
+        advice = "move the points apart that meet"
+        if crosses:
+            advice = "move its points, or change their order, so that no two sides cross"
+        plain = f"{plain_name(a)} {verb}es itself; {advice}"
+        what = f"{loop_name(a)}: the edges {edge_a} and {edge_b}"
+    raise GeometryError(plain, point, f"{what} {verb} at {place(point)}")
+
+
+def _check_nesting(loops: list[Array]) -> None:
+    # The loops are known not to meet, so one vertex of each decides for the whole loop.
+    starts: Any = shapely.points(np.array([loop[0] for loop in loops]))
+    regions = [shapely.Polygon(loop) for loop in loops]
+    outer, inner = shapely.STRtree(starts).query(regions, predicate="contains")
+    around = sorted(zip(outer.tolist(), inner.tolist(), strict=True))
+    for i, loop in enumerate(loops[1:], start=1):
+        if (i, 0) in around:
+            plain = f"{plain_name(i)} lies around the outline; swap the two"
+            what = f"vertex 0 of the exterior loop at {place(loops[0][0])} lies in {loop_name(i)}"
+            raise GeometryError(plain, loops[0][0], what)
+        if (0, i) not in around:
+            plain = f"{plain_name(i)} lies outside the outline; remove it or move it inside"
+            what = f"vertex 0 of {loop_name(i)} at {place(loop[0])} is not in the exterior loop"
+            raise GeometryError(plain, loop[0], what)
+    for o, i in around:
+        if o > 0:
+            plain = f"{plain_name(i)} lies within {plain_name(o)}, where there is nothing to cut"
+            what = f"vertex 0 of {loop_name(i)} is at {place(loops[i][0])}"
+            raise GeometryError(f"{plain} out; remove the inner one", loops[i][0], what)
+
+
+def _edge(i: int, n: int) -> str:
+    return f"{i}-{(i + 1) % n}"

@@ -142,23 +142,19 @@ def _check_enclosed(cage: Cage, offset_cage: Cage) -> None:
         name = "the exterior loop" if i == 0 else loop_name(i)
         meeting = shapely.intersection(shapely.LinearRing(loop), shapely.LinearRing(offset_loop))
         if not meeting.is_empty:
-            raise GeometryError(
-                f"the offset of {name} meets {name} itself at "
-                f"{place(shapely.get_coordinates(meeting)[0])}; use a smaller offset there, or "
-                "leave the offset cage out to have it chosen"
-            )
+            where = f"{name} itself at {place(shapely.get_coordinates(meeting)[0])}"
+            remedy = "use a smaller offset there, or leave the offset cage out to have it chosen"
+            raise GeometryError(f"the offset of {name} meets {where}; {remedy}")
         outer, inner = (offset_loop, loop) if i == 0 else (loop, offset_loop)
         if shapely.contains_xy(shapely.Polygon(outer), *inner[0]):
             continue
         if i == 0:
-            raise GeometryError(
-                "the offset cage's exterior loop does not enclose the cage: vertex 0 of the "
-                f"exterior loop at {place(loop[0])} lies outside it; move the offset loop outward"
-            )
-        raise GeometryError(
-            f"offset hole {i} does not lie in {name}: its vertex 0 at {place(offset_loop[0])} "
-            "is outside; move it into the hole, and list the offset holes in the order of the holes"
-        )
+            what = "the offset cage's exterior loop does not enclose the cage: vertex 0 of the"
+            where = f"exterior loop at {place(loop[0])} lies outside it"
+            raise GeometryError(f"{what} {where}; move the offset loop outward")
+        what = f"offset hole {i} does not lie in {name}: its vertex 0 at {place(offset_loop[0])}"
+        remedy = "move it into the hole, and list the offset holes in the order of the holes"
+        raise GeometryError(f"{what} is outside; {remedy}")
 
 
 def _checked_hole_points(points: ArrayLike, offset_cage: Cage) -> NDArray[np.float64]:

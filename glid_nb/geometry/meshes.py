@@ -14,14 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from glid_nb._arguments import check_type
 from glid_nb._arrays import Array, number_pairs, read_only
-from glid_nb.geometry._loops import (
-    GeometryError,
-    as_points,
-    edge_lengths,
-    next_index,
-    place,
-    subdivided,
-)
+from glid_nb.geometry import _loops
+from glid_nb.geometry._loops import GeometryError, place
 from glid_nb.geometry.cage import Cage
 
 # Least distances of lattice points from the boundary (closer ones make flat triangles) and from the
@@ -139,7 +133,7 @@ def triangulate(
         raise GeometryError(f"a triangulation needs at least 3 vertices, not {n_vertices}")
     spacing = _spacing(cage, n_vertices)
     loops = [
-        subdivided(loop, _parts(edge_lengths(corners), spacing))
+        _loops.subdivided(loop, _parts(_loops.edge_lengths(corners), spacing))
         for loop, corners in zip(cage.loops_complex, cage.loops, strict=True)
     ]
     given = [] if points is None else points
@@ -153,7 +147,7 @@ def triangulate(
     loops = [_with_points(loop, wanted, _SAME * cage.longer_side) for loop in loops]
     boundary = np.concatenate(loops)
     inside = _lattice(cage, spacing)
-    border = as_points(boundary)
+    border = _loops.as_points(boundary)
     if len(wanted):
         tree = scipy.spatial.KDTree
         wanted = wanted[tree(border).query(wanted)[0] > _SAME * cage.longer_side]
@@ -166,7 +160,7 @@ def triangulate(
 def _with_points(loop: Array, points: Array, tolerance: float) -> Array:
     """The loop with the points that lie on it inserted in order."""
     z, places = points @ np.array([1, 1j]), np.asarray(shapely.points(points))
-    ring = shapely.LinearRing(as_points(loop))
+    ring = shapely.LinearRing(_loops.as_points(loop))
     on = shapely.distance(ring, places) <= tolerance
     on &= (np.abs(z[:, None] - loop) > tolerance).all(axis=1)
     lengths = np.abs(np.roll(loop, -1) - loop)
@@ -184,7 +178,7 @@ def _spacing(cage: Cage, n_vertices: int) -> float:
     linear = cage.perimeter * (1.0 - _MARGIN / _ROW)
     root = np.sqrt(linear**2 + 4.0 * n_vertices * cage.area / _ROW)
     spacing = 1.0 / float((root - linear) / (2.0 * cage.area / _ROW))
-    lengths = np.concatenate([edge_lengths(loop) for loop in cage.loops])
+    lengths = np.concatenate([_loops.edge_lengths(loop) for loop in cage.loops])
     # The formula is inaccurate for many short edges and for slender limbs.
     for _ in range(6):
         count = int(_parts(lengths, spacing).sum()) + len(_lattice(cage, spacing))
@@ -209,7 +203,7 @@ def _lattice(cage: Cage, spacing: float) -> Array:
 
 def _constrained_delaunay(vertices: Array, loops: list[Array]) -> Array:
     """Triangles of the region bounded by the loops, whose points are the first vertices."""
-    following = next_index(np.repeat(np.arange(len(loops)), [len(loop) for loop in loops]))
+    following = _loops.next_index(np.repeat(np.arange(len(loops)), [len(loop) for loop in loops]))
     # Any: numpy's stubs call an array a buffer from Python 3.12 on only.
     points: Any = np.ascontiguousarray(vertices)
     edges: Any = np.stack([np.arange(len(following)), following], axis=1).astype(np.uintc)

@@ -8,14 +8,8 @@ import shapely
 from numpy.typing import NDArray
 
 from glid_nb._arrays import Array, read_only
-from glid_nb.geometry._loops import (
-    GeometryError,
-    edge_lengths,
-    loop_name,
-    next_index,
-    place,
-    segments,
-)
+from glid_nb.geometry import _loops
+from glid_nb.geometry._loops import GeometryError, place
 from glid_nb.geometry.cage import Cage
 
 # Least distance of an offset edge from the cage, as a share of the smaller distance at its ends.
@@ -71,22 +65,18 @@ def offset_cage(cage: Cage, distance: float) -> Offset:
     else:
         i = int(np.argmin(local))
         loop = int(corners.loop[i])
-        raise GeometryError(
-            "this passage is too narrow; widen it, merge its two sides or remove the point",
-            corners.points[i],
-            f"no offset cage fits: {loop_name(loop)}'s vertex {i - corners.starts[loop]} at "
-            f"{place(corners.points[i])} lies in the passage",
-        )
+        plain = "this passage is too narrow; widen it, merge its two sides or remove the point"
+        vertex = f"{_loops.loop_name(loop)}'s vertex {i - corners.starts[loop]}"
+        where = f"{vertex} at {place(corners.points[i])} lies in the passage"
+        raise GeometryError(plain, corners.points[i], f"no offset cage fits: {where}")
     loops = corners.split(corners.moved(local))
     try:
         outer = Cage(loops[0], loops[1:])
     except GeometryError as error:
-        raise GeometryError(
-            "there is no room for an offset cage here; widen the narrowest passage or use a "
-            "smaller offset",
-            error.point,
-            f"no valid offset cage at distance {distance:.6g}: {error}",
-        ) from error
+        remedy = "widen the narrowest passage or use a smaller offset"
+        plain = f"there is no room for an offset cage here; {remedy}"
+        what = f"no valid offset cage at distance {distance:.6g}: {error}"
+        raise GeometryError(plain, error.point, what) from error
     distances = tuple(map(read_only, corners.split(local * corners.height)))
     return Offset(outer, distances, _notes(corners, local, distance))
 
@@ -105,11 +95,9 @@ def hole_points(cage: Cage) -> NDArray[np.float64]:
         centre = shapely.get_point(circle, 0)
         candidates = [p for p in (centre, region.representative_point()) if region.contains(p)]
         if not candidates:
-            raise GeometryError(
-                "this hole is too narrow; widen it or remove it",
-                hole[0],
-                f"no point inside {loop_name(i + 1)} of the offset cage near {place(hole[0])}",
-            )
+            where = f"{_loops.loop_name(i + 1)} of the offset cage near {place(hole[0])}"
+            plain = "this hole is too narrow; widen it or remove it"
+            raise GeometryError(plain, hole[0], f"no point inside {where}")
         best = max(candidates, key=region.exterior.distance)
         points[i] = best.x, best.y
     return points
@@ -123,15 +111,15 @@ class _Corners:
         sizes = np.array([len(loop) for loop in cage.loops])
         self.starts = np.concatenate([[0], np.cumsum(sizes)])
         self.loop = np.repeat(np.arange(len(sizes)), sizes)
-        self.next = next_index(self.loop)
+        self.next = _loops.next_index(self.loop)
         self.previous = np.argsort(self.next)
         self.points = np.concatenate(cage.loops)
-        self.length = np.concatenate([edge_lengths(loop) for loop in cage.loops])
+        self.length = np.concatenate([_loops.edge_lengths(loop) for loop in cage.loops])
         self.perimeter = np.add.reduceat(self.length, self.starts[:-1])
         self.position = np.cumsum(self.length) - self.length  # along the loop, up to a constant
         self.along = (self.points[self.next] - self.points) / self.length[:, None]
         self.normal = np.stack([self.along[:, 1], -self.along[:, 0]], axis=1)  # away from P
-        self.edges = np.concatenate([segments(loop) for loop in cage.loops])
+        self.edges = np.concatenate([_loops.segments(loop) for loop in cage.loops])
         self.tree = shapely.STRtree(self.edges)
         before, after = self.along[self.previous], self.along
         bulge = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
@@ -284,7 +272,7 @@ def _notes(corners: _Corners, local: Array, distance: float) -> tuple[str, ...]:
             share = "everywhere" if reduced == count else f"at {reduced} of {count} vertices"
             where = f"vertex {least} {place(corners.points[corners.starts[loop] + least])}"
             notes.append(
-                f"{loop_name(loop)}: the offset {distance:.4g} was reduced {share}, to "
+                f"{_loops.loop_name(loop)}: the offset {distance:.4g} was reduced {share}, to "
                 f"{distances[least]:.4g} at {where}, because there is no room for more."
             )
     return tuple(notes)

@@ -1,5 +1,6 @@
 """Harmonic maps on multiply-connected domains (paper Sections 4 and 5)."""
 
-from glid_nb.harmonic.basis import basis_of
+from glid_nb.harmonic.basis import Basis, basis_of
+from glid_nb.harmonic.cauchy import Singularities
 from glid_nb.harmonic.drawing import FixedPoints, ShaderMap
 from glid_nb.harmonic.map import HarmonicMap, MapError, as_complex, images_under, rows_of, run_on

@@ -54,10 +54,8 @@ class HarmonicMap:
         for name, given in (("phi", phi), ("psi", psi)):
             values = np.array(given, dtype=complex)
             if values.shape != (n,):
-                raise MapError(
-                    f"{name} has shape {values.shape}, but the domain has {n} coefficients "
-                    f"(offset-cage vertices and holes); pass an array of shape ({n},)"
-                )
+                wanted = f"pass {n} coefficients, for the offset cage's vertices and the holes"
+                raise MapError(f"{name} has shape {values.shape}; {wanted}")
             largest = np.maximum(np.abs(np.real(values)), np.abs(np.imag(values)))
             bad = np.flatnonzero(~(largest <= _LARGEST))
             if bad.size:
@@ -69,10 +67,8 @@ class HarmonicMap:
         scale = 1 + np.abs(self.phi[holes])
         if (gap > 1e-9 * scale).any():
             worst = int(np.argmax(gap / scale))
-            raise MapError(
-                f"the logarithm coefficients of hole {worst + 1} are not conjugate: "
-                f"phi = {self.phi[holes][worst]}, psi = {self.psi[holes][worst]}"
-            )
+            both = f"phi = {self.phi[holes][worst]}, psi = {self.psi[holes][worst]}"
+            raise MapError(f"coefficients of hole {worst + 1} are not conjugate: {both}")
         # The map's values know only their sum, so the halves are made equal.
         uneven = np.flatnonzero(gap > 0) + holes.start
         self.phi[uneven] += (self.psi[uneven].conj() - self.phi[uneven]) / 2

@@ -5,7 +5,6 @@ from glid_nb.solvers.method import Inputs, Method, MethodError
 from glid_nb.solvers.newton import Newton
 from glid_nb.solvers.options import OptionError, Options
 from glid_nb.solvers.pose import Pose, PoseError
-from glid_nb.solvers.refinement import refine
 from glid_nb.solvers.result import DeformationMap, Iteration, Progress, Result, Status
-from glid_nb.solvers.solve import solve
+from glid_nb.solvers.solve import refine, solve
 from glid_nb.solvers.subspace import StartError

@@ -18,9 +18,7 @@ from glid_nb.certificate import PROOFS, CertificateKind, PanelProof, rounding
 from glid_nb.certificate.panels import split
 from glid_nb.geometry import Domain, graded_panels, uniform_panels
 from glid_nb.geometry.panels import Panels, paired
-from glid_nb.harmonic import basis_of, cauchy
-from glid_nb.harmonic.basis import Basis
-from glid_nb.harmonic.cauchy import Singularities
+from glid_nb.harmonic import Basis, Singularities, basis_of, cauchy
 from glid_nb.solvers.whitening import whitened, whitening
 
 Sampling = Literal["graded", "uniform"]

@@ -126,18 +126,14 @@ class Method:
         try:
             importlib.import_module(package)
         except ImportError as error:
-            raise MethodError(
-                f"{needs}, which is installed but cannot be imported ({error}); install it again "
-                f"with: pip install --force-reinstall {distribution}, or all of its extra with: "
-                f"pip install --force-reinstall 'glid-nb[{_EXTRA}]'"
-            ) from error
+            again = f"pip install --force-reinstall {distribution} (or 'glid-nb[{_EXTRA}]')"
+            broken = f"{needs}, which is installed but cannot be imported ({error})"
+            raise MethodError(f"{broken}; install it again with: {again}") from error
 
     def harmonic_start(self, inputs: Inputs) -> HarmonicMap | None:
         """The map to start from; :class:`MethodError` where it is one of a mesh."""
         start = inputs.start_map
         if start is None or isinstance(start, HarmonicMap):
             return start
-        raise MethodError(
-            f"the method {self.name!r} works in the harmonic subspace and cannot start from a "
-            "map of a mesh; give a HarmonicMap, or none"
-        )
+        cannot = f"the method {self.name!r} cannot start from a map of a mesh"
+        raise MethodError(f"{cannot}; give a HarmonicMap, or none")

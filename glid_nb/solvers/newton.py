@@ -140,7 +140,9 @@ class NewtonDescent(SubspaceDescent):
             now = map_from(self.inputs.domain, self.point.coefficients)
             return None if self.pin(now) else Ending(Status.CONVERGED)
         if done.iterations:
-            self._relax_ridge()
+            # Lower an epsilon that one place needed: at the minimum it would make steps short.
+            relaxed = self.ridge / _RIDGE_FACTOR
+            self.ridge = max(relaxed if relaxed >= _RIDGE else 0.0, self._least_ridge)
             # Other nodes make no fewer iterations with K+, which are slow anyway.
             coarse = self.discretisation.can_refine and self.inputs.options.hessian != "projected"
             if coarse and _is_slow(self.history):
@@ -178,11 +180,6 @@ class NewtonDescent(SubspaceDescent):
         self.full_since = len(self.history)
         self.problem = self.problem._replace(matrices=self.discretisation.full(self.matrices))
         return True
-
-    def _relax_ridge(self) -> None:
-        """Lower an epsilon that one place needed: at the minimum it would make steps short."""
-        relaxed = self.ridge / _RIDGE_FACTOR
-        self.ridge = max(relaxed if relaxed >= _RIDGE else 0.0, self._least_ridge)
 
 
 _latest: tuple[list[Any], Any] | None = None

@@ -16,6 +16,12 @@ MOST_PER_CALL = CARRIED_STEPS // (1 + MOST_CORRECTIONS)
 
 HessianKind = Literal["adaptive", "projected", "exact"]
 
+# Names in menus.
+_SAMPLINGS = {"graded": "Graded panels", "uniform": "Uniform (paper)"}
+_LIPSCHITZ = {"lipschitz": "Lipschitz (paper)", "bdhm": "Lipschitz (BDHM)"}
+_CERTIFICATES = {"hermite": "Hermite–Bernstein", **_LIPSCHITZ}
+_HESSIANS = {"adaptive": "Adaptive", "projected": "Projected (paper)", "exact": "Exact"}
+
 
 class OptionError(InputError):
     """A setting is out of range."""
@@ -28,32 +34,15 @@ class Options:
     Raises an OptionError that names a value out of range.
     """
 
-    sampling: Sampling = option(
-        "graded",
-        "Where the energy is integrated",
-        "Sampling",
-        {"graded": "Graded panels", "uniform": "Uniform (paper)"},
-    )
+    sampling: Sampling = option("graded", "Where the energy is integrated", "Sampling", _SAMPLINGS)
     """Where the energy is integrated: panels graded by their distance to the singularities, or the
     paper's 10^4 uniform samples (31)."""
     certificate: CertificateKind = option(
-        "hermite",
-        "How local injectivity is proved",
-        "Certificate",
-        {
-            "hermite": "Hermite–Bernstein",
-            "lipschitz": "Lipschitz (paper)",
-            "bdhm": "Lipschitz (BDHM)",
-        },
+        "hermite", "How local injectivity is proved", "Certificate", _CERTIFICATES
     )
     """How local injectivity is proved; "lipschitz" is the paper's (Section 8), "bdhm" has the
     larger constants that the paper replaces (Figure 7)."""
-    hessian: HessianKind = option(
-        "adaptive",
-        "The matrix of Newton's method",
-        "Hessian",
-        {"adaptive": "Adaptive", "projected": "Projected (paper)", "exact": "Exact"},
-    )
+    hessian: HessianKind = option("adaptive", "The matrix of Newton's method", "Hessian", _HESSIANS)
     """The exact Hessian where it is positive definite, else the projected one; with "projected"
     always that (the paper's, Section 7); with "exact" never, halting where it is not positive
     definite."""

@@ -78,10 +78,9 @@ class Pose:
         vars(self).update({name: _checked_points(xy, name) for name, xy in points.items()})
         n_handles, n_targets = len(self.handles), len(self.targets)
         if n_handles != n_targets:
-            raise PoseError(
-                f"there {'is 1 handle' if n_handles == 1 else f'are {n_handles} handles'} but "
-                f"{n_targets} target{'' if n_targets == 1 else 's'}; give one target per handle"
-            )
+            are = "is 1 handle" if n_handles == 1 else f"are {n_handles} handles"
+            targets = f"{n_targets} target{'' if n_targets == 1 else 's'}"
+            raise PoseError(f"there {are} but {targets}; give one target per handle")
         more = {"depths": depths, "angles": angles, "scales": scales, "weights": weights}
         vars(self).update({name: _checked_numbers(name, v, n_handles) for name, v in more.items()})
         vars(self)["names"] = _checked_names(names, n_handles)
@@ -89,9 +88,8 @@ class Pose:
         known: dict[tuple[float, ...], int] = {}
         for j, handle in enumerate(map(tuple, self.handles.tolist())):
             if (i := known.setdefault(handle, j)) != j:
-                raise PoseError(
-                    f"handles {i} and {j} are the same point {place(handle)}; remove one"
-                )
+                both = f"handles {i} and {j} are the same point {place(handle)}"
+                raise PoseError(f"{both}; remove one")
 
     def __len__(self) -> int:
         return len(self.handles)
@@ -100,10 +98,8 @@ class Pose:
         """Raise :class:`PoseError` naming the first handle that lies outside the domain."""
         i = _first_outside(domain, self.handles.tobytes())
         if i is not None:
-            raise PoseError(
-                f"handle {i} at {place(self.handles[i])} lies outside the domain; "
-                "move it inside the cage and out of its holes, or remove it"
-            )
+            where = f"handle {i} at {place(self.handles[i])} lies outside the domain"
+            raise PoseError(f"{where}; move it inside and out of the holes, or remove it")
 
     def with_targets(self, targets: ArrayLike) -> Pose:
         """The same handles with other targets."""

@@ -11,9 +11,15 @@ from numpy.typing import NDArray
 from glid_nb._jax import AnyArray, Array, Float, jnp
 from glid_nb.energies import Energy
 from glid_nb.geometry import Domain
-from glid_nb.harmonic import HarmonicMap, as_complex, basis_of, cauchy, rows_of
-from glid_nb.harmonic.basis import Basis
-from glid_nb.harmonic.cauchy import Singularities
+from glid_nb.harmonic import (
+    Basis,
+    HarmonicMap,
+    Singularities,
+    as_complex,
+    basis_of,
+    cauchy,
+    rows_of,
+)
 from glid_nb.solvers.discretisation import Matrices, complex_basis
 from glid_nb.solvers.pose import Pose, rigid_motion
 from glid_nb.solvers.unknowns import Unknowns

@@ -18,13 +18,8 @@ from glid_nb._jax import jax
 from glid_nb._runtime import double_precision
 from glid_nb.geometry import Cage, Domain, as_points
 from glid_nb.harmonic import as_complex, basis_of, cauchy
-from glid_nb.solvers.discretisation import (
-    Discretisation,
-    Matrices,
-    complex_basis,
-    padded,
-    real_columns,
-)
+from glid_nb.solvers import discretisation
+from glid_nb.solvers.discretisation import Discretisation, Matrices, padded
 from glid_nb.solvers.whitening import whitened
 
 FULL_WEIGHT = 1000.0  # of a sample where the strength is 1
@@ -181,5 +176,5 @@ def _inside(domain: Domain, stiffness: Stiffness) -> tuple[Array, Array]:
     if not len(z):
         z = as_complex(shapely.get_coordinates(whole.representative_point()))
     weights = _added(stiffness, z) * whole.area / len(z) / domain.cage.area
-    d = complex_basis(cauchy.first_derivatives, z, basis_of(domain))
-    return padded(weights, NODES, 0.0), real_columns(padded(d, NODES))
+    d = discretisation.complex_basis(cauchy.first_derivatives, z, basis_of(domain))
+    return padded(weights, NODES, 0.0), discretisation.real_columns(padded(d, NODES))

@@ -143,10 +143,8 @@ def _starting_point(
     if map_ is None:
         return HarmonicMap.identity(domain), None, fresh()
     if options.conformal and np.abs(map_.psi - map_.psi[0]).max() > 0:
-        raise StartError(
-            "the map to start from is not conformal (psi is not constant); start from a conformal "
-            "map or turn the option conformal off"
-        )
+        what = "the map to start from is not conformal (psi is not constant)"
+        raise StartError(f"{what}; start from one that is, or turn the option conformal off")
     proof, disc = (start.proof, start.discretisation) if isinstance(start, Result) else (None, None)
     if proof is None or not proof.belongs_to(map_):
         proof = certificate_of(map_)

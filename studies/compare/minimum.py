@@ -18,7 +18,8 @@ from scipy.spatial import KDTree
 from glid_nb._runtime import double_precision
 from glid_nb.energies import Energy
 from glid_nb.geometry import MeshMap
-from glid_nb.methods.mesh.operators import MeshOperators, largest_step
+from glid_nb.methods.mesh.aqp import largest_step
+from glid_nb.methods.mesh.operators import MeshOperators
 from glid_nb.solvers import Pose
 from glid_nb.solvers.hessian import LocalHessian, local_hessian, positive_part
 

@@ -20,8 +20,8 @@ from glid_nb.energies import (
     SymmetricDirichlet,
 )
 from glid_nb.geometry import Domain, MeshMap, Triangulation, triangulate
-from glid_nb.methods.mesh.aqp import ENOUGH, closest, project
-from glid_nb.methods.mesh.operators import MeshOperators, Pinned, largest_step
+from glid_nb.methods.mesh.aqp import ENOUGH, closest, largest_step, project
+from glid_nb.methods.mesh.operators import MeshOperators, Pinned
 from glid_nb.solvers import MethodError, Pose, Result, Status
 
 from ..domains import domain

@@ -14,7 +14,7 @@ from glid_nb.methods import BDHM
 from glid_nb.session.report import build_report
 from glid_nb.solvers import Options, Pose, refine, solve
 from glid_nb.solvers.method import MethodError
-from glid_nb.solvers.refinement import in_finer_basis
+from glid_nb.solvers.solve import in_finer_basis
 
 from ..domains import domain, random_map
 from .checks import check_certified

@@ -16,14 +16,7 @@ from glid_nb._arrays import Array
 from glid_nb._runtime import single_blas_thread
 from glid_nb.certificate import Certificate, certify
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.methods.bdhm.program import (
-    MARGIN,
-    ActiveSet,
-    BoundedProblem,
-    DistortionBounds,
-    Step,
-    solve_program,
-)
+from glid_nb.methods.bdhm import program
 from glid_nb.solvers import Inputs, Iteration, Method, MethodError, Result, Status
 from glid_nb.solvers.loop import Ending, GeneratedDescent, Reached, Steps, follow
 from glid_nb.solvers.problem import measured_apart
@@ -48,7 +41,7 @@ TOLERANCE = 1e-5
 
 
 @dataclass(frozen=True)
-class BDHM(DistortionBounds, Method):
+class BDHM(program.DistortionBounds, Method):
     """ARAP within given bounds on k, sigma_1 and sigma_2 by cone programs (Clarabel).
 
     Bounded distortion harmonic maps (Chen & Weber 2015). ``k``, ``sigma1`` and ``sigma2`` bound the
@@ -92,10 +85,10 @@ class _Descent(GeneratedDescent):
         weight = self.inputs.options.p2p_weight
         with single_blas_thread():
             damping = KEPT if self.measured == MOST_PINS else 1.0
-            self.problem = BoundedProblem(map, self.inputs.pose, weight, damping)
+            self.problem = program.BoundedProblem(map, self.inputs.pose, weight, damping)
         samples = self.problem.samples
         none = np.zeros((3, len(samples.a)), dtype=bool)
-        self.active = ActiveSet(self.problem, self.method, samples, none)
+        self.active = program.ActiveSet(self.problem, self.method, samples, none)
         self.measured += 1
 
     def _measured_anew(self, now: Iterate) -> Iterate | None:
@@ -135,9 +128,8 @@ class _Descent(GeneratedDescent):
 
     def _at(self, now: Iterate) -> Reached:
         iso, p2p = self.problem.energies(now.v)
-        entry = Iteration(
-            energy_iso=iso, energy_p2p=p2p, step=now.step, sigma2_lower=now.certificate.sigma2_lower
-        )
+        sigma2 = now.certificate.sigma2_lower
+        entry = Iteration(energy_iso=iso, energy_p2p=p2p, step=now.step, sigma2_lower=sigma2)
         return Reached(entry, lambda: now.certificate)
 
     def _next(self, now: Iterate) -> Iterate | Ending:
@@ -162,17 +154,17 @@ class _Descent(GeneratedDescent):
         none = self.method.tolerance * max(now.energy, _NOTHING)
         gap = float(np.clip(_GAP * none, _LEAST_GAP, _MOST_GAP))
         while True:
-            program = solve_program(gradient, self.active, now.v, gap)
+            solved = program.solve_program(gradient, self.active, now.v, gap)
             rounds -= 1
-            if program.change is None:
-                return _blocked(f"the cone program was not solved ({program.status})")
-            if program.decrease <= none and program.status == "Solved":
+            if solved.change is None:
+                return _blocked(f"the cone program was not solved ({solved.status})")
+            if solved.decrease <= none and solved.status == "Solved":
                 if self.active.excess < 1:
                     return _blocked("giving back some of the margin costs more than it gains")
                 why = "with the frames held fixed no map within the bounds has an energy that is"
                 why = f"{why} lower by more than {self.method.tolerance:g} of it"
                 return Ending(Status.CONVERGED, f"The solver converged: {why}.")
-            reached = now.v + program.change
+            reached = now.v + solved.change
             wider = self.active.and_violated(reached)
             if wider is self.active:
                 full = self._accepted(now, reached, 1.0)
@@ -184,7 +176,7 @@ class _Descent(GeneratedDescent):
             if not rounds:
                 break
             self.active = wider
-        return self._shortened(now, program.change, program)
+        return self._shortened(now, solved.change, solved)
 
     def _accepted(self, now: Iterate, v: Array, step: float) -> Iterate | Certificate | None:
         """The map, or its proof where that fails, or None where its energy is not lower."""
@@ -196,7 +188,7 @@ class _Descent(GeneratedDescent):
             return certificate
         return Iterate(v, energy, certificate, step)
 
-    def _shortened(self, now: Iterate, change: Array, program: Step) -> Iterate | Ending:
+    def _shortened(self, now: Iterate, change: Array, solved: program.Step) -> Iterate | Ending:
         """The longest of the steps 1, 1/2, 1/4, ... whose map is proved to keep the bounds."""
         for halvings in range(_HALVINGS):
             step = 0.5**halvings
@@ -206,13 +198,13 @@ class _Descent(GeneratedDescent):
                 accepted = self._accepted(now, v, step)
                 if isinstance(accepted, Iterate):
                     return accepted
-        solution = f"the cone program's solution ({program.status}), which promises to lower"
-        share = f"the energy by {program.decrease / now.energy:.1g} of it"
+        solution = f"the cone program's solution ({solved.status}), which promises to lower"
+        share = f"the energy by {solved.decrease / now.energy:.1g} of it"
         missed = "both lowers it and is proved to keep the bounds"
         return _blocked(f"no step toward {solution} {share}, {missed}")
 
     def _proved(self, v: Array) -> Certificate:
-        tightness = _PROOF * MARGIN * self.method.narrowest
+        tightness = _PROOF * program.MARGIN * self.method.narrowest
         return certify(self.problem.map_of(v), panels=self.problem.panels, tightness=tightness)
 
 

@@ -11,14 +11,7 @@ import numpy as np
 
 from glid_nb._arrays import Array
 from glid_nb.energies import Energy, SymmetricDirichlet
-from glid_nb.methods.mesh.operators import (
-    MeshMethod,
-    MeshOperators,
-    MeshProblem,
-    Pinned,
-    flips,
-    largest_step,
-)
+from glid_nb.methods.mesh.operators import MeshMethod, MeshOperators, MeshProblem, Pinned, flips
 from glid_nb.solvers import Status
 from glid_nb.solvers.loop import Ending, Steps
 
@@ -153,6 +146,17 @@ class _Proxy:
                 return _State(start.w + t * direction, fz, fzb, value), t
             t /= 2
         return None
+
+
+def largest_step(fz: Array, fzb: Array, dfz: Array, dfzb: Array) -> float:
+    """The step at which the first triangle becomes flat, or infinity (Smith & Schaefer 2015)."""
+    a = np.abs(dfz) ** 2 - np.abs(dfzb) ** 2
+    b = 2 * np.real(np.conj(fz) * dfz - np.conj(fzb) * dfzb)
+    c = np.abs(fz) ** 2 - np.abs(fzb) ** 2
+    discriminant = b * b - 4 * a * c
+    denominator = -b + np.sqrt(np.maximum(discriminant, 0))
+    hits = (discriminant >= 0) & (denominator > 0)
+    return float(np.min(2 * c[hits] / denominator[hits], initial=np.inf))
 
 
 def project(

@@ -106,17 +106,6 @@ def flips(fz: Array, fzb: Array) -> int:
     return int((~(np.abs(fz) > np.abs(fzb))).sum())
 
 
-def largest_step(fz: Array, fzb: Array, dfz: Array, dfzb: Array) -> float:
-    """The step at which the first triangle becomes flat, or infinity (Smith & Schaefer 2015)."""
-    a = np.abs(dfz) ** 2 - np.abs(dfzb) ** 2
-    b = 2 * np.real(np.conj(fz) * dfz - np.conj(fzb) * dfzb)
-    c = np.abs(fz) ** 2 - np.abs(fzb) ** 2
-    discriminant = b * b - 4 * a * c
-    denominator = -b + np.sqrt(np.maximum(discriminant, 0))
-    hits = (discriminant >= 0) & (denominator > 0)
-    return float(np.min(2 * c[hits] / denominator[hits], initial=np.inf))
-
-
 _density = jit(lambda energy, x, y: energy.density(x, y))
 _alphas = jit(lambda energy, x, y: energy.differentials(x, y)[:2])
 
@@ -168,10 +157,8 @@ def _vertices_at(mesh: Triangulation, points: Array, tolerance: float) -> Array:
     missing = np.flatnonzero(gap > tolerance)
     if missing.size:
         i = int(missing[0])
-        raise MethodError(
-            f"handle {i} at {place(points[i])} is no vertex of the triangulation of the map to "
-            "start from; make it with triangulate(cage, points=handles), or give no start"
-        )
+        what = f"handle {i} at {place(points[i])} is no vertex of the triangulation of the start"
+        raise MethodError(f"{what}; make it with triangulate(cage, points=handles), or give none")
     return index.astype(np.int32)
 
 
