@@ -1,7 +1,7 @@
 # make demo   one picture from file to certified deformation, in an environment of its own
 # make test   everything that continuous integration runs; GLID_NB_REFERENCE=DIR adds the paper's shapes
 # make unit   the fast tests only (under a minute)
-# make leaks  ten minutes of random editing and 36 runs of a cell: does memory grow?
+# make leaks  half an hour in a browser: memory in long sessions, cells that run again, a new user's walk
 # make lint   ruff and pyright
 # make dev    the development environment with everything
 # make compare  the paper's comparisons measured anew (half an hour); ARGUMENTS=--help tells more

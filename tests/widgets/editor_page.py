@@ -89,16 +89,20 @@ _PIXEL = """(pane, [u, v]) => {
 class Hand:
     """A hand on a pad of a page, by default the first; points are in world units.
 
-    ``canvas`` is what the pad's `DeformCanvas` is called in the kernel.
+    ``canvas`` is what the pad's `DeformCanvas` is called in the kernel; with ``settle`` the hand
+    waits for the solver first.
     """
 
-    def __init__(self, book: NotebookPage, pad: int = 0, canvas: str = "canvas") -> None:
+    def __init__(
+        self, book: NotebookPage, pad: int = 0, canvas: str = "canvas", settle: bool = True
+    ) -> None:
         self.book, self.page = book, book.page
         self.canvas, self.model = canvas, f"{canvas}.deformation"
         self.pad = self.page.locator(".glid-pad").nth(pad)
         self.pane = self.page.locator(".glid-pane").nth(pad)
         self.pad.wait_for()
-        self.settle()
+        if settle:
+            self.settle()
 
     def settle(self) -> None:
         """Wait for the solver."""

@@ -1,6 +1,6 @@
-"""Long sessions: neither the kernel nor the page grows, and no message goes astray.
+"""Long sessions: neither the kernel nor the page grows, no message goes astray, nothing waits.
 
-Left out unless ``--minutes`` says how long; `make leaks` takes ten minutes for each test.
+Left out unless ``--minutes`` says how long; `make leaks` takes ten minutes for the first.
 """
 
 import time
@@ -113,3 +113,52 @@ def test_running_the_cell_again_leaves_nothing_behind(
     for before, after in zip(*seen, strict=True):
         assert after < GROWTH * before
     assert "No such comm" not in jupyter.log
+
+
+# A disk with a wavy rim and eight such holes, some 800 vertices, of which nothing is compiled yet.
+BUSY = """
+import os
+os.environ["GLID_NB_CACHE"] = __import__("tempfile").mkdtemp()
+import numpy as np
+import glid_nb as glid
+def wavy(x, y, radius, waves, height):
+    return np.hypot(x, y) < radius * (1 + height * np.cos(waves * np.arctan2(y, x)))
+y, x = np.mgrid[:1200, :1200] - 599.5
+image = np.zeros((1200, 1200, 4), np.uint8)
+image[wavy(x, y, 540, 110, 0.04)] = 255
+for turn in np.arange(8) * np.pi / 4:
+    image[wavy(x - 330 * np.cos(turn), y - 330 * np.sin(turn), 100, 20, 0.15)] = 0
+"""
+BUSY_EDITOR = "editor = glid.Editor(image)\neditor.trace(simplify=2.0)\neditor"
+
+# Runs a cell; returns the seconds until there is another canvas.
+CANVAS_SHOWN = """(cell) => new Promise((done) => {
+  for (const pad of document.querySelectorAll('.glid-pad')) pad.dataset.old = '';
+  const shown = ".glid-pane:has(.glid-pad:not([data-old])) .jupyter-threejs canvas";
+  const start = performance.now();
+  const look = () => document.querySelector(shown) ? done((performance.now() - start) / 1e3)
+    : requestAnimationFrame(look);
+  window.jupyterapp.shell.currentWidget.content.activeCellIndex = cell;
+  window.jupyterapp.commands.execute('notebook:run-cell');
+  look();
+})"""
+
+
+@pytest.mark.browser
+@pytest.mark.long
+@pytest.mark.parametrize("wait", [0, 5])
+def test_a_cell_that_is_run_again_does_not_wait_for_its_first_editor(
+    open_notebook: OpenNotebook, wait: float
+) -> None:
+    """Whose solver is compiled for a busy picture, for these seconds."""
+    book = open_notebook([BUSY, ""], viewport={"width": 1366, "height": 768})
+    book.page.evaluate(
+        "code => window.jupyterapp.shell.currentWidget.content.model.cells.get(1)"
+        ".sharedModel.setSource(code)",
+        BUSY_EDITOR,
+    )
+    first = book.page.evaluate(CANVAS_SHOWN, 1)
+    book.page.wait_for_timeout(1e3 * wait)
+    again = book.page.evaluate(CANVAS_SHOWN, 1)
+    print(f"first {first:.1f} s, again {again:.1f} s")
+    assert again < first + 1
