@@ -42,6 +42,7 @@ class Walk:
         self.book = opened([cell], **window)
         self.page, self.name, self.taken = self.book.page, f"{size[0]}-{theme}", itertools.count(1)
         self.book.theme(f"JupyterLab {theme}")
+        self.page.locator("#jupyterlab-splash").wait_for(state="detached")
 
     def shot(self, what: str) -> None:
         top = "document.querySelector('.glid-editor').scrollIntoView({block: 'start'})"
@@ -99,7 +100,9 @@ def test_a_cut_out(
     page.keyboard.press("Escape")
     page.get_by_role("button", name="Keep", exact=True).click()
     book.wait_for("len(editor.poses) == 2")
-    hand.drag(line(PINS[1], [PINS[1][0], PINS[1][1] + 2], 10))
+    raised = [PINS[1][0], PINS[1][1] + 2]
+    hand.drag(line(PINS[1], raised, 10))
+    hand.wait_for_target(1, raised)
 
     # Mistakes, and what helps.
     page.get_by_label("Angle °").fill("much")
@@ -134,6 +137,7 @@ def test_a_cut_out(
     files("Open")
     page.get_by_text("Wrote gecko.png").wait_for(state="detached")
     book.wait_for("editor.canvas is not before and editor.pose.names[0] == 'head'")
+    Hand(book, canvas="editor.canvas").wait_until_drawn()
     shot("reopened")
     assert (tmp_path / "gecko.png").stat().st_size > 10_000
 
@@ -148,6 +152,7 @@ def test_a_photograph(
     shot("photograph")
     page.get_by_role("button", name="Draw its outline").click()
     tracer = Tracer(book)
+    tracer.stage.scroll_into_view_if_needed()
     for corner in ((150, 30), (310, 60), (330, 210), (220, 290), (80, 250), (70, 90)):
         page.mouse.click(*tracer.place(*corner))
     page.keyboard.press("Enter")
