@@ -16,6 +16,7 @@ from glid_nb.session.edit_state import EditError, Moment
 from glid_nb.solvers.stiffness import Stiffness
 from glid_nb.widgets.controls import EditControls, button
 from glid_nb.widgets.gestures import LEFT, Event, PinGestures
+from glid_nb.widgets.pad import answer_during_cells
 
 _KEYS = {"b": "stiff", "e": "erase"}
 _USUAL_RADIUS, _LARGEST_RADIUS = 0.05, 0.25  # of the shape's longer side
@@ -100,6 +101,7 @@ class BrushBar(EditControls):
         self.erase = ipywidgets.ToggleButton(
             icon="eraser", tooltip="Erase (E)", layout={"width": "auto"}
         )
+        answer_during_cells(self.erase)  # in the pad's thread: before the stroke that follows
         chosen = lambda tool: tool == "erase", lambda on: "erase" if on else "stiff"
         ipywidgets.link((brush, "tool"), (self.erase, "value"), chosen)
         clear = functools.partial(self._act, lambda: deformation.set_stiffness(Stiffness()))

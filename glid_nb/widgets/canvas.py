@@ -27,6 +27,7 @@ from glid_nb.widgets.controls import button
 from glid_nb.widgets.gestures import Event
 from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import OVERLAYS
+from glid_nb.widgets.pad import answer_during_cells
 from glid_nb.widgets.pane import Pane
 from glid_nb.widgets.scene import Drawing, Range
 
@@ -358,6 +359,7 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
         self.stiff = ipywidgets.ToggleButton(
             description="Stiff", icon="paint-brush", tooltip=tip, layout=fitting
         )
+        answer_during_cells(self.stiff)  # in the pad's thread: before the stroke that follows
         chosen = bool, lambda on: "stiff" if on else ""
         ipywidgets.link((canvas.brush, "tool"), (self.stiff, "value"), chosen)
         kwargs = {"layout": {"flex_flow": "row wrap"}, **kwargs}
