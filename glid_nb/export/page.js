@@ -102,6 +102,7 @@ import { View } from "../widgets/js/pad/view.js";
 
   const view = new View(() => draw(), { nearest: 1e-4, farthest: 100 });
   const overlay = get("overlay"), straight = get("source"), slider = get("time");
+  const waiting = []; // thumbnails that are seen and not drawn yet
   let time = motion.start;
 
   function fit() {
@@ -115,7 +116,10 @@ import { View } from "../widgets/js/pad/view.js";
     return { width, height, unit, x: (xmin + xmax) / 2, y: (ymin + ymax) / 2 };
   }
 
-  const draw = () => paint(view);
+  function draw() {
+    if (waiting.length) drawThumb(waiting.shift());
+    paint(view);
+  }
 
   function paint({ width: w, height: h, unit, x, y }) {
     const ratio = window.devicePixelRatio || 1;
@@ -237,19 +241,40 @@ import { View } from "../widgets/js/pad/view.js";
     run(false);
   }
 
+  // Thumbnails that come into sight are drawn one with each frame, so that the motion does not wait for them.
+  const seen = new IntersectionObserver((entries) => {
+    if (!waiting.length) requestAnimationFrame(drawOn);
+    for (const { target } of entries.filter((entry) => entry.isIntersecting)) {
+      waiting.push(thumbs.indexOf(target));
+      seen.unobserve(target);
+    }
+  });
+
+  function drawOn() {
+    if (!waiting.length) return;
+    if (!running && !glide) draw();
+    requestAnimationFrame(drawOn);
+  }
+
+  function drawThumb(i) {
+    const small = thumbs[i].firstChild, kept = [time, overlay.value, straight.checked];
+    [time, overlay.value, straight.checked] = [motion.keyframes[i], "0", false];
+    paint(fitted(56, 56));
+    Object.assign(small, { width: canvas.width, height: canvas.height }).getContext("2d").drawImage(canvas, 0, 0);
+    [time, overlay.value, straight.checked] = kept;
+  }
+
   function prepare() {
     document.querySelector("section").hidden = false;
     Object.assign(slider, { min: motion.start, max: motion.end });
     motion.keyframes.forEach((t, i) => {
-      const thumb = document.createElement("button"), small = document.createElement("canvas");
+      const thumb = document.createElement("button");
       thumb.title = `Pose ${i + 1}, at ${t.toFixed(2)} s`;
       thumb.setAttribute("aria-label", thumb.title);
       thumb.addEventListener("click", () => glideTo(t));
-      time = t;
-      paint(fitted(56, 56));
-      Object.assign(small, { width: canvas.width, height: canvas.height }).getContext("2d").drawImage(canvas, 0, 0);
-      thumb.append(small);
+      thumb.append(document.createElement("canvas"));
       thumbs.push(thumb);
+      seen.observe(thumb);
     });
     get("poses").append(...thumbs);
     const colors = Array.from({ length: 100 }, (_, i) => {

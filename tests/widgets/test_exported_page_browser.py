@@ -129,6 +129,31 @@ def test_a_phone_shows_a_page_that_plays_by_itself(browser: Browser, tmp_path: P
 
 @pytest.mark.browser
 @pytest.mark.slow
+def test_thumbnails_are_drawn_when_they_come_into_sight(page: Page, tmp_path: Path) -> None:
+    """After the picture, and as the picture alone, whatever the canvas shows by then."""
+    motion = Motion([HarmonicMap.identity(shapes.domain()), shapes.bent()] * 20)
+    (path,) = animate(tmp_path / "long.html", shapes.picture(), motion)
+    page.emulate_media(reduced_motion="reduce", color_scheme="light")
+    page.set_viewport_size({"width": 400, "height": 700})
+    page.goto(path.as_uri())
+    page.wait_for_selector("html[data-ready=true]", state="attached")
+    page.get_by_label("Show").select_option("Dilatation k")
+    page.get_by_label("Undeformed").check()
+    drawn = "() => [...document.querySelectorAll('#poses canvas')].map((c) => c.width === 56)"
+    page.wait_for_function(f"() => ({drawn})()[5]")
+    assert not any(page.evaluate(drawn)[10:])
+    before, second = shown(page), page.get_by_role("button", name="Pose 2,").screenshot()
+    page.get_by_role("button", name="Pose 40").scroll_into_view_if_needed()
+    page.wait_for_function(f"() => ({drawn})()[39]")
+    last = page.get_by_role("button", name="Pose 40").screenshot()
+    a, b = (imread(io.BytesIO(one))[..., :3].astype(float) for one in (second, last))
+    assert np.abs(a - b).mean() < 2
+    assert a.std() > 20
+    np.testing.assert_array_equal(shown(page), before)
+
+
+@pytest.mark.browser
+@pytest.mark.slow
 def test_the_browser_shows_what_a_rendering_shows(page: Page, tmp_path: Path) -> None:
     """From a file, with the network off. Compared on white, at the canvas' size: the mean
     difference is below 1 of 255, and 99 of 100 pixels differ by less than 16; the others lie on
