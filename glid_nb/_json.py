@@ -135,12 +135,11 @@ def check_points(value: Any, key: str) -> None:
     """A list of ``[x, y]`` pairs of finite numbers."""
     _check_list_of(value, key, "[x, y] pair")
     for i, point in enumerate(value):
+        place = f"{key}[{i}] must be"
         if not (isinstance(point, list) and len(point) == 2 and all(map(_is_number, point))):
-            raise InputFileError(
-                f"{key}[{i}] must be a pair [x, y] of numbers, not {_shown(point)}"
-            )
+            raise InputFileError(f"{place} a pair [x, y] of numbers, not {_shown(point)}")
         if not all(map(math.isfinite, point)):
-            raise InputFileError(f"{key}[{i}] must be finite, not {_shown(point)}")
+            raise InputFileError(f"{place} finite, not {_shown(point)}")
 
 
 def check_loops(value: Any, key: str, each: str = "loop") -> None:

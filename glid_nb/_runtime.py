@@ -168,5 +168,4 @@ class CompilationClock:
             self.programs += event == _COMPILING[-1]
 
 
-compilation_clock = functools.cache(CompilationClock)
-"""The process's one clock."""
+compilation_clock = functools.cache(CompilationClock)  # the process's one clock

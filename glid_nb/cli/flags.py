@@ -17,7 +17,7 @@ from glid_nb.energies import ENERGIES
 _WITH_S = " and ".join(name for name, energy in ENERGIES.items() if "s" in energy.parameters())
 
 _PIXEL = {"type": float, "nargs": 2, "metavar": ("X", "Y")}
-_ARGUMENTS: dict[Any, dict[str, Any]] = {
+_ARGUMENTS: dict[Any, dict[str, Any]] = {  # what argparse is told of a field, by its annotation
     bool: {"action": argparse.BooleanOptionalAction},
     int: {"type": int, "metavar": "N"},
     float: {"type": float, "metavar": "X"},
@@ -26,7 +26,6 @@ _ARGUMENTS: dict[Any, dict[str, Any]] = {
     tuple[float, float, float]: {"type": float, "nargs": 3, "metavar": ("R", "G", "B")},
     glid_nb.Scribbles: {"type": Path, "metavar": "FILE.json"},
 }
-"""What argparse is told of a field, by its annotation."""
 
 
 def add_solver_flags(parser: argparse.ArgumentParser) -> None:

@@ -28,9 +28,7 @@ class OneLineParser(argparse.ArgumentParser):
 
 
 def build_parser() -> argparse.ArgumentParser:
-    what = (
-        "Locally injective image deformation: from a picture to a map that is proved never to fold."
-    )
+    what = "Locally injective image deformation: from a picture to a map proved never to fold."
     parser = OneLineParser(prog="glid-nb", description=what)
     parser.add_argument("--version", action="version", version=f"glid-nb {glid_nb.__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)

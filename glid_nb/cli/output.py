@@ -15,11 +15,8 @@ from glid_nb.certificate.rounding import rounded_down, rounded_up
 _TIMES = {"compile": 2, "solve": 3, "certify": 3}
 _LONG = ("history", "attempts", "refinements", "options", "versions", "machine")
 _BASIS = "{unknowns} unknowns: {energy:.6g}, {solve_time:.3f} s"
-_INJECTIVE = {
-    "yes": "locally and globally",
-    "no": "locally only",
-    "undecided": "locally; globally undecided",
-}
+_INJECTIVE = {"yes": "locally and globally", "no": "locally only"}
+_INJECTIVE["undecided"] = "locally; globally undecided"
 
 
 def check_files(outputs: Iterable[Path | None], inputs: Iterable[str | Path | None]) -> None:

@@ -10,9 +10,7 @@ from glid_nb.figures.style import BLUE, CYAN, GREY, INK
 from glid_nb.geometry import as_points
 from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging import PixelFrame
-from glid_nb.imaging.mesh import deformed_loops
-from glid_nb.imaging.order import Sheets, order_of
+from glid_nb.imaging import PixelFrame, Sheets, deformed_loops, order_of
 from glid_nb.solvers import Pose
 
 _MARGIN = 0.02  # around everything, as a share of the longer side
@@ -49,9 +47,8 @@ def cage_svg(
         parts.append(_path("cage", loops, BLUE, line))
     else:
         parts.append(_path("cage", loops, BLUE, line / 2, dash=2 * line))
-        parts.append(
-            _path("in-sight", (frame.to_pixel(piece) for piece in pieces), BLUE, line, close="")
-        )
+        seen = (frame.to_pixel(piece) for piece in pieces)
+        parts.append(_path("in-sight", seen, BLUE, line, close=""))
     if pose is not None and len(pose):
         hidden = sheets.hidden(pose.handles)
         targets, images = (frame.to_pixel(p) for p in (pose.targets, map(pose.handles)))

@@ -135,8 +135,7 @@ def _video(frames: Frames, fps: float, suffix: str, transparent: bool) -> bytes:
 
 
 def _sprite_sheet(frames: Frames, fps: float, name: str) -> list[bytes]:
-    """A picture of all frames side by side, and JSON that says where each is: TexturePacker's
-    "hash" with Pixi's ``animations``; durations are milliseconds."""
+    """All frames in a picture, and where each is: TexturePacker's "hash", Pixi's ``animations``."""
     (width, height), columns = frames.size, math.ceil(math.sqrt(frames.count))
     sides = columns * width, math.ceil(frames.count / columns) * height
     if max(sides) > _LARGEST_SHEET:

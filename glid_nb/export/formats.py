@@ -27,7 +27,7 @@ FORMATS = {
     ".proof.json": Format("Proof for glid-check (JSON)", (".map.json",)),
     ".glid": Format("Session (GLID)"),
 }
-MOTION_FORMATS = {
+MOTION_FORMATS = {  # a motion's name without one of these is a folder of frames
     ".gif": Format("Animation (GIF)"),
     ".apng": Format("Animation with transparency (PNG)"),
     ".mp4": Format("Video (MP4)"),
@@ -38,7 +38,6 @@ MOTION_FORMATS = {
     ".zip": Format("Frames (PNG in a zip)"),
     ".motion.json": Format("Motion and proof for glid-check (JSON)", (".motion.proof.json",)),
 }
-"""A motion's name without one of these is a folder of frames."""
 
 
 def suffix_of(name: str, formats: Mapping[str, Format] = MOTION_FORMATS) -> str:

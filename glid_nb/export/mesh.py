@@ -78,22 +78,13 @@ def mesh_obj(mesh: TexturedMesh, name: str = "shape") -> dict[str, bytes]:
     from trimesh.exchange.obj import export_obj  # noqa: PLC0415
     from trimesh.visual.material import SimpleMaterial  # noqa: PLC0415
 
-    material = SimpleMaterial(
-        image=Image.fromarray(mesh.texture),
-        name=f"{name}-texture",  # trimesh names the texture's file after it
-        diffuse=[255, 255, 255, 255],
-        ambient=[255, 255, 255, 255],
-        specular=[0, 0, 0, 255],
-        glossiness=0.0,
-    )
-    text, files = export_obj(
-        _trimesh(mesh, material),
-        include_normals=False,
-        include_texture=True,
-        return_texture=True,
-        mtl_name=f"{name}.mtl",
-        header="glid_nb",
-    )
+    white, black = [255] * 4, [0, 0, 0, 255]
+    look: Any = {"diffuse": white, "ambient": white, "specular": black, "glossiness": 0.0}
+    # trimesh names the texture's file after the material.
+    material = SimpleMaterial(Image.fromarray(mesh.texture), name=f"{name}-texture", **look)
+    parts: Any = {"include_normals": False, "include_texture": True, "return_texture": True}
+    names: Any = {"mtl_name": f"{name}.mtl", "header": "glid_nb"}
+    text, files = export_obj(_trimesh(mesh, material), **parts, **names)
     return {f"{name}.obj": text.encode("utf-8"), **files}
 
 
@@ -101,13 +92,9 @@ def mesh_glb(mesh: TexturedMesh, edit: Callable[..., None] | None = None) -> byt
     """A mesh as binary glTF 2.0 (.glb), with its texture; ``edit(buffers, tree)`` adds to it."""
     from trimesh.visual.material import PBRMaterial  # noqa: PLC0415
 
-    material = PBRMaterial(
-        baseColorTexture=Image.fromarray(mesh.texture),
-        metallicFactor=0.0,
-        roughnessFactor=1.0,
-        alphaMode="BLEND",
-        doubleSided=True,
-    )
+    matt: Any = {"metallicFactor": 0.0, "roughnessFactor": 1.0}
+    look: Any = {**matt, "alphaMode": "BLEND", "doubleSided": True}
+    material = PBRMaterial(baseColorTexture=Image.fromarray(mesh.texture), **look)
     data = _trimesh(mesh, material).export(file_type="glb", buffer_postprocessor=edit)
     assert isinstance(data, bytes)
     return data

@@ -15,9 +15,7 @@ from glid_nb._errors import InputError
 from glid_nb.export.encode import RGB, Frames
 from glid_nb.export.picture import frame_around, on_background
 from glid_nb.harmonic import HarmonicMap, images_under
-from glid_nb.imaging import as_rgba8
-from glid_nb.imaging.mesh import DeformedMesh, fine_mesh
-from glid_nb.imaging.order import order_of
+from glid_nb.imaging import DeformedMesh, as_rgba8, fine_mesh, order_of
 from glid_nb.imaging.render import draw_mesh
 from glid_nb.imaging.texture import Texture
 from glid_nb.motion import Motion

@@ -13,9 +13,7 @@ from glid_nb._errors import InputError
 from glid_nb.export.encode import RGB, Frames, check_settings, encoded
 from glid_nb.figures.style import CYAN, INK
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging import PixelFrame, as_rgba8
-from glid_nb.imaging.mesh import deformed_loops, deformed_mesh
-from glid_nb.imaging.order import Sheets, order_of
+from glid_nb.imaging import PixelFrame, Sheets, as_rgba8, deformed_loops, deformed_mesh, order_of
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View, draw_mesh, render
 from glid_nb.imaging.texture import Texture

@@ -21,8 +21,7 @@ from glid_nb.figures.plots import CertificatePlot
 from glid_nb.figures.style import BLUE, GREEN, GREY, INK, VERMILION, distortion_colors
 from glid_nb.geometry import Domain, MeshMap, as_points, triangulate
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging import PixelFrame
-from glid_nb.imaging.mesh import DeformedMesh, deformed_loops, deformed_mesh
+from glid_nb.imaging import DeformedMesh, PixelFrame, deformed_loops, deformed_mesh
 from glid_nb.imaging.rasterise import render_mesh
 from glid_nb.imaging.texture import Texture
 from glid_nb.methods.mesh.operators import MeshOperators

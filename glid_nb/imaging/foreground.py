@@ -132,10 +132,8 @@ def _check_alpha(alpha: NDArray[np.float32]) -> None:
     if low == high == 0:
         raise TraceError("the image has no foreground: it is fully transparent")
     if low == high:
-        raise TraceError(
-            f"the foreground covers the whole image: its alpha channel is {low:.3g} everywhere; "
-            "choose Colour or Brightness, or paint over the shape with Scribbles"
-        )
+        what = f"the foreground covers the whole image: its alpha channel is {low:.3g} everywhere"
+        raise TraceError(f"{what}; choose Colour or Brightness, or scribble over the shape")
 
 
 def _choose_method(
@@ -170,10 +168,8 @@ def _background(
         return (red, green, blue), 0.03, ()
     border = measure.border_color(image)
     if border is None:
-        raise TraceError(
-            "the border of the image is transparent, so it shows no background colour; choose "
-            "Alpha, or pick the background's colour"
-        )
+        what = "the border of the image is transparent, so it shows no background colour"
+        raise TraceError(f"{what}; choose Alpha, or pick the background's colour")
     red, green, blue = (f"{c:.0%}" for c in border.color)
     note = f"background colour estimated from the border: red {red}, green {green}, blue {blue}"
     if not border.is_uniform:

@@ -10,8 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from glid_nb._arguments import unmet
 from glid_nb._errors import InputError
 
-LONGER_SIDE = 20.0
-"""Length of a picture's longer side in world units."""
+LONGER_SIDE = 20.0  # length of a picture's longer side in world units
 
 
 class TraceError(InputError):

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from glid_nb._arrays import Array
 from glid_nb.geometry._loops import next_index, signed_area
 
-Points = NDArray[np.float64]
-"""(n, 2) in pixel coordinates."""
+Points = NDArray[np.float64]  # (n, 2) in pixel coordinates
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,8 +132,7 @@ def _jumped(simplified: Loops, over: list[NDArray[np.intp]]) -> list[int]:
 
 
 def significance(loop: Points) -> NDArray[np.float64]:
-    """(n,) tolerances at which Ramer, Douglas and Peucker's algorithm drops the points of a loop;
-    infinite for two that are far apart."""
+    """(n,) tolerances at which Ramer, Douglas and Peucker drop a loop's points, two never."""
     n = len(loop)
     start = int(np.argmax(np.hypot(*(loop - loop.mean(axis=0)).T)))
     points = np.roll(loop, -start, axis=0)

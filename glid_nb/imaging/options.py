@@ -21,13 +21,13 @@ ForegroundMethod = Literal["auto", "alpha", "threshold", "color", "scribbles"]
 """Ways to tell the foreground from the background."""
 
 Point = tuple[float, float]
-Color = tuple[float, float, float]
-"""(red, green, blue), each in [0, 1]."""
+Color = tuple[float, float, float]  # (red, green, blue), each in [0, 1]
 
 Strokes = tuple[NDArray[np.float64], ...] | NDArray[np.bool_]
 GivenStrokes = Iterable[ArrayLike] | NDArray[np.bool_]
 
 _ANY = math.inf
+_STROKES = "Strokes, lists of [x, y] pixels under the keys foreground, background"
 _PIXEL: Any = {"least": -math.inf, "form": "a pixel (x, y) of finite numbers"}
 _PIXELS: Any = {"least": -math.inf, "form": "a list of pixels (x, y) of finite numbers"}
 
@@ -89,9 +89,7 @@ class TraceOptions:
     """(red, green, blue), each in [0, 1], for ``"color"``; None: estimated from the border."""
     background_at: Point | None = option(None, "A pixel of the background's colour", **_PIXEL)
     """A pixel (x, y) that shows the background's colour, instead of `background`."""
-    scribbles: Scribbles | None = option(
-        None, "Strokes, lists of [x, y] pixels under the keys foreground, background"
-    )
+    scribbles: Scribbles | None = option(None, _STROKES)
     """Strokes for ``"scribbles"``."""
     smoothing: float | None = option(None, "Blur before the outline is taken, pixels")
     """Standard deviation in pixels of a Gaussian blur. None: 0 for alpha and scribbles, 0.1 % of
@@ -140,10 +138,8 @@ def _strokes(strokes: GivenStrokes, name: str) -> Strokes:
         return read_only(strokes.copy())
     lines = []
     for i, stroke in enumerate(strokes):
-        wanted = (
-            f"scribbles: {name} stroke {i} must be a (k, 2) array of finite pixel coordinates "
-            "(x, y); for a mask use an array of bool"
-        )
+        wanted = f"scribbles: {name} stroke {i} must be a (k, 2) array of finite pixel coordinates"
+        wanted += " (x, y); for a mask use an array of bool"
         line = number_pairs(stroke, wanted, TraceError)
         if not len(line) or not np.isfinite(line).all():
             raise TraceError(wanted)

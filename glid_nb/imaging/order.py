@@ -122,8 +122,7 @@ class Sheets:
         self._near = _NEAR * float(np.ptp(self._mesh.vertices, axis=0).max())
 
     def source(self, point: Any) -> Array | None:
-        """The point (2,) of the undeformed shape that is seen at ``point``, or that of the highest
-        of transparent parts; None outside the shape."""
+        """The source (2,) of what is seen at a point, the highest of transparent parts; or None."""
         curved = isinstance(self._map, HarmonicMap)
         place = np.reshape(np.asarray(point, dtype=float), (1, 2))
         _, found = self._drawn_at(place, _OVERHANG if curved else 0.0)

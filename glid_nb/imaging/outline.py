@@ -79,8 +79,9 @@ class Components:
         return int(np.flatnonzero(self.labels == found)[0])
 
 
-def find_components(mask: NDArray[np.bool_]) -> Components:
-    """Label the components of an (h, w) mask that is not empty."""
+def find_components(foreground: Foreground, threshold: float | None = None) -> Components:
+    """Label the components of a foreground; a TraceError if it is empty or everything."""
+    mask = foreground.mask(threshold)
     rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
     box = slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
     found = np.zeros(mask.shape, dtype=np.int32)

@@ -152,8 +152,7 @@ class _Surface(NamedTuple):
         return canvas.reshape(-1, n**2, 4), count.reshape(-1, n**2)
 
     def _shaded(self, samples: Hits, n: int) -> Colours:
-        """(k, 4) colours: one look-up for all samples of a triangle in a pixel, at their centroid,
-        as look-ups filter over a whole pixel."""
+        """(k, 4) colours: look-ups filter a whole pixel, so one for a triangle's samples in it."""
         pixel, n_triangles = samples.place // n**2, len(self.level)
         keys = pixel * n_triangles + samples.triangle
         _, first, fragment, count = np.unique(

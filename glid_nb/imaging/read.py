@@ -14,8 +14,7 @@ from PIL.TiffImagePlugin import TiffImageFile
 from glid_nb._errors import about
 from glid_nb.imaging.frame import TraceError
 
-MAX_SIDE = 8000
-"""Longest side in pixels that is accepted."""
+MAX_SIDE = 8000  # longest side in pixels that is accepted
 
 ImageSource = str | os.PathLike[str] | bytes | Image.Image | ArrayLike
 """What is accepted as a picture: a path, a file's bytes, a PIL image or an array."""
@@ -145,10 +144,8 @@ def _from_float(array: NDArray[Any]) -> NDArray[np.uint16]:
 def _bytes_of(path: str | os.PathLike[str]) -> bytes:
     if address := _ADDRESS.match(str(path)):
         scheme, rest = address.groups()  # a Path keeps one slash of two
-        raise TraceError(
-            f"{scheme}://{rest} is an address, and only files are read; download the picture "
-            "and give the path of its file, or give its bytes"
-        )
+        what = f"{scheme}://{rest} is an address, and only files are read"
+        raise TraceError(f"{what}; download the picture, and give its file's path or its bytes")
     path = Path(path)
     try:
         return path.read_bytes()

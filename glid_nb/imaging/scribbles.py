@@ -102,7 +102,6 @@ def _drawn(
         ImageDraw.Draw(picture).line(points.ravel().tolist(), fill=1)
     drawn = np.array(picture)
     if strokes and not drawn.any():
-        raise TraceError(
-            f"scribbles: the {name} strokes lie outside the image of {shape[1]} x {shape[0]} pixels"
-        )
+        size_of = f"{shape[1]} x {shape[0]} pixels"
+        raise TraceError(f"scribbles: the {name} strokes lie outside the image of {size_of}")
     return drawn

@@ -189,8 +189,7 @@ def _divided(loops: Loops, max_edge: float | None, max_vertices: int | None) -> 
 
 
 def _enclosing(loops: Loops, kept: NDArray[np.bool_], margin: float, gap: float) -> Loops:
-    """The simplified loops, with chords that cut off more than `margin` moved outwards in parallel,
-    unless this would make loops meet."""
+    """The simplified loops; chords that cut off over `margin` move outwards unless loops meet."""
     simplified = loops[kept]
     areas = simplified.areas
     shifts = _shifts(loops, kept, areas, margin)

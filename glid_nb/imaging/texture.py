@@ -61,10 +61,7 @@ class Texture:
 
 
 def gradients(corners: Floats, values: Floats) -> Floats:
-    """Slopes along x and y, (t, k, 2), of linear functions with values (t, 3, k) at the corners.
-
-    Triangles without area get slope 0; they cover no sample.
-    """
+    """Slopes (t, k, 2) of linear functions with values (t, 3, k) at corners; 0 without an area."""
     e, rise = corners[:, 1:] - corners[:, :1], values[:, 1:] - values[:, :1]
     with np.errstate(over="ignore", invalid="ignore"):
         cofactors = np.stack([e[:, 1, ::-1] * [1, -1], e[:, 0, ::-1] * [-1, 1]], axis=1)

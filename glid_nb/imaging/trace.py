@@ -109,9 +109,7 @@ class Tracer:
         """Trace a cage, as `trace` does."""
         o = options if options is not None else TraceOptions()
         foreground = self.foreground(o)
-        components = self._stage(
-            "components", lambda f, t: find_components(f.mask(t)), foreground, o.threshold
-        )
+        components = self._stage("components", find_components, foreground, o.threshold)
         rank = o.component if o.component_at is None else components.rank_at(o.component_at)
         outline = self._stage("outline", find_outline, foreground, components, o.threshold, rank)
         hole_options = (foreground.method, o.min_hole_area, o.keep_holes, o.drop_holes)

@@ -1,4 +1,4 @@
 """Motion between certified maps, proved at every instant."""
 
-from glid_nb.motion.motion import Motion, MotionCertificate
-from glid_nb.motion.settings import MotionError
+from glid_nb.motion.motion import Motion, MotionCertificate, Piece
+from glid_nb.motion.settings import MotionError, unlike_turns

@@ -64,9 +64,8 @@ class Boundary:
         for branch in self.branches:
             phase = np.angle(fz[branch.indices[0]])
             if branch.link is not None:
-                along = np.concatenate(
-                    [fz[[branch.linked]], branch.link @ phi, fz[branch.indices[:1]]]
-                )
+                ends = fz[[branch.linked]], fz[branch.indices[:1]]
+                along = np.concatenate([ends[0], branch.link @ phi, ends[1]])
                 phase = result[branch.linked].imag + _turns(along).sum()
             turns = _turns(fz[branch.indices])
             result[branch.indices] += 1j * (phase + np.append(0, np.cumsum(turns)))

@@ -26,8 +26,7 @@ _SHORTER = 0.8
 _MOST_STEPS = 12
 _PROBES = np.linspace(0, 1, 9)[1:-1]
 
-Coefficients = tuple[Array, Array]
-"""phi and psi."""
+Coefficients = tuple[Array, Array]  # phi and psi
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,10 +96,7 @@ class Bounded:
         return before, after - before, span * self.tangents[piece], span * self.tangents[piece + 1]
 
     def _shortened(self, closed: bool) -> Bounded:
-        """With tangents short enough that no piece exceeds its worse end.
-
-        Those of nu where k would, and of ``log f_z`` where sigma_2 would.
-        """
+        """With tangents so short that on no piece k is above its ends', or sigma_2 below."""
         ends = np.array([_worst(row) for row in self.rows])
         worse = np.maximum(ends[:-1], ends[1:])
         share, curve = np.ones(ends.shape), self

@@ -76,7 +76,8 @@ class Curve:
         """
         start, end = self.times[interval : interval + 2]
         samples = np.linspace(start, end, _SAMPLES * self.laps[interval] + 1)
-        images = np.stack([self._images(float(time)) for time in samples])
+        maps, boundary = map(self.map, samples.tolist()), boundary_of(self.maps[0].domain)
+        images = np.stack([boundary.images(at.phi, at.psi) for at in maps])
         bend = np.abs(np.diff(images, 2, axis=0)).max(axis=1)
         needed = np.sqrt(np.concatenate([bend[:1], bend, bend[-1:]]) / (8 * tolerance))
         along = np.append(0, np.cumsum((needed[1:] + needed[:-1]) / 2))
@@ -90,10 +91,6 @@ class Curve:
         inside = np.interp(np.arange(1, count) / count * along[-1], along, samples)
         return np.unique([start, *inside, end]).tolist()
 
-    def _images(self, time: float) -> Array:
-        map = self.map(time)
-        return boundary_of(map.domain).images(map.phi, map.psi)
-
 
 def blended(maps: Sequence[HarmonicMap], piece: int, s: float) -> Coefficients:
     """Coefficients on the straight line from a map to the next."""
@@ -104,10 +101,7 @@ def blended(maps: Sequence[HarmonicMap], piece: int, s: float) -> Coefficients:
 def through_solved(
     follow: Bounded, handles: Array | None, closed: bool
 ) -> Callable[[int, float], Coefficients]:
-    """The bounded interpolation through keyframes and what is solved for on the way.
-
-    Handles follow the bounded motion ``follow``; each solve starts from its map if certified.
-    """
+    """Bounded interpolation through keyframes and solves on the way, whose handles ``follow``."""
     maps, times, domain = follow.maps, follow.times, follow.boundary.domain
     points = triangulate(domain.cage, _POINTS).vertices if handles is None else handles
     options = Options(align=False, restarts=0)

@@ -21,20 +21,10 @@ from glid_nb.certificate.pieces import PieceCertificate, certify_pieces
 from glid_nb.certificate.rounding import rounded_down
 from glid_nb.geometry import Domain, place
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.motion import file
+from glid_nb.motion import file, settings
 from glid_nb.motion.bounded import Bounded
 from glid_nb.motion.curve import Curve, Piece, blended, linear_pieces, through_solved
-from glid_nb.motion.settings import (
-    LATEST,
-    Between,
-    Easing,
-    MotionError,
-    Repeat,
-    checked,
-    checked_each,
-    checked_keyframes,
-    checked_times,
-)
+from glid_nb.motion.settings import Between, Easing, MotionError, Repeat, checked
 
 _TOLERANCE = 0.002
 _MOST_FRAMES = 100_000
@@ -99,8 +89,8 @@ class Motion:
         turns: int | Sequence[int] = 0,
         handles: ArrayLike | None = None,
     ) -> None:
-        maps = checked_keyframes(keyframes)
-        all_times = checked_times(times, len(maps), repeat == "loop")
+        maps = settings.checked_keyframes(keyframes)
+        all_times = settings.checked_times(times, len(maps), repeat == "loop")
         count = len(all_times) - 1
         if handles is not None:
             wanted = "handles must be a list of [x, y] pairs"
@@ -108,11 +98,11 @@ class Motion:
         vars(self).update(
             keyframes=maps,
             times=all_times,
-            easing=checked_each("easing", Easing, easing, count),
+            easing=settings.checked_each("easing", Easing, easing, count),
             repeat=checked("repeat", Repeat, repeat),
             between=checked("between", Between, between),
             tolerance=checked("tolerance", float, tolerance, above=0),
-            turns=checked_each("turns", int, turns, count, least=-100, most=100),
+            turns=settings.checked_each("turns", int, turns, count, least=-100, most=100),
             handles=handles,
         )
         if between == "linear" and any(self.turns):
@@ -190,7 +180,7 @@ class Motion:
 
         Raises MotionError for a time outside ``start`` to ``end``.
         """
-        time = checked("time", float, time, least=-LATEST)
+        time = checked("time", float, time, least=-settings.LATEST)
         if self.repeat != "once":
             time = self.start + (time - self.start) % self.duration
         elif not self.start <= time <= self.end:
@@ -274,8 +264,8 @@ class Motion:
         """What :meth:`save` writes; MotionError if there is no proof."""
         if proof and not self.certificate.certified:
             raise MotionError(f"there is no proof to write: {self.certificate.reason}")
-        settings = {"times": self.times, **self.settings}
-        return file.texts(self.pieces_forth, settings, self._proved[1] if proof else ())
+        known = {"times": self.times, **self.settings}
+        return file.texts(self.pieces_forth, known, self._proved[1] if proof else ())
 
     @classmethod
     def load(cls, path: str | Path) -> Motion:
@@ -284,8 +274,8 @@ class Motion:
         Raises MotionError, which names the file and what is wrong there.
         """
         with about(path, MotionError), single_blas_thread():
-            keyframes, settings, times, maps = file.read(path)
-            motion = cls(keyframes, **settings)
+            keyframes, known, times, maps = file.read(path)
+            motion = cls(keyframes, **known)
             knots = [times.index(time) for time in motion.times]
             for i, (first, last) in enumerate(itertools.pairwise(knots)):
                 made = linear_pieces(times[first : last + 1], maps[first : last + 1])

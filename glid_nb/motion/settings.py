@@ -89,9 +89,8 @@ def checked_times(times: Any, count: int, closed: bool) -> tuple[float, ...]:
     times = range(count + closed) if times is None else times
     if not isinstance(times, list | tuple | range | np.ndarray):
         raise MotionError(f"times must be a list of numbers, not {times!r:.60}")
-    values = [
-        checked(f"times[{i}]", float, t, least=-LATEST, most=LATEST) for i, t in enumerate(times)
-    ]
+    ends = {"least": -LATEST, "most": LATEST}
+    values = [checked(f"times[{i}]", float, t, **ends) for i, t in enumerate(times)]
     if len(values) not in (count, count + closed):
         wanted = f"{count} or {count + 1}" if closed else f"{count}"
         raise MotionError(f"there are {len(values)} times for {count} keyframes; give {wanted}")

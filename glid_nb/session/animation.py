@@ -15,9 +15,7 @@ from glid_nb.certificate import certificate_of
 from glid_nb.certificate.rounding import rounded_down
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.imaging.order import Order
-from glid_nb.motion import Motion
-from glid_nb.motion.curve import Piece
-from glid_nb.motion.settings import MotionError, unlike_turns
+from glid_nb.motion import Motion, MotionError, Piece, unlike_turns
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import AS_SEEN, NamedPose, Solution
 from glid_nb.session.edit_state import EditError, EditState, Moment

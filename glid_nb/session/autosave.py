@@ -15,11 +15,9 @@ from glid_nb.session.document import Document
 from glid_nb.session.document_file import save_document
 from glid_nb.session.worker import LatestWins
 
-INTERVAL = 3.0
-"""Least number of seconds between two saves, by default."""
+INTERVAL = 3.0  # least number of seconds between two saves, by default
 
-MOST_KEPT = 5
-"""Most files of kept work."""
+MOST_KEPT = 5  # most files of kept work
 
 
 class OwnFiles:
@@ -45,10 +43,8 @@ class OwnFiles:
 
     def strangers(self, paths: Iterable[Path], owner: Path) -> tuple[Path, ...]:
         """Those of the files that exist and do not belong to ``owner``."""
-        owner, known = owner.resolve(), self._owners
-        return tuple(
-            p for p in paths if p.exists() and known.get(p.resolve()) != (owner, _version_of(p))
-        )
+        owner, there = owner.resolve(), [path for path in paths if path.exists()]
+        return tuple(p for p in there if self._owners.get(p.resolve()) != (owner, _version_of(p)))
 
 
 class Autosave:

@@ -115,7 +115,12 @@ class Document:
     """When the poses are shown in an animation; by default a second apart."""
 
     def __post_init__(self) -> None:
-        vars(self).update(image=_checked_image(self.image), poses=tuple(self.poses))
+        image = np.asarray(self.image)
+        if image.dtype != np.uint8 or image.ndim != 3 or image.shape[2] != 4 or not image.size:
+            wanted = "image must be a uint8 array of the shape (h, w, 4)"
+            raise DocumentError(f"{wanted}, not {image.dtype} {image.shape}")
+        image = read_only(image.copy()) if image.flags.writeable else image
+        vars(self).update(image=image, poses=tuple(self.poses))
         kinds = {"cage": Cage, "domain": Domain, "trace_options": TraceOptions}
         kinds |= {} if self.scribbles is None else {"scribbles": Scribbles}
         for key, kind in kinds.items():
@@ -150,11 +155,3 @@ def check_room(poses: Sized) -> None:
 def _check_kind(name: str, value: object, kind: type) -> None:
     if not isinstance(value, kind):
         raise DocumentError(f"{name} must be of the class {kind.__name__}, not {value!r:.60}")
-
-
-def _checked_image(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    array = np.asarray(image)
-    if array.dtype != np.uint8 or array.ndim != 3 or array.shape[2] != 4 or not array.size:
-        wanted = "image must be a uint8 array of the shape (h, w, 4)"
-        raise DocumentError(f"{wanted}, not {array.dtype} {array.shape}")
-    return read_only(array.copy()) if array.flags.writeable else array

@@ -1,25 +1,29 @@
 """Documents as files: a zip of JSON and PNG that reads back bit for bit."""
 
 import dataclasses
+import io
 import json
 import math
+import weakref
+import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
 
 from glid_nb import _json, methods
 from glid_nb._errors import InputFileError, about
-from glid_nb._files import write_bytes_atomically, zipped
+from glid_nb._files import in_words, write_bytes_atomically, zipped
 from glid_nb.certificate import certificate_of
 from glid_nb.energies import CustomEnergy, energy_by_name
 from glid_nb.geometry import Domain, as_points
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.harmonic.map import DOMAIN_KEYS, complex_from_pairs
 from glid_nb.imaging import Scribbles, TraceOptions
-from glid_nb.imaging.read import MAX_SIDE, png
-from glid_nb.session.archive import image_png, read_archive, read_png
+from glid_nb.imaging.read import MAX_SIDE, picture_format, png
 from glid_nb.session.document import Document, DocumentError, NamedPose, check_room
 from glid_nb.session.timeline import Timeline
 from glid_nb.solvers import Newton, Options, Pose
@@ -32,11 +36,9 @@ FORMAT_VERSION = 4
 _JSON, _IMAGE = "document.json", "image.png"
 _MASKS = {key: f"scribbles-{key}.png" for key in ("foreground", "background")}
 # Unpacked. A picture of MAX_SIDE squared has 256 MB of pixels; PNG adds a little to noise.
-_MOST_BYTES = {
-    _JSON: 64 << 20,
-    _IMAGE: 5 * MAX_SIDE**2,
-    **dict.fromkeys(_MASKS.values(), MAX_SIDE**2),
-}
+_MOST_BYTES = {_JSON: 64 << 20, _IMAGE: 5 * MAX_SIDE**2}
+_MOST_BYTES |= dict.fromkeys(_MASKS.values(), MAX_SIDE**2)
+_DIRECTORY_BYTES = 64 * 1024  # room for the zip directory of a few members
 _KEYS = {
     **_json.keys("format", "version", "image_size_px", "domain", "active"),
     "trace_options": _json.check_object,
@@ -52,6 +54,9 @@ _ADDED = {3: ("depths",), 4: ("angles", "scales", "weights", "names", "stiffness
 _MOST_ITERATIONS = 200  # was written where max_iterations is None, the method's own limit
 _MASK = "mask"  # written instead of strokes; the pixels are in another member
 _NEVER = "never"  # TraceOptions.max_edge == inf, which JSON cannot say
+
+# The PNG of the picture encoded last: an editor saves the same one again and again.
+_last: tuple[weakref.ref[NDArray[np.uint8]], bytes] | None = None
 
 
 def save_document(document: Document, path: str | Path) -> None:
@@ -79,7 +84,7 @@ def document_bytes(document: Document) -> bytes:
         **timeline,
     }
     text = json.dumps(data, allow_nan=False, default=np.generic.item).encode("utf-8")
-    pixels = {_IMAGE: image_png(document.image), **masks}
+    pixels = {_IMAGE: _image_png(document.image), **masks}
     return zipped({_JSON: text, **pixels}, stored=pixels)
 
 
@@ -89,7 +94,7 @@ def load_document(path: str | Path) -> Document:
     A DocumentError names the file and the culprit if it is no valid document.
     """
     with about(path, DocumentError):
-        members = read_archive(Path(path), _MOST_BYTES)
+        members = _read_archive(Path(path))
         for name in (_JSON, _IMAGE):
             if name not in members:
                 raise DocumentError(f"{name} is missing; this is no glid_nb document")
@@ -102,7 +107,7 @@ def load_document(path: str | Path) -> Document:
         size = _json.picture_size(data["image_size_px"], "image_size_px")
         if max(size) > MAX_SIDE:
             raise DocumentError(f"image_size_px is {size[0]} x {size[1]}; {MAX_SIDE} is the most")
-        image = np.asarray(read_png(members[_IMAGE], size, "RGBA", _IMAGE), dtype=np.uint8)
+        image = _read_png(members[_IMAGE], size, "RGBA", _IMAGE)
         scribbles = _scribbles_from_members(data.get("scribbles"), members, size)
         domain = _domain_from_dict(data["domain"])
         options = _trace_options_from_dict(data["trace_options"], scribbles)
@@ -112,6 +117,79 @@ def load_document(path: str | Path) -> Document:
         timeline = None if given is None else _from_fields(Timeline, given, "timeline")
         posed = tuple(poses), data["active"], timeline
         return Document(image, domain.cage, domain, options, scribbles, *posed)
+
+
+def _read_archive(path: Path) -> dict[str, bytes]:
+    """The members of the zip file, from an untrusted source: read in memory, sizes checked first.
+
+    InputFileError when it is damaged, or has a member that is unknown, repeated or encrypted.
+    """
+    most = sum(_MOST_BYTES.values()) + _DIRECTORY_BYTES
+    try:
+        size = path.stat().st_size
+        data = path.read_bytes() if size <= most else b""
+    except OSError as error:
+        raise in_words(error, path, "read") from None
+    if size > most:
+        raise InputFileError(f"the file has {size:,} bytes; {most:,} are allowed")
+    members: dict[str, bytes] = {}
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            for info in archive.infolist():
+                _check_member(info)
+                if info.filename in members:
+                    raise InputFileError(f"it holds {info.filename} twice")
+                members[info.filename] = archive.read(info)
+    except InputFileError:
+        raise
+    except Exception as error:  # zipfile raises nearly anything for headers that make no sense
+        if (kind := picture_format(data)) is not None:
+            what = f"it is a {kind} picture; open it as the picture instead of as a session"
+        elif zipfile.is_zipfile(io.BytesIO(data)):
+            what = f"it is no intact zip file: {error}"
+        else:
+            what = "it is no zip file, so no session that was saved, or only a part of one"
+        raise InputFileError(what) from None
+    return members
+
+
+def _check_member(info: zipfile.ZipInfo) -> None:
+    name, size = info.filename, info.file_size
+    if name not in _MOST_BYTES:
+        wanted = f"expected only {', '.join(_MOST_BYTES)}"
+        raise InputFileError(f"it holds {name!r:.80}, which does not belong there; {wanted}")
+    if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+        raise InputFileError(f"{name} is compressed by a method that sessions do not use")
+    # zipfile stops at this size whatever the compressed data hold.
+    if size > _MOST_BYTES[name]:
+        raise InputFileError(f"{name} unpacks to {size:,} bytes; {_MOST_BYTES[name]:,} are allowed")
+
+
+def _image_png(image: NDArray[np.uint8]) -> bytes:
+    """A read-only (h, w, 4) uint8 picture as PNG, pixel for pixel, hidden colours included."""
+    global _last
+    if _last is None or _last[0]() is not image:
+        _last = weakref.ref(image), png(image, compress_level=1)
+    return _last[1]
+
+
+def _read_png(data: bytes, size: tuple[int, int], mode: str, name: str) -> NDArray[Any]:
+    """The pixels of a PNG; InputFileError, before decoding, for another (width, height) or mode."""
+    if not data.startswith(b"\x89PNG\r\n\x1a\n"):
+        raise InputFileError(f"{name} is no PNG picture")
+    try:
+        with Image.open(io.BytesIO(data), formats=["PNG"]) as picture:
+            if picture.size != size or picture.mode != mode:
+                has = f"{name} has {picture.width} x {picture.height} pixels, mode {picture.mode}"
+                raise InputFileError(f"{has}; announced were {size[0]} x {size[1]}, mode {mode}")
+            # Pillow's own arrays of mode "1" hold the byte 255 for true.
+            pixels = np.array(picture.convert("L")) > 0 if mode == "1" else np.array(picture)
+    except InputFileError:
+        raise
+    except Exception as error:  # Pillow's decoder raises nearly anything for a damaged file
+        raise InputFileError(f"{name} is damaged: {error}") from None
+    pixels.setflags(write=False)
+    return pixels
 
 
 def _pose_to_dict(index: int, pose: NamedPose) -> dict[str, Any]:
@@ -197,9 +275,7 @@ def _from_fields(kind: type[T], data: Any, name: str) -> T:
         return kind(**data)
 
 
-def _scribbles_to_members(
-    scribbles: Scribbles | None,
-) -> tuple[dict[str, Any] | None, dict[str, bytes]]:
+def _scribbles_to_members(scribbles: Scribbles | None) -> tuple[Any, dict[str, bytes]]:
     if scribbles is None:
         return None, {}
     values = {key: getattr(scribbles, key) for key in _MASKS}
@@ -221,7 +297,7 @@ def _scribbles_from_members(
         if data[key] != _MASK:
             _json.check_loops(data[key], f"scribbles.{key}", each="stroke")
         elif member in members:
-            values[key] = read_png(members[member], size, "1", member)
+            values[key] = _read_png(members[member], size, "1", member)
         else:
             raise InputFileError(f"scribbles: {member} is missing")
     with about("scribbles"):

@@ -10,14 +10,7 @@ from typing import Any
 from glid_nb._arrays import Array
 from glid_nb.geometry import Domain
 from glid_nb.imaging.read import ImageSource
-from glid_nb.session.autosave import (
-    Autosave,
-    OwnFiles,
-    flush,
-    free_sibling,
-    kept_files,
-    new_kept_file,
-)
+from glid_nb.session import autosave
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import AS_SEEN, Document, DocumentError
 from glid_nb.session.document_file import load_document, save_document
@@ -51,14 +44,14 @@ class _Session:
 
 def open_document(path: str | Path) -> Document:
     """`load_document`, after saving what any editor of this process has pending for the file."""
-    flush(path)
+    autosave.flush(path)
     return load_document(path)
 
 
 def find_document(path: str | Path) -> Document | None:
     """`open_document`, or None if there is no file; DocumentError where there cannot be one."""
     _check_place(Path(path))
-    flush(path)
+    autosave.flush(path)
     return load_document(path) if Path(path).exists() else None
 
 
@@ -83,10 +76,10 @@ class EditorModel(Observed):
         if path is not None:
             _check_place(Path(path))
         super().__init__()
-        self._autosave: Autosave | None = None
+        self._autosave: autosave.Autosave | None = None
         self.save_error: Exception | None = None
         """Why the last save in the background failed; None when it did not."""
-        self.own_files = OwnFiles()  # the files that were saved, opened and exported
+        self.own_files = autosave.OwnFiles()  # the files that were saved, opened and exported
         self._session: _Session | None = None
         # Sessions of other pictures, which undo of the tracing may bring back.
         self._shelf: list[_Session] = []
@@ -108,13 +101,13 @@ class EditorModel(Observed):
             if path is not None:
                 self._save_to(Path(path))
             elif document is None and self.tracing.image is not None:
-                self.kept = next(iter(kept_files(self.tracing.image)), None)
+                self.kept = next(iter(autosave.kept_files(self.tracing.image)), None)
 
     @property
     def autosave_path(self) -> Path | None:
         """The session file that is saved to, if any."""
-        autosave = self._autosave if self._named_path is not None else None
-        return None if autosave is None else autosave.path
+        saving = self._autosave if self._named_path is not None else None
+        return None if saving is None else saving.path
 
     @property
     def left_path(self) -> Path | None:
@@ -206,9 +199,9 @@ class EditorModel(Observed):
 
     def save(self, path: str | Path) -> None:
         """Write the document to a file; if that fails, what was there before stays."""
-        autosave, path = self._autosave, Path(path)
-        if autosave is not None and autosave.path.resolve() == path.resolve():
-            autosave.write(self.document)
+        saving, path = self._autosave, Path(path)
+        if saving is not None and saving.path.resolve() == path.resolve():
+            saving.write(self.document)
             self._saved(None)
         else:
             save_document(self.document, path)
@@ -234,7 +227,7 @@ class EditorModel(Observed):
         with self.locked():
             if self._autosave is None and self.unsaved:
                 try:
-                    self._keep_in(new_kept_file(self.document.image))
+                    self._keep_in(autosave.new_kept_file(self.document.image))
                 except OSError as error:
                     self._saved(error)
             if self._autosave is not None and self.has_shape:
@@ -257,9 +250,9 @@ class EditorModel(Observed):
         """Save what is pending, with a warning if that fails, and end all threads."""
         with self.locked():
             self._observers.clear()
-            autosave, self._autosave = self._autosave, None
-        if autosave is not None:
-            autosave.close()
+            saving, self._autosave = self._autosave, None
+        if saving is not None:
+            saving.close()
             if self.save_error is not None:
                 text = f"the session was not saved: {self.save_error}"
                 warnings.warn(text, RuntimeWarning, stacklevel=2)
@@ -267,7 +260,7 @@ class EditorModel(Observed):
             self._session.deformation.close()
 
     def _keep_in(self, path: Path) -> None:
-        self._autosave = Autosave(path, on_done=self._saved, own=OwnFiles())
+        self._autosave = autosave.Autosave(path, on_done=self._saved, own=autosave.OwnFiles())
 
     def _end_keeping(self) -> Path | None:
         """Stop keeping work that is in no session file; where it was kept."""
@@ -290,7 +283,7 @@ class EditorModel(Observed):
             if self._named_path is not None and self._session is not None:
                 if self._autosave is not None:
                     self._autosave.flush()  # so that the next file gets another name
-                self._save_to(free_sibling(self._named_path))
+                self._save_to(autosave.free_sibling(self._named_path))
             self._replace(Deformation(domain, begin=False))
             return
         self._shelf.remove(session)
@@ -310,7 +303,7 @@ class EditorModel(Observed):
                 return
             old.close()
         self._named_path = self._named_path or path
-        self._autosave = Autosave(path, on_done=self._saved, own=self.own_files)
+        self._autosave = autosave.Autosave(path, on_done=self._saved, own=self.own_files)
 
     def _take(self, document: Document, name: str = "") -> None:
         self.tracing = TracingModel.from_document(document, name)

@@ -18,8 +18,7 @@ from glid_nb.solvers.discretisation import discretise
 
 FRAME_INTERVAL = 1 / 40
 """Least number of seconds between two frames of one solve; the last frame is always sent."""
-MOST_ITERATIONS = 200
-"""Most iterations of a gesture that are kept, the latest ones."""
+MOST_ITERATIONS = 200  # most iterations of a gesture that are kept, the latest ones
 # Panels are only ever split; with more than this multiple of the initial number, start afresh.
 _MOST_REFINED = 3.0
 # How far the preparation for a shape is when a stage of it begins.
@@ -53,10 +52,7 @@ class LiveSolver:
         self._published = -np.inf
 
     def solve(self, task: Task | None, worker: LatestWins[Task | None]) -> None:
-        """Run the task's method and publish its frames, to the end unless a newer task comes.
-
-        That interrupts it between two compiled calls, or iterations: so every task moves the shape.
-        """
+        """Run the task's method and publish its frames; a newer task ends it between two calls."""
         if task is None:
             return
         if self._chain != task.chain or self._last is None:

@@ -11,8 +11,7 @@ from typing import Any, Generic, TypeVar
 S = TypeVar("S")
 Observer = Callable[[str], None]
 
-MOST_STEPS = 500
-"""Most steps that undo goes back."""
+MOST_STEPS = 500  # most steps that undo goes back
 
 
 @dataclass(frozen=True, eq=False)

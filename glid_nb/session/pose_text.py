@@ -51,10 +51,7 @@ def mirror_pose(state: EditState) -> EditState:
 def _posed(
     state: EditState, pose: Pose, place: Callable[[Array], Array] = np.array, scale: float = 1.0
 ) -> EditState:
-    """The pose with all in other places, on the undeformed shape.
-
-    Handles beside the shape move inside; of several in one place the first is kept.
-    """
+    """The pose in other places; handles beside the shape move inside, of several one stays."""
     handles, targets = place(pose.handles), place(pose.targets)
     pose = replace(pose, stiffness=pose.stiffness.moved(place, scale))
     moved = _inside(state.domain.cage, handles)

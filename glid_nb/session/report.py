@@ -68,18 +68,6 @@ def build_report(result: Result) -> dict[str, Any]:
         "refinements": [_entry(one) for one in result.refinements],
         "options": dataclasses.asdict(options),
         "history": [{**dataclasses.asdict(one), "energy": one.energy} for one in result.history],
-        **_environment(),
-    }
-    text = json.dumps(report, default=lambda array: array.tolist())
-    return json.loads(text, parse_constant=lambda _: None)
-
-
-def _entry(one: Attempt | Refinement) -> dict[str, Any]:
-    return {**dataclasses.asdict(one), "status": one.status.value}
-
-
-def _environment() -> dict[str, Any]:
-    return {
         "versions": {
             "glid_nb": version("glid-nb"),
             "python": platform.python_version(),
@@ -92,3 +80,9 @@ def _environment() -> dict[str, Any]:
             "devices": [f"{one.platform}: {one.device_kind}" for one in jax.local_devices()],
         },
     }
+    text = json.dumps(report, default=lambda array: array.tolist())
+    return json.loads(text, parse_constant=lambda _: None)
+
+
+def _entry(one: Attempt | Refinement) -> dict[str, Any]:
+    return {**dataclasses.asdict(one), "status": one.status.value}

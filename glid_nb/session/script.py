@@ -11,7 +11,7 @@ from glid_nb.certificate import certificate_of
 from glid_nb.energies import CustomEnergy
 from glid_nb.geometry import Cage, Domain
 from glid_nb.imaging import TraceError, trace
-from glid_nb.motion.settings import unlike_turns
+from glid_nb.motion import unlike_turns
 from glid_nb.session.document import Document, DocumentError, NamedPose
 from glid_nb.solvers import Newton
 
@@ -65,7 +65,12 @@ def _map_lines(pose: NamedPose, exact: bool) -> list[str]:
     if exact:
         phi, psi = pose.map.phi.tolist(), pose.map.psi.tolist()
         return [*posed, f"map = glid.HarmonicMap(domain, {phi}, {psi})"]
-    return [*posed, *_solve_lines(pose)]
+    arguments = ["domain", "pose", _made(pose.energy)]
+    if options := _changed(pose.options, pose.method.options):
+        arguments.append(f"glid.Options({options})")
+    if not isinstance(pose.method, Newton):
+        arguments.append(f"method={_made(pose.method, 'glid.methods')}")
+    return [*posed, f"result = glid.solve({', '.join(arguments)})", "map = result.map"]
 
 
 def _motion_lines(document: Document) -> list[str]:
@@ -84,15 +89,6 @@ def _motion_lines(document: Document) -> list[str]:
 def _pose_lines(pose: NamedPose) -> list[str]:
     given = pose.pose.to_dict().items()
     return ["pose = glid.Pose(", *(f"    {key}={values}," for key, values in given), ")"]
-
-
-def _solve_lines(pose: NamedPose) -> list[str]:
-    arguments = ["domain", "pose", _made(pose.energy)]
-    if options := _changed(pose.options, pose.method.options):
-        arguments.append(f"glid.Options({options})")
-    if not isinstance(pose.method, Newton):
-        arguments.append(f"method={_made(pose.method, 'glid.methods')}")
-    return [f"result = glid.solve({', '.join(arguments)})", "map = result.map"]
 
 
 def _domain_lines(document: Document, picture: str) -> list[str]:

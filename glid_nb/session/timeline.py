@@ -10,18 +10,10 @@ import numpy as np
 
 from glid_nb._arrays import Array
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.motion import Motion
-from glid_nb.motion.settings import (
-    Easing,
-    MotionError,
-    Repeat,
-    checked,
-    checked_each,
-    checked_times,
-)
+from glid_nb.motion import Motion, MotionError, settings
+from glid_nb.motion.settings import Easing, Repeat, checked
 
-LATEST = 3600.0
-"""Seconds; no keyframe is moved beyond it."""
+LATEST = 3600.0  # seconds; no keyframe is moved beyond it
 
 LEAST_GAP = 1e-3
 """Seconds to a new keyframe from the others, which make room where there is none between."""
@@ -46,13 +38,13 @@ class Timeline:
     def __post_init__(self) -> None:
         if not self.times or not isinstance(self.times, list | tuple):
             raise MotionError("times must be a list of at least one number")
-        times = checked_times(self.times, len(self.times), False)
+        times = settings.checked_times(self.times, len(self.times), False)
         checked("the first of times", float, times[0], most=1e9)
-        easing = checked_each("easing", Easing, self.easing, len(times))
+        easing = settings.checked_each("easing", Easing, self.easing, len(times))
         checked("repeat", Repeat, self.repeat)
         back = checked("back", float, self.back, above=0, most=1e9)
         if self.repeat == "loop":
-            checked_times((*times, times[-1] + back), len(times) + 1, False)
+            settings.checked_times((*times, times[-1] + back), len(times) + 1, False)
         vars(self).update(times=times, easing=easing, back=back)
 
     @classmethod

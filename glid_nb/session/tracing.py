@@ -259,11 +259,8 @@ class TracingModel(Undoable[TracingState]):
 
     def move_vertex(self, loop: int, index: int, to: Point, gesture: Any = None) -> None:
         """Move a vertex of a loop that is shown."""
-
-        def moved(loops: AnyLoops) -> AnyLoops:
-            return loop_edits.move_vertex(loops, loop, index, self._world(to))
-
-        self._edit(moved, gesture)
+        at = self._world(to)
+        self._edit(lambda loops: loop_edits.move_vertex(loops, loop, index, at), gesture)
 
     def insert_vertex(self, at: Point) -> tuple[int, int]:
         """Add a vertex on the edge nearest to a point; returns its (loop, index)."""

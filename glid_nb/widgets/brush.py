@@ -14,7 +14,7 @@ from glid_nb.geometry import Cage
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditError, Moment
 from glid_nb.solvers.stiffness import Stiffness
-from glid_nb.widgets.controls import EditControls, button
+from glid_nb.widgets.controls import EditControls, button, toggle
 from glid_nb.widgets.gestures import LEFT, Event, PinGestures
 from glid_nb.widgets.pad import answer_during_cells
 
@@ -27,10 +27,8 @@ class Brush(traitlets.HasTraits):
     """What the left button paints with; nothing while it has no tool."""
 
     tool = traitlets.Enum(("", "stiff", "erase"), "")
-    radius = traitlets.Float()
-    """In world units."""
-    strength = traitlets.Float(1.0)
-    """How stiff, from 0 to 1."""
+    radius = traitlets.Float()  # in world units
+    strength = traitlets.Float(1.0)  # how stiff, from 0 to 1
 
     @property
     def shown(self) -> dict[str, float]:
@@ -93,14 +91,11 @@ class BrushBar(EditControls):
         most = _LARGEST_RADIUS * deformation.state.domain.cage.longer_side
         size = {"min": most / 50, "max": most, "step": most / 50, "readout": False}
         self.size = ipywidgets.FloatSlider(description="Size", **size, **look)
-        self.strength = ipywidgets.FloatSlider(
-            description="Strength", min=0.1, max=1.0, step=0.1, readout_format=".1f", **look
-        )
+        share = {"min": 0.1, "max": 1.0, "step": 0.1, "readout_format": ".1f"}
+        self.strength = ipywidgets.FloatSlider(description="Strength", **share, **look)
         ipywidgets.link((brush, "radius"), (self.size, "value"))
         ipywidgets.link((brush, "strength"), (self.strength, "value"))
-        self.erase = ipywidgets.ToggleButton(
-            icon="eraser", tooltip="Erase (E)", layout={"width": "auto"}
-        )
+        self.erase = toggle("", "eraser", "Erase (E)", {"width": "auto"})
         answer_during_cells(self.erase)  # in the pad's thread: before the stroke that follows
         chosen = lambda tool: tool == "erase", lambda on: "erase" if on else "stiff"
         ipywidgets.link((brush, "tool"), (self.erase, "value"), chosen)

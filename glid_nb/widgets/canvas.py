@@ -15,15 +15,13 @@ from glid_nb.certificate.certify import PanelCertificate
 from glid_nb.figures.style import BLUE, ORANGE
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import HarmonicMap
-from glid_nb.imaging.mesh import deformed_loops
-from glid_nb.imaging.order import Order
-from glid_nb.imaging.read import ImageSource, read_image
+from glid_nb.imaging import ImageSource, Order, deformed_loops, read_image
 from glid_nb.session.actions import turned_now
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.edit_state import EditState, Moment
 from glid_nb.widgets.brush import BrushGestures, painted_areas
 from glid_nb.widgets.closing import ClosingWidget
-from glid_nb.widgets.controls import button
+from glid_nb.widgets.controls import button, toggle
 from glid_nb.widgets.gestures import Event
 from glid_nb.widgets.layers import EvaluatedIn
 from glid_nb.widgets.overlays import OVERLAYS
@@ -233,11 +231,8 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             self.pane.stage.brush = self.brush.shown
             self.pane.stage.stiff = painted_areas(moment)
             if self.source is not None:
-                cage, offset_cage = drawing.cage, drawing.offset_cage
-                rest = Drawing(
-                    state.identity, images=pose.handles, cage=cage, offset_cage=offset_cage
-                )
-                self.source.show(rest)
+                cages: Any = {"cage": drawing.cage, "offset_cage": drawing.offset_cage}
+                self.source.show(Drawing(state.identity, images=pose.handles, **cages))
             if (what == "legend" or (what == "frame" and moment.solved)) and not moment.dragged:
                 self.pane.place_legend()
 
@@ -267,10 +262,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         return [[c, _boundary(poses[i].map)] for i, c in beside if 0 <= i < len(poses)]
 
     def _measure(self, moment: Moment) -> Range:
-        """Update panels, hidden pins and the colours' range, while the solver works at intervals.
-
-        During a drag the range only grows, so that colours stay comparable.
-        """
+        """Update panels, hidden pins and the colours' range, now and then; in a drag it grows."""
         (domain, then), now = self._measured, time.monotonic()
         state, frame, pose = moment.state, moment.frame, moment.state.pose
         moving = moment.busy or bool(moment.dragged)
@@ -350,15 +342,11 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
         self.toggles: dict[str, ipywidgets.ToggleButton] = {}
         ipywidgets.link((canvas, "overlay"), (self.overlay, "value"))
         for name, label, tooltip in _TOGGLES:
-            self.toggles[name] = toggle = ipywidgets.ToggleButton(
-                description=label, tooltip=tooltip, layout=fitting
-            )
-            ipywidgets.link((canvas, name), (toggle, "value"))
+            self.toggles[name] = toggle(label, "", tooltip, fitting)
+            ipywidgets.link((canvas, name), (self.toggles[name], "value"))
         buttons = self.undo, self.redo, self.reset, self.fit
         tip = "Paint what should stay as it is (B)"
-        self.stiff = ipywidgets.ToggleButton(
-            description="Stiff", icon="paint-brush", tooltip=tip, layout=fitting
-        )
+        self.stiff = toggle("Stiff", "paint-brush", tip, fitting)
         answer_during_cells(self.stiff)  # in the pad's thread: before the stroke that follows
         chosen = bool, lambda on: "stiff" if on else ""
         ipywidgets.link((canvas.brush, "tool"), (self.stiff, "value"), chosen)
@@ -376,8 +364,7 @@ class Toolbar(ClosingWidget, ipywidgets.HBox):
 
 
 def check_size(least: int, n_vertices: Any, **sides: Any) -> tuple[int, int]:
-    """Width and height of a canvas, usual ones for None; raises, as `check_count`, also for so
-    many vertices."""
+    """Width and height of a canvas, usual ones for None; these and vertices are checked."""
     if n_vertices is not None:
         check_count("n_vertices", n_vertices, 3, "vertices")
     width, height = (

@@ -43,10 +43,7 @@ class ClosingWidget(ipywidgets.Widget):
 
 
 def close_with_parts(*widgets: ipywidgets.Widget) -> None:
-    """Close widgets and all that they hold, which ipywidgets would keep: layouts, textures, ...
-
-    Parts must not be shared with a widget that stays open.
-    """
+    """Close widgets and all that only they hold, which ipywidgets would keep, such as layouts."""
     for widget in _with_parts(*widgets):
         widget.close()
 

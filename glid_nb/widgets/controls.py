@@ -11,8 +11,7 @@ from glid_nb._errors import InputError
 from glid_nb.session.deformation import Deformation
 from glid_nb.widgets.closing import ClosingWidget
 
-REFUSED = "color:#d55e00"
-"""The style of why something was refused."""
+REFUSED = "color:#d55e00"  # the style of why something was refused
 
 
 def paragraph(text: str, style: str = "") -> str:
@@ -29,6 +28,12 @@ def button(
     made = ipywidgets.Button(description=label, **look)
     made.on_click(lambda _: act())
     return made
+
+
+def toggle(label: str, icon: str, tooltip: str, layout: Any) -> ipywidgets.ToggleButton:
+    """A button that stays pressed."""
+    look: dict[str, Any] = {"icon": icon, "tooltip": tooltip, "layout": layout}
+    return ipywidgets.ToggleButton(description=label, **look)
 
 
 class EditControls(ClosingWidget, ipywidgets.VBox):

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
+from glid_nb import export
 from glid_nb._jax import once_loaded
 from glid_nb._runtime import enable_compilation_cache
 from glid_nb.certificate import Certificate
@@ -26,11 +27,11 @@ from glid_nb.session.edit_state import EditError
 from glid_nb.session.editor_model import EditorModel, find_document
 from glid_nb.session.status_line import StatusLine
 from glid_nb.solvers import Method, Pose
+from glid_nb.widgets import exporting
 from glid_nb.widgets.brush import BrushBar
 from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
 from glid_nb.widgets.closing import ClosingWidget, close_on_rerun, close_with_parts
 from glid_nb.widgets.controls import REFUSED, button, paragraph
-from glid_nb.widgets.exporting import export
 from glid_nb.widgets.file_panel import FilePanel, OpenPanel
 from glid_nb.widgets.monitor import SolverMonitor
 from glid_nb.widgets.pins import PinBar
@@ -52,8 +53,6 @@ _NOT_SAVED = (
     "The session could not be saved: {error}. The next change tries again; "
     "Save in the Files tab writes it elsewhere."
 )
-
-
 _KEPT = "Work on this picture was kept when an editor ended, last on {:%d %B at %H:%M}."
 
 
@@ -120,15 +119,10 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self._asked = {"width": width, "height": height, "n_vertices": n_vertices}
         once_loaded(enable_compilation_cache)
         document = None if path is None else find_document(path)
-        if (
-            document is not None
-            and image is not None
-            and not np.array_equal(read_image(image), document.image)
-        ):
-            raise ValueError(
-                f"{path} exists and is of another picture; leave the picture out to go on with "
-                "that session, or give another path"
-            )
+        known = None if document is None else document.image
+        if known is not None and image is not None and not np.array_equal(read_image(image), known):
+            what = f"{path} exists and is of another picture; leave the picture out to go on with"
+            raise ValueError(f"{what} that session, or give another path")
         self.model = EditorModel(image, document=document, path=path)
         """The editor without its widgets."""
         self.canvas: DeformCanvas | None = None
@@ -136,14 +130,12 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self._parts: dict[str, Any] = {}
         # These boxes stay: if the tabs' children changed, the page would select another tab.
         self._trace_box, self._deform_box = ipywidgets.VBox(), ipywidgets.VBox()
-        self.tabs = ipywidgets.Tab(
-            [self._trace_box, self._deform_box], titles=("Trace", "Deform"), selected_index=_DEFORM
-        )
+        boxes = [self._trace_box, self._deform_box]
+        self.tabs = ipywidgets.Tab(boxes, titles=("Trace", "Deform"), selected_index=_DEFORM)
         """The two tabs."""
         # No height: it covers the page and moves nothing.
-        self.unsaved = ipywidgets.HTML(
-            layout={"display": "none", "height": "0", "margin": "0", "overflow": "visible"}
-        )
+        covering = {"display": "none", "height": "0", "margin": "0", "overflow": "visible"}
+        self.unsaved = ipywidgets.HTML(layout=covering)
         """Why the session file is not up to date; hidden while it is."""
         self.kept = ipywidgets.HBox(layout={"display": "none", "align_items": "center"})
         """Offers what an earlier editor of the picture has kept; hidden without that."""
@@ -151,7 +143,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.add_class("glid-editor")
         self._build()
         self._offer()
-        self.model.observe(self._on_model)
+        show = {"replaced": self._build, "saved": self._show_saving}
+        self.model.observe(lambda what: show[what]())
         self.tabs.observe(self._on_tab, ["selected_index"])
         self._endings = (self._take_down, self.model.close)
         if close_on_rerun(self):
@@ -162,9 +155,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         if not self.model.has_shape:
             return "Editor(nothing traced yet)"
         state = self.deformation.state
-        return (
-            f"Editor({len(state.poses)} poses, {len(state.pose)} handles in {state.current.name!r})"
-        )
+        handles = f"{len(state.pose)} handles in {state.current.name!r}"
+        return f"Editor({len(state.poses)} poses, {handles})"
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
         """The widget, and the picture as it is now for pages where no kernel runs."""
@@ -178,10 +170,8 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def _snapshot(self, image: NDArray[np.uint8]) -> bytes:
         """The deformed picture with its pins; before there are any, the picture itself."""
         if self.model.has_shape and len(self.pose):
-            from glid_nb.export.picture import animation_bytes  # noqa: PLC0415 - as in `_contents`
-
             frame = {"size": max(self._size), "format": "apng"}
-            return animation_bytes(self.document.image, [self.map], [self.pose], **frame)
+            return export.animation_bytes(self.document.image, [self.map], [self.pose], **frame)
         picture = Image.fromarray(image)
         picture.thumbnail(self._size)
         return png(np.asarray(picture))
@@ -295,7 +285,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         ``.map.json`` with a proof (``glid-check x.map.json x.proof.json``). Raises ExportError for
         another suffix, or if a file that comes with ``path`` would replace another.
         """
-        return export(self.model, path, size, view)
+        return exporting.export(self.model, path, size, view)
 
     def save(self, path: str | Path) -> None:
         """Write a session file."""
@@ -306,9 +296,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.model.load(path)
 
     # The widgets
-
-    def _on_model(self, what: str) -> None:
-        self._build() if what == "replaced" else self._show_saving()
 
     def _offer(self) -> None:
         if (path := self.model.kept) is None:

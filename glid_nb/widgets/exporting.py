@@ -1,11 +1,15 @@
-"""Exports of an editor, chosen by the file's suffix."""
+"""Exports of an editor, chosen by the file's suffix; those of its motion in the background."""
 
 import contextlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import ipywidgets
+
+from glid_nb import export as to
+from glid_nb._errors import InputError
 from glid_nb._files import write_bytes_atomically, zipped
 from glid_nb._json import json_text
 from glid_nb._runtime import data_directory
@@ -13,9 +17,18 @@ from glid_nb.certificate.certify import proof_text
 from glid_nb.export.formats import FORMATS, ExportError, file_names, suffix_of
 from glid_nb.imaging.read import png
 from glid_nb.imaging.render import View
+from glid_nb.session.animation import Animation
 from glid_nb.session.document_file import document_bytes
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
+from glid_nb.session.worker import LatestWins, weakly
+from glid_nb.widgets.closing import ClosingWidget
+from glid_nb.widgets.controls import REFUSED, button
+
+_NUMBER = {"width": "70px", "flex": "0 0 auto"}
+
+# A name, and what takes the files and says where they are.
+_Task = tuple[str, Callable[[dict[str, bytes]], str]]
 
 
 class OccupiedError(ExportError):
@@ -66,8 +79,6 @@ def exported(
     model: EditorModel, path: Path, size: tuple[int, int] | None, view: View
 ) -> dict[str, bytes]:
     """The contents of `files_of` the path by their names; arguments are as in `Editor.export`."""
-    from glid_nb import export as to  # noqa: PLC0415 - the first canvas does not need it
-
     document, state = model.document, model.deformation.state
     image, map_, pose = document.image, state.map, state.pose
     names = [file.name for file in files_of(path)]
@@ -89,10 +100,8 @@ def exported(
             contents = [document_bytes(document)]
         case ".proof.json":
             depths = pose.to_dict() if pose.depths.any() else {}
-            contents = [
-                proof_text(model.deformation.certificate).encode(),
-                json_text({**map_.to_dict(), **depths}).encode(),
-            ]
+            proof = proof_text(model.deformation.certificate)
+            contents = [proof.encode(), json_text({**map_.to_dict(), **depths}).encode()]
         case _:
             contents = [python_code(document, names[1]).encode(), png(image)]
     return dict(zip(names, contents, strict=True))
@@ -142,3 +151,65 @@ def remember_export(choices: Mapping[str, Any]) -> None:
 
 def _last_export() -> Path:
     return data_directory() / "last-export.json"
+
+
+class MotionExport(ClosingWidget, ipywidgets.HBox):
+    """Size and rate of a moving picture, and how far it is drawn; ``say(text, style)`` tells."""
+
+    def __init__(
+        self, model: EditorModel, animation: Animation, say: Callable[[str, str], None]
+    ) -> None:
+        self._model, self._animation, self._say = model, animation, say
+        tip = "Pixels of the longer side"
+        self.size = ipywidgets.BoundedIntText(480, min=16, max=4096, tooltip=tip, layout=_NUMBER)
+        tip = "Frames per second"
+        self.rate = ipywidgets.BoundedFloatText(25, min=1, max=100, tooltip=tip, layout=_NUMBER)
+        self.progress = ipywidgets.IntProgress(layout={"width": "auto", "flex": "1 1 40px"})
+        """Frames that are drawn; hidden while nothing is."""
+        self._worker: LatestWins[_Task] = LatestWins(weakly(self._draw), self, "export")
+        self.cancel = button("Cancel", "stop", "Stop drawing", self._worker.cancel)
+        self._running = (self.progress, self.cancel)
+        self._show(False)
+        px, fps = (ipywidgets.Label(text, layout={"flex": "0 0 auto"}) for text in ("px", "fps"))
+        layout = {"flex": "1 1 auto", "min_width": "0"}
+        super().__init__([self.size, px, self.rate, fps, *self._running], layout=layout)
+        self._endings = (self._worker.close,)
+
+    def start(self, name: str, deliver: Callable[[dict[str, bytes]], str]) -> str:
+        """Draw a file of this name, then deliver what was made; says at once what is done."""
+        self._show(True)
+        self._worker.submit((name, deliver))
+        return f"Drawing {name}…"
+
+    def wait(self, timeout: float | None = None) -> bool:
+        """Wait until nothing is drawn; whether that is within ``timeout`` seconds."""
+        return self._worker.wait(timeout)
+
+    def _draw(self, task: _Task, worker: LatestWins[_Task]) -> None:
+        def report(done: int, total: int) -> bool:
+            self.progress.max, self.progress.value = total, done
+            return worker.overtaken
+
+        try:
+            motion, document = self._animation.motion, self._model.document
+            count = len(motion.times) - 1
+            if any(report(i, count) or not motion.interval(i) for i in range(count)):
+                return self._say("Stopped; nothing was written.", "")
+            if not motion.certificate.certified:
+                raise InputError(f"{motion.certificate.reason} Nothing uncertified is exported.")
+            name, deliver = task
+            poses = [pose.pose for pose in document.poses]
+            how: Any = {"size": self.size.value, "frames_per_second": self.rate.value}
+            how |= {"loop": motion.repeat != "once", "progress": report}
+            files = to.motion_files(name, document.image, motion, poses, **how)
+            stopped = worker.cancelled or not files
+            self._say("Stopped; nothing was written." if stopped else deliver(files), "")
+        except (OSError, ValueError) as error:  # refusals for the user; others are bugs
+            self._say(str(error), REFUSED)
+        finally:
+            self._show(False)
+
+    def _show(self, running: bool) -> None:
+        for part in self._running:
+            part.layout.display = None if running else "none"
+        self.progress.value = 0

@@ -18,18 +18,8 @@ from glid_nb.session.animation import Animation
 from glid_nb.session.document import DocumentError
 from glid_nb.session.editor_model import EditorModel
 from glid_nb.session.script import python_code
+from glid_nb.widgets import exporting
 from glid_nb.widgets.controls import REFUSED, button, paragraph
-from glid_nb.widgets.exporting import (
-    OccupiedError,
-    as_one,
-    check_free,
-    exported,
-    files_of,
-    last_export,
-    names_of,
-    remember_export,
-    write,
-)
 
 _SUFFIX = ".glid"
 _DOUBLE_CLICK = 0.5  # seconds
@@ -45,6 +35,8 @@ _UNSAVED = (
     "under another name first."
 )
 
+_Action = Callable[[bool], str]  # what a button does, if it is sure; says what was done
+
 
 class _UnsavedError(InputError):
     """Opening a session would discard what is in no file."""
@@ -59,10 +51,8 @@ def session_path(text: str) -> Path:
     if not path.suffix:
         return path.with_suffix(_SUFFIX)
     if path.suffix.lower() != _SUFFIX:
-        raise DocumentError(
-            f"{path.name} cannot be a session file: its name must end in {_SUFFIX}, as in "
-            f"{path.stem}{_SUFFIX}"
-        )
+        ending = f"its name must end in {_SUFFIX}, as in {path.stem}{_SUFFIX}"
+        raise DocumentError(f"{path.name} cannot be a session file: {ending}")
     return path
 
 
@@ -126,10 +116,8 @@ class FilePanel(ipywidgets.VBox):
     """Sessions to open and save, and exports; files of others are replaced by a second click."""
 
     def __init__(self, model: EditorModel, animation: Animation | None = None) -> None:
-        from glid_nb.widgets.motion_export import MotionExport  # noqa: PLC0415 - as in `exporting`
-
-        self.model = model
-        self.motion = None if animation is None else MotionExport(model, animation, self._say)
+        self.model, export = model, exporting.MotionExport
+        self.motion = None if animation is None else export(model, animation, self._say)
         """Draws the motion; None without one."""
         session = model.own_files.session or Path(f"{model.name}{_SUFFIX}")
         self.path = ipywidgets.Text(str(session), placeholder="Name.glid", layout=_WIDE)
@@ -142,13 +130,9 @@ class FilePanel(ipywidgets.VBox):
         self.format = ipywidgets.Dropdown(options=formats, tooltip="What to export", layout=_WIDE)
         height, width = model.document.image.shape[:2]
         self._aspect = height / width
-        self.width = ipywidgets.BoundedIntText(
-            width,
-            min=1,
-            max=MAX_SIDE * width // max(width, height),
-            tooltip="Width of the picture in pixels",
-            layout={"width": "76px", "flex": "0 0 auto"},
-        )
+        most, tooltip = MAX_SIDE * width // max(width, height), "Width of the picture in pixels"
+        look: Any = {"tooltip": tooltip, "layout": {"width": "76px", "flex": "0 0 auto"}}
+        self.width = ipywidgets.BoundedIntText(width, min=1, max=most, **look)
         """Width of an exported picture in pixels, at first the original's."""
         self._height = ipywidgets.Label(layout={"flex": "0 0 auto"})
         tooltip = "What the picture shows"
@@ -185,7 +169,7 @@ class FilePanel(ipywidgets.VBox):
         self._remembered: dict[str, Any] = {"format": self.format, "view": self.view}
         if self.motion is not None:
             self._remembered |= {"size": self.motion.size, "rate": self.motion.rate}
-        for name, value in last_export().items():
+        for name, value in exporting.last_export().items():
             with contextlib.suppress(KeyError, traitlets.TraitError):  # no choice here, or no more
                 self._remembered[name].value = value
 
@@ -202,12 +186,7 @@ class FilePanel(ipywidgets.VBox):
         self.code_button = made("Copy as Python", "code", tooltip, self._copy)
 
     def _button(
-        self,
-        label: str,
-        icon: str,
-        tooltip: str,
-        action: Callable[[bool], str],
-        question: str = "Replace?",
+        self, label: str, icon: str, tooltip: str, action: _Action, question: str = "Replace?"
     ) -> ipywidgets.Button:
         """A button whose ``action(sure)`` returns what was done; a second click makes it sure."""
 
@@ -218,7 +197,7 @@ class FilePanel(ipywidgets.VBox):
             self._show()
             try:
                 self._say(action(sure))
-            except (OccupiedError, _UnsavedError) as error:
+            except (exporting.OccupiedError, _UnsavedError) as error:
                 self._asked = made, time.monotonic()
                 made.description, made.button_style = question, "warning"
                 self._say(error.plain, REFUSED)
@@ -242,7 +221,7 @@ class FilePanel(ipywidgets.VBox):
     def _save(self, sure: bool) -> str:
         path = session_path(self.path.value)
         if not sure:
-            check_free(self.model, [path], path)
+            exporting.check_free(self.model, [path], path)
         self.model.save(path)
         self.path.value = str(path)
         return f"Saved {path.absolute()}"
@@ -270,11 +249,11 @@ class FilePanel(ipywidgets.VBox):
         path, moving = self._chosen
         if not sure:
             names = file_names(path.name, MOTION_FORMATS if moving else FORMATS)
-            check_free(self.model, tuple(map(path.with_name, names)), path)
+            exporting.check_free(self.model, tuple(map(path.with_name, names)), path)
 
         def deliver(files: Mapping[str, bytes]) -> str:
-            written = write(self.model, path, files, replace=True)
-            return f"Wrote {names_of(written)} to {written[0].parent.absolute()}"
+            written = exporting.write(self.model, path, files, replace=True)
+            return f"Wrote {exporting.names_of(written)} to {written[0].parent.absolute()}"
 
         return self._made(deliver)
 
@@ -283,7 +262,7 @@ class FilePanel(ipywidgets.VBox):
         stem = path.stem if moving else path.name.removesuffix(str(self.format.value))
 
         def deliver(files: Mapping[str, bytes]) -> str:
-            name, data = as_one(files, stem)
+            name, data = exporting.as_one(files, stem)
             self.clipboard.download(name, data)
             return f"Sent {name} to the browser's downloads"
 
@@ -291,21 +270,21 @@ class FilePanel(ipywidgets.VBox):
 
     def _made(self, deliver: Callable[[Mapping[str, bytes]], str]) -> str:
         """Make the files that are chosen, those of a motion in the background, and deliver them."""
-        remember_export({name: control.value for name, control in self._remembered.items()})
+        exporting.remember_export({name: one.value for name, one in self._remembered.items()})
         path, moving = self._chosen
         if moving and self.motion is not None:
             return self.motion.start(path.name, deliver)
         view: Any = self.view.value
-        return deliver(exported(self.model, path, self.size, view))
+        return deliver(exporting.exported(self.model, path, self.size, view))
 
     def _copy(self, sure: bool) -> str:
         script = session_path(self.path.value).with_suffix(".py")
-        picture = files_of(script)[1]
+        picture = exporting.files_of(script)[1]
         lines = python_code(self.model.document, str(picture))
         needed = ""
         if "glid.read_image" in lines:  # not where the cage was edited by hand
             source = {picture.name: png(self.model.document.image)}
-            write(self.model, script, source, replace=sure)
+            exporting.write(self.model, script, source, replace=sure)
             needed = f" They read {picture}, which was written for them."
         self.code.value = lines
         self.code.layout.display = "flex"

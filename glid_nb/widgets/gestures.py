@@ -18,8 +18,7 @@ from glid_nb.session.pose_text import pose_text
 Event = Mapping[str, Any]
 Action = Callable[[Event], Any]
 
-OF_A_HAND = ("down", "move", "up", "cancel", "key")
-"""The types of events of pointers and keys."""
+OF_A_HAND = ("down", "move", "up", "cancel", "key")  # the types of events of pointers and keys
 LEFT, RIGHT = 0, 2
 _SLOP, _SLOP_ON_SHAPE = 2.0, 5.0  # pixels that a pressed pointer may move without dragging
 _NUDGE, _NUDGE_SHIFT = 0.1, 0.5  # world units
@@ -75,10 +74,7 @@ class _PinPress:
 
 
 class PinGestures(Gestures):
-    """Pins points of a deformation and drags them; ``fit()`` makes everything visible.
-
-    Where the picture (h, w, 4) is transparent, what lies below is pinned.
-    """
+    """Pins and drags points, below transparent parts of the picture; ``fit()`` shows everything."""
 
     def __init__(
         self, deformation: Deformation, fit: Callable[[], None], image: Array | None = None
@@ -93,17 +89,14 @@ class PinGestures(Gestures):
         self.cursor: list[float] | None = None  # where the keyboard's cursor is
 
     def hit(self, point: Array, reach: float) -> int | None:
-        """The handle whose target, or else whose image, is nearest within reach.
-
-        A hidden one counts as farther away by a third of the reach, as in ``js/canvas/marks.js``.
-        """
+        """The handle whose target, else whose image, is nearest, as in ``js/canvas/marks.js``."""
         pose = self.deformation.pose
         if not len(pose):
             return None
         hidden = self.deformation.sheets(self._image).hidden(pose.handles)
         for places in (pose.targets, self.deformation.moment.shown(pose.handles)):
             gap = np.linalg.norm(places - point, axis=1)
-            seen = np.where(gap <= reach, gap + hidden * reach / 3, np.inf)
+            seen = np.where(gap <= reach, gap + hidden * reach / 3, np.inf)  # hidden: farther
             nearest = int(np.argmin(seen))
             if seen[nearest] < np.inf:
                 return nearest

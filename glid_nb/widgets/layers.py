@@ -56,11 +56,10 @@ class Layer:
         else:
             arrays["image"], arrays["derivatives"] = mover(map)
             head = glsl("image_buffer.glsl")
-        self.attributes = {
+        self.attributes = {  # what there is per vertex, by name, and the triangles
             name: three.BufferAttribute(values, normalized=values.dtype == np.uint8)
             for name, values in arrays.items()
         }
-        """What there is per vertex, by name, and the triangles."""
         self.n_vertices = len(points)
         self._map = map
         self._vertex = head + glsl(f"{shader}.vert")
@@ -163,12 +162,7 @@ def picture_texture(image: NDArray[np.uint8]) -> Any:
     picture = Image.fromarray(image).convert("RGBa").resize((width, height))  # bicubic
     # A DataTexture begins at the bottom.
     pixels = np.frombuffer(picture.tobytes(), dtype=np.uint8).reshape(height, width, 4)
-    return three.DataTexture(
-        data=np.ascontiguousarray(pixels[::-1]),
-        format="RGBAFormat",
-        type="UnsignedByteType",
-        minFilter="LinearMipMapLinearFilter",
-        magFilter="LinearFilter",
-        generateMipmaps=True,
-        anisotropy=4,
-    )
+    data = np.ascontiguousarray(pixels[::-1])
+    kind = {"format": "RGBAFormat", "type": "UnsignedByteType"}
+    filters = {"minFilter": "LinearMipMapLinearFilter", "magFilter": "LinearFilter"}
+    return three.DataTexture(data=data, **kind, **filters, generateMipmaps=True, anisotropy=4)

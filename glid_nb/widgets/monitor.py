@@ -25,7 +25,7 @@ _INTERVAL = 0.1  # least number of seconds between two drawings of the plots
 _COLORS = (GREY, BLUE, GREEN, ORANGE, VERMILION)
 _TONES = dict(zip(("idle", "working", "good", "blocked", "error"), _COLORS, strict=True))
 _RATE_WINDOW = 1.0  # seconds over which frames are counted
-PLOTS = {
+PLOTS = {  # by a plot's name what it shows, and where in the paper that is
     "Energy": (
         "How far the shape is from undeformed, on a logarithmic axis: the energy's mean along the "
         "boundary above its least value, 2 for the symmetric Dirichlet energy (blue, Section 6), "
@@ -47,7 +47,6 @@ PLOTS = {
         "nowhere, also inside (Theorem 4.2). Section 8 has such bounds; ours are sharper."
     ),
 }
-"""By a plot's name what it shows, and where in the paper that is."""
 
 # CSS pixels. A plot's legend is above it; ticks and the axis's name are below.
 _LEFT, _RIGHT, _ABOVE, _BELOW = 50, 8, 31, 32
@@ -93,18 +92,15 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         """The model that this is a view of."""
         self.line = ipywidgets.HTML()
         """The status line."""
-        self.image = ipywidgets.Image(
-            value=_placeholder(width, height), format="svg+xml", width=width, height=height
-        )
+        empty, size = _placeholder(width, height), {"width": width, "height": height}
+        self.image = ipywidgets.Image(value=empty, format="svg+xml", **size)
         """The plots; empty axes until the solver has begun."""
         self.plots = ipywidgets.VBox([_guide(width, height), self.image])
         """The plots and what explains them."""
         self._size, self._with_plots = (width, height), plots
         self._plots: LivePlots | None = None
         self._frames: deque[float] = deque()
-        self._worker: LatestWins[None] = LatestWins(
-            weakly(self._update), self, "monitor", interval=_INTERVAL
-        )
+        self._worker = LatestWins[None](weakly(self._update), self, "monitor", interval=_INTERVAL)
         self._drawn: Any = None
         super().__init__([self.line, self.plots] if plots else [self.line], **kwargs)
         self.add_class("glid-monitor")

@@ -19,20 +19,17 @@ MARGIN_COLORS = (
 )
 """The certificate's, from a wide margin to none."""
 
-N_COLORS = len(COLORS)
-"""Stops of the colour map in the shader."""
+N_COLORS = len(COLORS)  # stops of the colour map in the shader
 
-FULL_MARGIN = 0.5
-"""Panels with at least this certified sigma_2 have the best colour."""
+FULL_MARGIN = 0.5  # panels with at least this certified sigma_2 have the best colour
 
-PANEL_LEGEND = {
+PANEL_LEGEND = {  # the colour bar of the boundary's panels, for the page
     "title": "Certified σ₂ on the boundary",
     "moving": "σ₂ on the boundary now",
     "colors": list(MARGIN_COLORS),
     "ticks": [f"≥ {FULL_MARGIN:g}", f"{FULL_MARGIN / 2:g}", "0"],
     "about": "What is proved on each panel of the boundary: where it is 0 the map might fold",
 }
-"""The colour bar of the boundary's panels, for the page."""
 
 _MOST_DIGITS = 22  # of all labels of a colour bar together
 

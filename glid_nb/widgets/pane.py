@@ -36,8 +36,7 @@ class Stage(Pad):
 
     width = traitlets.Int(600).tag(sync=True)
     """Width in CSS pixels; the page changes it when the corner is dragged."""
-    height = traitlets.Int(500).tag(sync=True)
-    """Height in CSS pixels."""
+    height = traitlets.Int(500).tag(sync=True)  # height in CSS pixels
     room = traitlets.List(traitlets.Int(), []).tag(sync=True)
     """Width and height that the editor around it has for the canvas, in CSS pixels, and 1 where it
     shows nothing else; empty without an editor."""
@@ -62,24 +61,20 @@ class Stage(Pad):
     """The overlay's colour bar: ``title``, ``colors`` and ``ticks``; empty for none."""
     panel_legend = traitlets.Dict({}).tag(sync=True)
     """The certificate's colour bar, below the overlay's."""
-    legend_corner = traitlets.Enum(CORNERS, CORNERS[0]).tag(sync=True)
-    """Where the colour bars are."""
+    legend_corner = traitlets.Enum(CORNERS, CORNERS[0]).tag(sync=True)  # where the colour bars are
     notice = traitlets.Unicode("").tag(sync=True)
     """Why the last action was refused; empty for nothing."""
     prepared = traitlets.Float(1.0).tag(sync=True)
     """How much is done, from 0 to 1, of what the first solve of a shape needs."""
-    interactive = traitlets.Bool(True).tag(sync=True)
-    """Whether the pad takes pointers and keys."""
+    interactive = traitlets.Bool(True).tag(sync=True)  # whether the pad takes pointers and keys
     uniform_vectors = traitlets.Int(0).tag(sync=True)
     """How many vectors of uniforms the page's shaders hold; 0 while unknown."""
     drawing_time = traitlets.Float(0.0).tag(sync=True)
     """Milliseconds that the page needs to draw the renderer once; 0 while unknown."""
-    drawn = traitlets.Bool(False).tag(sync=True)
-    """Whether a page has drawn it."""
+    drawn = traitlets.Bool(False).tag(sync=True)  # whether a page has drawn it
     renderer = traitlets.Instance(ipywidgets.Widget).tag(sync=True, **_REFERENCE)
     """The pythreejs renderer below."""
-    camera = traitlets.Instance(ipywidgets.Widget).tag(sync=True, **_REFERENCE)
-    """Its camera."""
+    camera = traitlets.Instance(ipywidgets.Widget).tag(sync=True, **_REFERENCE)  # its camera
     materials = traitlets.List([]).tag(sync=True, **_REFERENCE)
     """The materials that take the coefficients."""
 
@@ -132,9 +127,8 @@ class Pane(ClosingWidget, ipywidgets.GridBox):
         """Evaluate in the kernel, or coarsen the mesh, where the page says that it is too weak."""
         stage, scene = self.stage, self.scene
         vectors, time = stage.uniform_vectors, stage.drawing_time
-        overflows = (
-            vectors != 0 and scene.evaluated_in == "shader" and not scene.shader_map.fits(vectors)
-        )
+        in_shader = scene.evaluated_in == "shader"
+        overflows = vectors != 0 and in_shader and not scene.shader_map.fits(vectors)
         affordable = int(self._n_vertices * _DRAWING_TIME / time) if time else self._n_vertices
         wanted = max(affordable, self._fewest_vertices)
         if overflows or wanted < self._n_vertices:

@@ -35,44 +35,30 @@ class PinBar(EditControls):
     def _add_fields(self) -> None:
         style = {"description_width": "initial"}
         look: dict[str, Any] = {"layout": ipywidgets.Layout(width="84px"), "style": style}
-        self.list = ipywidgets.Dropdown(
-            options=[("No pin", -1)], tooltip="The selected pin", layout={"width": "100px"}
-        )
-        self.name = ipywidgets.Text(
-            placeholder="name",
-            tooltip="The selected pin's name",
-            continuous_update=False,
-            layout={"width": "96px"},
-        )
+        late: dict[str, Any] = {"style": style, "continuous_update": False}
+        shown: Any = {"tooltip": "The selected pin", "layout": {"width": "100px"}}
+        self.list = ipywidgets.Dropdown(options=[("No pin", -1)], **shown)
+        shown = {"tooltip": "The selected pin's name", "layout": {"width": "96px"}}
+        self.name = ipywidgets.Text(placeholder="name", **shown, **late)
         self.x = ipywidgets.FloatText(description="x", step=0.1, tooltip="Target", **look)
         self.y = ipywidgets.FloatText(description="y", step=0.1, tooltip="Target", **look)
         self.angle, self.scale = (
             ipywidgets.Text(
                 description=name,
                 placeholder="free",
-                continuous_update=False,
                 tooltip=f"{what} at the pin; empty: free ({keys})",
                 layout={"width": "124px"},
-                style=style,
+                **late,
             )
             for name, what, keys in (
                 ("Angle °", "By how much the shape is turned", "< and >, X"),
                 ("Scale", "By how much the shape is scaled", "+ and -, X"),
             )
         )
-        self.weight = ipywidgets.FloatLogSlider(
-            description="Weight",
-            tooltip="How firmly the pin is held: soft to the left, firm to the right",
-            base=10,
-            min=-6,
-            max=2,
-            step=0.25,
-            value=1,
-            readout_format=".2g",
-            continuous_update=False,
-            layout={"width": "196px"},
-            style=style,
-        )
+        tooltip = "How firmly the pin is held: soft to the left, firm to the right"
+        scale: Any = {"min": -6, "max": 2, "step": 0.25, "value": 1, "readout_format": ".2g"}
+        scale |= {"tooltip": tooltip, "layout": {"width": "196px"}}
+        self.weight = ipywidgets.FloatLogSlider(description="Weight", base=10, **scale, **late)
         tooltip = "Where parts overlap, those near pins of greater depth are in front"
         self.depth = ipywidgets.BoundedFloatText(
             description="Depth", tooltip=tooltip, min=-DEEPEST, max=DEEPEST, **look

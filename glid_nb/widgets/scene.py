@@ -13,16 +13,14 @@ from glid_nb.energies import ENERGIES, Energy, SymmetricDirichlet
 from glid_nb.figures.style import BLUE, COLORS, GREY, rgb
 from glid_nb.geometry import MeshMap, Triangulation, triangulate, uniform_panels
 from glid_nb.harmonic import FixedPoints, HarmonicMap, ShaderMap
-from glid_nb.imaging import PixelFrame
-from glid_nb.imaging.order import Order, order_of
+from glid_nb.imaging import Order, PixelFrame, order_of
 from glid_nb.widgets.layers import EvaluatedIn, Layer, Uniforms, comparison_layer, picture_texture
 from glid_nb.widgets.overlays import FULL_MARGIN, MARGIN_COLORS, OVERLAYS, color_range
 from glid_nb.widgets.ribbons import PANEL_VERTICES, cage_ribbon, offset_ribbon, panel_ribbon
 
 Range = Literal["keep", "widen", "fit"]
 
-N_VERTICES = 10_000
-"""Vertices of the picture's mesh, by default."""
+N_VERTICES = 10_000  # vertices of the picture's mesh, by default
 
 UNIFORM_VECTORS = 1024
 """Vectors of uniforms that a vertex shader is assumed to hold until the page says otherwise."""
@@ -264,10 +262,7 @@ def _scaled(orders: Sequence[Order], mesh: Triangulation) -> Array:
 
 
 def drawing_order(mesh: Triangulation) -> Array:
-    """The triangles row by row within narrow columns: each vertex is shaded little more than once.
-
-    A vertex costs the shader a sum over the cage, and only the last few results are cached.
-    """
+    """The triangles row by row within narrow columns, as only the last few vertices are cached."""
     rows = np.unique(np.round(mesh.vertices[mesh.n_boundary :, 1], 9))
     if len(rows) < 2:
         return mesh.triangles
@@ -278,13 +273,7 @@ def drawing_order(mesh: Triangulation) -> Array:
 
 def renderer(scene: Scene) -> Any:
     """A pythreejs renderer of a scene; the page sets its camera's frame."""
-    return three.Renderer(
-        camera=three.OrthographicCamera(-10, 10, 10, -10, 0, 10, position=[0, 0, 5]),
-        scene=three.Scene(children=scene.meshes, background=None),
-        controls=[],
-        antialias=True,
-        alpha=True,
-        background_opacity=0,
-        clearOpacity=0,
-        sortObject=False,
-    )
+    camera = three.OrthographicCamera(-10, 10, 10, -10, 0, 10, position=[0, 0, 5])
+    drawn = three.Scene(children=scene.meshes, background=None)
+    look = {"antialias": True, "alpha": True, "background_opacity": 0, "clearOpacity": 0}
+    return three.Renderer(camera=camera, scene=drawn, controls=[], sortObject=False, **look)

@@ -11,7 +11,7 @@ from glid_nb.energies import ENERGIES, CustomEnergy, Energy, energy_by_name
 from glid_nb.methods import METHODS
 from glid_nb.session.deformation import Deformation
 from glid_nb.solvers import Iteration, Method, Options
-from glid_nb.widgets.controls import EditControls, button, paragraph
+from glid_nb.widgets.controls import EditControls, button, paragraph, toggle
 
 _WORKS_ON = {"harmonic": "", "mesh": " · mesh", "linear": " · linear"}
 _UNCERTIFIED = (
@@ -100,19 +100,15 @@ class SolverPanel(EditControls):
             _option_controls(deformation.state.current.options),
         )
         """The options, by their names."""
-        self.pause = ipywidgets.ToggleButton(
-            description="Pause", icon="pause", tooltip="Let the solver wait", layout=_FULL
-        )
+        self.pause = toggle("Pause", "pause", "Let the solver wait", _FULL)
         self._bind(self.pause, lambda paused: setattr(model, "paused", paused))
         self.step = button("Step", "step-forward", "One frame's iterations", model.step)
         self.reset = button("Reset", "refresh", "The undeformed shape (0)", model.reset)
-        free = model.clear_handles
-        self.clear = button("Clear pins", "eraser", "Remove all pins", free)
+        self.clear = button("Clear pins", "eraser", "Remove all pins", model.clear_handles)
         self.steps = ipywidgets.HTML(layout={"height": "96px", "overflow": "hidden auto"})
         """What single steps did, the last one first; hidden while the solver is not paused."""
-        buttons = ipywidgets.HBox(
-            [self.pause, self.step, self.reset, self.clear], layout={"flex_flow": "row wrap"}
-        )
+        shown = [self.pause, self.step, self.reset, self.clear]
+        buttons = ipywidgets.HBox(shown, layout={"flex_flow": "row wrap"})
         parts = [method, self.about, self.settings, energy, self.options, buttons, self.steps]
         super().__init__(deformation, parts, **kwargs)
         self.add_class("glid-solver-panel")

@@ -64,9 +64,8 @@ class TimelinePanel(Pad):
         self._latest: dict[str, tuple[str, str]] = {}  # by the poses' names
         self._texture: Texture | None = None
         self._stacked: tuple[Any, ...] = ()
-        self._worker: LatestWins[tuple[NamedPose, ...]] = LatestWins(
-            weakly(self._draw_thumbnails), self, "thumbnails"
-        )
+        draw = weakly(self._draw_thumbnails)
+        self._worker = LatestWins[tuple[NamedPose, ...]](draw, self, "thumbnails")
         super().__init__(stage=canvas.pane.stage.model_id, **kwargs)
         model = canvas.deformation
         actions = {

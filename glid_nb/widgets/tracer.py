@@ -14,8 +14,7 @@ from PIL import Image
 
 from glid_nb._scripts import bundle, stylesheet
 from glid_nb.geometry import Cage, Domain
-from glid_nb.imaging import Hole, TraceOptions, Tracing
-from glid_nb.imaging.read import ImageSource, png
+from glid_nb.imaging import Hole, ImageSource, TraceOptions, Tracing, png
 from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets.gestures import Event
 from glid_nb.widgets.pad import Pad

@@ -12,8 +12,7 @@ from glid_nb.session import loop_edits
 from glid_nb.session.tracing import TracingModel
 from glid_nb.widgets.gestures import ARROWS, LEFT, OF_A_HAND, RIGHT, Event, Gestures, asked, place
 
-Vertex = tuple[int, int]
-"""Which loop, and which of its vertices."""
+Vertex = tuple[int, int]  # which loop, and which of its vertices
 
 _CLICK = 4.0  # CSS pixels that a click may move
 _DOUBLE, _DOUBLE_SLACK = 380.0, 12.0  # ms between two clicks, CSS pixels
@@ -57,9 +56,7 @@ class TraceGestures(Gestures):
         actions = {kind: getattr(self, f"_{kind}") for kind in own}
         actions |= {kind: asked(getattr(model, kind)) for kind in plain}
         actions["toggle_hole"] = asked(model.toggle_hole, "number")
-        actions["set_options"] = lambda event: model.set_options(
-            event.get("gesture"), **event["changes"]
-        )
+        actions["set_options"] = lambda e: model.set_options(e.get("gesture"), **e["changes"])
         super().__init__(model, actions)
         self.model = model
         self.tool = "edit"
@@ -256,9 +253,7 @@ class TraceGestures(Gestures):
         if (name, start) != (known, len(data)):
             raise TraceError(f"{name}: the upload was interrupted; try again")
         if size > _LARGEST_UPLOAD:
-            raise TraceError(
-                f"{name} has {size:,} bytes; at most {_LARGEST_UPLOAD:,} can be uploaded"
-            )
+            raise TraceError(f"{name} has {size:,} bytes; {_LARGEST_UPLOAD:,} can be uploaded")
         data += bytes(event["data"])
         if len(data) >= size:
             self._incoming = "", bytearray()
