@@ -24,7 +24,6 @@ on the boundary hold on the whole domain (Chen and Weber 2017, Theorem 4.2).
 A motion has such maps at times, its knots; on each piece between two knots phi and psi move on
 straight lines. For a unit vector u, ``Re(conj(u) f_z) - |f_zbar|`` is concave in time, so what is
 below it at two times is so between; ``sigma_1`` is convex. The turns of ``f_z`` do not change.
-
 On panels of the boundary, and pieces of them and of time as small as it takes, Taylor polynomials
 with balls as coefficients prove the bounds, and that ``f_z`` keeps to a half plane.
 
@@ -38,6 +37,7 @@ import itertools
 import json
 import math
 import operator
+import signal
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
@@ -152,8 +152,7 @@ class Edge(NamedTuple):
 
     def at(self, t: fmpq) -> acb:
         """The exact point at a dyadic position from 0 to 1."""
-        ends = zip(map(exact, self.start), map(exact, self.end), strict=True)
-        xy = ((a + (b - a) * t) for a, b in ends)
+        xy = (exact(a) + (exact(b) - exact(a)) * t for a, b in zip(*self[:2], strict=True))
         return acb(*(arb((x.p, 1 - x.q.bit_length())) for x in xy))
 
 
@@ -178,10 +177,9 @@ def meet(e: Edge, f: Edge) -> bool:
         e, f = (e, f) if e.next == f.index else (f, e)
         return on_segment(e.start, f.start, f.end) or on_segment(f.end, e.start, e.end)
     ends = ((e.start, *f[:2]), (e.end, *f[:2]), (f.start, *e[:2]), (f.end, *e[:2]))
-    if any(on_segment(*end) for end in ends):
-        return True
     sides = [turn(a, b, p) > 0 for p, a, b in ends]
-    return sides[0] != sides[1] and sides[2] != sides[3]
+    cross = sides[0] != sides[1] and sides[2] != sides[3]
+    return cross or any(on_segment(*end) for end in ends)
 
 
 def inside(p: Point, loop: list[Point]) -> bool:
@@ -469,6 +467,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("map", type=Path, metavar="map.json", help="the map, or the motion")
     parser.add_argument("proof", type=Path, metavar="proof.json", help="what is claimed of it")
     chosen = parser.parse_args(arguments)
+    if arguments is None and hasattr(signal, "SIGPIPE"):
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # end quietly once `head` has seen enough
     try:
         kind, motion = load(chosen.map, KINDS)
         _, proof = load(chosen.proof, [KINDS[kind]])

@@ -9,6 +9,8 @@ import dataclasses
 import functools
 import io
 import json
+import os
+import signal
 import struct
 import subprocess
 import sys
@@ -190,6 +192,20 @@ def test_a_cage_with_ten_holes_is_verified() -> None:
     # Uniform panels are replaced by graded ones.
     verdict = check(files_of(certificate(map, truth, uniform_panels(d.cage, 300))))
     assert verdict.verified, verdict.out
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGPIPE"), reason="nothing tells of a broken pipe there")
+def test_a_reader_that_has_seen_enough_is_no_error(tmp_path: Path) -> None:
+    """As `head` is: the pipe is closed before the checker writes."""
+    paths = [tmp_path / "map.json", tmp_path / "proof.json"]
+    for path, data in zip(paths, small()[2], strict=True):
+        path.write_text(json.dumps(data), encoding="utf-8")
+    read, write = os.pipe()
+    os.close(read)
+    command = [sys.executable, str(SOURCE), *map(str, paths)]
+    done = subprocess.run(command, stdout=write, stderr=subprocess.PIPE, check=False)
+    os.close(write)
+    assert (done.returncode, done.stderr) == (-signal.SIGPIPE, b"")
 
 
 def test_what_the_certificate_saves_is_verified(tmp_path: Path) -> None:
