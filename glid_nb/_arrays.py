@@ -28,10 +28,7 @@ def real_array(value: Any) -> NDArray[np.float64]:
 
 
 def number_pairs(value: Any, wanted: str, error: type[Exception]) -> NDArray[np.float64]:
-    """(n, 2) numbers as a new float64 array, also for an empty list; NaN and infinity pass.
-
-    The message of the ``error`` begins with ``wanted``.
-    """
+    """(n, 2) new numbers, NaN and infinity too; else an ``error`` that begins with ``wanted``."""
     try:
         pairs = real_array(value)
     except (TypeError, ValueError) as problem:

@@ -15,8 +15,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import glid_nb
-from glid_nb.cli.output import check_folder
-from glid_nb.cli.progress import step
+from glid_nb.cli.output import check_folder, step
 from studies.cases import reference_cases
 from studies.study import Plan, run_studies
 

@@ -16,8 +16,7 @@ from PIL import ImageColor
 
 import glid_nb
 from glid_nb._errors import InputError, InputFileError
-from glid_nb.cli.output import check_files, check_folder
-from glid_nb.cli.progress import step
+from glid_nb.cli.output import check_files, check_folder, step
 from glid_nb.session.timeline import Timeline
 
 
@@ -51,17 +50,10 @@ def run(chosen: argparse.Namespace) -> None:
     if not proof.certified:
         raise InputError(f"{proof.reason} Nothing uncertified is exported.")
     with step("drawing (Ctrl-C stops, and nothing is written)") as detail:
-        files = glid_nb.export.animate(
-            out,
-            image,
-            motion,
-            poses,
-            size=chosen.size,
-            frames_per_second=chosen.fps,
-            background=chosen.background,
-            loop=motion.repeat != "once",
-            progress=lambda done, total: detail(f"frame {done} of {total}"),
-        )
+        how: Any = {"size": chosen.size, "frames_per_second": chosen.fps}
+        how |= {"background": chosen.background, "loop": motion.repeat != "once"}
+        how |= {"progress": lambda done, total: detail(f"frame {done} of {total}")}
+        files = glid_nb.export.animate(out, image, motion, poses, **how)
     written = ", ".join(map(str, files)) if out.suffix else f"{out}: {len(files)} files"
     print(f"{written}; {motion.duration:g} s. {proof.reason}")
 

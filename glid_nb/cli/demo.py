@@ -16,8 +16,7 @@ import glid_nb
 from glid_nb._errors import InputFileError, about
 from glid_nb._json import json_text
 from glid_nb.cli import flags
-from glid_nb.cli.output import check_files, check_folder, finish, map_text
-from glid_nb.cli.progress import run_solver, step
+from glid_nb.cli.output import check_files, check_folder, finish, map_text, run_solver, step
 from glid_nb.cli.trace import cage_data, size_in_words
 
 DEFAULT_SAMPLE = "gecko"

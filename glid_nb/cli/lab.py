@@ -15,7 +15,6 @@ import glid_nb
 from glid_nb._errors import InputError
 
 NOTEBOOK = "editor.ipynb"
-
 _BUNDLED = Path("notebooks") / "02_editor.ipynb"
 
 

@@ -12,8 +12,7 @@ import glid_nb
 from glid_nb._errors import InputFileError, about
 from glid_nb._files import write_bytes_atomically
 from glid_nb._json import read_object
-from glid_nb.cli.output import check_files
-from glid_nb.cli.progress import step
+from glid_nb.cli.output import check_files, step
 
 MAX_SIDE = 20_000
 

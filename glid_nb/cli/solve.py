@@ -14,8 +14,7 @@ from glid_nb._errors import about
 from glid_nb._json import json_text, picture_size, read_object
 from glid_nb.certificate.certify import proof_text
 from glid_nb.cli.flags import add_solver_flags, energy_of, options_of
-from glid_nb.cli.output import check_files, finish, map_text
-from glid_nb.cli.progress import run_solver
+from glid_nb.cli.output import check_files, finish, map_text, run_solver
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

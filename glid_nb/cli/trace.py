@@ -13,8 +13,7 @@ import glid_nb
 from glid_nb._errors import about
 from glid_nb._json import write_json
 from glid_nb.cli.flags import add_trace_flags, trace_options_of
-from glid_nb.cli.output import check_files
-from glid_nb.cli.progress import step
+from glid_nb.cli.output import check_files, step
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -20,8 +20,7 @@ from glid_nb.export.moving import MovingMesh, Progress, report
 from glid_nb.figures.style import COLORS, rgb
 from glid_nb.geometry import Domain
 from glid_nb.harmonic import FixedPoints, HarmonicMap, ShaderMap
-from glid_nb.imaging import PixelFrame, as_rgba8
-from glid_nb.imaging.read import png
+from glid_nb.imaging import PixelFrame, as_rgba8, png
 from glid_nb.motion import Motion, MotionCertificate
 from glid_nb.motion.settings import checked
 from glid_nb.solvers import Pose

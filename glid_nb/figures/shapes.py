@@ -40,7 +40,6 @@ _WIDTH, _WIDTH_OF_ONE, _TALLEST = 7.4, 4.6, 3.8  # inches
 _ABREAST = 4
 _CHECKS = 24  # along the longer side of a shape
 _FULL_MARGIN = 0.5  # from this certified sigma_2 on panels have one colour
-
 _MANY = 400  # panels, among which the dots at their ends would hide the colours
 
 

@@ -91,10 +91,7 @@ def _limbs_over_trunk(cage: Cage) -> tuple[Triangulation, Array]:
 
 
 def _spread(mesh: Triangulation, pins: Array, depths: Array, reach: float) -> Array:
-    """(v,) solution u of ``u = reach^2 Laplace(u)`` with the depths at the pins.
-
-    Far from all pins u is 0, so that a depth does not change the order of other limbs.
-    """
+    """(v,) solution of ``u = reach^2 Laplace(u)`` with depths at pins: 0 on limbs without any."""
     z, triangles = mesh.vertices @ np.array([1, 1j]), mesh.triangles
     sides = np.roll(z[triangles], 1, axis=1) - np.roll(z[triangles], -1, axis=1)
     area = 0.5 * np.imag(np.conj(sides[:, 0]) * sides[:, 1])[:, None, None]

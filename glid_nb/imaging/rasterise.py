@@ -14,7 +14,6 @@ from glid_nb.imaging.mesh import unique_edges
 from glid_nb.imaging.texture import Sampler, Texture, gradients
 
 _BAND = 1 << 17  # pixels drawn at a time, to bound the memory
-
 SUBSAMPLES = 8  # rows and columns of the samples in an outline pixel
 
 Ints = NDArray[np.integer]

@@ -16,7 +16,6 @@ from glid_nb.session.document_file import save_document
 from glid_nb.session.worker import LatestWins
 
 INTERVAL = 3.0  # least number of seconds between two saves, by default
-
 MOST_KEPT = 5  # most files of kept work
 
 

@@ -120,10 +120,7 @@ def load_document(path: str | Path) -> Document:
 
 
 def _read_archive(path: Path) -> dict[str, bytes]:
-    """The members of the zip file, from an untrusted source: read in memory, sizes checked first.
-
-    InputFileError when it is damaged, or has a member that is unknown, repeated or encrypted.
-    """
+    """A zip file's members, sizes checked before they are read; InputFileError if any is wrong."""
     most = sum(_MOST_BYTES.values()) + _DIRECTORY_BYTES
     try:
         size = path.stat().st_size

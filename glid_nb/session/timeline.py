@@ -124,10 +124,7 @@ class Timeline:
 
 
 def thinned(times: Array, points: Array, tolerance: float) -> list[int]:
-    """Which of some places (n, h, 2) to keep, so that straight lines in time meet the others.
-
-    By Ramer (1972), Douglas and Peucker (1973), with time as the abscissa.
-    """
+    """Which places (n, h, 2) to keep so that lines in time meet the rest; by Ramer (1972)."""
     kept, open_ = {0, len(times) - 1}, [(0, len(times) - 1)]
     while open_:
         first, last = open_.pop()

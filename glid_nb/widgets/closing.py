@@ -27,10 +27,7 @@ class ClosingWidget(ipywidgets.Widget):
         return super().__new__(cls, *args, **kwargs)
 
     def close(self) -> None:
-        """Remove this and its parts from the page, end its threads and free its renderers.
-
-        A model that it was given lives on.
-        """
+        """Remove this and its parts from the page and end its threads; a given model lives on."""
         if self.comm is None:  # closed before, or its constructor raised
             return
         self._closed, endings, self._endings = True, self._endings, ()

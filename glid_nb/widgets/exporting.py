@@ -64,10 +64,7 @@ def check_free(model: EditorModel, paths: Sequence[Path], owner: Path) -> None:
 def export(
     model: EditorModel, path: str | Path, size: tuple[int, int] | None = None, view: View = "source"
 ) -> tuple[Path, ...]:
-    """Write `exported` files; returns them, the one of the given name first, which is replaced.
-
-    Files that come with it replace only those of an earlier export; else an `OccupiedError`.
-    """
+    """Write `exported` files over those of an earlier export; an `OccupiedError` over others."""
     path = Path(path)
     (name, data), *others = exported(model, path, size, view).items()
     # If the file exists, those beside it came with it.

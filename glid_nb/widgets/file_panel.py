@@ -69,8 +69,7 @@ class OpenPanel(ipywidgets.VBox):
         self.model = model
         self.path = ipywidgets.Text(placeholder="session.glid", layout={"width": "280px"})
         """The file, relative to the notebook."""
-        tooltip = "Go on with a session file"
-        self.button = button("Open session", "folder-open", tooltip, self._open)
+        self.button = button("Open session", "folder-open", "Go on with a session file", self._open)
         self.message = ipywidgets.HTML()
         row = ipywidgets.HBox([self.path, self.button])
         super().__init__([row, self.message], layout={"padding": "0 0 2em 2em"})

@@ -20,7 +20,6 @@ MARGIN_COLORS = (
 """The certificate's, from a wide margin to none."""
 
 N_COLORS = len(COLORS)  # stops of the colour map in the shader
-
 FULL_MARGIN = 0.5  # panels with at least this certified sigma_2 have the best colour
 
 PANEL_LEGEND = {  # the colour bar of the boundary's panels, for the page
@@ -32,7 +31,6 @@ PANEL_LEGEND = {  # the colour bar of the boundary's panels, for the page
 }
 
 _MOST_DIGITS = 22  # of all labels of a colour bar together
-
 _SHARE = 0.98  # of the boundary, where distortion is largest, lies within a colour map's range
 
 
@@ -85,11 +83,8 @@ def color_range(
     fzb: Array | None = None,
     least: tuple[float, float] | None = None,
 ) -> tuple[float, float]:
-    """The values at the pale and at the dark end of the colour map.
-
-    The narrowest of a few round ranges, so that colours rarely change their meaning, that holds
-    nearly all values of a map with these Wirtinger derivatives and is no narrower than ``least``.
-    """
+    """The colour map's ends: the narrowest of a few round ranges, so that colours rarely change
+    their meaning, that holds nearly all values and is no narrower than ``least``."""
     overlay = _overlay(name, energy)
     start, ends = overlay.start, overlay.ends
     wanted = 0.0 if least is None else abs(least[1] - start)

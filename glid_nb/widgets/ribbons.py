@@ -12,7 +12,6 @@ _PANEL_PIECES = 2
 PANEL_VERTICES = 4 * _PANEL_PIECES
 _INSIDE = 0.15  # of its distance to the cage, by which the offset cage is drawn inside the domain
 
-
 Ribbon = tuple[Array, Array, Array]
 """Four vertices for each piece of a curve: (v, 2) points, (t, 3) triangles, and (v, 3) the curve's
 unit direction and the side, -1 or 1."""

@@ -59,9 +59,7 @@ class TraceGestures(Gestures):
         actions["set_options"] = lambda e: model.set_options(e.get("gesture"), **e["changes"])
         super().__init__(model, actions)
         self.model = model
-        self.tool = "edit"
-        """What the left button does: "edit", "foreground", "background", "color", "component",
-        "polygon", "rectangle"."""
+        self.tool = "edit"  # what the left button does, one of the values of _TOOLS
         self.corners: tuple[tuple[float, float], ...] = ()
         """The corners of a polygon that is being drawn."""
         self._selected: tuple[Vertex, ...] = ()

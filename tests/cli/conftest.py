@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from glid_nb.cli import main, progress
+from glid_nb.cli import main, output
 
 
 class Outcome(NamedTuple):
@@ -28,7 +28,7 @@ Run = Callable[..., Outcome]
 @pytest.fixture
 def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
     """Runs ``glid-nb`` with the given words, without a word of progress on a slow machine."""
-    monkeypatch.setattr(progress, "PATIENCE", 1e6)
+    monkeypatch.setattr(output, "PATIENCE", 1e6)
 
     def run_command(*words: object) -> Outcome:
         try:

@@ -10,16 +10,16 @@ from unittest import mock
 
 import pytest
 
-from glid_nb.cli import progress
+from glid_nb.cli import output
 
 
 @contextlib.contextmanager
 def step(doing: str, stream: io.StringIO, patience: float) -> Iterator[Callable[[str], None]]:
     """A step that is told on a stream."""
     with (
-        mock.patch.object(progress, "PATIENCE", patience),
+        mock.patch.object(output, "PATIENCE", patience),
         contextlib.redirect_stderr(stream),
-        progress.step(doing) as detail,
+        output.step(doing) as detail,
     ):
         yield detail
 
