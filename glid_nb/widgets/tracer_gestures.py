@@ -251,7 +251,7 @@ class TraceGestures(Gestures):
         if (name, start) != (known, len(data)):
             raise TraceError(f"{name}: the upload was interrupted; try again")
         if size > _LARGEST_UPLOAD:
-            raise TraceError(f"{name} has {size:,} bytes; {_LARGEST_UPLOAD:,} can be uploaded")
+            raise TraceError(f"{name} has {size:,} bytes; only {_LARGEST_UPLOAD:,} can be uploaded")
         data += bytes(event["data"])
         if len(data) >= size:
             self._incoming = "", bytearray()
