@@ -16,10 +16,8 @@ UNIT_ROUNDOFF = 2.0**-53
 
 ELEMENTARY = 2.0
 """Roundoffs, relative, that the real ``log`` and ``atan2`` of NumPy and XLA may be off by."""
-COMPLEX_QUOTIENT = 8.0
-"""The same for the modulus of the error of their complex division."""
-LOGARITHM = 16.0
-"""Roundoffs per ``1 + |Log|`` that ``Log(B_{j+1} / B_j)`` may be off by."""
+COMPLEX_QUOTIENT = 8.0  # the same for the modulus of the error of their complex division
+LOGARITHM = 16.0  # roundoffs per ``1 + |Log|`` that ``Log(B_{j+1} / B_j)`` may be off by
 CUT = 64 * UNIT_ROUNDOFF
 """An edge seen under an angle closer to pi may lie on the wrong side of the logarithm's cut."""
 BERNSTEIN = 16 * UNIT_ROUNDOFF
@@ -31,8 +29,7 @@ UNDERFLOW = 1e-140
 BESIDE = 64 * UNIT_ROUNDOFF
 """How far the end of a panel may lie beside its edge, relative to the largest coordinate."""
 
-CARRIED_STEPS = 31
-"""Most steps through which values are carried before they are computed anew."""
+CARRIED_STEPS = 31  # most steps through which values are carried before they are computed anew
 
 
 def slack_factor(n_columns: int) -> float:

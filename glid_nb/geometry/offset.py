@@ -33,13 +33,11 @@ _SHRINK = 0.8
 class Offset:
     """An offset cage and how far it lies from its cage."""
 
-    cage: Cage
-    """The offset cage P^, one vertex per vertex of the cage in the same order."""
+    cage: Cage  # the offset cage P^, one vertex per vertex of the cage in the same order
     distances: tuple[NDArray[np.float64], ...]
     """Per loop, (n,) distances of vertex i of P^ from the lines of the two cage edges at vertex i.
     Below the wanted distance in narrow places and where an acute corner's mitre was cut back."""
-    notes: tuple[str, ...] = ()
-    """A sentence per place where the distance had to be reduced."""
+    notes: tuple[str, ...] = ()  # a sentence per place where the distance had to be reduced
 
 
 def offset_cage(cage: Cage, distance: float) -> Offset:

@@ -45,18 +45,9 @@ class Deformation(Undoable[EditState]):
 
     Every method may be called from any thread. ``observe`` reports changes by name: ``"state"``
     (handles, targets, poses, options, undo), ``"frame"`` (a new map), ``"selection"`` and
-    ``"status"``.
-
-    Parameters
-    ----------
-    domain : Domain
-    pose : Pose, optional
-        By default without handles.
-    energy : Energy, optional
-    options : Options, optional
-        By default :data:`~glid_nb.session.edit_state.LIVE_OPTIONS`.
-    begin : bool, optional
-        Solve from the start; else from :meth:`begin` or the first change on.
+    ``"status"``. It begins without handles unless a pose is given, with
+    :data:`~glid_nb.session.edit_state.LIVE_OPTIONS` unless others are. With ``begin`` it solves
+    from the start; else from :meth:`begin` or the first change on.
 
     Examples
     --------

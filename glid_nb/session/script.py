@@ -22,24 +22,13 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
     Of several poses it makes all maps, as the list ``maps``, and the ``motion`` of the document's
     timeline through them. If a pose's method works on a mesh, its map is a
     :class:`~glid_nb.MeshMap`, although the document holds a harmonic map. The cage is traced from
-    the picture if the document's options give it; a cage that was edited by hand, or came from
-    scribbles, is written out.
+    the picture, a file's path, if the document's options give it; a cage that was edited by hand,
+    or came from scribbles, is written out.
 
-    Parameters
-    ----------
-    document : Document
-        With an active pose.
-    picture : str
-        Path of the picture's file for the code.
-    exact : bool
-        Write the coefficients of the document's map, some kilobytes, instead of a solve. A solve
-        ends at the same energy to ten digits, unless a hard pose has several minima and the editor
-        reached another one than a solve from the identity does.
-
-    Raises
-    ------
-    DocumentError
-        When there is no pose, or the energy of one is a Python function.
+    ``exact`` writes the coefficients of the document's map, some kilobytes, instead of a solve. A
+    solve ends at the same energy to ten digits, unless a hard pose has several minima and the
+    editor reached another one than a solve from the identity does. Raises a DocumentError when
+    there is no pose, or the energy of one is a Python function.
     """
     if not document.poses:
         raise DocumentError("the document has no pose yet, so there is no map to make")

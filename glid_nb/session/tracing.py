@@ -86,17 +86,9 @@ class TracingModel(Undoable[TracingState]):
     Points are in pixels, x right and y down from the picture's top left corner. Consecutive actions
     with the same `gesture`, any value, such as the moves of one drag, are one step for undo.
 
-    Parameters
-    ----------
-    image
-        A picture, as in `read_image`; None to begin without one.
-    options
-        How to trace at first.
-
-    Raises
-    ------
-    TraceError
-        The picture cannot be read. (A picture without a shape is one of the `problems`.)
+    The image is as in `read_image`, None to begin without one; the options are the first ones.
+    Raises a TraceError for a picture that cannot be read; one without a shape is one of the
+    `problems`.
     """
 
     def __init__(

@@ -58,26 +58,17 @@ def solve_batch(
 
     The same as calling :func:`glid_nb.solve` for each row of targets, up to rounding, and faster
     where there are several devices or one wide one. Every result is certified on its own; they come
-    in the order of the poses. Raises a TypeError when the domain or the options are of the wrong
-    type, or the devices are not one or more different ones of one platform; a PoseError when a
-    handle lies outside the domain, or the targets have another shape.
+    in the order of the poses.
 
-    Parameters
-    ----------
-    domain : Domain
-    handles : (h, 2) array_like
-        Points of the domain.
-    targets : (B, h, 2) array_like
-        Where the handles should go in each of B poses.
-    energy, options
-        As in :func:`glid_nb.solve`.
-    devices : sequence of jax.Device, optional
-        By default all local ones. On several hosts under ``jax.distributed`` each call uses the
-        devices of its own host; give every host its share of the poses.
-    depths, angles, scales, weights : (h,) array_like, optional
-        Of the handles in every pose, as in :class:`glid_nb.Pose`.
-    stiffness : optional
-        What is stiff in every pose, as there.
+    ``handles`` are (h, 2) points of the domain, ``targets`` (B, h, 2) where they should go in each
+    of B poses; depths, angles, scales and weights, (h,), and the stiffness are those of every pose,
+    as in :class:`glid_nb.Pose`. Energy and options are as in :func:`glid_nb.solve`. The devices are
+    by default all local ones; on several hosts under ``jax.distributed`` each call uses those of
+    its own host, so give every host its share of the poses.
+
+    Raises a TypeError when the domain or the options are of the wrong type, or the devices are not
+    one or more different ones of one platform; a PoseError when a handle lies outside the domain,
+    or the targets have another shape.
     """
     check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
     check_type("options", options, Options | None, "write Options(p2p_weight=...)")

@@ -26,8 +26,7 @@ from glid_nb.solvers.pose import Pose
 _VERTICES = 300
 _STAGE = np.deg2rad(40)
 _SQUEEZED, _STRAIGHT = 0.95, np.deg2rad(10)
-MOST_TURNED = 3
-"""Lines that are turned the other way round."""
+MOST_TURNED = 3  # lines that are turned the other way round
 
 
 class Link(NamedTuple):
@@ -35,8 +34,7 @@ class Link(NamedTuple):
 
     child: int
     parent: int
-    turn: float
-    """Against the parent's line, or against the shape as a whole at the root, radians."""
+    turn: float  # against the parent's line, or against the shape as a whole at the root, radians
     squeezed: bool
     """Whether its targets are closer than its handles, and what lies between stays straight."""
 
@@ -53,8 +51,7 @@ class Turning(NamedTuple):
 
     pose: Pose
     root: int
-    whole: float
-    """The turn of the shape, radians."""
+    whole: float  # the turn of the shape, radians
     lines: list[Link]
 
     def ways(self, least: float) -> dict[str, list[Stage]]:

@@ -41,35 +41,22 @@ _LEAST_SIZE, _USUAL_SIZE = 100, (600, 500)  # CSS pixels
 
 
 class DeformCanvas(ClosingWidget, ipywidgets.HBox):
-    """A picture that follows its handles.
+    """A picture that follows its pins.
 
-    A click on the shape adds a handle, a drag moves its target (cyan); the handle (black) follows
-    as far as a certified map allows. Right click, long touch and the Menu key show what else can be
-    done; the ``?`` on the canvas has the table of all keys and gestures. All of it can be done by
-    keyboard alone: arrow keys move a cursor, Enter adds or selects a handle there.
+    A click on the shape adds a pin, a drag moves its target (cyan); the pinned point (black)
+    follows as far as a certified map allows. Right click, long touch and the Menu key show what
+    else can be done; the ``?`` on the canvas has the table of all keys and gestures. All of it can
+    be done by keyboard alone: arrow keys move a cursor, Enter adds or selects a pin there.
 
-    Parameters
-    ----------
-    image
-        A picture, as in `glid_nb.read_image`.
-    deformation : Deformation or Domain
-        The model to show, or the domain of a new one.
-    width, height : int, optional
-        Size of the result in CSS pixels, at least 100 each; an editor with less room shows it
-        narrower. By default 600 by 500, and in an editor as large as there is room.
-    n_vertices : int, optional
-        Vertices of the mesh that the picture is drawn on, at least 3. By default 10,000, or fewer
-        if the page needs longer than 40 ms to draw them.
-    evaluated_in : "shader" or "kernel", optional
-        Where the vertices are computed. By default in the shader if it can hold the cage; a frame
-        then sends a few kB whatever the number of vertices.
+    The image is as in `glid_nb.read_image`; ``deformation`` is the model to show, or the domain of
+    a new one. The result is ``width`` by ``height`` CSS pixels, at least 100 each, narrower in an
+    editor with less room; by default 600 by 500, and in an editor as large as there is room. It is
+    drawn on a mesh of ``n_vertices``, at least 3; by default 10,000, or fewer if the page needs
+    longer than 40 ms to draw them. They are computed in the "shader" if that can hold the cage, so
+    that a frame sends a few kB, or in the "kernel"; ``evaluated_in`` decides otherwise.
 
-    Raises
-    ------
-    TraceError
-        The picture cannot be read.
-    TypeError, ValueError
-        A size or number of vertices is invalid.
+    Raises a TraceError for a picture that cannot be read, a TypeError or ValueError for another
+    size.
     """
 
     overlay = traitlets.Enum(tuple(OVERLAYS), "texture")

@@ -60,32 +60,21 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     """Trace a picture, pin points of it, drag them: it follows and never folds over.
 
     The Trace tab finds the cage, the Deform tab moves it. Where the outline is no more than a
-    guess, as on most photographs, the Trace tab is open at first and says so. All of it can be
-    done in code: `trace`, `add_handle`, `drag`, `solve`, `save`, `load`, `export`.
+    guess, as on most photographs, the Trace tab is open at first and says so. All of it can be done
+    in code: `trace`, `add_handle`, `drag`, `solve`, `save`, `load`, `export`.
 
-    Parameters
-    ----------
-    image
-        A picture, as in `glid_nb.read_image`. Without one the editor asks for a file.
-    path : path, optional
-        A session file, which every change updates. If it exists, the editor opens it (give the
-        same picture or none). A session that is opened later is updated instead; a picture that is
-        opened later is saved beside it, as is this session if another program changes the file.
-    width, height : int, optional
-        Size of the canvas in CSS pixels, at least 240 each; narrower where there is less room. By
-        default it is as large as there is room.
-    n_vertices : int, optional
-        Vertices of the mesh that the picture is drawn on, at least 3. By default 10,000, or fewer
-        if the page needs longer than 40 ms to draw them.
+    The image is as in `glid_nb.read_image`; without one the editor asks for a file. Every change
+    updates the session file ``path``. If it exists, the editor opens it (give the same picture or
+    none). A session that is opened later is updated instead; a picture that is opened later is
+    saved beside it, as is this session if another program changes the file.
 
-    Raises
-    ------
-    TraceError
-        The picture cannot be read.
-    DocumentError
-        The session file cannot be read or written.
-    TypeError, ValueError
-        A size or number of vertices is invalid, or the session file is of another picture.
+    The canvas is ``width`` by ``height`` CSS pixels, at least 240 each, narrower where there is
+    less room; by default it is as large as there is room. ``n_vertices``, at least 3, are those of
+    the mesh that the picture is drawn on; by default 10,000, or fewer if the page needs over 40 ms
+    to draw them.
+
+    Raises a TraceError when the picture cannot be read, a DocumentError when the session file
+    cannot, a TypeError or ValueError for another size, or a session file of another picture.
 
     Examples
     --------

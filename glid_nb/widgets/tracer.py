@@ -30,23 +30,11 @@ _AUTOMATIC = ("method", "threshold", "offset", "simplify")  # what a tracing cho
 class CageTracer(Pad):
     """Traces a cage around the shape in a picture and edits it by hand.
 
-    The widget is a view of a `TracingModel`, which does the work and needs no browser.
-
-    Parameters
-    ----------
-    image
-        A picture, as in `glid_nb.read_image`. Without one the widget asks for a file.
-    options : TraceOptions, optional
-        How to trace at first.
-    model : TracingModel, optional
-        A model to show, instead of `image` and `options`.
-    height : int or None
-        Height of the picture's area in CSS pixels, at least 240; None for what the window has.
-
-    Raises
-    ------
-    TraceError
-        The picture cannot be read.
+    The widget is a view of a `TracingModel`, which does the work and needs no browser. The image is
+    as in `glid_nb.read_image`; without one the widget asks for a file. ``options`` say how to trace
+    at first; a ``model`` is shown instead of both. The picture's area is ``height`` CSS pixels
+    high, at least 240; None for what the window has. Raises a TraceError when the picture cannot be
+    read.
 
     Examples
     --------
