@@ -14,11 +14,10 @@ from glid_nb.solvers import evaluation, line_search, step
 from glid_nb.solvers.loop import Advance, Ending, Stopwatch, follow
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.options import Options
-from glid_nb.solvers.problem import Problem, map_from
+from glid_nb.solvers.problem import Problem, map_from, restrict_rows
 from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Iteration, Result, Status
 from glid_nb.solvers.subspace import SubspaceDescent
-from glid_nb.solvers.unknowns import restrict_rows
 from glid_nb.solvers.whitening import pulled_back
 
 # Without two handles a rotation costs nothing and the Hessian is singular (Appendix I). To begin

@@ -38,45 +38,29 @@ def solve(
 ) -> Result:
     """Deform a domain so that its handles go to their targets with the least distortion.
 
-    Minimises (20) by Newton's method from a certified map. Every step is proved locally
-    injective before it is taken, so the result always is: when no certified step lowers the
-    energy, the last map is returned with a status that says so.
+    Minimises (20) by Newton's method from a certified map. Every step is proved locally injective
+    before it is taken, so the result always is: when no certified step lowers the energy, the last
+    map is returned with a status that says so.
 
-    Parameters
-    ----------
-    domain : Domain
-    pose : Pose
-        Handles, which must lie in the domain, and their targets, which may be anywhere.
-    energy : Energy or str, optional
-        Isometric energy, or the name of one with its default parameter ("iso", "exp", "amips",
-        "mips", "arap"); by default the symmetric Dirichlet energy, or ARAP for the methods that
-        know no other.
-    options : Options, optional
-    start : HarmonicMap, MeshMap or Result, optional
-        Where to start; by default the identity. Unless ``options.align`` is off, the start is
-        first moved rigidly towards the targets. The result of an earlier solve on the same domain
-        also passes on its panels or its mesh. Maps of a mesh are for methods on a mesh; linear
-        methods have no start.
-    callback : callable, optional
-        Called with a :class:`Progress` between compiled calls, also after those that took no step
-        because panels must be split first; for other methods than ours at the start and after
-        each iteration. Returning ``True`` stops the solve.
-    method : Method, optional
-        By default ours, Newton's; others are in :mod:`glid_nb.methods`. What a method on a mesh
-        returns may fold and has no certificate.
+    The pose's handles must lie in the domain, its targets may be anywhere. The energy is an
+    isometric one, or the name of one with its default parameter ("iso", "exp", "amips", "mips",
+    "arap"); by default the symmetric Dirichlet energy, or ARAP for the methods that know no other.
+    The method is by default ours, Newton's; others are in :mod:`glid_nb.methods`. What one on a
+    mesh returns may fold and has no certificate.
 
-    Raises
-    ------
-    TypeError
-        An argument is of the wrong type; the message names it.
-    PoseError, EnergyError
-        A handle lies outside the domain; the energy is unknown, or no energy at all.
-    StartError
-        The starting map belongs to another domain, is not conformal though the options ask for it,
-        or is not proved locally injective.
-    MethodError
-        The method cannot minimise the energy, hold an angle or take the start, or lacks an optional
-        package (the message says which extra to install).
+    The start is by default the identity. Unless ``options.align`` is off, it is first moved rigidly
+    towards the targets. The result of an earlier solve on the same domain also passes on its panels
+    or its mesh. Maps of a mesh are for methods on a mesh; linear methods have no start.
+
+    The callback is called with a :class:`Progress` between compiled calls, also after those that
+    took no step because panels must be split first; for other methods than ours at the start and
+    after each iteration. Returning ``True`` stops the solve.
+
+    Raises a TypeError that names an argument of the wrong type; a PoseError when a handle lies
+    outside the domain; an EnergyError for an unknown energy; a StartError when the start belongs to
+    another domain, is not conformal though the options ask for it, or is not proved locally
+    injective; a MethodError when the method cannot minimise the energy, hold an angle or take the
+    start, or lacks an optional package (the message says which extra to install).
 
     Examples
     --------

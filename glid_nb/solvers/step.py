@@ -11,8 +11,7 @@ from glid_nb.solvers import cholesky, evaluation, hessian, line_search, whitenin
 from glid_nb.solvers.evaluation import Coefficients, Line, Number, Point
 from glid_nb.solvers.line_search import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.options import MOST_PER_CALL
-from glid_nb.solvers.problem import Problem
-from glid_nb.solvers.unknowns import expand, restrict_gradient, restrict_hessian
+from glid_nb.solvers.problem import Problem, expand, restrict_gradient, restrict_hessian
 
 Factor = Float[Array, "4u 4u"]
 

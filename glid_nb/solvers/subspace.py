@@ -16,10 +16,9 @@ from glid_nb.solvers.discretisation import Discretisation, Matrices, discretise
 from glid_nb.solvers.evaluation import Point
 from glid_nb.solvers.loop import Descent, Ending, Reached
 from glid_nb.solvers.method import Inputs, Method
-from glid_nb.solvers.problem import Problem, map_from
+from glid_nb.solvers.problem import Problem, canonical, map_from, unknowns_of
 from glid_nb.solvers.result import Iteration, Result, Status
 from glid_nb.solvers.stiffness import stiff_matrices
-from glid_nb.solvers.unknowns import canonical, unknowns_of
 
 # Measurements of angles and scales, after which the directions found are kept by that damping.
 MOST_PINS, KEPT = 16, 1e9

@@ -116,17 +116,13 @@ def write(
 ) -> list[Path]:
     """Write files of ``owner`` beside it; an `OccupiedError` if, unasked, they replace others'."""
     contents = {owner.parent / name: data for name, data in files.items()}
-    new = {path: data for path, data in contents.items() if not _holds(path, data)}
+    new = {p: data for p, data in contents.items() if not (p.is_file() and p.read_bytes() == data)}
     if not replace:
         check_free(model, list(new), owner)
     for path, data in new.items():
         write_bytes_atomically(path, data)
     model.own_files.note(contents, owner)
     return list(contents)
-
-
-def _holds(path: Path, data: bytes) -> bool:
-    return path.is_file() and path.stat().st_size == len(data) and path.read_bytes() == data
 
 
 def last_export() -> dict[str, Any]:

@@ -14,9 +14,9 @@ from glid_nb.figures.style import BLUE, COLORS, GREY, rgb
 from glid_nb.geometry import MeshMap, Triangulation, triangulate, uniform_panels
 from glid_nb.harmonic import FixedPoints, HarmonicMap, ShaderMap
 from glid_nb.imaging import Order, PixelFrame, order_of
-from glid_nb.widgets.layers import EvaluatedIn, Layer, Uniforms, comparison_layer, picture_texture
+from glid_nb.widgets import layers
+from glid_nb.widgets.layers import EvaluatedIn, Layer, Uniforms
 from glid_nb.widgets.overlays import FULL_MARGIN, MARGIN_COLORS, OVERLAYS, color_range
-from glid_nb.widgets.ribbons import PANEL_VERTICES, cage_ribbon, offset_ribbon, panel_ribbon
 
 Range = Literal["keep", "widen", "fit"]
 
@@ -31,9 +31,9 @@ _HIGHEST, _LEVELS = 4.0, 8  # world units, inside the camera's range; groups of 
 _COLUMN = 8.0  # width of a column of triangles in drawing order, in heights of a row
 # Lines along the boundary, the lowest first: shape, colour, opacity, half the width in pixels.
 _LINES = {
-    "cage": (cage_ribbon, BLUE, 0.9, 0.9),
-    "offset_cage": (offset_ribbon, GREY, 0.9, 0.6),
-    "panels": (panel_ribbon, GREY, 1.0, 2.8),
+    "cage": (layers.cage_ribbon, BLUE, 0.9, 0.9),
+    "offset_cage": (layers.offset_ribbon, GREY, 0.9, 0.6),
+    "panels": (layers.panel_ribbon, GREY, 1.0, 2.8),
 }
 
 
@@ -86,7 +86,7 @@ class Scene:
         """The values at the ends of the overlay's colour map."""
         height, width = image.shape[:2]
         self.frame = PixelFrame(width, height)
-        self._texture = picture_texture(image)
+        self._texture = layers.picture_texture(image)
         mesh = triangulate(self.domain.cage, n_vertices)
         self._mesh, self._order = mesh, order_of(self.domain.cage)
         textured = self._textured_uniforms()
@@ -156,7 +156,7 @@ class Scene:
             layer = None
         if layer is None and map is not None:
             stacked = _stacked(map.triangulation, self._order)
-            layer = comparison_layer(map, self._textured_uniforms(), *stacked)
+            layer = layers.comparison_layer(map, self._textured_uniforms(), *stacked)
         self.comparison, self._sources["comparison"] = layer, source
         if layer is not None:
             layer.show(map)
@@ -193,7 +193,7 @@ class Scene:
         margin, by_margin = np.zeros(len(points), dtype=np.uint8), 0.0
         if name == "panels":
             share = np.clip(np.nan_to_num(source.sigma2_lower) / FULL_MARGIN, 0.0, 1.0)
-            margin = np.repeat(np.rint(255 * (1 - share)).astype(np.uint8), PANEL_VERTICES)
+            margin = np.repeat(np.rint(255 * (1 - share)).astype(np.uint8), layers.PANEL_VERTICES)
             by_margin = 1.0  # the page makes it 2 in a motion
         uniforms = _uniforms(
             pixel=0.02,

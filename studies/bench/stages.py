@@ -11,8 +11,13 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.solvers import Result, cholesky, evaluation, line_search
 from glid_nb.solvers.evaluation import Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
-from glid_nb.solvers.problem import Problem, positional_energy, real_coefficients
-from glid_nb.solvers.unknowns import restrict_hessian, unknowns_of
+from glid_nb.solvers.problem import (
+    Problem,
+    positional_energy,
+    real_coefficients,
+    restrict_hessian,
+    unknowns_of,
+)
 from studies.timing import timed
 
 STAGES = ("gradient", "hessian", "factor", "search", "certificate")

@@ -14,8 +14,13 @@ from glid_nb.geometry import graded_panels, uniform_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.solvers import Pose, evaluation
 from glid_nb.solvers.discretisation import discretise
-from glid_nb.solvers.problem import Problem, anchor_of, positional_energy, real_coefficients
-from glid_nb.solvers.unknowns import unknowns_of
+from glid_nb.solvers.problem import (
+    Problem,
+    anchor_of,
+    positional_energy,
+    real_coefficients,
+    unknowns_of,
+)
 
 from ..domains import domain, random_map
 from ..reference_map import cauchy_first, cauchy_second

@@ -33,7 +33,7 @@ from glid_nb.solvers.hessian import (
     local_hessian,
     positive_part,
 )
-from glid_nb.solvers.unknowns import restrict_gradient, restrict_hessian, unknowns_of
+from glid_nb.solvers.problem import restrict_gradient, restrict_hessian, unknowns_of
 
 from ..domains import domain, random_map
 from ..reference_map import cauchy_first

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from glid_nb.harmonic import HarmonicMap, basis_of
 from glid_nb.solvers.discretisation import discretise
-from glid_nb.solvers.unknowns import (
+from glid_nb.solvers.problem import (
     canonical,
     expand,
     restrict_gradient,

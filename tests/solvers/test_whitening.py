@@ -15,7 +15,7 @@ from glid_nb.solvers import Options, Pose, Status, solve, step
 from glid_nb.solvers.discretisation import complex_basis, discretise
 from glid_nb.solvers.evaluation import products
 from glid_nb.solvers.line_search import INDEFINITE
-from glid_nb.solvers.unknowns import expand, unknowns_of
+from glid_nb.solvers.problem import expand, unknowns_of
 from glid_nb.solvers.whitening import coefficients, pulled_back, whitened
 
 from ..domains import divided, domain

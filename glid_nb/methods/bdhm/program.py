@@ -20,8 +20,15 @@ from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.solvers import Pose
 from glid_nb.solvers.discretisation import complex_basis
-from glid_nb.solvers.problem import aligned, map_from, positional_energy, real_coefficients
-from glid_nb.solvers.unknowns import canonical, expand, unknowns_of
+from glid_nb.solvers.problem import (
+    aligned,
+    canonical,
+    expand,
+    map_from,
+    positional_energy,
+    real_coefficients,
+    unknowns_of,
+)
 
 _RATIO = 0.5  # panels this long relative to their distance from the singularities carry the samples
 # What a step costs, beside the energy, while fewer than two handles hold the map's rotation.

@@ -17,10 +17,9 @@ from glid_nb.solvers.evaluation import Coefficients, Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
 from glid_nb.solvers.line_search import NO_DECREASE, RUNNING
 from glid_nb.solvers.loop import Advance, Ending, Stopwatch, follow
-from glid_nb.solvers.problem import Problem, map_from
+from glid_nb.solvers.problem import Problem, expand, map_from, restrict_gradient, restrict_hessian
 from glid_nb.solvers.step import LEAST_ENERGY
 from glid_nb.solvers.subspace import SubspaceDescent
-from glid_nb.solvers.unknowns import expand, restrict_gradient, restrict_hessian
 
 Curvature = Literal["exact", "projected", "gauss-newton", "dirichlet"]
 
