@@ -31,10 +31,10 @@ Descend = Callable[[Inputs], Result]
 
 # Multiples of an isometry's energy, if that is at least the last number: below the first no other
 # way is tried, above the second lines that turn less too, above the third everything.
-LOW_ENERGY, HIGH_ENERGY, HIGHEST_ENERGY, LEAST_ISOMETRY = 1.02, 5.0, 25.0, 0.5
+LOW_ENERGY, HIGH_ENERGY, HIGHEST_ENERGY, LEAST_ISOMETRY = 1.02, 3.0, 25.0, 0.5
 SAME_ENERGY = 1e-6
 # Lines that turn by so much may turn the other way round: what that costs grows with the square.
-HALF_CIRCLE, FAR = np.deg2rad(160), np.deg2rad(100)
+HALF_CIRCLE, FAR = np.deg2rad(145), np.deg2rad(100)
 # What a shape costs above an isometry grows faster on the way than this power of the time.
 _GROWTH = 1.75
 # The stages' fractions of lambda, and how far each is followed.

@@ -26,6 +26,7 @@ from glid_nb.solvers.pose import Pose
 _VERTICES = 300
 _STAGE = np.deg2rad(40)
 _SQUEEZED, _STRAIGHT = 0.95, np.deg2rad(10)
+_BENT = np.deg2rad(40)  # lines that turn by less, or nearly by half a circle, make no arc
 MOST_TURNED = 3  # lines that are turned the other way round
 
 
@@ -37,6 +38,8 @@ class Link(NamedTuple):
     turn: float  # against the parent's line, or against the shape as a whole at the root, radians
     squeezed: bool
     """Whether its targets are closer than its handles, and what lies between stays straight."""
+    curled: bool
+    """Whether it ends free and turns, but its end is turned far from twice as much."""
 
 
 class Stage(NamedTuple):
@@ -55,30 +58,53 @@ class Turning(NamedTuple):
     lines: list[Link]
 
     def ways(self, least: float) -> dict[str, list[Stage]]:
-        """Lines that turn by at least so much are led the other way round: each, and all of them.
+        """The stages from the shape at rest to the wanted pose, by name.
 
-        By name; the stages from the shape at rest to the wanted pose.
+        Lines that turn by at least so much go the other way round, alone or together, where that
+        bends the shape no more than it would a single one; curled lines along an arc.
         """
         most = sorted(self.lines, key=lambda line: -abs(line.turn))[:MOST_TURNED]
         doubtful = [line.child for line in most if abs(line.turn) >= least]
         some = [s for n in range(len(doubtful)) for s in itertools.combinations(doubtful, n + 1)]
-        return {f"the other way round at {', '.join(map(str, s))}": self.stages(s) for s in some}
+        bends, allowed = {s: self._bend(s) for s in some}, (2 * np.pi / least - 1) ** 2
+        kept = [
+            s for s in sorted(some, key=bends.__getitem__) if bends[s] <= allowed * self._bend()
+        ]
+        ways = {f"the other way round at {', '.join(map(str, s))}": self.stages(s) for s in kept}
+        curled = [line.child for line in self.lines if line.curled]
+        return ways | {f"along an arc at {i}": self.stages(bent=i) for i in curled}
 
-    def stages(self, reversed: tuple[int, ...] = ()) -> list[Stage]:
+    def _turned(self, reversed: tuple[int, ...]) -> tuple[list[float], dict[int, float]]:
+        """Turns against the parents' lines, and those of lines by child, as of the root itself."""
+        angles, turns = {self.root: self.whole}, list[float]()
+        for i, j, turn, *_ in self.lines:
+            turns.append(turn - 2 * np.pi * np.sign(turn) * (i in reversed))
+            angles[i] = angles[j] + turns[-1]
+        return turns, angles
+
+    def _bend(self, reversed: tuple[int, ...] = ()) -> float:
+        turns, angles = self._turned(reversed)
+        whole = np.median([*angles.values()])
+        return float(np.square([*turns, *(angle - whole for angle in angles.values())]).sum())
+
+    def stages(self, reversed: tuple[int, ...] = (), bent: int | None = None) -> list[Stage]:
         """The poses on the way, where nothing turns by over 40 degrees from one to the next."""
         free = replace(self.pose, angles=None, scales=None)
         z, w = as_complex(free.handles), as_complex(free.targets)
-        angles, turns = {self.root: self.whole}, [self.whole]
-        for i, j, turn, _ in self.lines:
-            turns.append(turn - 2 * np.pi * np.sign(turn) * (i in reversed))
-            angles[i] = angles[j] + turns[-1]
+        turns, angles = self._turned(reversed)
         count = max(int(np.ceil(np.abs([*angles.values(), *turns]).max() / _STAGE)), 2)
         stages = []
         for time in np.arange(1, count) / count:
             at = z + time * (w[self.root] - z[self.root])
-            for i, j, _, _ in self.lines:
-                stretch = 1 + time * (abs((w[i] - w[j]) / (z[i] - z[j])) - 1)
-                at[i] = at[j] + stretch * np.exp(1j * time * angles[i]) * (z[i] - z[j])
+            for i, j, turn, *_ in self.lines:
+                line, stretch = z[i] - z[j], abs((w[i] - w[j]) / (z[i] - z[j]))
+                if i == bent:  # as a bar bent to an arc: its end turns twice as far as its chord
+                    end = np.exp(2j * turn)
+                    pivot = line * (stretch * np.exp(1j * turn) - end) / (1 - end)
+                    arc = pivot + np.exp(2j * time * turn) * (line - pivot)
+                    at[i] = at[j] + np.exp(1j * time * angles[j]) * arc
+                    continue
+                at[i] = at[j] + (1 + time * (stretch - 1)) * np.exp(1j * time * angles[i]) * line
             stages.append(Stage(float(time), free.with_targets(as_points(at))))
         return stages
 
@@ -101,10 +127,12 @@ def turning_of(map: HarmonicMap, pose: Pose) -> Turning:
         squeezed.append(bool(np.ptp(along) < _STRAIGHT and abs(ratio) < _SQUEEZED))
     # Most of the shape turns alike.
     angles[root] = whole = float(np.median([turns[root], *angles.values()]))
-    found = [
-        Link(i, j, angles[i] - angles[j], short)
-        for (i, j, _), short in zip(lines, squeezed, strict=True)
-    ]
+    found, parents = list[Link](), {j for _, j, _ in lines}
+    for (i, j, _), short in zip(lines, squeezed, strict=True):
+        turn = angles[i] - angles[j]
+        off = abs(turns[i] - angles[j] - 2 * turn) > np.pi
+        curled = i not in parents and _BENT < abs(turn) < np.pi - _BENT and off
+        found.append(Link(i, j, turn, short, curled))
     return Turning(pose, root, whole, found)
 
 

@@ -5,15 +5,18 @@ from __future__ import annotations
 import dataclasses
 import functools
 import itertools
+import json
 
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from glid_nb import samples
 from glid_nb.geometry import Cage, Domain
 from glid_nb.geometry._loops import subdivided
 from glid_nb.harmonic import HarmonicMap
+from glid_nb.imaging.trace import trace
 from glid_nb.solvers import Options, Pose, Progress, Status, solve
 from glid_nb.solvers.restarts import SAME_ENERGY
 
@@ -161,6 +164,20 @@ def test_a_squeezed_bar_bends_instead() -> None:
     assert result.energy == pytest.approx(identity.energy, rel=1e-6)
     assert result.attempts[0].energy > 1.03 * result.energy
     check_certified(result)
+
+
+def test_a_limb_that_curls_is_led_along_an_arc() -> None:
+    """The teapot's spout, turned by 120 degrees: its line turns by 92, its tip by -36."""
+    domain = Domain.from_cage(trace(samples.image("teapot")).cage)
+    handles = Pose.from_dict(json.loads(samples.pose_path("teapot", "extreme").read_text())).handles
+    z = handles @ np.array([1, 1j])
+    body = z[np.argmin(np.abs(z - z.mean()))]
+    tip = int(np.argmax(np.abs(z - body)))
+    pivot = body + 0.4 * (z[tip] - body)
+    z[tip] = pivot + np.exp(2j * np.pi / 3) * (z[tip] - pivot)
+    result = solve(domain, Pose(handles, real(z)))
+    assert [attempt.name for attempt in result.attempts] == ["direct", f"along an arc at {tip}"]
+    assert result.energy < 0.95 * result.attempts[0].energy
 
 
 @pytest.mark.parametrize("turn", ["end", "over"])

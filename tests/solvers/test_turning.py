@@ -81,7 +81,7 @@ def test_stages_lead_evenly_to_the_targets(seed: int, count: int) -> None:
     handles = rng.uniform([-9, -0.9], [9, 0.9], size=(count, 2))
     pose = Pose(handles, rng.normal(size=(count, 2)))
     turning = turning_of(HarmonicMap.identity(DOMAIN), pose)
-    for stages in (turning.stages(), *turning.ways(0.0).values()):
+    for stages in (turning.stages(), *turning.ways(0.1).values()):
         line = np.array([handles, *(stage.targets for _, stage in stages), pose.targets])
         assert np.isfinite(line).all()
         # No stage turns any line by more than 40 degrees.
