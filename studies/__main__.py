@@ -1,8 +1,9 @@
-"""Measure, and write tables and figures: ``python -m studies compare`` or ``... bench``.
+"""Measure, and write tables and figures: ``python -m studies compare``, ``bench``, ``motion``.
 
 ``bench`` times the solver on this machine: the paper's settings and ours, drag steps, first solves,
 growth with sizes, batches. ``compare`` measures the other methods on the same problems and makes
 the paper's figures anew; SLIM and the bounded distortion maps need the extra ``compare``.
+``motion`` measures what docs/motion.md says of motions between two poses.
 
 Tables (CSV) and figures go into the folder OUT, the raw measurements into OUT/data. The tables in
 the page OUT.md are replaced, its text is left alone. A run that was interrupted goes on where it
@@ -28,8 +29,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add = parser.add_argument
-    add("what", choices=("compare", "bench"))
-    add("--out", type=Path, metavar="OUT", help="default: glid-nb-compare or glid-nb-bench")
+    add("what", choices=("compare", "bench", "motion"))
+    add("--out", type=Path, metavar="OUT", help="default: glid-nb-WHAT")
     shapes = "folder of problems with the paper's shapes (default: the bundled samples)"
     add("--reference", type=Path, metavar="DIR", help=shapes)
     one = "one study, may be repeated (default: all)"

@@ -50,10 +50,7 @@ def sample_case(name: str, kind: PoseKind) -> Case:
 def reference_cases(folder: Path) -> dict[str, Case]:
     """The problems in a folder's JSON files by name in lower case; other files are left out.
 
-    Raises
-    ------
-    InputFileError
-        When no file there holds a problem, or one that has handles is not valid.
+    An InputFileError when no file there holds a problem, or one that has handles is not valid.
     """
     cases = {}
     for path in sorted(folder.glob("*.json")):

@@ -17,12 +17,8 @@ def in_new_process(how: Literal["-m", "-c"], program: str, given: Any, **environ
     """What a program prints as JSON on its last line.
 
     ``-m`` and a module's name, or ``-c`` and a script, say which; ``given`` is written to its
-    standard input as JSON, and ``environment`` is set beside this process's variables.
-
-    Raises
-    ------
-    StudyError
-        When the process fails; the message ends with its last words.
+    standard input as JSON, and ``environment`` is set beside this process's variables. A
+    StudyError that ends with its last words when the process fails.
     """
     run = subprocess.run(
         [sys.executable, how, program],

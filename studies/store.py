@@ -45,10 +45,7 @@ class Store:
     def kept(self, name: str) -> Measurement | None:
         """The measurement of a name that is there, wherever it was taken; None without.
 
-        Raises
-        ------
-        StudyError
-            When the file is not JSON; the message names it.
+        A StudyError names a file that is not JSON.
         """
         path = self.folder / f"{name}.json"
         if not path.exists():

@@ -82,16 +82,9 @@ def run_studies(
     """Measure, write tables and figures into the folder ``out``, and the tables into ``out.md``.
 
     Measurements are kept in ``out/data``. What is there already is not measured again, unless the
-    problem, the settings or the machine differ.
-
-    ``only`` names the studies to measure, by default all; tables and figures are made of all
-    measurements that there are. ``fresh`` measures again what is there already, and without
-    ``measuring`` only tables and figures are made. Returns the page.
-
-    Raises
-    ------
-    StudyError
-        For an unknown study, or a measurement that fails.
+    problem, the settings or the machine differ, or with ``fresh``. ``only`` names the studies to
+    measure; tables and figures are made of all measurements that there are. Returns the page. A
+    StudyError for an unknown study, or a measurement that fails.
     """
     known = [study.name for study in studies]
     for name in only or ():

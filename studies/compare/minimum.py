@@ -51,12 +51,7 @@ def mesh_minimum(
     Minimises ``E_iso + lambda / 2 sum |f(p_i) - q_i|^2`` with soft constraints, and ``E_iso`` with
     the handles at their targets with hard ones; ``E_iso`` is the mean over the mesh's area. The
     start has the handles among its vertices, at their targets where the constraints are hard.
-
-    Raises
-    ------
-    NoMinimumError
-        When the start has inverted triangles, or the Newton decrement stays above 1e-10 of the
-        energy.
+    A NoMinimumError where it has inverted triangles, or the decrement stays above 1e-10.
     """
     problem = _Problem(start, pose, energy, constraints, p2p_weight)
     operators = problem.operators

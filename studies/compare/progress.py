@@ -99,11 +99,8 @@ def _variants(case: Case) -> dict[str, Any]:
 def _harmonic(
     method: str, case: Case, display: Triangulation
 ) -> tuple[dict[str, Any], Array, HarmonicMap]:
-    """A method in the harmonic subspace; its own last map is its minimum, if it converged.
-
-    With the images of some iterates, of which the last is that of the run whose numbers count: the
-    watched one returns to the host at each iteration and may end one earlier or later.
-    """
+    """A method in the harmonic subspace, images of some iterates, and its last map, which is its
+    minimum if it converged: of the run whose numbers count, the watched one may end beside it."""
     limit: dict[str, Any] = {"max_iterations": LIMITS.get(method)}
     watcher = Watcher(display.vertices)
     watched = run(method, case, callback=watcher, **limit) if method in _FOLLOWED else None
@@ -124,10 +121,8 @@ def _harmonic(
 def _on_mesh(
     method: str, case: Case, mesh: Triangulation, other: MeshMap | None, plan: Plan
 ) -> tuple[dict[str, Any], Array, MeshMap | None]:
-    """A method on a mesh, followed for a while, and the minimum that it descends to.
-
-    That is returned last, ``None`` where there is none; ``other`` is that of another method.
-    """
+    """A method on a mesh, followed for a while, and last the minimum that it descends to, None
+    where there is none; ``other`` is that of another method."""
     plan.detail(f"{case.name}: {method}, followed for {MESH_SECONDS:.0f} s")
     settings: dict[str, Any] = {"mesh": mesh, "max_iterations": 1_000_000}
     watcher = Watcher(mesh.vertices, MESH_SECONDS)
@@ -161,16 +156,8 @@ def _on_mesh(
 
 
 def minimum_below(method: str, map_: MeshMap, other: MeshMap | None, pose: Pose) -> Minimum:
-    """The minimum of a method's energy below its map, or else below another one.
-
-    Newton's method does not get down from a map whose triangles are next to flat. The minimum
-    below another map is one of the same energy all the same.
-
-    Raises
-    ------
-    NoMinimumError
-        When there is none below either.
-    """
+    """The minimum of a method's energy below its map, or else, next to flat triangles, below
+    another one, which is a minimum of the same energy; NoMinimumError without either."""
     constraints = "hard" if method == "aqp" else "soft"
     try:
         return mesh_minimum(map_, pose, SymmetricDirichlet(), constraints, P2P_WEIGHT)
@@ -181,10 +168,8 @@ def minimum_below(method: str, map_: MeshMap, other: MeshMap | None, pose: Pose)
 
 
 def area_mean_below(map_: HarmonicMap, mesh: Triangulation, pose: Pose) -> float | None:
-    """The distortion of the minimum of SLIM's energy to which a harmonic map leads on the mesh.
-
-    ``None`` where there is none, as where the mesh is too coarse for the map to be injective on it.
-    """
+    """The distortion of the minimum of SLIM's energy to which a harmonic map leads on the mesh;
+    None where the mesh is too coarse for the map to be injective on it."""
     start = MeshMap(mesh, map_(mesh.vertices))
     try:
         return mesh_area_mean(minimum_below("slim", start, None, pose).images, mesh)

@@ -58,8 +58,7 @@ editor
 CANVAS = """
 glid.enable_compilation_cache()
 import ipywidgets
-from studies.editor.editor_frames import load
-from studies.editor.frame_log import FrameLog
+from studies.editor.frame_log import FrameLog, load
 image, domain, pose = load({shape!r})
 canvas = glid.DeformCanvas(image, domain, n_vertices={vertices}, evaluated_in={evaluated_in!r})
 model = canvas.deformation

@@ -8,18 +8,15 @@ import numpy as np
 
 import glid_nb as glid
 from glid_nb.session import live_solver
+from glid_nb.session.problem import Problem
+from studies.cases import sample_case
 
 N_SAMPLES = 64
 """Numbers of a frame by which it is recognised in the page."""
 
 
 class FrameLog:
-    """Notes, from now on, what a canvas sends and what that cost.
-
-    Parameters
-    ----------
-    canvas : glid_nb.DeformCanvas
-    """
+    """Notes, from now on, what a canvas sends and what that cost."""
 
     def __init__(self, canvas: glid.DeformCanvas) -> None:
         self.canvas = canvas
@@ -67,6 +64,15 @@ class FrameLog:
         sample = numbers[:: max(1, len(numbers) // N_SAMPLES)][:N_SAMPLES]
         targets = frame.task.pose.pose.targets
         self.frames.append({"sample": sample.tolist(), "targets": targets.tolist()})
+
+
+def load(shape: str) -> tuple[np.ndarray, glid.Domain, glid.Pose]:
+    """A bundled sample with its gentle pose, or a problem file under a blank picture."""
+    if shape.endswith(".json"):
+        problem = Problem.load(shape)
+        return np.full((200, 200, 4), 255, np.uint8), problem.domain, problem.pose
+    problem = sample_case(shape, "gentle").problem
+    return glid.samples.image(shape), problem.domain, problem.pose
 
 
 def _timed(function: Callable[..., Any], seconds: list[float]) -> Callable[..., Any]:

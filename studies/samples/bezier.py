@@ -23,20 +23,10 @@ ROUND = 24  # segments in a quarter circle: smooth at 2,000 px
 
 
 def spline(points: ArrayLike, *, closed: bool = False, steps: int = 16) -> Floats:
-    """Smooth curve through points: a centripetal Catmull-Rom spline in Bezier form.
+    """(k, d) samples, ``steps`` a segment, of a smooth curve through (n, d) points.
 
-    Parameters
-    ----------
-    points
-        (n, d) array; any further columns (a radius, say) are interpolated like coordinates.
-    closed
-        Whether the curve returns to its first point.
-    steps
-        Samples per Bezier segment.
-
-    Returns
-    -------
-    (k, d) array of samples; the first point is not repeated at the end of a closed curve.
+    A centripetal Catmull-Rom spline; columns after x and y (a radius, say) go along. The first
+    point is not repeated at the end of a closed curve.
     """
     knots = np.asarray(points, dtype=float)
     if closed:
@@ -61,10 +51,7 @@ def loop(points: ArrayLike) -> Polygon:
 
 
 def symmetric(right: Points) -> Polygon:
-    """Smooth shape that is its own mirror image, from the right half of its outline.
-
-    `right` runs from a point on the y axis to another one.
-    """
+    """Smooth shape that is its own mirror image; `right` runs from the y axis to the y axis."""
     return loop([*right, *((-x, y) for x, y in right[-2:0:-1])])
 
 
@@ -89,10 +76,7 @@ def tube(points: ArrayLike) -> Shape:
 
 
 def brush(points: ArrayLike, width: float, *, tip: float = 0.12) -> Shape:
-    """Brush stroke through (n, 2) points: full `width` in the middle, thin at both ends.
-
-    `tip` is the thickness at the ends as a part of `width`.
-    """
+    """Brush stroke through (n, 2) points: full `width` in the middle, `tip` of it at both ends."""
     line = spline(points, steps=12)
     lengths = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
     t = lengths / lengths[-1]
@@ -103,18 +87,9 @@ def brush(points: ArrayLike, width: float, *, tip: float = 0.12) -> Shape:
 
 
 def along(points: ArrayLike, at: ArrayLike) -> tuple[Floats, Floats, Floats]:
-    """Where a smooth curve passes, and which way it heads.
+    """Points, unit tangents, and unit normals to the left, (k, 2) each, of a smooth curve.
 
-    Parameters
-    ----------
-    points
-        (n, 2) or more columns; the curve is the spline through the first two.
-    at
-        (k,) positions as parts of the arc length, 0 to 1.
-
-    Returns
-    -------
-    Three (k, 2) arrays: points, unit tangents, and unit normals to the left.
+    ``at`` are (k,) shares of its length, from 0 to 1.
     """
     line = spline(np.asarray(points, dtype=float)[:, :2], steps=32)
     lengths = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])

@@ -132,11 +132,8 @@ class Sheet:
         self._paint(window, mask, colour, over=False)
 
     def image(self, matte: str) -> NDArray[np.uint8]:
-        """The drawing as RGBA (h, w, 4), not premultiplied.
-
-        Fully transparent pixels carry the colour `matte`, so that a careless resampler does not
-        fringe the outline with black.
-        """
+        """The drawing as RGBA (h, w, 4), not premultiplied; what is transparent has the colour
+        `matte`, so that a careless resampler does not fringe the outline with black."""
         alpha = np.clip(self._alpha, 0, 1)[..., None]
         solid = self._rgb / np.maximum(alpha, 1 / 512)
         rgb = np.where(alpha > 1 / 512, solid, np.asarray(to_rgb(matte), np.float32))
