@@ -19,6 +19,8 @@ Array = NDArray[Any]
 
 NAMES = ("ell", "ring", "twin", "triple")
 """Domains with 0, 1, 2 and 3 holes."""
+MANY_HOLES = {"quadruple": 4, "quintuple": 5, "sextuple": 6}
+"""And with more."""
 
 _ELL = [[-3, -3], [3, -3], [3, 0], [0, 0], [0, 3], [-3, 3]]
 
@@ -31,7 +33,7 @@ def circle(n: int, radius: float, centre: complex = 0, turn: float = 0) -> Array
 
 @functools.cache
 def domain(name: str) -> Domain:
-    """`ell`, `ring`, `twin`, `triple`, or `annulus` with many vertices."""
+    """One of those names, or `annulus` with many vertices."""
     if name == "ell":
         return Domain.from_cage(Cage(_ELL), 0.3)
     if name == "ring":
@@ -50,6 +52,10 @@ def domain(name: str) -> Domain:
         )
     if name == "triple":
         holes = [circle(3, 0.7, 2 * np.exp(2j * k), 0.4 * k) for k in range(3)]
+        return Domain.from_cage(Cage(circle(9, 4.0), holes), 0.15)
+    if name in MANY_HOLES:
+        count = MANY_HOLES[name]
+        holes = [circle(3, 0.45, 2.4 * np.exp(2j * np.pi * k / count)) for k in range(count)]
         return Domain.from_cage(Cage(circle(9, 4.0), holes), 0.15)
     if name == "annulus":
         exterior, hole = circle(24, 3.0), circle(24, 1.2)

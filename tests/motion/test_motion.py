@@ -19,8 +19,8 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion import MotionError
 from glid_nb.motion.boundary import boundary_of
 
-from ..domains import NAMES, domain, random_map
-from .test_pieces import turned
+from ..domains import MANY_HOLES, NAMES, dense_check, domain, random_map
+from .test_pieces import check, turned
 
 pytestmark = pytest.mark.slow
 
@@ -59,12 +59,12 @@ def test_a_motion_passes_through_its_keyframes_and_is_proved(name: str) -> None:
 
 
 @given(
-    st.sampled_from(NAMES),
+    st.sampled_from([*NAMES, *MANY_HOLES]),
     st.floats(-3, 3),
     st.tuples(*[st.integers(0, 10**6)] * 2),
     st.sampled_from([0.01, 0.03]),
 )
-@settings(max_examples=8)
+@settings(max_examples=14)
 def test_nothing_between_two_keyframes_is_worse_than_the_worse_one(
     name: str, angle: float, seeds: tuple[int, int], size: float
 ) -> None:
@@ -77,6 +77,17 @@ def test_nothing_between_two_keyframes_is_worse_than_the_worse_one(
         sigma2, k = extremes(curve.map(t))
         assert sigma2 >= 0.98 * min(s for s, _ in ends)
         assert k <= 1.02 * max(k for _, k in ends)
+
+
+def test_forty_million_points_and_times_contradict_nothing_of_a_whole_motion() -> None:
+    """Of several pieces, with three holes and 200 times, at 2 x 10^5 points."""
+    maps = [turned(random_map("triple", 0.02, i), a) for i, a in enumerate((0, 1.5, 0.4))]
+    motion = Motion(maps, [0, 1, 1.5], repeat="loop", tolerance=0.01)
+    assert motion.certificate.certified
+    pieces = list(zip(motion.pieces, motion.certificate.pieces, strict=True))
+    assert len(pieces) >= 5
+    for piece, proof in pieces:
+        check(proof, *piece[2:], dense_check("triple"), 1 + 200 // len(pieces))
 
 
 def test_the_logarithm_of_f_z_has_one_branch_on_all_loops() -> None:
