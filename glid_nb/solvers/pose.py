@@ -99,7 +99,7 @@ class Pose:
         i = _first_outside(domain, self.handles.tobytes())
         if i is not None:
             where = f"handle {i} at {place(self.handles[i])} lies outside the domain"
-            raise PoseError(f"{where}; move it inside and out of the holes, or remove it")
+            raise PoseError(f"{where}; move it inside and out of its holes, or remove it")
 
     def with_targets(self, targets: ArrayLike) -> Pose:
         """The same handles with other targets."""
