@@ -94,7 +94,11 @@ def _kept(path: Path) -> Any:
     if hashlib.sha256(content).digest() != checksum:
         return None
     stage("load")
-    return _serialization().deserialize_and_load(*pickle.loads(zlib.decompress(content)))
+    try:
+        parts = pickle.loads(zlib.decompress(content))
+    except (ImportError, AttributeError):  # a version kept it whose classes were in other modules
+        return None
+    return _serialization().deserialize_and_load(*parts)
 
 
 def _serialization() -> Any:
