@@ -19,10 +19,10 @@ WIDGET = "application/vnd.jupyter.widget-view+json"
 
 
 def without_widgets(cell: nbformat.NotebookNode) -> None:
-    """Keep a widget's picture, if it has one; leave out what shows nothing without a kernel."""
-    for output in list(cell.outputs):
-        if output.get("data", {}).pop(WIDGET, None) and "image/png" not in output.data:
-            cell.outputs.remove(output)
+    """Of a cell that shows a widget keep the widget's picture, if it has one, and nothing else."""
+    shown = [output for output in cell.outputs if output.get("data", {}).pop(WIDGET, None)]
+    if shown:
+        cell.outputs = [output for output in shown if "image/png" in output.data]
 
 
 def run(path: Path) -> None:
@@ -34,10 +34,13 @@ def run(path: Path) -> None:
         resources={"metadata": {"path": str(path.parent)}},
         timeout=600,
         record_timing=False,
+        store_widget_state=False,
         coalesce_streams=True,
     )
+    # What nbclient sends to output widgets may make it miss a cell's reply, and wait for minutes.
+    client.comm_open_handlers.clear()
     client.execute()
-    book.metadata = metadata  # without the widgets' states and the version of Python
+    book.metadata = metadata  # without the version of Python
     for cell in book.cells:
         if cell.cell_type == "code":
             without_widgets(cell)
