@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pytest
+from playwright.sync_api import FloatRect, Locator
 
 from .conftest import OpenNotebook
 from .editor_page import Hand, line
@@ -82,15 +83,21 @@ class Timeline:
     def times(self) -> list[float]:
         return self.book.value("list(model.state.timeline.times)")
 
-    def x(self, time: float) -> float:
-        box = self.track.bounding_box()
+    @staticmethod
+    def box(part: Locator) -> FloatRect:
+        """Where a part is in the window, into which it is scrolled."""
+        part.scroll_into_view_if_needed()
+        box = part.bounding_box()
         assert box is not None
+        return box
+
+    def x(self, time: float) -> float:
+        box = self.box(self.track)
         span = float(self.track.get_attribute("data-span") or "nan")
         return box["x"] + 34 + time / span * (box["width"] - 68)
 
     def scrub(self, times: Sequence[float]) -> None:
-        box = self.track.bounding_box()
-        assert box is not None
+        box = self.box(self.track)
         self.page.mouse.move(self.x(times[0]), box["y"] + 8)
         self.page.mouse.down()
         for time in times:
@@ -128,12 +135,12 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     book.screenshot("timeline-five-poses")
 
     # A keyframe moves along time, past none; its easing and the repetition change.
-    box = timeline.keys.nth(1).bounding_box()
-    assert box is not None
+    later, latest = timeline.x(1.2), timeline.x(1.4)
+    box = timeline.box(timeline.keys.nth(1))
     page.mouse.move(box["x"] + 30, box["y"] + 20)
     page.mouse.down()
-    page.mouse.move(timeline.x(1.2), box["y"] + 20, steps=5)
-    page.mouse.move(timeline.x(1.4), box["y"] + 20, steps=5)
+    page.mouse.move(later, box["y"] + 20, steps=5)
+    page.mouse.move(latest, box["y"] + 20, steps=5)
     page.mouse.up()
     book.wait_for("abs(model.state.timeline.times[1] - 1.4) < 0.03")
     timeline.root.locator("select").nth(1).select_option("in-out")
