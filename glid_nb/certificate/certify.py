@@ -2,7 +2,7 @@
 
 import functools
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
@@ -207,8 +207,13 @@ def proved_by(
 ) -> Certificate:
     """The certificate by what a solver has proved, neither of sigma_1 nor of k but ``k < 1``."""
     every = np.ones(len(panels))
-    own: Any = (sigma2_lower, every * np.inf, every, every > 0, turning)
-    bounds = PanelBounds(*own)
+    bounds = PanelBounds(
+        sigma2_lower=sigma2_lower,
+        sigma1_upper=every * np.inf,
+        k_upper=every,
+        turning_known=every > 0,
+        turning=turning,
+    )
     turns = windings(turning, panels.loop, 1 + map.domain.n_holes)
     certified = bool((sigma2_lower > 0).all()) and sum(turns) == 0
     how = "Proved locally injective" if certified else "Undecided: not proved"
@@ -253,11 +258,18 @@ def _assembled(
     reason: str,
 ) -> Certificate:
     sigma2, sigma1, k = (np.asarray(values) for values in bounds[:3])
-    along = (panels.start, panels.end, panels.loop, panels.depth, panels.next)
-    per_panel = PanelCertificate(*along, sigma2, sigma1, k)
-    largest_k = min(float(k.max()), 1.0) if certified else float(k.max())
-    extremes = (float(sigma2.min()), float(sigma1.max()), largest_k)
-    return Certificate(certified, *extremes, turns, per_panel, kind, reason, map)
+    along = {field.name: getattr(panels, field.name) for field in fields(Panels)}
+    return Certificate(
+        certified=certified,
+        sigma2_lower=float(sigma2.min()),
+        sigma1_upper=float(sigma1.max()),
+        k_upper=min(float(k.max()), 1.0) if certified else float(k.max()),
+        windings=turns,
+        panels=PanelCertificate(**along, sigma2_lower=sigma2, sigma1_upper=sigma1, k_upper=k),
+        kind=kind,
+        reason=reason,
+        map=map,
+    )
 
 
 def _kernel(

@@ -63,9 +63,13 @@ class Hermite(NamedTuple):
         if direction is not None:
             sigma1 = [p_most + _greatest([modulus(point) for point in q]) + e_f + e_g]
         # If the control points lie in a half plane further than e_f from 0, f_z avoids 0 there.
-        known = _least(along) > e_f
-        extremes = _least(sigma2), _greatest(sigma1), _greatest(k)
-        return PanelBounds(*extremes, known, turning(fz.start, fz.end))
+        return PanelBounds(
+            sigma2_lower=_least(sigma2),
+            sigma1_upper=_greatest(sigma1),
+            k_upper=_greatest(k),
+            turning_known=_least(along) > e_f,
+            turning=turning(fz.start, fz.end),
+        )
 
 
 def _piece_bounds(p: Cubic, q: Cubic, e_f: PerPanel, e_g: PerPanel) -> tuple[Array, Array, Array]:

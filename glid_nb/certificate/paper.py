@@ -42,11 +42,11 @@ def segment_bounds(
     xp = sigma1.__array_namespace__()
     finite = xp.isfinite(sigma1**2)
     return PanelBounds(
-        xp.where(finite, fz_min - fzb_max, -xp.inf),
-        xp.where(finite, sigma1, xp.inf),
-        xp.where(fz_min > 0, fzb_max / fz_min, xp.inf),
-        finite & (2 * mean_fz > variation_fz),
-        turning(fz.start, fz.end),
+        sigma2_lower=xp.where(finite, fz_min - fzb_max, -xp.inf),
+        sigma1_upper=xp.where(finite, sigma1, xp.inf),
+        k_upper=xp.where(fz_min > 0, fzb_max / fz_min, xp.inf),
+        turning_known=finite & (2 * mean_fz > variation_fz),
+        turning=turning(fz.start, fz.end),
     )
 
 

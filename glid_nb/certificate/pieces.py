@@ -19,7 +19,7 @@ from glid_nb._runtime import in_chunks
 from glid_nb.certificate import rounding
 from glid_nb.certificate.certify import Known, end_values, refined
 from glid_nb.certificate.hermite import Hermite
-from glid_nb.certificate.panels import EndValues, PanelBounds
+from glid_nb.certificate.panels import EndValues
 from glid_nb.certificate.paper import beside, jumps
 from glid_nb.geometry import graded_panels
 from glid_nb.harmonic import HarmonicMap, Singularities, basis_of, cauchy, rows_of
@@ -171,12 +171,14 @@ def _bounds(values: _Values) -> Known:
     k: Any = np.where(known, k, np.inf)
     along = np.real(u.conj() * f)
     return Known(
-        PanelBounds(sigma2, sigma1, k, known, proved[0].turning),
-        (along - np.abs(g)).min(axis=0),
-        (np.abs(f) + np.abs(g)).max(axis=0),
-        (np.abs(g) / along).max(axis=0),
-        np.abs(f).min(axis=0),
-        errors[..., 1].sum(axis=2).max(axis=1),
+        bounds=proved[0]._replace(
+            sigma2_lower=sigma2, sigma1_upper=sigma1, k_upper=k, turning_known=known
+        ),
+        sigma2_seen=(along - np.abs(g)).min(axis=0),
+        sigma1_seen=(np.abs(f) + np.abs(g)).max(axis=0),
+        k_seen=(np.abs(g) / along).max(axis=0),
+        fz_seen=np.abs(f).min(axis=0),
+        slack=errors[..., 1].sum(axis=2).max(axis=1),
     )
 
 

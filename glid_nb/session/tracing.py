@@ -31,7 +31,7 @@ _KEPT_OUTCOMES = 12  # each holds a mask of the picture's size
 
 
 @dataclass(frozen=True)
-class TracingProblem:
+class TracingFault:
     """Why the loops that are shown are not a valid cage."""
 
     message: str  # what is wrong and what to do
@@ -69,7 +69,7 @@ class TracingOutcome:
     """The result of automatic tracing; None if it failed, or the loops were drawn without it."""
     loops: AnyLoops  # the loops to show, world coordinates, valid or not
     domain: Domain | None  # from the loops if they are valid, else the state's fallback
-    problems: tuple[TracingProblem, ...]  # why the loops are not valid; empty when they are
+    problems: tuple[TracingFault, ...]  # why the loops are not valid; empty when they are
 
 
 _NO_SCRIBBLES = Scribbles([], [])
@@ -159,7 +159,7 @@ class TracingModel(Undoable[TracingState]):
         return self.outcome.domain
 
     @property
-    def problems(self) -> tuple[TracingProblem, ...]:
+    def problems(self) -> tuple[TracingFault, ...]:
         """Why the loops that are shown are not a valid cage; empty when they are."""
         return self.outcome.problems
 
@@ -375,12 +375,12 @@ def _shares_vertices(loops: AnyLoops, others: AnyLoops) -> bool:
     return any(tuple(vertex) in known for loop in loops for vertex in loop.tolist())
 
 
-def _problem(error: TraceError | GeometryError, frame: PixelFrame) -> TracingProblem:
+def _problem(error: TraceError | GeometryError, frame: PixelFrame) -> TracingFault:
     point = error.point if isinstance(error, GeometryError) else None
     if point is not None:
         x, y = frame.to_pixel(point)
         point = (float(x), float(y))
-    return TracingProblem(str(error), error.plain, point)
+    return TracingFault(str(error), error.plain, point)
 
 
 def _name_of(image: ImageSource | None) -> str:

@@ -29,7 +29,7 @@ from glid_nb.solvers.method import Inputs
 from glid_nb.solvers.newton import SLOW_ITERATIONS, Newton, NewtonDescent, descend
 from glid_nb.solvers.options import Options
 from glid_nb.solvers.pose import Pose, PoseError
-from glid_nb.solvers.problem import Problem
+from glid_nb.solvers.problem import SubspaceProblem
 from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Result
 from glid_nb.solvers.stiffness import Stiffness
@@ -197,14 +197,14 @@ def _call(chosen: list[_Pose], size: int) -> float:
 
 @functools.partial(jit, compiler_options=COMPILER_OPTIONS)
 def _together(
-    problem: Problem, settings: step.Settings, aims: Any, coefficients: Any, limits: Any
+    problem: SubspaceProblem, settings: step.Settings, aims: Any, coefficients: Any, limits: Any
 ) -> step.State:
     """The iterations of poses that differ by their aims, from maps of their own."""
 
-    def one(goals: Any, y: Any, limit: Any) -> step.State:
+    def one(goals: Any, start: Any, limit: Any) -> step.State:
         state = step.iterations(
             problem._replace(positional=problem.positional._replace(aims=goals)),
-            y,
+            start,
             jnp.zeros((len(problem.unknowns.free),) * 2),
             settings._replace(iterations=limit),
         )

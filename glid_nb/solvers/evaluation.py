@@ -10,7 +10,7 @@ from glid_nb.certificate.panels import modulus
 from glid_nb.certificate.paper import turning
 from glid_nb.energies import Differentials, Energy
 from glid_nb.solvers.discretisation import Matrices
-from glid_nb.solvers.problem import Problem
+from glid_nb.solvers.problem import SubspaceProblem
 
 Number = Float[Array, ""]
 Coefficients = Float[Array, " 4c"]
@@ -44,27 +44,30 @@ class Line(NamedTuple):
     squared_decrement: Number  # -gradient . direction
 
 
-def evaluated(problem: Problem, y: Coefficients) -> Point:
-    """The point with the coefficients ``y``, its samples computed anew."""
-    return _point(problem, y, products(problem.matrices, y - problem.anchor), reach(problem, y))
+def evaluated(problem: SubspaceProblem, coefficients: Coefficients) -> Point:
+    """The point with these coefficients, its samples computed anew."""
+    samples = products(problem.matrices, coefficients - problem.anchor)
+    return _point(problem, coefficients, samples, reach(problem, coefficients))
 
 
-def line_along(problem: Problem, direction: Coefficients, slope: Number) -> Line:
+def line_along(problem: SubspaceProblem, direction: Coefficients, slope: Number) -> Line:
     """The line in a direction, along which the energy changes by ``slope`` at first."""
     return Line(direction, products(problem.matrices, direction), -slope)
 
 
-def moved(problem: Problem, point: Point, line: Line, step: Number) -> Point:
+def moved(problem: SubspaceProblem, point: Point, line: Line, step: Number) -> Point:
     """The point ``step`` along a line; its samples are carried along (G.11)."""
     samples = Samples(*(a + step * b for a, b in zip(point.samples, line.change, strict=True)))
-    y = point.coefficients + step * line.direction
-    largest = jnp.maximum(point.largest, reach(problem, y))
-    return _point(problem, y, samples, largest)
+    reached = point.coefficients + step * line.direction
+    largest = jnp.maximum(point.largest, reach(problem, reached))
+    return _point(problem, reached, samples, largest)
 
 
-def _point(problem: Problem, y: Coefficients, samples: Samples, largest: Number) -> Point:
+def _point(
+    problem: SubspaceProblem, coefficients: Coefficients, samples: Samples, largest: Number
+) -> Point:
     iso = isometric_energy(samples.values, problem.matrices, problem.energy)
-    return Point(y, samples, iso, problem.positional.energy(y), largest)
+    return Point(coefficients, samples, iso, problem.positional.energy(coefficients), largest)
 
 
 def isometric_energy(
@@ -82,7 +85,7 @@ def isometric_energy(
     return total - matrices.stiff * energy.density(jnp.ones(()), jnp.zeros(()))
 
 
-def gradient(problem: Problem, point: Point) -> Coefficients:
+def gradient(problem: SubspaceProblem, point: Point) -> Coefficients:
     """Of the total energy, with respect to all coefficients."""
     values = point.samples.values
     d = problem.energy.differentials(*squares(values))
@@ -100,7 +103,7 @@ def energy_gradient(matrices: Matrices, values: Values, d: Differentials) -> Coe
     return jnp.concatenate([re[0] - im[1], re[1] + im[0], re[2] - im[3], re[3] + im[2]])
 
 
-def bounds(problem: Problem, point: Point) -> PanelBounds:
+def bounds(problem: SubspaceProblem, point: Point) -> PanelBounds:
     matrices, samples = problem.matrices, point.samples
     truncation = matrices.proof.remainder(_complex(point.coefficients), problem.singularities)
     slack = rounding.allowance(matrices.rounding * point.largest, point.largest)
@@ -115,7 +118,7 @@ def bounds(problem: Problem, point: Point) -> PanelBounds:
     return matrices.proof.bounds(fz, fzb_conj, remainder)
 
 
-def tightened_by_splitting(problem: Problem, point: Point) -> Bool[np.ndarray, " p"]:
+def tightened_by_splitting(problem: SubspaceProblem, point: Point) -> Bool[np.ndarray, " p"]:
     """Panels, on the host, whose bounds are loose by more than rounding: splitting helps."""
     matrices: Matrices = jax.tree.map(np.asarray, problem.matrices)
     re, im = np.moveaxis(np.asarray(point.coefficients).reshape(2, 2, -1), 1, 0)
@@ -123,10 +126,10 @@ def tightened_by_splitting(problem: Problem, point: Point) -> Bool[np.ndarray, "
     return truncation.max(axis=0) > matrices.rounding * float(point.largest)
 
 
-def reach(problem: Problem, y: Coefficients) -> Number:
+def reach(problem: SubspaceProblem, coefficients: Coefficients) -> Number:
     """What errors are relative to: the largest coefficient beside the anchor, and its rounding."""
-    share = 8 * rounding.UNIT_ROUNDOFF / rounding.slack_factor(y.shape[0] // 4)
-    near = modulus(_complex(y - problem.anchor)).max()
+    share = 8 * rounding.UNIT_ROUNDOFF / rounding.slack_factor(coefficients.shape[0] // 4)
+    near = modulus(_complex(coefficients - problem.anchor)).max()
     return near + share * (near + 2 * jnp.max(jnp.abs(problem.anchor)))
 
 
@@ -136,11 +139,11 @@ def fz_turning(matrices: Matrices, values: Values) -> Float[Array, " p"]:
     return turning(f, f[matrices.next])
 
 
-def products(matrices: Matrices, y: Coefficients) -> Samples:
+def products(matrices: Matrices, coefficients: Coefficients) -> Samples:
     """``f_z``, ``conj(f_zbar)`` and their derivatives on the panels (G.6), one product each."""
-    re, im = jnp.moveaxis(y.reshape(2, 2, -1), 1, 0)
-    y4 = jnp.stack([jnp.hstack([re, im]), jnp.hstack([im, -re])], axis=1).reshape(4, -1)
-    return Samples(y4 @ matrices.nodes, y4 @ matrices.slopes)
+    re, im = jnp.moveaxis(coefficients.reshape(2, 2, -1), 1, 0)
+    rows = jnp.stack([jnp.hstack([re, im]), jnp.hstack([im, -re])], axis=1).reshape(4, -1)
+    return Samples(rows @ matrices.nodes, rows @ matrices.slopes)
 
 
 def squares(values: Float[Array, "4 *t s"]) -> tuple[Array, Array]:

@@ -10,7 +10,7 @@ from glid_nb._jax import AnyArray, Array, Bool, Float, Int, jnp, lax
 from glid_nb.certificate import PanelBounds, fz_vanishes
 from glid_nb.solvers import evaluation
 from glid_nb.solvers.evaluation import Line, Number, Point, Values
-from glid_nb.solvers.problem import Problem
+from glid_nb.solvers.problem import SubspaceProblem
 
 # How a compiled call can end.
 RUNNING, CONVERGED, NO_DECREASE, REFUSED, INDEFINITE, BLOCKED, PENDING = range(7)
@@ -52,7 +52,7 @@ def _difference_of_squares(a: Values, b: Values) -> Float[Array, " s"]:
     return a[0] * b[0] + a[1] * b[1] - a[2] * b[2] - a[3] * b[3]
 
 
-def search(problem: Problem, point: Point, line: Line) -> Search:
+def search(problem: SubspaceProblem, point: Point, line: Line) -> Search:
     """Energies along the line in batches of candidates, each batch shorter, until one decreases."""
     values, change, positional = point.samples.values, line.change.values, problem.positional
     residual = positional.residual(point.coefficients)
@@ -94,7 +94,11 @@ class Backtracking(NamedTuple):
 
 
 def backtrack(
-    problem: Problem, point: Point, line: Line, found: Search, once: Bool[AnyArray, ""] | bool
+    problem: SubspaceProblem,
+    point: Point,
+    line: Line,
+    found: Search,
+    once: Bool[AnyArray, ""] | bool,
 ) -> Backtracking:
     """Go from the best candidate to shorter ones until one is certified; ``once``: try one only.
     Where Condition (30) fails and no panel refuses, the step jumps over a map with a zero of

@@ -14,7 +14,7 @@ from glid_nb.solvers import evaluation, line_search, step
 from glid_nb.solvers.loop import Advance, Ending, Stopwatch, follow
 from glid_nb.solvers.method import Inputs, Method
 from glid_nb.solvers.options import Options
-from glid_nb.solvers.problem import Problem, map_from, restrict_rows
+from glid_nb.solvers.problem import SubspaceProblem, map_from, restrict_rows
 from glid_nb.solvers.restarts import improve
 from glid_nb.solvers.result import Iteration, Result, Status
 from glid_nb.solvers.subspace import SubspaceDescent
@@ -184,7 +184,7 @@ class NewtonDescent(SubspaceDescent):
 _latest: tuple[list[Any], Any] | None = None
 
 
-def _p2p_hessian(problem: Problem) -> Any:
+def _p2p_hessian(problem: SubspaceProblem) -> Any:
     """The positional energy's Hessian, else the identity; the latest is kept on the device."""
     global _latest
     positional, unknowns = problem.positional, problem.unknowns

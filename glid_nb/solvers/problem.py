@@ -45,7 +45,7 @@ class Unknowns(NamedTuple):
     holes: Float[AnyArray, " N"]  # one entry per padded hole column: its length matters
 
 
-class Problem(NamedTuple):
+class SubspaceProblem(NamedTuple):
     """What is minimised, over which unknowns; a pytree, padded to buckets."""
 
     matrices: Matrices
@@ -66,14 +66,14 @@ class Positional(NamedTuple):
     aims: Float[AnyArray, " 2h"]
     weights: Float[AnyArray, " 2h"]  # lambda for a handle, 0 for padding
 
-    def residual(self, y: Float[Array, " 4c"]) -> Float[AnyArray, " 2h"]:
-        return self.matrix @ y - self.aims
+    def residual(self, coefficients: Float[Array, " 4c"]) -> Float[AnyArray, " 2h"]:
+        return self.matrix @ coefficients - self.aims
 
-    def energy(self, y: Float[Array, " 4c"]) -> Float[Array, ""]:
-        return 0.5 * jnp.sum(self.weights * self.residual(y) ** 2)
+    def energy(self, coefficients: Float[Array, " 4c"]) -> Float[Array, ""]:
+        return 0.5 * jnp.sum(self.weights * self.residual(coefficients) ** 2)
 
-    def gradient(self, y: Float[Array, " 4c"]) -> Float[AnyArray, " 4c"]:
-        return self.matrix.T @ (self.weights * self.residual(y))
+    def gradient(self, coefficients: Float[Array, " 4c"]) -> Float[AnyArray, " 4c"]:
+        return self.matrix.T @ (self.weights * self.residual(coefficients))
 
 
 def positional_energy(

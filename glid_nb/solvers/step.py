@@ -11,7 +11,7 @@ from glid_nb.solvers import cholesky, evaluation, hessian, line_search, whitenin
 from glid_nb.solvers.evaluation import Coefficients, Line, Number, Point
 from glid_nb.solvers.line_search import CONVERGED, INDEFINITE, RUNNING
 from glid_nb.solvers.options import MOST_PER_CALL
-from glid_nb.solvers.problem import Problem, expand, restrict_gradient, restrict_hessian
+from glid_nb.solvers.problem import SubspaceProblem, expand, restrict_gradient, restrict_hessian
 
 Factor = Float[Array, "4u 4u"]
 
@@ -58,7 +58,7 @@ class State(NamedTuple):
 
 
 def iterations(
-    problem: Problem, coefficients: Coefficients, factor: Factor, settings: Settings
+    problem: SubspaceProblem, coefficients: Coefficients, factor: Factor, settings: Settings
 ) -> State:
     """Up to ``settings.iterations`` (at most `MOST_PER_CALL`) Newton iterations, to be compiled.
 
@@ -91,7 +91,7 @@ def iterations(
     return lax.while_loop(goes_on, functools.partial(_step, problem, settings), start)
 
 
-def _step(problem: Problem, settings: Settings, state: State) -> State:
+def _step(problem: SubspaceProblem, settings: Settings, state: State) -> State:
     """One step of Algorithm 1, the first of an iteration or a correction."""
     point, corrects = state.point, state.corrects
     # The Hessian and its factor, projected where it is not positive definite.
@@ -149,7 +149,7 @@ def _step(problem: Problem, settings: Settings, state: State) -> State:
     )
 
 
-def _factorised(problem: Problem, settings: Settings, state: State) -> tuple[Factor, Array]:
+def _factorised(problem: SubspaceProblem, settings: Settings, state: State) -> tuple[Factor, Array]:
     """Cholesky factor of the Hessian, NaN where that fails, and whether ``K`` was projected; or the
     factor that the call was given. A loop, for its turns write into the same memory."""
     matrices, energy = problem.matrices, problem.energy
@@ -196,7 +196,7 @@ def _factorised(problem: Problem, settings: Settings, state: State) -> tuple[Fac
     return factor, wanted & ((count == 2) | settings.projects_first)
 
 
-def _newton_line(problem: Problem, point: Point, factor: Factor) -> Line:
+def _newton_line(problem: SubspaceProblem, point: Point, factor: Factor) -> Line:
     """The line in the direction ``-H^-1 gradient``, computed in whitened coordinates."""
     unknowns, t = problem.unknowns, problem.matrices.whitening
     gradient = evaluation.gradient(problem, point)
@@ -207,7 +207,7 @@ def _newton_line(problem: Problem, point: Point, factor: Factor) -> Line:
     return evaluation.line_along(problem, direction, jnp.dot(gradient, step))
 
 
-def _is_ours(problem: Problem, *_: Any) -> bool:
+def _is_ours(problem: SubspaceProblem, *_: Any) -> bool:
     """Whether the energy is one of Table 1; a kept program also needs LAPACK ready."""
     return cholesky.understood() and type(problem.energy).__module__ == table1.__name__
 

@@ -16,7 +16,7 @@ from glid_nb.solvers.discretisation import Discretisation, Matrices, discretise
 from glid_nb.solvers.evaluation import Point
 from glid_nb.solvers.loop import Descent, Ending, Reached
 from glid_nb.solvers.method import Inputs, Method
-from glid_nb.solvers.problem import Problem, canonical, map_from, unknowns_of
+from glid_nb.solvers.problem import SubspaceProblem, canonical, map_from, unknowns_of
 from glid_nb.solvers.result import Iteration, Result, Status
 from glid_nb.solvers.stiffness import stiff_matrices
 
@@ -48,7 +48,7 @@ class SubspaceDescent(Descent):
         self.coefficients: Any = problem.real_coefficients(self.start)
         basis = self.discretisation.basis
         whitening = self.discretisation.matrices.whitening if reduced else None
-        self.problem = Problem(
+        self.problem = SubspaceProblem(
             matrices=self.matrices,
             singularities=basis.singularities,
             unknowns=unknowns_of(basis, options.conformal, whitening),
@@ -115,8 +115,8 @@ class SubspaceDescent(Descent):
         """What a solve returns; the last proved map where the start itself cannot be proved."""
         if self.proved is None and not self.start_proof.belongs_to(self.start):
             ending = Ending(Status.UNPROVED)
-            y = problem.real_coefficients(self.start_proof.map)
-            self.point = _evaluated(self.problem, y)
+            coefficients = problem.real_coefficients(self.start_proof.map)
+            self.point = _evaluated(self.problem, coefficients)
         return super().result(ending, compile_time, solve_time)
 
     def split(self, refused: Array) -> int:

@@ -12,7 +12,7 @@ from glid_nb.solvers import Result, cholesky, evaluation, line_search
 from glid_nb.solvers.evaluation import Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
 from glid_nb.solvers.problem import (
-    Problem,
+    SubspaceProblem,
     positional_energy,
     real_coefficients,
     restrict_hessian,
@@ -40,13 +40,13 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
     unknowns = unknowns_of(disc.basis, options.conformal, disc.matrices.whitening)
     singularities = disc.basis.singularities
     energy = result.energy_measure
-    problem = Problem(disc.matrices, singularities, unknowns, positional, energy)
+    problem = SubspaceProblem(disc.matrices, singularities, unknowns, positional, energy)
     y = jnp.asarray(real_coefficients(result.map))
 
-    def gradient(problem: Problem, y: Any) -> Any:
+    def gradient(problem: SubspaceProblem, y: Any) -> Any:
         return evaluation.gradient(problem, evaluation.evaluated(problem, y))
 
-    def hessian(problem: Problem, point: Point) -> Any:
+    def hessian(problem: SubspaceProblem, point: Point) -> Any:
         return _hessian(problem, point, options.hessian == "projected")
 
     def factor(h: Any, b: Any) -> Any:
@@ -67,7 +67,7 @@ def measure_stages(result: Result, repeats: int) -> dict[str, float]:
         return {name: _seconds(*stage, repeats) for name, stage in stages.items()}
 
 
-def _hessian(problem: Problem, point: Point, projected: bool) -> Any:
+def _hessian(problem: SubspaceProblem, point: Point, projected: bool) -> Any:
     matrices = problem.matrices
     values = point.samples.values[:, matrices.hessian_index]
     x, y = evaluation.squares(values)

@@ -15,7 +15,7 @@ from glid_nb.harmonic import HarmonicMap, basis_of, cauchy
 from glid_nb.solvers import Pose, evaluation
 from glid_nb.solvers.discretisation import discretise
 from glid_nb.solvers.problem import (
-    Problem,
+    SubspaceProblem,
     anchor_of,
     positional_energy,
     real_coefficients,
@@ -125,7 +125,7 @@ def test_the_loop_counts_differences_too(shift: float) -> None:
     disc = discretise(domain("ring"))
     map = translated(random_map("ring", 0.1, 1), shift)
     pose = Pose([(2.2, 0.5)], [(2.2, 0.5)])
-    problem = Problem(
+    problem = SubspaceProblem(
         disc.matrices,
         disc.basis.singularities,
         unknowns_of(disc.basis, False),

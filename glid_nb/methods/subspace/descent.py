@@ -17,7 +17,13 @@ from glid_nb.solvers.evaluation import Coefficients, Point
 from glid_nb.solvers.hessian import LocalHessian, assemble, local_hessian, positive_part
 from glid_nb.solvers.line_search import NO_DECREASE, RUNNING
 from glid_nb.solvers.loop import Advance, Ending, Stopwatch, follow
-from glid_nb.solvers.problem import Problem, expand, map_from, restrict_gradient, restrict_hessian
+from glid_nb.solvers.problem import (
+    SubspaceProblem,
+    expand,
+    map_from,
+    restrict_gradient,
+    restrict_hessian,
+)
 from glid_nb.solvers.step import LEAST_ENERGY
 from glid_nb.solvers.subspace import SubspaceDescent
 
@@ -187,14 +193,14 @@ class DirectedDescent(SubspaceDescent):
 
 
 @functools.partial(jit, compiler_options=COMPILER_OPTIONS)
-def _evaluate(problem: Problem, coefficients: Coefficients) -> tuple[Point, Coefficients]:
+def _evaluate(problem: SubspaceProblem, coefficients: Coefficients) -> tuple[Point, Coefficients]:
     """A map's energies, and their gradient with respect to the unknowns, 0 elsewhere."""
     point = evaluation.evaluated(problem, coefficients)
     return point, restrict_gradient(evaluation.gradient(problem, point), problem.unknowns)
 
 
 @functools.partial(jit, static_argnames="curvature", compiler_options=COMPILER_OPTIONS)
-def _hessian(problem: Problem, point: Point, *, curvature: Curvature) -> DeviceArray:
+def _hessian(problem: SubspaceProblem, point: Point, *, curvature: Curvature) -> DeviceArray:
     """(4c, 4c) Hessian of the isometric energy with respect to the unknowns (33). ``gauss-newton``
     is for ARAP, ``2 (|f_z| - 1)^2 + 2 |f_zbar|^2``, without the residuals' second derivatives;
     ``dirichlet`` is that of ``|f_z|^2 + |f_zbar|^2``."""
@@ -220,7 +226,7 @@ def _hessian(problem: Problem, point: Point, *, curvature: Curvature) -> DeviceA
 
 @functools.partial(jit, compiler_options=COMPILER_OPTIONS)
 def _advance(
-    problem: Problem,
+    problem: SubspaceProblem,
     point: Point,
     gradient: Coefficients,
     direction: Coefficients,
@@ -233,7 +239,6 @@ def _advance(
     end = line_search.backtrack(problem, point, line, found, may_refine)
     # Values anew from the coefficients: their rounding errors must not add up over thousands of
     # iterations, for which the certificate makes no allowance.
-    y = point.coefficients + end.step * line.direction
-    after = evaluation.evaluated(problem, y)
+    after = evaluation.evaluated(problem, point.coefficients + end.step * line.direction)
     gradient = restrict_gradient(evaluation.gradient(problem, after), problem.unknowns)
     return end._replace(point=after), gradient
