@@ -27,26 +27,23 @@ _settling = False
 
 def once_loaded(action: Callable[[], Any]) -> None:
     """Call ``action`` once JAX is imported, before the package computes anything."""
-    with _lock:
-        _waiting.append(action)
+    _waiting.append(action)
     settle()
 
 
-def settle() -> None:
-    """Run the pending actions if JAX is imported by now."""
+def settle(waits: bool = False) -> None:
+    """Run the pending actions if JAX is imported by now; a thread that imports it does so then."""
     global _settling
-    if not _waiting or "jax" not in sys.modules:
+    if not _waiting or "jax" not in sys.modules or not _lock.acquire(blocking=waits):
         return
-    with _lock:
-        if _settling:  # called by a pending action
-            return
-        _settling = True
-        try:
-            while _waiting:
-                _waiting[0]()
-                del _waiting[0]  # after the call: other threads must wait until it has run
-        finally:
-            _settling = False
+    nested, _settling = _settling, True  # nested: called by a pending action
+    try:
+        while _waiting and not nested:
+            _waiting[0]()
+            del _waiting[0]  # after the call: other threads must wait until it has run
+    finally:
+        _settling = nested
+        _lock.release()
 
 
 if TYPE_CHECKING:
@@ -68,7 +65,7 @@ else:
                 with _lock:  # threads that import parts of JAX at once find them half made
                     importlib.import_module("jax")
                     self._module = importlib.import_module(self._name)
-            settle()
+            settle(waits=True)
             return getattr(self._module, name)
 
     class _Compiled:

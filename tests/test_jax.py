@@ -55,6 +55,31 @@ print(done)
 
 
 @pytest.mark.slow
+def test_what_waits_does_not_wait_for_a_thread_that_imports_jax() -> None:
+    source = """
+import importlib.abc, sys, threading
+from glid_nb import AMIPS, _jax
+within, may_go_on, done = threading.Event(), threading.Event(), []
+class Slow(importlib.abc.MetaPathFinder):
+    def find_spec(self, name, path, target=None):
+        if name == "jax._src":
+            within.set()
+            may_go_on.wait(20)
+sys.meta_path.insert(0, Slow())
+thread = threading.Thread(target=lambda: _jax.jax.Array)
+thread.start()
+within.wait()
+_jax.once_loaded(lambda: done.append("done"))
+AMIPS()
+print(done)
+may_go_on.set()
+thread.join()
+print(done)
+"""
+    assert run_python(source) == ["[]", "['done']"]
+
+
+@pytest.mark.slow
 def test_what_is_compiled_later_is_still_a_function_of_its_own_name() -> None:
     source = '''
 import sys

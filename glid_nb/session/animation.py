@@ -59,7 +59,8 @@ class Animation(Observed):
         self._asked = False
         self._began: tuple[float, EditState] | None = None
         self._samples: list[tuple[float, NamedPose]] = []  # of the drag that is recorded
-        self._worker: LatestWins[EditState] = LatestWins(weakly(self._prove), self, "motion")
+        prove = weakly(self._prove)
+        self._worker: LatestWins[EditState] = LatestWins(prove, self, "motion", waits=False)
         self._stop = deformation.observe(weakly(self._on_model))
         self._on_model("state")
 

@@ -1,14 +1,18 @@
 """The base of our widgets, and closing them: with all they hold, and when their cell runs again."""
 
+import functools
 import inspect
 import sys
 import weakref
 from collections.abc import Callable, Iterator
-from typing import Any
+from contextlib import ExitStack
+from typing import Any, ParamSpec
 
 import ipywidgets
 
 from glid_nb._arguments import check_keywords
+
+P = ParamSpec("P")
 
 _made: dict[str, tuple[str, weakref.WeakSet[Any]]] = {}  # by cell: its last run, what that made
 
@@ -65,18 +69,34 @@ def _widgets_in(value: Any) -> Iterator[ipywidgets.Widget]:
             yield from _widgets_in(item)
 
 
-def close_on_rerun(made: Any) -> bool:
-    """Close what earlier runs of this cell made; whether they did. The next closes ``made``."""
-    if (here := _running_cell()) is None:
-        return False
-    cell, run = here
-    last_run, earlier = _made.get(cell, (run, weakref.WeakSet()))
-    closed = [] if last_run == run else list(earlier)
-    for old in closed:
-        old.close()
-        _forget(old)
-    _made[cell] = run, weakref.WeakSet([made, *(earlier if last_run == run else ())])
-    return bool(closed)
+def one_a_cell(make: Callable[P, None]) -> Callable[P, None]:
+    """A constructor that ends by closing what earlier runs of its cell made.
+
+    Their solvers rest meanwhile; if the constructor raises, they go on.
+    """
+
+    @functools.wraps(make)
+    def made(*arguments: P.args, **named: P.kwargs) -> None:
+        new: Any = arguments[0]
+        cell, run = _running_cell()
+        last_run, others = _made.get(cell, (run, weakref.WeakSet()))
+        earlier = [] if last_run == run else list(others)
+        with ExitStack() as going_on:
+            for model in (old.model for old in earlier if old.model.has_shape):
+                if model.deformation.busy:
+                    model.deformation.stop()
+                    going_on.callback(model.deformation.solve, timeout=0)
+            make(*arguments, **named)
+            going_on.pop_all()
+        for old in earlier:
+            old.close()
+            _forget(old)
+        if earlier:
+            new.model.take_over_file()
+        if cell:
+            _made[cell] = run, weakref.WeakSet([new, *(others if last_run == run else ())])
+
+    return made
 
 
 def _forget(closed: Any) -> None:
@@ -89,11 +109,11 @@ def _forget(closed: Any) -> None:
                 del names[name]
 
 
-def _running_cell() -> tuple[str, str] | None:
-    """The cell's identity and that of its run, if the notebook tells them."""
+def _running_cell() -> tuple[str, str]:
+    """The cell's identity and that of its run; empty where the notebook does not tell them."""
     ipython = sys.modules.get("IPython")
     shell: Any = None if ipython is None else ipython.get_ipython()
     parent = getattr(shell, "get_parent", dict)()
     cell = parent.get("metadata", {}).get("cellId")
     run = parent.get("header", {}).get("msg_id")
-    return (str(cell), str(run)) if cell and run else None
+    return (str(cell), str(run)) if cell and run else ("", "")

@@ -30,7 +30,7 @@ from glid_nb.solvers import Method, Pose
 from glid_nb.widgets import exporting
 from glid_nb.widgets.brush import BrushBar
 from glid_nb.widgets.canvas import DeformCanvas, Toolbar, check_size
-from glid_nb.widgets.closing import ClosingWidget, close_on_rerun, close_with_parts
+from glid_nb.widgets.closing import ClosingWidget, close_with_parts, one_a_cell
 from glid_nb.widgets.controls import REFUSED, button, paragraph
 from glid_nb.widgets.file_panel import FilePanel, OpenPanel
 from glid_nb.widgets.monitor import SolverMonitor
@@ -94,6 +94,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     _displayed = False
     _told_path: Path | None = None
 
+    @one_a_cell
     def __init__(
         self,
         image: ImageSource | None = None,
@@ -136,8 +137,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         self.model.observe(lambda what: show[what]())
         self.tabs.observe(self._on_tab, ["selected_index"])
         self._endings = (self._take_down, self.model.close)
-        if close_on_rerun(self):
-            self.model.take_over_file()
 
     def __repr__(self) -> str:
         """What a notebook shows where it cannot show widgets."""

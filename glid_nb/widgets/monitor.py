@@ -68,16 +68,9 @@ def places(width: int, height: int) -> dict[str, tuple[float, float, float, floa
 
 
 class SolverMonitor(ClosingWidget, ipywidgets.VBox):
-    """A status line, and plots of the energy, the iterations and the certificate.
+    """A status line, and plots of a deformation's energy, iterations and certificate.
 
-    Parameters
-    ----------
-    deformation : Deformation
-        The model to watch.
-    width, height : int
-        Size of the plots in CSS pixels.
-    plots : bool
-        Whether there are plots.
+    The plots, if there are to be any, are ``width`` by ``height`` CSS pixels.
     """
 
     def __init__(
@@ -100,7 +93,8 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         self._size, self._with_plots = (width, height), plots
         self._plots: LivePlots | None = None
         self._frames: deque[float] = deque()
-        self._worker = LatestWins[None](weakly(self._update), self, "monitor", interval=_INTERVAL)
+        how: Any = {"interval": _INTERVAL, "waits": False}  # it may be importing matplotlib
+        self._worker = LatestWins[None](weakly(self._update), self, "monitor", **how)
         self._drawn: Any = None
         super().__init__([self.line, self.plots] if plots else [self.line], **kwargs)
         self.add_class("glid-monitor")
@@ -126,14 +120,17 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
             self._worker.submit(None)
 
     def _update(self, *_: Any) -> None:
-        moment = self.deformation.moment
-        status = self._status(moment)
-        self.line.value = (
-            f'<div style="display:flex;align-items:center;gap:8px;line-height:1.4">'
-            f'<span style="flex:none;width:10px;height:10px;border-radius:5px;'
-            f'background:{_TONES[status.level]}"></span>'
-            f"<span>{html.escape(status.text)}</span></div>"
-        )
+        with self.deformation.locked():
+            if self._closed:
+                return
+            moment = self.deformation.moment
+            status = self._status(moment)
+            self.line.value = (
+                f'<div style="display:flex;align-items:center;gap:8px;line-height:1.4">'
+                f'<span style="flex:none;width:10px;height:10px;border-radius:5px;'
+                f'background:{_TONES[status.level]}"></span>'
+                f"<span>{html.escape(status.text)}</span></div>"
+            )
         # The solver comes to rest after its last frame was announced.
         if moment.busy:
             self._worker.submit(None)
@@ -172,8 +169,9 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
             proof, map_ = certificate_of(moment.map), moment.map
         minimum = isometry_energy(moment.state.current.energy)
         picture = self._plots.draw(history, proof, map_, starts, moment.busy, minimum)
-        with self.image.hold_sync():  # format and value in one message
-            self.image.format, self.image.value = "png", picture
+        with self.deformation.locked(), self.image.hold_sync():  # format and value in one message
+            if not self._closed:
+                self.image.format, self.image.value = "png", picture
         self._drawn = new
 
 

@@ -67,13 +67,7 @@ class FieldRows(ipywidgets.GridBox):
 
 
 class SolverPanel(EditControls):
-    """Method, energy, weight of the targets, variants of ours, and buttons for the solver.
-
-    Parameters
-    ----------
-    deformation : Deformation
-        The model that the controls change; what code changes there shows here.
-    """
+    """Method, energy, weight of the targets, variants of ours, and buttons of a model's solver."""
 
     def __init__(self, deformation: Deformation, **kwargs: Any) -> None:
         act, model = self._act, deformation

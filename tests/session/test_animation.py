@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
@@ -248,3 +249,25 @@ def test_a_recorded_drag_becomes_keyframes_in_one_step(
     model.cancel_drag()
     assert model.state is before
     assert not animation.recording
+
+
+def test_closing_does_not_wait_for_a_proof(
+    model: Deformation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    proving, closed = threading.Event(), threading.Event()
+
+    def proved(*_: object) -> Iterator[Any]:
+        proving.set()
+        assert closed.wait(TIMEOUT)
+        yield from ()
+
+    monkeypatch.setattr("glid_nb.session.animation._proved", proved)
+    model.save_pose()
+    animation = Animation(model)
+    assert proving.wait(TIMEOUT)
+    threading.Timer(TIMEOUT / 10, closed.set).start()  # so that a close that waits comes back
+    animation.close()
+    assert not closed.is_set()
+    closed.set()
+    animation._worker.thread.join(TIMEOUT)
+    assert not animation._worker.thread.is_alive()

@@ -5,13 +5,16 @@ from __future__ import annotations
 import base64
 import gc
 import io
+import itertools
 import os
 import shutil
 import subprocess
 import sys
 import threading
 from collections.abc import Callable, Iterator
+from contextlib import nullcontext
 from pathlib import Path
+from queue import Queue
 from types import SimpleNamespace
 from typing import Any
 
@@ -22,13 +25,16 @@ from PIL import Image
 
 import glid_check
 import glid_nb as glid
+from glid_nb._runtime import stage
 from glid_nb.export import ExportError
 from glid_nb.figures.style import COLORS, distortion_colors, rgb
+from glid_nb.imaging import TraceError
 from glid_nb.session.autosave import flush
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import DocumentError
 from glid_nb.session.document_file import load_document
 from glid_nb.session.edit_state import EditError, EditState, Moment
+from glid_nb.session.editor_model import EditorModel
 from glid_nb.widgets import DeformCanvas, Editor, SolverMonitor
 from glid_nb.widgets.file_panel import OpenPanel
 from glid_nb.widgets.overlays import N_COLORS, OVERLAYS, color_range, legend
@@ -575,7 +581,7 @@ def test_frames_are_counted_in_words() -> None:
         return observers.clear
 
     working = Moment(EditState.initial(domain("ell")), None, busy=True, paused=False)
-    model: Any = SimpleNamespace(observe=observe, moment=working, begun=False)
+    model: Any = SimpleNamespace(observe=observe, moment=working, begun=False, locked=nullcontext)
     monitor = SolverMonitor(model, plots=False)
     assert monitor.text == "Preparing the solver…"
     observers[0]("frame")
@@ -640,6 +646,45 @@ def test_a_cell_with_picture_and_file_can_run_again(tmp_path: Path) -> None:
     assert again.pose.handles.tolist() == [[-7, 0], [7, 0]]
     for editor in (first, again):
         editor.close()
+
+
+def test_a_cell_that_runs_again_stops_the_solver_of_its_first_editor(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """From its beginning on; where it raises, the first editor goes on."""
+    begun, may_end, busy, run = Queue[None](), Queue[None](), list[bool](), itertools.count()
+
+    def prepared(*_: object, **__: object) -> None:
+        begun.put(None)
+        may_end.get(timeout=TIMEOUT)
+        stage("compile")
+
+    class Model(EditorModel):
+        def __init__(self, *arguments: Any, **named: Any) -> None:
+            busy.append(first.deformation.busy)
+            super().__init__(*arguments, **named)
+
+    monkeypatch.setattr("glid_nb.session.live_solver.solve", prepared)
+    monkeypatch.setattr("glid_nb.widgets.closing._made", {})
+    monkeypatch.setattr("glid_nb.widgets.closing._running_cell", lambda: ("cell", str(next(run))))
+    first = Editor(bar(), n_vertices=300)
+    first.add_handle((-7, 0))
+    begun.get(timeout=TIMEOUT)
+    monkeypatch.setattr("glid_nb.widgets.editor.EditorModel", Model)
+    with pytest.raises(TraceError):
+        Editor(np.zeros(3))
+    assert busy == [False]
+    assert first.deformation.busy
+    may_end.put(None)
+    begun.get(timeout=TIMEOUT)  # it prepares again
+    first.add_handle((7, 0))
+    assert len(first.pose) == 2
+    again = Editor(bar(), n_vertices=300)
+    assert busy == [False, False]
+    with pytest.raises(EditError, match="closed"):
+        first.add_handle((0, 1))
+    may_end.put(None)
+    again.close()
 
 
 def test_a_file_of_another_editor_is_left_and_told(tmp_path: Path) -> None:

@@ -57,6 +57,31 @@ def shown_bound(monitor: SolverMonitor) -> str:
 
 
 @pytest.mark.slow
+def test_closing_does_not_wait_for_plots_and_they_do_not_come_late(
+    model: Deformation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawing, closed = threading.Event(), threading.Event()
+
+    def draw(*_: object) -> bytes:
+        drawing.set()
+        assert closed.wait(TIMEOUT)
+        return b"late"
+
+    monkeypatch.setattr(LivePlots, "draw", draw)
+    monitor = SolverMonitor(model, 400, 300)
+    assert drawing.wait(TIMEOUT)
+    threading.Timer(TIMEOUT / 10, closed.set).start()  # so that a close that waits comes back
+    monitor.close()
+    assert not closed.is_set()
+    closed.set()
+    thread = monitor._worker.thread
+    assert thread is not None
+    thread.join(TIMEOUT)
+    assert not thread.is_alive()
+    assert monitor.image.value != b"late"
+
+
+@pytest.mark.slow
 def test_what_is_drawn_belongs_together(
     model: Deformation, monitor: SolverMonitor, monkeypatch: pytest.MonkeyPatch
 ) -> None:
