@@ -400,7 +400,10 @@ class LabNotebook(NotebookPage):
             "theme => window.jupyterapp.commands.execute('apputils:change-theme', {theme})", name
         )
         self.page.wait_for_function(
-            "name => document.body.dataset.jpThemeName === name", arg=name, timeout=10_000
+            "name => document.body.dataset.jpThemeName === name"
+            " && !document.getElementById('jupyterlab-splash')",
+            arg=name,
+            timeout=10_000,
         )
 
     def shut_down(self) -> None:

@@ -11,7 +11,8 @@ from glid_nb._errors import InputError
 from glid_nb.session.deformation import Deformation
 from glid_nb.widgets.closing import ClosingWidget
 
-REFUSED = "color:#d55e00"  # the style of why something was refused
+# The style of why something was refused, legible in any theme.
+REFUSED = "color:color-mix(in srgb, #d55e00 75%, var(--jp-ui-font-color1, #222))"
 
 
 def paragraph(text: str, style: str = "") -> str:

@@ -30,6 +30,26 @@ canvas, model = editor.canvas, editor.deformation
 editor
 """
 
+# The WCAG's contrast of an element's text with what is behind it.
+_CONTRAST = """(element) => {
+  const pen = Object.assign(document.createElement('canvas'), {width: 1, height: 1})
+    .getContext('2d', {willReadFrequently: true});
+  const behind = [];
+  for (let one = element; one; one = one.parentElement)
+    behind.unshift(getComputedStyle(one).backgroundColor);
+  const luminance = () => {
+    const parts = [...pen.getImageData(0, 0, 1, 1).data].slice(0, 3).map((v) => v / 255)
+      .map((v) => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
+    return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2];
+  };
+  const paint = (color) => { pen.fillStyle = color; pen.fillRect(0, 0, 1, 1); };
+  for (const color of ['white', ...behind]) paint(color);
+  const below = luminance();
+  paint(getComputedStyle(element).color);
+  const [dark, light] = [below, luminance()].sort((a, b) => a - b);
+  return (light + 0.05) / (dark + 0.05);
+}"""
+
 # The page's widget manager, which holds the models of the widgets by their identities.
 MANAGER = """async () => {
   const rendermime = window.jupyterapp.shell.currentWidget.content.rendermime;
@@ -84,6 +104,11 @@ _PIXEL = """(pane, [u, v]) => {
   pen.drawImage(canvas, 0, 0);
   return Array.from(pen.getImageData(u * copy.width, v * copy.height, 1, 1).data);
 }"""
+
+
+def contrast(text: Locator) -> float:
+    """Of a text with its background; 4.5 is what WCAG 2 asks for."""
+    return text.evaluate(_CONTRAST)
 
 
 class Hand:

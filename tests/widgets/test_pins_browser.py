@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from .conftest import OpenNotebook
-from .editor_page import EDITOR, SETUP, Hand
+from .editor_page import EDITOR, SETUP, Hand, contrast
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -45,6 +45,13 @@ def test_a_ring_turns_and_scales_and_the_list_takes_numbers(open_notebook: OpenN
     refusal = page.get_by_text("'much' is no number")
     refusal.wait_for()
     refusal.click(trial=True)  # nothing covers it
+    note = page.locator(".glid-timeline-note")
+    note.evaluate("one => { one.dataset.tone = 'bad'; }")
+    for theme in ("Dark", "Light"):
+        book.theme(f"JupyterLab {theme}")
+        seen = [contrast(text) for text in (refusal, note)]
+        print(f"{theme}: refusal {seen[0]:.2f}, timeline {seen[1]:.2f}")
+        assert min(seen) >= 4.5
     field.fill("-172.4")
     assert field.evaluate("one => one.scrollWidth <= one.clientWidth")  # nothing is cut off
     field.fill("-20")
