@@ -207,6 +207,7 @@ def test_by_keyboard_alone(open_notebook: OpenNotebook) -> None:
     hand.pad.get_by_text("Click the shape to pin a point").wait_for()
     hand.pad.get_by_role("button", name="Keys and gestures").click()
     shown.get_by_text("Ctrl+Shift+Z").wait_for()
+    shown.get_by_text("the shape follows, and never folds").wait_for()
     book.screenshot("editor-help")
     hand.pad.focus()
     keys.press("Shift+?")

@@ -24,7 +24,7 @@ const KEYS = new Set([
 const HELP = [
   ["Pins", [
     ["Click the shape", "pin a point"],
-    ["Drag a pin, or the shape", "move it there; the shape follows as far as it cannot fold"],
+    ["Drag a pin, or the shape", "move it there; the shape follows, and never folds"],
     ["Right-click, long touch, Menu key", "what can be done with a pin, or with the shape there"],
     ["Delete", "remove the selected pins; with Shift keep the shape"],
     ["Ring around a pin: drag it, or its knob", "turn the shape there, scale it there"],
