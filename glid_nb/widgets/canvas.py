@@ -147,11 +147,14 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
                 pane.adapt()
 
     def _resize(self, _: Any = None) -> None:
-        stage = self.pane.stage
+        stage, (asked, tall), (width, height) = self.pane.stage, self._asked, self._given
         self.layout.height = f"{stage.height}px"
-        if (stage.width, stage.height) != self._given:  # a hand has dragged its corner
-            beside = 0 if self.source is None else self.source.stage.width
-            self._asked = self._given = stage.width + beside, stage.height
+        # A hand that drags the corner asks for the sides that it changes.
+        if stage.width != width:
+            asked = stage.width + (0 if self.source is None else self.source.stage.width)
+        if stage.height != height:
+            tall = stage.height
+        self._asked, self._given = (asked, tall), (stage.width, stage.height)
 
     def _take_room(self, _: Any = None) -> None:
         """Take the room that there is, as far as no size was asked for."""

@@ -77,6 +77,30 @@ def test_a_size_that_was_asked_for_is_narrower_only_where_there_is_less(
     assert size(canvas) == (640, 350)
 
 
+@pytest.mark.parametrize("canvas", [{}, {"width": 500}], indirect=True)
+def test_a_hand_that_drags_one_side_asks_for_that_side_alone(canvas: DeformCanvas) -> None:
+    stage, width = canvas.pane.stage, canvas._asked[0]
+    stage.room = [420, 640, 0]
+    stage.height = 320
+    stage.room = [900, 640, 0]
+    assert size(canvas) == (width or 900, 320)
+    stage.room = [1200, 700, 0]
+    assert size(canvas) == (width or 1200, 320)
+
+
+def test_a_width_dragged_beside_the_source_is_asked_for_whatever_it_is(
+    canvas: DeformCanvas,
+) -> None:
+    stage = canvas.pane.stage
+    stage.room = [1000, 600, 0]
+    canvas.show_source = True
+    stage.width = 560
+    stage.width = 960  # as wide as the two were
+    stage.room = [2000, 600, 0]
+    assert canvas.source is not None
+    assert stage.width + canvas.source.stage.width == 960 + 400
+
+
 def test_result_and_source_share_the_room(canvas: DeformCanvas) -> None:
     canvas.pane.stage.room = [1000, 600, 0]
     canvas.show_source = True
