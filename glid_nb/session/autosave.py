@@ -49,8 +49,8 @@ class OwnFiles:
 class Autosave:
     """Saves the document that was submitted last, the first at once, then once per ``interval``.
 
-    What is pending is written when this is closed or the process ends. A file that another program
-    has changed is not touched again: later saves go to a new file beside it.
+    What is pending is written when this is closed, its ``owner`` is gone or the process ends. A file
+    that another program has changed is not touched again: later saves go to a new one beside it.
 
     After each save ``on_done`` is called, in the thread, with the exception if it failed, else with
     None. The file as it is now becomes one of the ``own`` files.
@@ -62,6 +62,7 @@ class Autosave:
         interval: float = INTERVAL,
         on_done: Callable[[Exception | None], None] | None = None,
         own: OwnFiles | None = None,
+        owner: object | None = None,
     ) -> None:
         if not interval >= 0:
             raise ValueError(f"interval is {interval}; it must be at least 0 seconds")
@@ -74,7 +75,7 @@ class Autosave:
         self._writing = threading.RLock()
         self.own.note_session(self.path)
         name = f"autosave {self.path.name}"
-        self._worker = LatestWins(self._save, self, name, interval=interval, finish=True)
+        self._worker = LatestWins(self._save, owner or self, name, interval=interval, finish=True)
         _all.add(self)
 
     def submit(self, document: Document) -> None:

@@ -11,6 +11,7 @@ from glid_nb._arrays import Array
 from glid_nb.geometry import Domain
 from glid_nb.imaging.read import ImageSource
 from glid_nb.session import autosave
+from glid_nb.session.autosave import OwnFiles
 from glid_nb.session.deformation import Deformation
 from glid_nb.session.document import AS_SEEN, Document, DocumentError
 from glid_nb.session.document_file import load_document, save_document
@@ -18,6 +19,7 @@ from glid_nb.session.edit_state import EditError, EditState
 from glid_nb.session.model import History, Observed
 from glid_nb.session.timeline import Timeline
 from glid_nb.session.tracing import TracingModel, TracingState
+from glid_nb.session.worker import weakly
 
 _LOST = "{} outside the new outline and removed with the old one; Undo brings everything back."
 _REPLACED = (
@@ -79,7 +81,7 @@ class EditorModel(Observed):
         self._autosave: autosave.Autosave | None = None
         self.save_error: Exception | None = None
         """Why the last save in the background failed; None when it did not."""
-        self.own_files = autosave.OwnFiles()  # the files that were saved, opened and exported
+        self.own_files = OwnFiles()  # the files that were saved, opened and exported
         self._session: _Session | None = None
         # Sessions of other pictures, which undo of the tracing may bring back.
         self._shelf: list[_Session] = []
@@ -259,8 +261,9 @@ class EditorModel(Observed):
         if self._session is not None:
             self._session.deformation.close()
 
-    def _keep_in(self, path: Path) -> None:
-        self._autosave = autosave.Autosave(path, on_done=self._saved, own=autosave.OwnFiles())
+    def _keep_in(self, path: Path, own: OwnFiles | None = None) -> None:
+        done = weakly(self._saved)
+        self._autosave = autosave.Autosave(path, on_done=done, own=own, owner=self)
 
     def _end_keeping(self) -> Path | None:
         """Stop keeping work that is in no session file; where it was kept."""
@@ -303,7 +306,7 @@ class EditorModel(Observed):
                 return
             old.close()
         self._named_path = self._named_path or path
-        self._autosave = autosave.Autosave(path, on_done=self._saved, own=self.own_files)
+        self._keep_in(path, self.own_files)
 
     def _take(self, document: Document, name: str = "") -> None:
         self.tracing = TracingModel.from_document(document, name)

@@ -24,7 +24,7 @@ class LatestWins(Generic[T]):
     ``cancelled`` say so. If it keeps the ``owner`` alive (else see :func:`weakly`) this must be
     closed. ``interval`` seconds pass between two tasks. Closing drops the pending task, or does it
     first with ``finish``; it waits for the running one if it ``waits``, the end of the process
-    always.
+    always, the end of the owner never.
     """
 
     def __init__(
@@ -45,7 +45,7 @@ class LatestWins(Generic[T]):
         self.closed = False  # whether this was closed
         self.thread: threading.Thread | None = None  # the thread; None before the first task
         self._ended = -float("inf")
-        self._finalizer = weakref.finalize(owner, self._close)
+        self._finalizer = weakref.finalize(owner, self._close, False)
 
     def submit(self, task: T) -> None:
         """Do this instead of the pending task; returns at once. A closed worker ignores it."""
@@ -100,14 +100,15 @@ class LatestWins(Generic[T]):
 
     def close(self) -> None:
         """End the thread; later tasks are ignored."""
-        self._finalizer()
+        if self._finalizer.detach():
+            self._close(self._waits)
 
-    def _close(self, at_exit: bool = False) -> None:
+    def _close(self, waits: bool) -> None:
         with self._changed:
             self.closed = True
             self._changed.notify_all()
             thread = self.thread
-        if thread not in (None, threading.current_thread()) and (self._waits or at_exit):
+        if waits and thread not in (None, threading.current_thread()):
             thread.join()
 
     def _next(self) -> tuple[T] | None:
@@ -125,7 +126,7 @@ class LatestWins(Generic[T]):
 
     def _run(self) -> None:
         # A compiler that is still at work must not outlive the interpreter.
-        end = functools.partial(self._close, at_exit=True)
+        end = functools.partial(self._close, True)
         atexit.register(end)
         while (taken := self._next()) is not None:
             try:

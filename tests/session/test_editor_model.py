@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 import threading
+import weakref
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -333,3 +335,25 @@ class TestKeptWork:
         assert isinstance(model.save_error, OSError)
         assert len(model.deformation.pose) == 1
         model.close()
+
+
+@pytest.mark.parametrize("named", [True, False])
+def test_a_model_that_is_dropped_ends_its_threads_and_saves_its_work(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, named: bool
+) -> None:
+    monkeypatch.setenv("GLID_NB_DATA", str(tmp_path))
+    model = EditorModel(picture(), path=tmp_path / "a.glid" if named else None)
+    _pin(model, (-6, 0))
+    saving = model._autosave
+    assert saving is not None
+    saving.flush()
+    _pin(model, (6, 0))  # waits for the interval
+    thread, path = saving._worker.thread, saving.path
+    assert thread is not None
+    gone = weakref.ref(model)
+    del model, saving
+    gc.collect()
+    assert gone() is None
+    thread.join(60)
+    assert not thread.is_alive()
+    assert len(load_document(path).poses[0].pose) == 2
