@@ -1,8 +1,7 @@
 """JAX, imported on first use.
 
-An editor shows its canvas before JAX is imported. Modules import ``jax``, ``jnp`` and ``lax`` from
-here; at module level they use :func:`jit` in place of ``jax.jit``, and :func:`once_loaded` for
-anything else.
+An editor shows its canvas before JAX is imported. Modules import ``jax``, ``jnp``, ``lax`` from
+here; at module level they use :func:`jit` for ``jax.jit``, and :func:`once_loaded` for the rest.
 """
 
 from __future__ import annotations

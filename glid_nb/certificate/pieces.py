@@ -1,8 +1,7 @@
 """Proving linear pieces of motion at every instant; `docs/motion.md` has the lemmas.
 
 On a panel and for a unit vector ``u`` the function ``Re(conj(u) f_z) - |f_zbar| <= sigma_2`` is
-concave in time. Panels are halved as in the proof of one map; where no ``u`` serves both times,
-time is.
+concave in time. Panels are halved as for one map; where no ``u`` serves both times, time is.
 """
 
 from __future__ import annotations

@@ -31,8 +31,7 @@ class Differentials(NamedTuple):
 class Energy(ABC):
     """A pointwise distortion measure ``E(x, y)`` of ``x = |f_z|^2`` and ``y = |f_zbar|^2``.
 
-    Defined for orientation-preserving maps, ``x > y >= 0``; the solver takes it as infinite at all
-    other samples.
+    Defined for orientation-preserving maps, ``x > y >= 0``; to the solver it is infinite elsewhere.
 
     Subclasses are frozen dataclasses decorated with :func:`register_energy`. Their fields are the
     parameters: positive finite numbers with a default; anything else raises EnergyError. All values

@@ -111,9 +111,8 @@ def motion_glb(
     """A motion as binary glTF 2.0: a mesh with morph targets and an animation of their weights.
 
     A target for every map at which the motion bends, a key at its time, and straight lines between,
-    which are exact: every vertex moves as in the motion. Programs must take that many targets. The
-    arguments are those of `textured_mesh`, with one pose per keyframe; the tolerance holds at any
-    time.
+    which are exact: every vertex moves as in the motion. Programs must take that many targets.
+    Arguments are as in `textured_mesh`, one pose per keyframe; the tolerance holds at any time.
     """
     report(progress, 0, 2)
     mesh = MovingMesh.of(motion, poses, n_vertices, tolerance)

@@ -214,8 +214,7 @@ def panels(certificate: Certificate) -> NotebookFigure:
     """The boundary's panels with what is proved on each: on the shape, and along arc length.
 
     On the shape a panel is dark where the certified lower bound of sigma_2 is small, and vermilion
-    where nothing is proved; up to 400 panels end at dots. The plot beside it has the bounds and the
-    sampled sigma_2.
+    where nothing is proved; up to 400 panels end at dots. Beside it are bounds and sampled sigma_2.
     """
     proved, cage = certificate.panels, certificate.map.domain.cage
     bound = np.nan_to_num(proved.sigma2_lower, nan=-1.0)

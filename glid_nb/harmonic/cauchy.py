@@ -4,8 +4,7 @@ The cage that carries the basis has ``m`` vertices ``z_j`` on one or more closed
 point ``rho`` per hole. With ``A_j = z_j - z_{j-1}`` and ``B_j(z) = z_j - z`` (Figure 4), the
 columns of every matrix here are the ``m`` vertices in the order of the loops, then the holes.
 
-All functions take arrays of NumPy or of JAX and compute with the library that their first argument
-belongs to.
+All functions take arrays of NumPy or JAX and compute with the library of their first argument.
 """
 
 from typing import Any as Array  # of NumPy or of JAX

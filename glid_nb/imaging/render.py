@@ -43,14 +43,12 @@ def render(
 
     The image, (h, w), (h, w, 3), (h, w, 4) or a Texture, is the one that the map's cage was traced
     from, or one of the same aspect ratio; its longer side is 20 world units. The result has
-    ``size``, (w, h) pixels, by default the image's own, and is transparent where the deformed shape
-    is not.
+    ``size``, (w, h) pixels, by default the image's own, and is transparent beside the shape.
 
     The view is "source", the rectangle of the image, letter-boxed if ``size`` has another aspect
     ratio; or "fit", all of the deformed shape, with a margin. The depths of a pose say which part
     is in front where the shape overlaps itself. The mesh gets about ``n_vertices``, evenly spread;
-    by default it is refined until its straight edges stray from the map by less than 0.25 output
-    pixels.
+    by default as many as keep its straight edges within 0.25 output pixels of the map.
 
     Raises a RenderError that says which argument is out of range, or that the map's cage does not
     fit the picture or the map collapses the shape.

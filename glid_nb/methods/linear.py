@@ -205,8 +205,7 @@ def bounded_biharmonic_weights(mesh: Triangulation, handles: bytes, iterations: 
 
     Each column has the least ``w K M^-1 K w`` within its bounds (``K`` the cotangent Laplacian,
     ``M`` the Voronoi areas), then rows are divided by their sums. Bounds hold up to about 1e-4
-    where the ``iterations`` end libigl's active-set method early. ``handles`` are the bytes of (h,)
-    int64 indices.
+    where the ``iterations`` end libigl's active-set method early. ``handles``: bytes of (h,) int64.
     """
     import igl  # noqa: PLC0415
 

@@ -157,8 +157,7 @@ def _tangents(rows: Array, times: Array, closed: bool) -> Array:
     """Slopes of the cubic spline that bends continuously; of the chord at open ends.
 
     Where one side is much slower the motion would run away there: slopes are at most three times
-    those of either chord (de Boor & Swartz 1977), of the fields all by one factor, as they are
-    holomorphic.
+    those of either chord (de Boor & Swartz 1977), of the holomorphic fields all by one factor.
     """
 
     def sizes(slopes: Array) -> Array:

@@ -49,8 +49,8 @@ class OwnFiles:
 class Autosave:
     """Saves the document that was submitted last, the first at once, then once per ``interval``.
 
-    What is pending is written when this is closed, its ``owner`` is gone or the process ends. A file
-    that another program has changed is not touched again: later saves go to a new one beside it.
+    What is pending is written when this is closed, when its ``owner`` goes and when the process
+    ends. A file that another program has changed is left: later saves go to a new one beside it.
 
     After each save ``on_done`` is called, in the thread, with the exception if it failed, else with
     None. The file as it is now becomes one of the ``own`` files.

@@ -27,8 +27,7 @@ def build_report(result: Result) -> dict[str, Any]:
     ``crossing`` if not; counts (``panels`` and ``panels_split`` are the solver's, ``proof_panels``
     those on which the final proof ended); times in seconds; ``attempts``, what each way to a
     minimum reached, the first too, where that was not the only one; ``refinements``, the same for
-    bases (:func:`glid_nb.refine`); and the ``history``, one object per iteration. Numbers that are
-    not finite are null.
+    bases (:func:`glid_nb.refine`); ``history``, an object an iteration. What is not finite is null.
     """
     began = time.perf_counter()
     map_, certificate = result.map, result.certificate

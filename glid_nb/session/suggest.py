@@ -22,9 +22,8 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
 
     The first handle is the point deepest inside the domain. The others are found by farthest-point
     sampling with distances measured inside the domain, then pulled in to where the limb is widest.
-    The end farthest from the middle, and the end farthest from that one, turn about the middle
-    by 24 degrees, away from the rest of the shape; all other handles stay. There are at most
-    ``max_handles``, which is 2 or more.
+    The end farthest from the middle, and the end farthest from that one, turn about the middle by
+    24 degrees, away from the rest; other handles stay. ``max_handles`` is at least 2.
     """
     if max_handles < 2:
         raise ValueError(f"max_handles is {max_handles}; it must be at least 2")

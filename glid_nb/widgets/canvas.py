@@ -55,8 +55,7 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     longer than 40 ms to draw them. They are computed in the "shader" if that can hold the cage, so
     that a frame sends a few kB, or in the "kernel"; ``evaluated_in`` decides otherwise.
 
-    Raises a TraceError for a picture that cannot be read, a TypeError or ValueError for another
-    size.
+    Raises a TraceError for an unreadable picture, a TypeError or ValueError for another size.
     """
 
     overlay = traitlets.Enum(tuple(OVERLAYS), "texture")

@@ -70,8 +70,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
 
     The canvas is ``width`` by ``height`` CSS pixels, at least 240 each, narrower where there is
     less room; by default it is as large as there is room. ``n_vertices``, at least 3, are those of
-    the mesh that the picture is drawn on; by default 10,000, or fewer if the page needs over 40 ms
-    to draw them.
+    the mesh that the picture is drawn on; by default 10,000, or what the page draws within 40 ms.
 
     Raises a TraceError when the picture cannot be read, a DocumentError when the session file
     cannot, a TypeError or ValueError for another size, or a session file of another picture.
@@ -235,8 +234,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def trace(self, **options: Any) -> None:
         """Trace with changed options, fields of `glid_nb.TraceOptions`, and deform what is found.
 
-        Raises TraceError for an unknown option or a value out of its range, EditError if the editor
-        is closed.
+        Raises TraceError for an unknown option or a value out of its range, EditError once closed.
         """
         if self._closed:
             raise EditError("the editor is closed")
@@ -254,8 +252,7 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     def set_method(self, method: Method | str, **settings: Any) -> None:
         """Solve by another of `glid_nb.methods`, or its name; those on a mesh are for comparison.
 
-        Raises MethodError if it is unknown, cannot minimise the energy, or its package is not
-        installed.
+        Raises MethodError if it is unknown, cannot minimise the energy, or lacks its package.
         """
         self.deformation.set_method(method, **settings)
 

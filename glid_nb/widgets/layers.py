@@ -45,8 +45,7 @@ class Layer:
 
     Maps, at first ``map``, are evaluated by the shader if ``mover`` is a `ShaderMap`, else by it.
     ``shader`` names the files; ``attributes`` are further arrays per vertex, bytes as numbers up
-    to 1. ``uniforms`` have at most one texture, as the last item: pythreejs binds every texture to
-    the last name.
+    to 1. ``uniforms`` have at most one texture, the last: pythreejs binds all to the last name.
     """
 
     def __init__(

@@ -33,8 +33,7 @@ class CageTracer(Pad):
     The widget is a view of a `TracingModel`, which does the work and needs no browser. The image is
     as in `glid_nb.read_image`; without one the widget asks for a file. ``options`` say how to trace
     at first; a ``model`` is shown instead of both. The picture's area is ``height`` CSS pixels
-    high, at least 240; None for what the window has. Raises a TraceError when the picture cannot be
-    read.
+    high, at least 240; None for what the window has. Raises TraceError for an unreadable picture.
 
     Examples
     --------

@@ -37,8 +37,7 @@ _RIDGE = 1e-6
 MARGIN = 0.01
 # How much of the margin a sample that is not in the active set may use before it joins.
 _SLACK = 0.1
-# A sample joins the active set within the first share of a bound's range and leaves beyond the
-# second.
+# A sample joins the active set within the first share of a bound's range, leaves beyond the other.
 _JOIN, _LEAVE = 0.10, 0.15
 
 
