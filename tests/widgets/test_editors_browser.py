@@ -52,7 +52,9 @@ def test_two_editors_at_once_and_a_rerun(open_notebook: OpenNotebook) -> None:
     widgets = "len(__import__('ipywidgets').widgets.widget._instances)"
     threads = "len(__import__('threading').enumerate())"
     before, contexts = [0, 0], 0
+    filled = "all(len(e._parts) == len(e._boxes) for e in (one, two))"  # in the pads' thread
     for repetition in range(4):
+        book.wait_for(filled)
         if repetition == 1:  # the first one has left work that the next editors offer
             before = book.value(f"[{widgets}, {threads}]")
             contexts = book.page.evaluate(LIVING_CONTEXTS)
@@ -65,6 +67,7 @@ def test_two_editors_at_once_and_a_rerun(open_notebook: OpenNotebook) -> None:
             True,
         ]
         book.page.wait_for_function("document.querySelectorAll('.glid-pad').length === 2")
+    book.wait_for(filled)
     book.wait_for(f"{threads} <= {before[1]}")
     assert book.value(widgets) <= before[0]
     # pythreejs lends renderers from a pool: a new editor that asks before the old one has given
