@@ -1,7 +1,8 @@
 """Proving linear pieces of motion at every instant; `docs/motion.md` has the lemmas.
 
 On a panel and for a unit vector ``u`` the function ``Re(conj(u) f_z) - |f_zbar| <= sigma_2`` is
-concave in time. Panels are halved as for one map; where no ``u`` serves both times, time is.
+concave in time. Panels are halved as in the proof of one map; where at a panel's end no ``u``
+serves both times, time is.
 """
 
 from __future__ import annotations
@@ -154,11 +155,12 @@ def _coefficient_rounding(start: Any, end: Any, size: Any, singularities: Singul
 
 
 def _bounds(values: _Values) -> Known:
-    """What is proved for all times between two maps; what is seen of it is along ``u`` too."""
+    """What is proved for all times between two maps; what is seen is along each end's own ``u``,
+    so where the panel's fails alone, the panel is halved."""
     ends: Any = values.ends
     errors: Any = values.errors
     fz, fzb_conj = ([EndValues(*ends[:, i, k].T) for i in (0, 1)] for k in (0, 1))
-    f, g = (np.concatenate([np.stack(side[:2]) for side in each]) for each in (fz, fzb_conj))
+    f, g = (np.stack([side[:2] for side in each]) for each in (fz, fzb_conj))
     u = _common_direction(f, g)
     proved = [Hermite.bounds(fz[i], fzb_conj[i], errors[:, i, :, 0].T, u) for i in (0, 1)]
     known = proved[0].turning_known & proved[1].turning_known
@@ -168,25 +170,26 @@ def _bounds(values: _Values) -> Known:
     )
     sigma2: Any = np.where(known & (sigma2 > -np.inf), sigma2, -np.inf)
     k: Any = np.where(known, k, np.inf)
-    along = np.real(u.conj() * f)
+    own = _common_direction(*(each.reshape(2, 1, -1) for each in (f, g)))
+    along = np.real(own.conj().reshape(2, -1) * f)
     return Known(
         bounds=proved[0]._replace(
             sigma2_lower=sigma2, sigma1_upper=sigma1, k_upper=k, turning_known=known
         ),
-        sigma2_seen=(along - np.abs(g)).min(axis=0),
-        sigma1_seen=(np.abs(f) + np.abs(g)).max(axis=0),
-        k_seen=(np.abs(g) / along).max(axis=0),
-        fz_seen=np.abs(f).min(axis=0),
+        sigma2_seen=(along - np.abs(g)).min(axis=(0, 1)),
+        sigma1_seen=(np.abs(f) + np.abs(g)).max(axis=(0, 1)),
+        k_seen=(np.abs(g) / along).max(axis=(0, 1)),
+        fz_seen=np.abs(f).min(axis=(0, 1)),
         slack=errors[..., 1].sum(axis=2).max(axis=1),
     )
 
 
 def _common_direction(f: Array, g: Array) -> Any:
     """(p,) ``u`` between those of both times, for which the least ``Re(conj(u) f) - |g|`` is most;
-    ``f`` and ``g`` are (4, p), at both ends of the panels at the first time, and the last."""
-    units = f / np.abs(f)
-    before, after = (pair / np.abs(pair) for pair in (units[0] + units[1], units[2] + units[3]))
+    ``f`` and ``g`` are (2, e, p), at both times, and e points of each panel."""
+    before, after = (f / np.abs(f)).sum(axis=1)
+    before, after = before / np.abs(before), after / np.abs(after)
     u = before + np.linspace(0, 1, _DIRECTIONS)[:, None] * (after - before)
     u /= np.abs(u)
-    least = np.min(np.real(u[:, None].conj() * f) - np.abs(g), axis=1)
-    return u[np.argmax(least, axis=0), np.arange(f.shape[1])]
+    least = np.min(np.real(u[:, None, None].conj() * f) - np.abs(g), axis=(1, 2))
+    return u[np.argmax(least, axis=0), np.arange(f.shape[2])]

@@ -115,6 +115,16 @@ def test_a_rotation_by_almost_half_a_turn_needs_halves_of_time() -> None:
     assert np.cos(1.5) * 0.9 < proof.sigma2_lower < np.cos(1.5)
 
 
+@pytest.mark.parametrize(("name", "size", "seed"), [("ell", 1.4675, 3), ("ring", 0.2625, 2)])
+def test_where_f_z_turns_within_a_panel_it_is_halved(name: str, size: float, seed: int) -> None:
+    """Almost folded, so no direction serves the whole panel, whatever time does."""
+    map = random_map(name, size, seed)
+    (still,), (swung,) = (certify_pieces([map, turned(map, angle)]) for angle in (0, 2.0))
+    assert still.certified
+    assert swung.certified
+    assert 0.95 * certify(map).sigma2_lower < still.sigma2_lower < 0.003
+
+
 @given(st.integers(0, 10**6), st.floats(0, 1.5))
 @settings(max_examples=25)
 def test_along_one_direction_bounds_hold_at_every_time(seed: int, spread: float) -> None:
