@@ -9,8 +9,6 @@ from contextlib import contextmanager
 def check(name: str) -> Iterator[None]:
     """Print whether the assertions of a block hold; whatever goes wrong in it ends there.
 
-    Examples
-    --------
     >>> with check("exercise 1"):
     ...     assert 1 + 1 == 2
     exercise 1: right

@@ -57,8 +57,6 @@ def global_injectivity(
     given. It is also undecided where more than ``max_panels`` pieces of the boundary were needed:
     where images touch without crossing, or are closer than rounding.
 
-    Examples
-    --------
     >>> from glid_nb import Cage, Domain, HarmonicMap, global_injectivity
     >>> domain = Domain.from_cage(Cage([[0, 0], [2, 0], [2, 1], [0, 1]]))
     >>> global_injectivity(HarmonicMap.identity(domain)).verdict

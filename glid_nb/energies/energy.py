@@ -147,8 +147,6 @@ class CustomEnergy(Energy):
     differentiated, or is not finite at the isometry. The alphas and betas come from automatic
     differentiation; the projection of the Hessian from Equations (23)-(24).
 
-    Examples
-    --------
     >>> dirichlet = CustomEnergy(lambda x, y: (x + y) * (1 + 1 / (x - y) ** 2))
     """
 

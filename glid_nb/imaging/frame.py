@@ -29,8 +29,6 @@ class PixelFrame:
 
     Raises a TraceError for a width or height that is no whole number of pixels, at least 1.
 
-    Examples
-    --------
     >>> frame = PixelFrame(width=200, height=100)
     >>> frame.to_world([[0, 0], [100, 50]])
     array([[-10.,   5.],

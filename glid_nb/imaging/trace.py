@@ -71,8 +71,6 @@ def trace(image: ImageSource, options: TraceOptions | None = None, **changes: An
     `TraceOptions` to set. Raises a TraceError when the picture cannot be read or shows no shape, or
     an option is out of range.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> y, x = np.mgrid[:100, :100] + 0.5
     >>> disc = np.hypot(x - 50, y - 50) < 40

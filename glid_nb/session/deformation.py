@@ -49,8 +49,6 @@ class Deformation(Undoable[EditState]):
     :data:`~glid_nb.session.edit_state.LIVE_OPTIONS` unless others are. With ``begin`` it solves
     from the start; else from :meth:`begin` or the first change on.
 
-    Examples
-    --------
     >>> from glid_nb.geometry import Cage, Domain
     >>> square = Domain.from_cage(Cage([[-1, -1], [1, -1], [1, 1], [-1, 1]]))
     >>> with Deformation(square) as deformation:

@@ -62,8 +62,6 @@ def solve(
     injective; a MethodError when the method cannot minimise the energy, hold an angle or take the
     start, or lacks an optional package (the message says which extra to install).
 
-    Examples
-    --------
     >>> from glid_nb import Cage, Domain, Pose, methods
     >>> domain = Domain.from_cage(Cage([[0, 0], [4, 0], [4, 2], [0, 2]]))
     >>> pose = Pose([[1, 1], [3, 1]], [[1, 1], [3, 1]])

@@ -75,8 +75,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
     Raises a TraceError when the picture cannot be read, a DocumentError when the session file
     cannot, a TypeError or ValueError for another size, or a session file of another picture.
 
-    Examples
-    --------
     >>> import glid_nb as glid
     >>> editor = glid.Editor(glid.samples.image("bar"), n_vertices=500)
     >>> left, right = editor.add_handle((-6, 0)), editor.add_handle((6, 0))

@@ -35,8 +35,6 @@ class CageTracer(Pad):
     at first; a ``model`` is shown instead of both. The picture's area is ``height`` CSS pixels
     high, at least 240; None for what the window has. Raises TraceError for an unreadable picture.
 
-    Examples
-    --------
     >>> import numpy as np
     >>> y, x = np.mgrid[:100, :100] + 0.5
     >>> tracer = CageTracer(np.hypot(x - 50, y - 50) < 40)
