@@ -11,6 +11,7 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
 
+from glid_nb._arrays import is_finite
 from glid_nb._errors import did_you_mean
 
 
@@ -113,7 +114,7 @@ def unmet(kind: Any, value: Any, limits: Mapping[str, Any] | None = None) -> str
     if (
         isinstance(value, Integral if kind is int else Real)
         and not isinstance(value, bool)
-        and (math.isfinite(value) or value == most)
+        and (is_finite(value) or value == most)
         and least <= value
         and above < value
         and (most is None or value <= most)

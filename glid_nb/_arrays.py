@@ -1,5 +1,6 @@
 """Arrays: the alias of their type, arrays of numbers from untrusted values, immutable arrays."""
 
+import sys
 from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
@@ -37,6 +38,11 @@ def number_pairs(value: Any, wanted: str, error: type[Exception]) -> NDArray[np.
     if pairs.ndim != 2 or pairs.shape[1] != 2:
         raise error(f"{wanted}; the shape is {pairs.shape}")
     return pairs
+
+
+def is_finite(number: Any) -> bool:
+    """Whether a real number, of Python's long ones too, is a finite float."""
+    return bool(abs(number) <= sys.float_info.max)
 
 
 def read_only(array: A) -> A:

@@ -2,11 +2,11 @@
 
 import functools
 import json
-import math
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from glid_nb._arrays import is_finite
 from glid_nb._errors import InputError, InputFileError, did_you_mean
 from glid_nb._files import write_text_atomically
 
@@ -119,7 +119,7 @@ check_text: Check = functools.partial(_check_kind, kind=str)
 
 def check_positive(value: Any, key: str) -> None:
     """A finite number above 0."""
-    if not _is_number(value) or not math.isfinite(value) or value <= 0:
+    if not _is_number(value) or not is_finite(value) or value <= 0:
         raise InputFileError(f'"{key}" must be a positive number, not {_shown(value)}')
 
 
@@ -138,7 +138,7 @@ def check_points(value: Any, key: str) -> None:
         place = f"{key}[{i}] must be"
         if not (isinstance(point, list) and len(point) == 2 and all(map(_is_number, point))):
             raise InputFileError(f"{place} a pair [x, y] of numbers, not {_shown(point)}")
-        if not all(map(math.isfinite, point)):
+        if not all(map(is_finite, point)):
             raise InputFileError(f"{place} finite, not {_shown(point)}")
 
 

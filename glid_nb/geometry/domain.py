@@ -11,6 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from glid_nb._arguments import check_type
 from glid_nb._arrays import Array, number_pairs, read_only
 from glid_nb._errors import about
 from glid_nb.geometry._loops import GeometryError, loop_list, loop_name, place
@@ -55,6 +56,8 @@ class Domain:
         hole_points: ArrayLike | None = None,
         notes: tuple[str, ...] = (),
     ) -> None:
+        for name, given in (("cage", cage), ("offset_cage", offset_cage)):
+            check_type(name, given, Cage, "make one with Cage(points)")
         _check_enclosed(cage, offset_cage)
         chosen = choose_hole_points(offset_cage) if hole_points is None else hole_points
         points = _checked_hole_points(chosen, offset_cage)
@@ -69,6 +72,7 @@ class Domain:
         cage's bounding box. It is reduced in narrow passages; `notes` says where. Where edges are
         long against the shape's width, the offset cage has more vertices than the cage.
         """
+        check_type("cage", cage, Cage, "make one with Cage(points)")
         outer, notes = _chosen_offset(cage, offset)
         return cls(cage, outer, notes=notes)
 

@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from glid_nb._arguments import plain, unmet
+from glid_nb._arguments import check_type, plain, unmet
 from glid_nb._errors import InputError
 from glid_nb.geometry import place
 from glid_nb.harmonic import HarmonicMap
@@ -53,6 +53,8 @@ def render(
     Raises a RenderError that says which argument is out of range, or that the map's cage does not
     fit the picture or the map collapses the shape.
     """
+    check_type("map", map, HarmonicMap, "such as that of a result")
+    check_type("pose", pose, Pose | None, "for its depths")
     texture = Texture.from_image(image)
     frame = frame_of(PixelFrame(*texture.size), map, size, view)
     tolerance = None

@@ -69,6 +69,7 @@ class Deformation(Undoable[EditState]):
         *,
         begin: bool = True,
     ) -> None:
+        check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
         super().__init__(EditState.initial(domain, pose, energy, options))
         self.selection: tuple[int, ...] = ()
         """Indices of the selected handles."""

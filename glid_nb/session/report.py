@@ -8,6 +8,7 @@ import time
 from importlib.metadata import version
 from typing import Any
 
+from glid_nb._arguments import check_type
 from glid_nb._jax import jax
 from glid_nb.certificate import global_injectivity
 from glid_nb.harmonic import HarmonicMap
@@ -29,6 +30,7 @@ def build_report(result: Result) -> dict[str, Any]:
     minimum reached, the first too, where that was not the only one; ``refinements``, the same for
     bases (:func:`glid_nb.refine`); ``history``, an object an iteration. What is not finite is null.
     """
+    check_type("result", result, Result, "what glid_nb.solve returns")
     began = time.perf_counter()
     map_, certificate = result.map, result.certificate
     if certificate is None or not isinstance(map_, HarmonicMap):

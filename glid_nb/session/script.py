@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from glid_nb._arguments import check_type
 from glid_nb.certificate import certificate_of
 from glid_nb.energies import CustomEnergy
 from glid_nb.geometry import Cage, Domain
@@ -30,6 +31,7 @@ def python_code(document: Document, picture: str = "picture.png", *, exact: bool
     editor reached another one than a solve from the identity does. Raises a DocumentError when
     there is no pose, or the energy of one is a Python function.
     """
+    check_type("document", document, Document, "such as that of an editor")
     if not document.poses:
         raise DocumentError("the document has no pose yet, so there is no map to make")
     lines = ["import glid_nb as glid", "", *_domain_lines(document, picture)]

@@ -4,6 +4,7 @@ import numpy as np
 import scipy
 import shapely
 
+from glid_nb._arguments import check_type
 from glid_nb._arrays import Array
 from glid_nb.geometry import Domain, triangulate
 from glid_nb.solvers import Pose
@@ -25,6 +26,7 @@ def suggest_pose(domain: Domain, max_handles: int = 7) -> Pose:
     The end farthest from the middle, and the end farthest from that one, turn about the middle by
     24 degrees, away from the rest; other handles stay. ``max_handles`` is at least 2.
     """
+    check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
     if max_handles < 2:
         raise ValueError(f"max_handles is {max_handles}; it must be at least 2")
     mesh = triangulate(domain.cage, _MESH_VERTICES)

@@ -16,7 +16,7 @@ from glid_nb.geometry import Domain, place
 from glid_nb.solvers.stiffness import Stiffness
 
 # Farther away, the rounding of a coordinate would be felt in the proof.
-_FARTHEST = 1e6
+_FARTHEST = 1e10
 DEEPEST = 100.0  # the largest depth of a handle
 # What a handle may have beside its target: least, most, and what it has otherwise.
 _MORE = {

@@ -23,7 +23,7 @@ from glid_nb.solvers.discretisation import Discretisation, Matrices, padded
 from glid_nb.solvers.whitening import whitened
 
 FULL_WEIGHT = 1000.0  # of a sample where the strength is 1
-_FARTHEST, _MOST_POINTS, _MOST_STROKES = 1e6, 10_000, 2_000
+_FARTHEST, _MOST_POINTS, _MOST_STROKES = 1e10, 10_000, 2_000
 _ROUND = 8  # segments of a quarter of the brush
 NODES = 128  # inside the areas; always as many, so that painting more compiles nothing
 _COARSER, _MOST_LINES = 1.03, 400  # of their grid
