@@ -119,7 +119,6 @@ def _here() -> tuple[Any, ...]:
 
 @functools.cache
 def _files() -> list[tuple[Any, ...]]:
-    """The package's files, and when they were changed."""
     root = Path(__file__).parent
     files = [(str(path.relative_to(root)), path.stat()) for path in sorted(root.glob("**/*.py"))]
     return [(name, stat.st_size, stat.st_mtime_ns) for name, stat in files]

@@ -59,7 +59,6 @@ def run(chosen: argparse.Namespace) -> None:
 
 
 def _read(chosen: argparse.Namespace) -> tuple[Any, glid_nb.Motion, list[glid_nb.Pose] | None]:
-    """The picture, the motion, and the keyframes' poses where they are known."""
     if chosen.source.suffix.lower() != ".json":
         document = glid_nb.load_document(chosen.source)
         if (count := len(document.poses)) < 2:

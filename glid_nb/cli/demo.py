@@ -95,7 +95,6 @@ def _source(image: str) -> tuple[Path, str | None]:
 def _pose(
     wanted: str | None, sample: str | None, domain: glid_nb.Domain
 ) -> tuple[glid_nb.Pose, str]:
-    """The pose, and where it comes from, in words."""
     if sample is not None and not (wanted and Path(wanted).exists()):
         kind = cast("glid_nb.samples.PoseKind", wanted or DEFAULT_POSE)
         path, origin = glid_nb.samples.pose_path(sample, kind), f"the sample's own, {kind}"

@@ -126,7 +126,6 @@ def _shape(mesh: MovingMesh, step: float) -> dict[str, Any]:
 
 
 def _shaders(mesh: MovingMesh, shown: HarmonicMap | Motion, step: float) -> dict[str, Any]:
-    """The shaders of the canvas, and the maps at the knots as they take them."""
     domain = shown.domain
     shader = ShaderMap(domain)
     wire, head = shader.wire, shader.defines() + glsl("harmonic.glsl")

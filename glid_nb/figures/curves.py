@@ -170,7 +170,6 @@ def function(
 
 
 def _round_nearby(value: float, most: float) -> float:
-    """The number of fewest digits that differs from a value by at most so much."""
     rounded = (float(f"{value:.{digits}g}") for digits in range(1, 18))
     return next(number for number in rounded if abs(number - value) <= most)
 

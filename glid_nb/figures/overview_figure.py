@@ -104,7 +104,6 @@ def _common_scale(*boxes: Floats) -> Floats:
 
 
 def _label(axes: Axes, letter: str, name: str, shift: tuple[float, float]) -> None:
-    """Write letter and name, shifted by points from the axes' upper left corner."""
     for text, indent, weight in ((letter, 0, "bold"), (name, 10, "normal")):
         place = (0, 1), (shift[0] + indent, shift[1]), "axes fraction", "offset points"
         axes.annotate(text, *place, fontsize=FONT_SIZE, fontweight=weight, color=INK)

@@ -358,7 +358,6 @@ def _loop_names(starts: Floats, character: float) -> list[tuple[float, str]]:
 
 
 def _winding(certificate: Certificate) -> str:
-    """The winding number of ``f_z``, and each loop's own where they are not all 0."""
     each = enumerate(certificate.windings)
     loops = (f"{loop_name(i).removesuffix(' loop')} {turns}" for i, turns in each)
     text = f"winding number {certificate.winding}"

@@ -139,7 +139,6 @@ def _check_alpha(alpha: NDArray[np.float32]) -> None:
 def _choose_method(
     image: RGBA, background: Color | None, background_at: Point | None, scribbles: Scribbles | None
 ) -> tuple[ForegroundMethod, str]:
-    """A method and the reason for it, as a note."""
     if scribbles is not None:
         return "scribbles", "scribbles, which were given"
     if background is not None or background_at is not None:

@@ -155,7 +155,6 @@ def significance(loop: Points) -> NDArray[np.float64]:
 
 
 def _farthest(z: NDArray[np.complex128], a: complex, b: complex) -> tuple[int, float]:
-    """The point with the largest distance from the segment from a to b, and that distance."""
     length = abs(b - a)
     # Rotated so that the segment runs from 0 along the real axis.
     turned = (z - a) * ((b - a).conjugate() / length if length > 0 else 1.0)

@@ -84,7 +84,6 @@ def _labels(
 def _drawn(
     strokes: Strokes, shape: tuple[int, int], size: tuple[int, int], name: str
 ) -> NDArray[np.bool_]:
-    """The strokes as a mask of the scaled picture."""
     factor = np.array(size) / np.array(shape)
     if isinstance(strokes, np.ndarray):
         if strokes.shape != shape:

@@ -461,7 +461,6 @@ def _asks_alike(a: Pose, b: Pose) -> bool:
 
 
 def _still_there(chosen: Iterable[int], old: Pose, new: Pose) -> tuple[int, ...]:
-    """Indices in the new pose of those of the chosen handles that it has."""
     places = {tuple(handle): j for j, handle in enumerate(new.handles.tolist())}
     before = [tuple(old.handles[i].tolist()) for i in chosen if i < len(old)]
     return tuple(places[handle] for handle in before if handle in places)

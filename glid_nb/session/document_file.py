@@ -120,7 +120,6 @@ def load_document(path: str | Path) -> Document:
 
 
 def _read_archive(path: Path) -> dict[str, bytes]:
-    """A zip file's members, sizes checked before they are read; InputFileError if any is wrong."""
     most = sum(_MOST_BYTES.values()) + _DIRECTORY_BYTES
     try:
         size = path.stat().st_size
@@ -265,7 +264,6 @@ def _trace_options_from_dict(data: Any, scribbles: Scribbles | None) -> TraceOpt
 
 
 def _from_fields(kind: type[T], data: Any, name: str) -> T:
-    """A dataclass by its fields; those that are missing keep their defaults."""
     fields = [field.name for field in dataclasses.fields(kind)]  # type: ignore[arg-type]
     _json.check_fields(data, name, {}, _json.keys(*fields))
     with about(name):

@@ -367,13 +367,11 @@ def _apply(deformation: Deformation, domain: Domain) -> str:
 
 
 def _work_of(state: EditState) -> tuple[Any, ...]:
-    """The user's choices in all poses, to be compared."""
     poses = ((p.name, p.pose, p.energy, p.options, p.method) for p in state.poses)
     return (state.timeline, *poses)
 
 
 def _check_place(path: Path) -> None:
-    """Raise unless a session file can be at this path."""
     if path.is_dir():
         raise DocumentError(f"{path.absolute()} is a folder; name a file")
     if not path.parent.is_dir():

@@ -107,7 +107,6 @@ class Observed:
         self._changes.update(dict.fromkeys(names))
 
     def _announce(self, *names: str) -> None:
-        """Report these changes now."""
         for observer in tuple(self._observers) if names else ():
             for name in names:
                 observer(name)

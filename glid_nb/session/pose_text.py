@@ -64,7 +64,6 @@ def _posed(
 
 
 def _inside(cage: Cage, points: Array) -> Array:
-    """Points (h, 2), those beside the shape moved to the nearest place inside."""
     outside = ~cage.contains(points)
     inner = cage.polygon.buffer(-_MARGIN * cage.longer_side)
     inner = cage.polygon.representative_point() if inner.is_empty else inner

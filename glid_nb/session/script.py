@@ -109,12 +109,10 @@ def _is_traced(document: Document) -> bool:
 
 
 def _made(value: Any, module: str = "glid") -> str:
-    """The code that makes a dataclass."""
     return f"{module}.{type(value).__name__}({_changed(value)})"
 
 
 def _changed(value: Any, names: Sequence[str] | None = None) -> str:
-    """The fields of a dataclass that differ from their defaults, as keyword arguments."""
     parts, default = [], type(value)()
     for name in [field.name for field in dataclasses.fields(value)] if names is None else names:
         given = getattr(value, name)

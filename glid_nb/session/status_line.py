@@ -50,7 +50,6 @@ def describe(moment: Moment) -> StatusLine:
 
 
 def _ended(moment: Moment) -> tuple[Level, str]:
-    """How the last solve ended."""
     solution, frame = moment.solution, moment.frame
     if solution is None:
         return "idle", "Stopped"

@@ -68,7 +68,6 @@ def _spread_out(graph: scipy.sparse.csr_array, clearance: Array, count: int) -> 
 
 
 def _swung(handle: Array, middle: Array, vertices: Array, path_lengths: Array) -> Array:
-    """The handle turned about the middle, in the direction that stays farther from other limbs."""
     x, y = handle - middle
     ways = []
     for turn in (_TURN, -_TURN):

@@ -304,7 +304,6 @@ class TracingModel(Undoable[TracingState]):
     # Internals
 
     def _step(self, state: TracingState, gesture: Any = None) -> None:
-        """Make ``state`` the present one, with its fallback."""
         with self.locked():
             before, history = self.state, self.history
             if gesture is not None and gesture == history.gesture:
@@ -359,7 +358,6 @@ class TracingModel(Undoable[TracingState]):
         return self._frame_of_picture().to_world(loop_edits.checked_point(point))
 
     def _check_inside(self, point: Point) -> None:
-        """Raise unless the point lies in the picture."""
         x, y = loop_edits.checked_point(point)
         self._frame_of_picture().index_at((float(x), float(y)))
 
@@ -384,7 +382,6 @@ def _problem(error: TraceError | GeometryError, frame: PixelFrame) -> TracingFau
 
 
 def _name_of(image: ImageSource | None) -> str:
-    """The name of a picture's file, as far as it is known, without its suffix."""
     named = image if isinstance(image, (str, os.PathLike)) else getattr(image, "filename", "")
     return Path(named).stem
 

@@ -112,7 +112,6 @@ class LatestWins(Generic[T]):
             thread.join()
 
     def _next(self) -> tuple[T] | None:
-        """Wait for the next task; None once this is closed."""
         with self._changed:
             while True:
                 self._changed.wait_for(lambda: self.closed or self._pending)

@@ -121,7 +121,10 @@ def assemble(
     for direction, m, total, part in zip((f, g), minus, sums, parts, strict=True):
         u, v = _rotated(re, im, direction)
         mixed = part + part.T
-        diagonal.append(_embedded(total - mixed, part - part.T, *_symmetric_product(u, v, m)))
+        a_re, a_im = total - mixed, part - part.T
+        s_re, s_im = _symmetric_product(u, v, m)
+        # Re(z^H A z + z^T S z) over [Re z, Im z].
+        diagonal.append(jnp.block([[a_re + s_re, -a_im - s_im], [a_im - s_im, a_re - s_re]]))
         along.append(jnp.concatenate([u, -v]))
     cross = (weights * k.along_fg * along[0]) @ along[1].T
     return jnp.block([[diagonal[0], cross], [jnp.zeros_like(cross), diagonal[1]]])
@@ -165,8 +168,3 @@ def _symmetric_product(u: Columns, v: Columns, weights: PerNode) -> tuple[Square
     real = (u - v) @ (weights * (u + v)).T
     imaginary = (weights * u) @ v.T
     return (real + real.T) / 2, imaginary + imaginary.T
-
-
-def _embedded(a_re: Square, a_im: Square, s_re: Square, s_im: Square) -> Float[Array, "2u 2u"]:
-    """The real quadratic form ``Re(z^H A z + z^T S z)`` over ``[Re z, Im z]``."""
-    return jnp.block([[a_re + s_re, -a_im - s_im], [a_im - s_im, a_re - s_re]])

@@ -127,7 +127,6 @@ def _basis_at(domain: Domain, points: bytes, kernel: Any) -> NDArray[Any]:
 
 @functools.lru_cache(maxsize=32)
 def _matrix_at(domain: Domain, handles: bytes, size: int) -> NDArray[Any]:
-    """``A``, kept likewise."""
     own = _basis_at(domain, handles, cauchy.cauchy_coordinates)
     rows = np.zeros((size, own.shape[1]), dtype=complex)
     rows[: len(own)] = own

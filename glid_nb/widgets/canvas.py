@@ -156,7 +156,6 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
         self._asked, self._given = (asked, tall), (stage.width, stage.height)
 
     def _take_room(self, _: Any = None) -> None:
-        """Take the room that there is, as far as no size was asked for."""
         with self.deformation.locked():
             width, height, alone = self.pane.stage.room
             if self._closed:
@@ -169,7 +168,6 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
             self.pane.place_legend()
 
     def _set_size(self, width: int, height: int) -> None:
-        """Share this size, in CSS pixels, between the result and the source."""
         beside = 0 if self.source is None else round(_SOURCE_SHARE * width)
         self._given = width - beside, height
         if self.source is not None:

@@ -72,7 +72,6 @@ class EditControls(ClosingWidget, ipywidgets.VBox):
         control.observe(lambda change: self._act(lambda: act(change["new"])), ["value"])
 
     def _act(self, act: Callable[[], None]) -> None:
-        """Change the model, unless the control follows it."""
         if getattr(self._following, "now", False):
             return
         try:

@@ -153,7 +153,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
         return bundle
 
     def _snapshot(self, image: NDArray[np.uint8]) -> bytes:
-        """The deformed picture with its pins; before there are any, the picture itself."""
         if self.model.has_shape and len(self.pose):
             frame = {"size": max(self._size), "format": "apng"}
             return export.animation_bytes(self.document.image, [self.map], [self.pose], **frame)
@@ -405,7 +404,6 @@ class Editor(ClosingWidget, ipywidgets.VBox):
             self.files.follow_autosave()
 
     def _on_tab(self, change: Any) -> None:
-        """Deform what was traced when the Deform tab is opened."""
         self._fill()
         if change["new"] == _DEFORM:
             notice = self.model.apply_tracing()

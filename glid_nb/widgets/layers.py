@@ -208,7 +208,6 @@ def _loops_ribbon(shape: shapely.Geometry, side: float) -> Ribbon:
 
 
 def _ribbon(start: Array, end: Array) -> Ribbon:
-    """Along straight pieces from ``start`` to ``end``, (s,) complex."""
     count = len(start)
     direction = (end - start) / np.maximum(np.abs(end - start), 1e-300)
     points = np.stack([start, start, end, end], axis=1).ravel()

@@ -176,7 +176,6 @@ class Scene:
                 layer.set_uniforms(self._picture_uniforms())
 
     def _show_line(self, name: str, source: Any) -> None:
-        """Show the line of this name, made of ``source``; hide it for None."""
         line = self.lines.get(name)
         if source is not None and source is not self._sources.get(name):
             if line is not None:

@@ -170,7 +170,6 @@ def step_in_words(iteration: Iteration) -> str:
 
 
 def _methods() -> dict[str, str]:
-    """Labels of all methods by their names, ours first."""
     missing = {True: "", False: " (not installed)"}
     return {
         name: method.label + _WORKS_ON[method.family] + missing[method.available()]
@@ -191,7 +190,6 @@ def _option_controls(options: Options) -> dict[str, tuple[str, Any]]:
 def _control_of(
     kind: Any, value: Any, labels: Mapping[str, str] | None = None, name: str = ""
 ) -> Any:
-    """A control for values of an annotated kind, or None."""
     if get_origin(kind) is Literal:
         return _menu(labels or {choice: choice for choice in get_args(kind)}, value=value)
     control, look = _SLIDERS.get(name) or _CONTROLS.get(kind) or (None, {})
@@ -199,6 +197,5 @@ def _control_of(
 
 
 def _menu(labels: Mapping[Any, str], tooltip: str = "", **value: Any) -> ipywidgets.Dropdown:
-    """A menu of these values, shown by their labels."""
     options = [(str(label), value) for value, label in labels.items()]
     return ipywidgets.Dropdown(options=options, layout=_FULL, tooltip=tooltip, **value)

@@ -192,7 +192,6 @@ def _hole(hole: Hole) -> dict[str, Any]:
 
 
 def _strokes(strokes: Any) -> list[Any]:
-    """The strokes of a brush; none for a mask."""
     if strokes is None or isinstance(strokes, np.ndarray):
         return []
     return [_rounded(stroke) for stroke in strokes]

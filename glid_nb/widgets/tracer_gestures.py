@@ -234,7 +234,6 @@ class TraceGestures(Gestures):
         self.tool, self.corners = event["name"], ()
 
     def _undo(self, event: Event) -> None:
-        """Undo one step; during a drag, the drag; of a polygon, its last corner."""
         if self._press is not None:
             self._cancel(event)
         elif self.corners:

@@ -191,6 +191,5 @@ def closest(fz: Array, fzb: Array, bound: float) -> tuple[Array, Array]:
 
 
 def _unit(z: Array) -> Array:
-    """``z / |z|``, 1 at 0."""
     size = np.abs(z)
     return np.where(size > 0, z / np.where(size > 0, size, 1), 1)

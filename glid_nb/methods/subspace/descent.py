@@ -194,7 +194,6 @@ class DirectedDescent(SubspaceDescent):
 
 @functools.partial(jit, compiler_options=COMPILER_OPTIONS)
 def _evaluate(problem: SubspaceProblem, coefficients: Coefficients) -> tuple[Point, Coefficients]:
-    """A map's energies, and their gradient with respect to the unknowns, 0 elsewhere."""
     point = evaluation.evaluated(problem, coefficients)
     return point, restrict_gradient(evaluation.gradient(problem, point), problem.unknowns)
 
