@@ -195,14 +195,14 @@ import { View } from "../widgets/js/pad/view.js";
   let running = false, glide = null, last = 0, due = 0;
 
   function seek(t) {
-    time = motion.within(t);
+    time = t === motion.end ? t : motion.within(t);
     slider.value = time;
     get("clock").textContent = `${time.toFixed(2)} / ${motion.end.toFixed(2)} s`;
     const { piece } = motion.place(time);
     const [low, high, k] = [motion.sigma2[piece], motion.sigma1[piece], motion.k[piece]];
     const bare = time < motion.until ? "proved not to fold" : "not proved";
     get("here").textContent = `Now: ${low === null ? bare : `σ₂ ≥ ${down(low)}, σ₁ ≤ ${up(high)}, k ≤ ${up(k)}`}`;
-    thumbs.forEach((thumb, i) => thumb.setAttribute("aria-current", Math.abs(motion.keyframes[i] - time) < 1e-3));
+    thumbs.forEach((thumb, i) => thumb.setAttribute("aria-current", Math.abs(motion.keyframes[i] - motion.within(time)) < 1e-3));
     draw();
   }
 

@@ -21,7 +21,7 @@ from glid_nb.session.document import AS_SEEN, NamedPose, Solution
 from glid_nb.session.edit_state import EditError, EditState, Moment
 from glid_nb.session.live_solver import solve_edited
 from glid_nb.session.model import Observed
-from glid_nb.session.timeline import thinned
+from glid_nb.session.timeline import on_grid, thinned
 from glid_nb.session.worker import LatestWins, weakly
 
 _THINNED = 0.02  # how far a recorded target may be off, as a share of the cage's longer side
@@ -89,8 +89,9 @@ class Animation(Observed):
 
     def keep(self, time: float) -> None:
         """Keep the map at a time as a pose; between poses, where that is proved."""
-        state = self.deformation.state
-        if time in state.timeline.times or not self.spans:
+        times = self.deformation.state.timeline.times
+        time = time if time in times else round(time, 2)
+        if time in times or not self.spans:
             return self.deformation.save_pose()
         pieces = (piece for span in self.spans for piece in span.pieces)
         piece = next((p for p in pieces if p.start <= time <= p.end), None)
@@ -153,8 +154,10 @@ class Animation(Observed):
             if self._began is None and past:
                 self._began = now, past[-1]
             if moved and (frame := moment.frame) is not None:
-                seen = {"pose": frame.task.pose.pose, "map": frame.map, "solution": AS_SEEN}
-                self._samples.append((now, replace(state.current, **seen)))
+                pose, samples = frame.task.pose.pose, self._samples
+                noted = samples.pop()[0] if samples and samples[-1][1].pose is pose else now
+                seen = {"pose": pose, "map": frame.map, "solution": AS_SEEN}
+                samples.append((noted, replace(state.current, **seen)))
             return None
         if self._began is None:
             return None
@@ -164,11 +167,10 @@ class Animation(Observed):
         if not past or past[-1] is not before:
             return None  # the drag was cancelled
         samples = [(began, before.current), *samples, (now, state.current)]
-        times, places = np.array([t for t, _ in samples]), [pose for _, pose in samples]
+        times, places = on_grid(np.array([t for t, _ in samples])), [pose for _, pose in samples]
         points = np.stack([pose.pose.targets for pose in places])
         kept = thinned(times, points, _THINNED * state.domain.cage.longer_side)[1:]
-        offsets = np.maximum.accumulate(times[kept] - times[0] + 0.01 * np.arange(1, len(kept) + 1))
-        return before.current, [places[i] for i in kept[:-1]], offsets.tolist()
+        return before.current, [places[i] for i in kept[:-1]], times[kept].tolist()
 
     # Proving
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import bisect
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from glid_nb._arrays import Array
 from glid_nb.harmonic import HarmonicMap
@@ -20,6 +22,7 @@ LEAST_GAP = 1e-3
 
 _USUAL = 1.0  # seconds between keyframes
 _GRID = 0.01  # seconds, where keyframes are put by hand
+_JITTER = 0.1  # seconds by which a drag's places are noted too early or too late
 
 
 @dataclass(frozen=True)
@@ -95,7 +98,7 @@ class Timeline:
         times = (*self.times[: index + 1], *(t + offsets[-1] for t in self.times[index + 1 :]))
         new = replace(self.eased(index, "linear"), times=times)
         for i, offset in enumerate(offsets, index + 1):
-            new = new.inserted(i, self.times[index] + offset)
+            new = new.inserted(i, round(self.times[index] + offset, 6))
         return new.eased(index + len(offsets), self.easing[index])
 
     def without(self, index: int) -> Timeline:
@@ -123,18 +126,21 @@ class Timeline:
         return replace(self, easing=(*self.easing[:index], easing, *self.easing[index + 1 :]))
 
 
+def on_grid(times: Array) -> Array:
+    """Seconds since the first, which keyframes are put at; increasing."""
+    steps = np.arange(len(times))
+    return _GRID * (np.maximum.accumulate(np.rint((times - times[0]) / _GRID) - steps) + steps)
+
+
 def thinned(times: Array, points: Array, tolerance: float) -> list[int]:
-    """Which places (n, h, 2) to keep so that lines in time meet the rest; by Ramer (1972)."""
-    kept, open_ = {0, len(times) - 1}, [(0, len(times) - 1)]
-    while open_:
-        first, last = open_.pop()
-        if last - first < 2:
-            continue
-        s = (times[first + 1 : last] - times[first]) / max(times[last] - times[first], 1e-300)
-        line = points[first] + s[:, None, None] * (points[last] - points[first])
-        off = np.linalg.norm(points[first + 1 : last] - line, axis=-1).max(axis=1, initial=0)
-        worst = int(np.argmax(off))
-        if off[worst] > tolerance:
-            kept.add(middle := first + 1 + worst)
-            open_ += [(first, middle), (middle, last)]
-    return sorted(kept)
+    """Which places (n, h, 2) to keep so that a smooth motion through them meets the rest."""
+    kept, around = sorted({0, len(times) - 1}), np.linspace(-_JITTER, _JITTER, 5)[:, None]
+    while len(kept) < len(times):
+        smooth = CubicSpline(times[kept], points[kept], bc_type="natural")
+        near = smooth(np.clip(times + around, times[0], times[-1]))
+        off = np.linalg.norm(near - points, axis=-1).max(axis=2, initial=0).min(axis=0)
+        off[np.abs(times[kept][:, None] - times).min(axis=0) < _JITTER] = 0
+        if off.max() <= tolerance:
+            break
+        bisect.insort(kept, int(np.argmax(off)))
+    return kept

@@ -245,8 +245,10 @@ class DeformCanvas(ClosingWidget, ipywidgets.HBox):
     def _onion(self, state: EditState) -> list[Any]:
         """Colours and outlines of the poses beside the one that is edited."""
         beside = (state.active - 1, BLUE), (state.active + 1, ORANGE)
-        poses = state.poses
-        return [[c, _boundary(poses[i].map)] for i, c in beside if 0 <= i < len(poses)]
+        count = len(state.poses)
+        around = state.timeline.repeat == "loop" and count > 1
+        maps = {i: state.poses[i % count].map for i, _ in beside if around or 0 <= i < count}
+        return [[color, _boundary(maps[i])] for i, color in beside if i in maps]
 
     def _measure(self, moment: Moment) -> Range:
         """Update panels, hidden pins and the colours' range, now and then; in a drag it grows."""

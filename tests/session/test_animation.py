@@ -6,6 +6,7 @@ import threading
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -169,6 +170,9 @@ def test_what_lies_between_is_kept_where_it_is_proved(
     animation.keep(0.25)  # a pose already: a copy follows
     assert model.state.timeline.times == (0, 0.25, 0.625, 1)
     assert animation.wait(TIMEOUT)
+    animation.keep(0.5000000810054317)
+    assert model.state.timeline.times == (0, 0.25, 0.5, 0.625, 1)
+    assert animation.wait(TIMEOUT)
     model.begin_drag([0])
     model.drag_to((2.8, 0))
     assert model.solve(TIMEOUT)
@@ -221,23 +225,27 @@ def test_a_motion_that_folds_stops_where_its_proof_does(monkeypatch: pytest.Monk
 
 
 def test_a_recorded_drag_becomes_keyframes_in_one_step(
-    model: Deformation, animation: Animation
+    model: Deformation, animation: Animation, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    watch = Mock(monotonic=Mock(return_value=100.0))
+    monkeypatch.setattr("glid_nb.session.animation.time", watch)
     assert model.solve(TIMEOUT)
     before = model.state
     animation.record(True)
     model.begin_drag([0])
     for s in np.linspace(0, 1, 12):
+        watch.monotonic.return_value = 100.0123 + 2 * s
         model.drag_to((2 + 0.5 * s, np.sin(3 * s)))
         assert model.solve(TIMEOUT)
     model.end_drag()
     assert not animation.recording
     poses, timeline = model.state.poses, model.state.timeline
-    assert 3 <= len(poses) <= 13
+    assert 3 <= len(poses) <= 5
+    assert timeline.times[-1] == pytest.approx(20 / 11, abs=0.02)  # since the first change
+    assert all(time == round(time, 2) for time in timeline.times)
     assert model.state.active == len(poses) - 1
     assert poses[0].map is before.map
     assert poses[-1].pose.targets[0].tolist() == [2.5, np.sin(3)]
-    assert timeline.times[0] == 0
     assert animation.wait(TIMEOUT)
     assert set(statuses(animation)) == {"proved"}
     model.undo()

@@ -77,6 +77,9 @@ def test_a_page_plays_scrubs_and_leads_to_poses(
         difference = np.abs(shown(page) - drawn(shapes.picture(), motion, time, size)).max(axis=2)
         assert difference.mean() < 1
         assert np.percentile(difference, 99) < 16
+    page.keyboard.press("End")
+    assert float(slider.input_value()) == pytest.approx(motion.end)
+    assert page.locator("#poses button:first-child[aria-current=true]").count() == 1
     page.keyboard.press("Home")
     before = shown(page)
     page.keyboard.press("ArrowRight")

@@ -79,8 +79,8 @@ def test_the_page_is_given_what_is_proved_and_its_events_act(panel: TimelinePane
     assert {k: panel.shown[k] for k in ("repeat", "back", "recording", "onion", "active")} == {
         **{"repeat": "loop", "back": 1.0, "recording": True, "onion": True, "active": 1}
     }
-    ((color, (outline,)),) = canvas.pane.stage.onion
-    assert color == "#0072b2"
+    (_, (outline,)) = canvas.pane.stage.onion[0]
+    assert [color for color, _ in canvas.pane.stage.onion] == ["#0072b2", "#e69f00"]  # a loop's
     assert len(outline) > 20
     act(panel, "delete_pose", index=0)
     assert "cannot be deleted" in str(act(panel, "delete_pose", index=0))

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 
 import numpy as np
 import pytest
 from playwright.sync_api import FloatRect, Locator
+from skimage.io import imread
 
 from .conftest import OpenNotebook
 from .editor_page import Hand, line
@@ -51,6 +53,18 @@ COUNT_DRAWINGS = """() => {
     window.drawings += 1;
     return draw.apply(this, a);
   };
+}"""
+# Whether keyframes lie below a pointer in their middles.
+GRABBED = """(keys) => keys.map((key) => {
+  const { x, y, width, height } = key.getBoundingClientRect();
+  return document.elementFromPoint(x + width / 2, y + height / 2) === key;
+})"""
+WIDE_ENOUGH = """(menu) => {
+  const wide = menu.offsetWidth;
+  menu.style.width = 'max-content';
+  const wanted = menu.offsetWidth;
+  menu.style.width = '';
+  return wide >= wanted;
 }"""
 
 
@@ -104,6 +118,21 @@ class Timeline:
             self.page.mouse.move(self.x(time), box["y"] + 8)
         self.page.mouse.up()
 
+    def hold(self, index: int, *times: float) -> None:
+        """Press on a keyframe and move it to one time after the other."""
+        places = [self.x(time) for time in times]
+        box = self.box(self.keys.nth(index))
+        self.page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 20)
+        self.page.mouse.down()
+        for place in places:
+            self.page.mouse.move(place, box["y"] + 20, steps=5)
+
+    def longest_gap(self) -> int:
+        """How many pixels of the strip between its first and last piece stay empty in a row."""
+        strip = self.root.locator(".glid-strip").screenshot()
+        row = imread(io.BytesIO(strip))[-3].astype(int)
+        return int(np.diff(np.flatnonzero(row[:, 2] - row[:, 0] > 60)).max()) - 1
+
     def assert_shows_the_motion(self) -> None:
         """The shader has the coefficients of ``motion(t)`` to float32."""
         wanted = self.book.value(
@@ -135,14 +164,28 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     book.screenshot("timeline-five-poses")
 
     # A keyframe moves along time, past none; its easing and the repetition change.
-    later, latest = timeline.x(1.2), timeline.x(1.4)
-    box = timeline.box(timeline.keys.nth(1))
-    page.mouse.move(box["x"] + 30, box["y"] + 20)
-    page.mouse.down()
-    page.mouse.move(later, box["y"] + 20, steps=5)
-    page.mouse.move(latest, box["y"] + 20, steps=5)
+    timeline.hold(1, 1.2, 1.4)
+    head = timeline.box(timeline.root.locator(".glid-playhead"))  # shows where it would land
+    assert abs(head["x"] + head["width"] / 2 - timeline.x(1.4)) < 5
     page.mouse.up()
     book.wait_for("abs(model.state.timeline.times[1] - 1.4) < 0.03")
+    # Escape lets go of one; one that is dropped on another stays beside it, where both are seen.
+    moved = timeline.times
+    timeline.hold(1, 2.6)
+    timeline.root.locator(".glid-timeline-note", has_text="to 2.60 s").wait_for()
+    page.keyboard.press("Escape")
+    page.mouse.up()
+    assert timeline.times == moved
+    timeline.hold(1, 2.6, 3)
+    page.mouse.up()
+    book.wait_for(f"model.state.timeline.times[1] == {moved[2]}")
+    page.mouse.move(0, 0)
+    assert 0.05 < min(np.diff(timeline.times)) < 0.2
+    timeline.root.locator(f".glid-key:nth-child(2)[title*='at {moved[2]:.2f} s']").wait_for()
+    assert all(timeline.keys.evaluate_all(GRABBED))
+    page.keyboard.press("Control+z")
+    book.wait_for(f"list(model.state.timeline.times) == {moved}")
+    assert timeline.root.locator("select").evaluate_all(f"(all) => all.every({WIDE_ENOUGH})")
     timeline.root.locator("select").nth(1).select_option("in-out")
     timeline.root.locator("select").nth(0).select_option("loop")
     book.wait_for("model.state.timeline.repeat == 'loop' and len(editor.motion.times) == 6")
@@ -196,9 +239,15 @@ def test_a_walk_cycle_made_by_hand(open_notebook: OpenNotebook) -> None:
     book.wait_for("not editor.timeline.animation.recording")
     recorded = book.value("len(editor.poses)")
     print(recorded, "poses")
-    assert 6 < recorded < 20
+    assert 6 < recorded < 13
+    assert all(time == round(time, 2) for time in timeline.times)
     timeline.settle()
     book.screenshot("timeline-recorded")
+    timeline.root.evaluate("root => { root.style.width = '280px'; }")
+    assert timeline.keys.evaluate_all(GRABBED).count(False) == 0
+    timeline.root.evaluate("root => { root.style.width = '150px'; }")
+    assert timeline.longest_gap() <= 3  # the playhead, and a line between two pieces
+    timeline.root.evaluate("root => { root.style.width = ''; }")
     page.keyboard.press("Control+z")
     book.wait_for("len(editor.poses) == 5")
     assert hand.targets[1] == start

@@ -18,12 +18,9 @@ function lines(pen, pairs, styles) {
 // Outlines of other poses: colour, and loops of points.
 export function drawOnion(pen, view, outlines) {
   for (const [color, loops] of outlines) {
-    pen.globalAlpha = 0.13;
-    fillPath(pen, loops.map((loop) => view.line(loop)), color);
-    pen.globalAlpha = 0.8;
-    strokePath(pen, [[1.4, color]]);
+    tracePath(pen, loops.map((loop) => view.line(loop)));
+    strokePath(pen, [[3.6, BORDER], [1.8, color]]);
   }
-  pen.globalAlpha = 1;
 }
 
 const STIFF = "#4b0f7a"; // told by its hatching, whatever the colours

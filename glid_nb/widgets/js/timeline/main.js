@@ -10,7 +10,7 @@ import { Player } from "./player.js";
 const EASINGS = [["linear", "Even"], ["in", "Ease in"], ["out", "Ease out"], ["in-out", "Ease in, out"]];
 const REPEATS = [["once", "Once"], ["loop", "Loop"], ["ping-pong", "Ping-pong"]];
 const STEP = 1 / 30, NUDGE = 0.1; // seconds of the arrow keys, alone and with Alt
-const SNAP = 6, STILL = 4; // CSS pixels
+const SNAP = 6, STILL = 4, SLIM = 8; // CSS pixels
 const LATER = 1.15; // room behind the last keyframe, to drag it there
 const KERNEL = "Played by the kernel (too large for shaders). ";
 
@@ -47,7 +47,7 @@ function render({ model, el }) {
   const repeat = menu("Play once, in a loop, or there and back", REPEATS, (value) => act("set_repeat", { repeat: value }));
   const clock = make("span", { className: "glid-time", role: "timer" });
   const record = iconButton("record", "Record: keep the next drag as keyframes", () => act("record", { on: !shown().recording }));
-  const onion = iconButton("onion", "Onion skin: outlines of the poses before (blue) and after (orange)", () => act("onion", { on: !shown().onion }));
+  const onion = iconButton("onion", "Onion skin of the pose that is edited: outlines of those before (blue) and after (orange)", () => act("onion", { on: !shown().onion }));
   const keep = make("button", { type: "button", className: "glid-keep", title: "Keep this pose and go on with a copy; between poses, keep what is seen", onclick: () => act("keep", { time: player.seen ? player.place : active().time }) });
   const copy = iconButton("copy", "Duplicate this pose", () => edit("duplicate_pose"));
   const remove = iconButton("trash", "Delete this pose (Delete)", () => edit("delete_pose"));
@@ -68,7 +68,8 @@ function render({ model, el }) {
   el.classList.add("glid-host");
   el.append(root);
 
-  const at = (time) => `calc(var(--glid-inset) + ${time / span} * (100% - 2 * var(--glid-inset)))`;
+  const wide = (time) => `${time / span} * (100% - 2 * var(--glid-inset))`;
+  const at = (time) => `calc(var(--glid-inset) + ${wide(time)})`;
   const inside = () => {
     const { left, width } = track.getBoundingClientRect();
     const inset = parseFloat(getComputedStyle(root).getPropertyValue("--glid-inset"));
@@ -112,15 +113,16 @@ function render({ model, el }) {
     if (drag) return; // what the pointer holds must stay in the page
     const { keyframes, active: index, repeat: repeats, back } = shown(), thumbnails = model.get("thumbnails");
     const ends = repeats === "loop" && keyframes.length > 1 ? [{ ...keyframes[0], time: keyframes.at(-1).time + back, name: `Back to ${keyframes[0].name}` }] : [];
-    span = Math.max(1, (ends[0] ?? keyframes.at(-1)).time) * LATER;
+    const all = [...keyframes, ...ends], room = (i) => Math.min(...[i, i + 1].map((j) => (all[j - 1] && all[j] ? all[j].time - all[j - 1].time : span)));
+    span = Math.max(1, all.at(-1).time) * LATER;
     ruler.setAttribute("aria-valuemax", span.toFixed(2));
     const focused = [...keys.children].indexOf(keys.getRootNode().activeElement);
-    keys.replaceChildren(...[...keyframes, ...ends].map((key, i) => {
+    keys.replaceChildren(...all.map((key, i) => {
       const picture = thumbnails[key.thumbnail];
       const title = `${key.name} at ${seconds(key.time)}`, own = i === keyframes.length ? "glid-return" : i === index ? "glid-on" : "";
       return make("button", {
         type: "button", className: `glid-key ${own}`, title: `${title}; drag it to another time`, "aria-label": title, "aria-pressed": i === index,
-        style: `left: ${at(key.time)}`, onpointerdown: (e) => grab(e, i), onclick: (e) => e.detail || select(i % keyframes.length),
+        style: `left: ${at(key.time)}; width: clamp(${SLIM}px, ${wide(room(i))} - 2px, 60px)`, onpointerdown: (e) => grab(e, i), onclick: (e) => e.detail || select(i % keyframes.length),
       }, ...(picture ? [make("img", { src: picture, alt: "", draggable: false })] : []));
     }));
     keys.children[focused]?.focus();
@@ -130,7 +132,7 @@ function render({ model, el }) {
     const { spans } = model.get("motion");
     const part = (start, end, kind, text, height = 1) => make("div", {
       className: `glid-piece glid-${kind}`, title: text, onpointerenter: () => hover(text),
-      style: `left: ${at(start)}; width: calc(${(end - start) / span} * (100% - 2 * var(--glid-inset))); --glid-height: ${height}`,
+      style: `left: ${at(start)}; width: calc(${wide(end - start)}); --glid-height: ${height}`,
     });
     strip.replaceChildren(...spans.flatMap(({ start, end, status, reason, times, sigma2 }) => {
       const proved = sigma2.map((value, i) => part(times[i], times[i + 1], "proved",
@@ -178,29 +180,46 @@ function render({ model, el }) {
     layers = times.length ? new Motion({ times, repeat: "once" }, toFloats(floats)) : null;
   }
 
+  // The time nearest to one at which a keyframe, or a loop's return, can be told from the others.
+  function landing(index, time) {
+    const { keyframes } = shown(), others = keyframes.filter((_, i) => i !== index).map((key) => key.time);
+    const gap = Math.ceil(100 * (SLIM / inside().width) * span) / 100, least = index < keyframes.length ? 0 : others.at(-1) + gap;
+    const free = (t) => t >= least && others.every((other) => Math.abs(t - other) > gap - 0.006);
+    const places = [Math.max(time, least), ...others.flatMap((other) => [other - gap, other + gap])].map((t) => Math.round(100 * t) / 100);
+    return places.filter(free).sort((a, b) => Math.abs(a - time) - Math.abs(b - time))[0];
+  }
+
   // A keyframe is dragged along time, or clicked.
   function grab(e, index) {
     if (e.button !== 0) return;
     e.stopPropagation();
-    const button = e.currentTarget, count = shown().keyframes.length;
-    drag = { index, x: e.clientX, moved: false, time: index < count ? shown().keyframes[index].time : shown().keyframes.at(-1).time + shown().back };
+    const button = e.currentTarget, { keyframes, back } = shown(), count = keyframes.length;
+    const from = index < count ? keyframes[index].time : keyframes.at(-1).time + back;
+    drag = { x: e.clientX, moved: false };
     button.setPointerCapture(e.pointerId);
-    const from = drag.time;
+    button.focus({ preventScroll: true }); // so that Escape is heard
     button.onpointermove = (move) => {
       drag.moved ||= Math.abs(move.clientX - drag.x) > STILL;
       if (!drag.moved) return;
-      drag.time = Math.max(0, from + ((move.clientX - drag.x) / inside().width) * span);
-      button.style.left = at(drag.time);
+      drag.time = landing(index, from + ((move.clientX - drag.x) / inside().width) * span);
+      button.style.left = head.style.left = at(drag.time);
       hover(`to ${seconds(drag.time)}`);
     };
     button.onlostpointercapture = () => {
+      if (!drag) return;
       const { moved, time } = drag;
-      drag = null;
-      hover("");
-      showKeys();
+      drop();
+      if (moved) ruler.focus({ preventScroll: true });
       if (moved) act("move_pose", { index, time });
       else if (index < count) select(index);
     };
+  }
+
+  function drop() {
+    drag = null;
+    hover("");
+    showKeys();
+    showHead();
   }
 
   // Elsewhere a pointer scrubs; it snaps to keyframes.
@@ -219,21 +238,20 @@ function render({ model, el }) {
   track.addEventListener("pointermove", scrub);
   track.addEventListener("lostpointercapture", (e) => {
     if (drag?.scrubs !== e.pointerId) return;
-    drag = null;
-    showKeys();
+    drop();
     if (atKey(player.place) >= 0) select(atKey(player.place));
   });
 
   function step(e) {
     const sign = e.key === "ArrowLeft" ? -1 : 1, { keyframes, active: index } = shown();
-    if (e.altKey) return edit("move_pose", { time: Math.max(0, active().time + sign * NUDGE) });
+    if (e.altKey) return edit("move_pose", { time: landing(index, active().time + sign * NUDGE) });
     if (!e.shiftKey) return player.scrub(player.place + sign * STEP);
     const time = player.place, order = keyframes.map((key, i) => [key.time, i]).filter(([t]) => sign * (t - time) > 1e-9);
     select((sign > 0 ? order[0] : order.at(-1))?.[1] ?? index);
   }
   const KEYS = {
     " ": () => player.play(), ArrowLeft: step, ArrowRight: step, Delete: () => edit("delete_pose"), Backspace: () => edit("delete_pose"),
-    Home: () => select(0), End: () => select(shown().keyframes.length - 1), Escape: () => release(),
+    Home: () => select(0), End: () => select(shown().keyframes.length - 1), Escape: () => { drop(); release(); },
   };
   root.addEventListener("keydown", (e) => {
     const typing = bar.contains(e.target);
