@@ -46,6 +46,11 @@ class Boundary:
         moved[: self.domain.offset_cage.exterior.shape[0]] += by
         return moved
 
+    def worst(self, phi: Array, psi: Array) -> Array:
+        """The least sigma_2 at the nodes, times -1, and the largest k."""
+        f, g = np.abs(self.first @ phi), np.abs(self.first @ psi)
+        return np.array([(g - f).max(), (g / f).max()])
+
     def fitted(self, fz: Array, fzb_conj: Array) -> tuple[Array, Array]:
         """Coefficients of the map whose derivatives are nearest, in the mean square, at the nodes.
 

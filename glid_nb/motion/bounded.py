@@ -20,13 +20,15 @@ from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion.boundary import Boundary, boundary_of
 from glid_nb.solvers.pose import rigid_motion
 
-# A spline may exceed the worse end by this share, else its tangents are shortened step by step.
-_EXCESS = 0.02
+# A map may be worse than the worse end by this share, else tangents are shortened step by step.
+EXCESS = 0.01
+_LEAST = np.array([1e-9, 0.01])  # sigma_2 and k that such a share is taken of
 _SHORTER = 0.8
-_MOST_STEPS = 12
-_PROBES = np.linspace(0, 1, 9)[1:-1]
+_MOST_STEPS, _ALONE = 12, 3  # after so many steps both tangents of a keyframe are shortened
+_PROBES = np.linspace(0, 1, 18)[1:-1]
 
 Coefficients = tuple[Array, Array]  # phi and psi
+Maps = Sequence[HarmonicMap]
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,14 +47,17 @@ class Bounded:
     the rigid motion ``z -> exp(i angle) z + mean`` that they are freed from."""
     lost: Array  # (k, 2, n) what the projection loses of phi and psi
     tangents: Array  # (k, 2 s + 2) slopes of the rows
+    turns: tuple[int, ...]
+    worse: Array  # (k - 1, 2) what maps of each piece are measured by, as by `Boundary.worst`
 
     @classmethod
     def through(
-        cls, maps: Sequence[HarmonicMap], times: Sequence[float], turns: Sequence[int], closed: bool
+        cls, maps: Maps, times: Sequence[float], turns: Sequence[int], closed: bool, worse: Any = ()
     ) -> Bounded:
         """Through maps of one domain whose ``f_z`` turn alike; ``turns`` more ways round a piece.
 
-        Where ``closed``, the last map is the first one again.
+        Where ``closed``, the last map is the first one again. Pieces are measured by ``worse``, by
+        default the worse of their ends.
         """
         boundary = boundary_of(maps[0].domain)
         rows, lost = [], []
@@ -62,7 +67,10 @@ class Bounded:
             lost.append(missed)
         rows = np.stack(rows)
         rough = _tangents(rows, np.asarray(times), closed)
-        curve = cls(boundary, tuple(maps), tuple(times), rows, np.stack(lost), rough)
+        ends = np.array([boundary.worst(map.phi, map.psi) for map in maps])
+        worse = worse if len(worse) else np.maximum(ends[:-1], ends[1:])
+        known = tuple(maps), tuple(times), rows, np.stack(lost), rough, tuple(turns), worse
+        curve = cls(boundary, *known)
         return curve if len(maps) == 2 else curve._shortened(closed)
 
     def __call__(self, piece: int, s: float) -> Coefficients:
@@ -84,6 +92,12 @@ class Bounded:
         _, d, out, into = (float(row[-2].real) for row in self._hermite(piece))
         return 1 + int(max(abs(out), abs(3 * d - out - into), abs(into)) / (2 * np.pi))
 
+    def excess(self, piece: int) -> Array:
+        """(2, 2) by which share sigma_2 and k are worse than `worse` in each half, at most."""
+        worst, worse = self.boundary.worst, self.worse[piece]
+        within = np.array([worst(*self(piece, s)) for s in _PROBES]).reshape(2, -1, 2)
+        return (within.max(axis=1) - worse) / np.maximum(np.abs(worse), _LEAST)
+
     def _row(self, piece: int, s: float) -> Array:
         """The fields, the angle and the mean by cubic Hermite interpolation."""
         before, d, out, into = self._hermite(piece)
@@ -97,16 +111,18 @@ class Bounded:
 
     def _shortened(self, closed: bool) -> Bounded:
         """With tangents so short that on no piece k is above its ends', or sigma_2 below."""
-        ends = np.array([_worst(row) for row in self.rows])
-        worse = np.maximum(ends[:-1], ends[1:])
-        share, curve = np.ones(ends.shape), self
+        share, curve = np.ones((len(self.maps), 2)), self
+        wild = np.ones((len(self.turns), 2, 2), dtype=bool)  # of each piece, halves, sigma_2 and k
+        stale = wild.any(axis=(1, 2))
         for step in range(1, _MOST_STEPS + 1):
-            within = [[_worst(curve._row(i, s)) for s in _PROBES] for i in range(len(worse))]
-            wild = np.max(within, axis=1) > worse + _EXCESS * np.abs(worse)
+            for i in np.flatnonzero(stale).tolist():
+                wild[i] = curve.excess(i) > EXCESS
             if not wild.any():
                 break
-            wild |= wild.any(axis=1, keepdims=True) & (step == _MOST_STEPS)
-            at = np.vstack([wild, wild[:1] & closed]) | np.vstack([wild[-1:] & closed, wild])
+            out, into = wild[:, 0], wild[:, 1]
+            at = np.vstack([out, out[:1] & closed]) | np.vstack([into[-1:] & closed, into])
+            at |= at.any(axis=1, keepdims=True) & (step > _ALONE)
+            stale = (at[1:] | at[:-1]).any(axis=1)
             share[at] *= _SHORTER if step < _MOST_STEPS else 0
             fields = np.repeat(share, len(self.boundary.mean), axis=1) * self.tangents[:, :-2]
             # The rigid motion, which distorts nothing, stays.
@@ -140,13 +156,6 @@ def _fitted(boundary: Boundary, fields: Array) -> Array:
     fz = np.exp(log)
     phi, psi = boundary.fitted(fz, nu * fz)
     return np.stack([boundary.translated(phi, -boundary.images(phi, psi).mean()), psi])
-
-
-def _worst(row: Array) -> Array:
-    """The least sigma_2 at the nodes, times -1, and the largest k."""
-    log, nu = np.split(row[:-2], 2)
-    k = np.abs(nu)
-    return np.array([-(np.exp(np.real(log)) * (1 - k)).min(), k.max()])
 
 
 def _nearest(angle: float, to: float) -> float:

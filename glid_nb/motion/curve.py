@@ -15,7 +15,7 @@ from glid_nb.certificate import certificate_of
 from glid_nb.geometry import triangulate
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion.boundary import boundary_of
-from glid_nb.motion.bounded import Bounded, Coefficients
+from glid_nb.motion.bounded import EXCESS, Bounded, Coefficients
 from glid_nb.motion.settings import EASINGS, MotionError
 from glid_nb.solvers import Options, Pose, solve
 
@@ -23,6 +23,10 @@ _SAMPLES = 24  # of each lap of an interval, to see how it bends
 _MOST_PIECES = 8192  # of an interval
 _STAGES = 5  # of each lap of an interval whose maps are solved for
 _POINTS = 40
+_SOFT = 1e-4  # weight of the handles of maps that mend a motion
+_ROUNDS = 5  # of halving where it is mended
+
+Between = Callable[[int, float], Coefficients]
 
 
 class Piece(NamedTuple):
@@ -52,9 +56,10 @@ class Curve:
     maps: tuple[HarmonicMap, ...]
     times: tuple[float, ...]
     easing: tuple[str, ...]
-    between: Callable[[int, float], Coefficients]
+    between: Between
     """Coefficients between keyframe i and the next, by the eased time in [0, 1]."""
     laps: tuple[int, ...]  # of each interval, see `Bounded.laps`
+    ways: tuple[str, ...]  # likewise, see `Motion.ways`
     known: dict[float, HarmonicMap] = field(default_factory=dict)
 
     def map(self, time: float) -> HarmonicMap:
@@ -68,11 +73,11 @@ class Curve:
             self.known[time] = HarmonicMap(self.maps[0].domain, *coefficients)
         return self.known[time]
 
-    def breaks(self, interval: int, tolerance: float, finer: int = 1) -> list[float]:
+    def breaks(self, interval: int, tolerance: float) -> list[float]:
         """Times from a keyframe to the next between which images move straight up to a distance.
 
         A piece of length h is off by ``h^2 / 8`` times the second derivative, so pieces are as
-        short as the square root of that is large; each is divided into ``finer`` ones.
+        short as the square root of that is large.
         """
         start, end = self.times[interval : interval + 2]
         samples = np.linspace(start, end, _SAMPLES * self.laps[interval] + 1)
@@ -87,7 +92,7 @@ class Curve:
                 f"{along[-1]:,.0f} straight pieces; {_MOST_PIECES:,} is the most. Choose a larger "
                 "tolerance or fewer turns, or put keyframes between"
             )
-        count = min(finer * int(np.ceil(max(along[-1], 1))), _MOST_PIECES)
+        count = int(np.ceil(max(along[-1], 1)))
         inside = np.interp(np.arange(1, count) / count * along[-1], along, samples)
         return np.unique([start, *inside, end]).tolist()
 
@@ -98,29 +103,71 @@ def blended(maps: Sequence[HarmonicMap], piece: int, s: float) -> Coefficients:
     return a.phi + s * (b.phi - a.phi), a.psi + s * (b.psi - a.psi)
 
 
-def through_solved(
-    follow: Bounded, handles: Array | None, closed: bool
-) -> Callable[[int, float], Coefficients]:
+def through_solved(follow: Bounded, handles: Array | None, closed: bool) -> Between:
     """Bounded interpolation through keyframes and solves on the way, whose handles ``follow``."""
-    maps, times, domain = follow.maps, follow.times, follow.boundary.domain
-    points = triangulate(domain.cage, _POINTS).vertices if handles is None else handles
-    options = Options(align=False, restarts=0)
-    all_maps, all_times = [maps[0]], [times[0]]
-    for i, (start, end) in enumerate(itertools.pairwise(times)):
-        count = _STAGES * follow.laps(i)
-        for j in range(1, count):
-            map = HarmonicMap(domain, *follow(i, j / count))
-            first = map if certificate_of(map).certified else all_maps[-1]
-            found = solve(domain, Pose(points, map(points)), options=options, start=first).map
-            all_maps.append(found if isinstance(found, HarmonicMap) else first)
-            all_times.append(start + (end - start) * j / count)
-        all_maps.append(maps[i + 1])
-        all_times.append(end)
-    curve = Bounded.through(all_maps, all_times, [0] * (len(all_maps) - 1), closed)
+    every = range(len(follow.turns))
+    pose = Pose(*[_even_points(follow) if handles is None else handles] * 2)
+    return _by_time(follow, _divided(follow, every, every, _STAGES, pose, closed)[0])
+
+
+def through_mended(follow: Bounded, closed: bool) -> tuple[Between, tuple[str, ...]]:
+    """Bounded interpolation, which where it is worse than the worse keyframe runs through maps
+    solved for halfway, and again, unless that is worse still; and which way each interval took."""
+    curve, points = follow, _even_points(follow)
+    pose = Pose(points, points, weights=np.full(len(points), _SOFT))
+    owners = every = range(len(follow.turns))
+    alone = excess = [follow.excess(i).max() for i in every]
+    for _ in range(_ROUNDS):
+        over = [i for i, share in enumerate(excess) if share > EXCESS]
+        if not over:
+            break
+        curve, owners = _divided(curve, owners, over, 2, pose, closed)
+        excess = [curve.excess(i).max() for i in range(len(owners))]
+    reached = dict(sorted(zip(owners, excess, strict=True)))  # the largest of each interval
+    ways = [
+        follow if reached[i] > max(alone[i], EXCESS) else _by_time(follow, curve) for i in every
+    ]
+    solved = [owners.count(i) > 1 and ways[i] is not follow for i in every]
+    return (lambda i, s: ways[i](i, s)), tuple("solved" if s else "bounded" for s in solved)
+
+
+def _even_points(curve: Bounded) -> Array:
+    return triangulate(curve.boundary.domain.cage, _POINTS).vertices
+
+
+def _divided(
+    curve: Bounded, owners: Sequence[int], over: Sequence[int], parts: int, pose: Pose, closed: bool
+) -> tuple[Bounded, list[int]]:
+    """The curve through maps solved on some of its pieces too, so many ``parts`` for each lap."""
+    maps, times, turns, of = [], [], [], []
+    for i, (start, end) in enumerate(itertools.pairwise(curve.times)):
+        count = parts * curve.laps(i) if i in over else 1
+        shares = np.arange(count) / count
+        maps += [_solved(curve, i, s, pose) if s else curve.maps[i] for s in shares]
+        times += (start + shares * (end - start)).tolist()
+        turns += [curve.turns[i] if count == 1 else 0] * count
+        of += [i] * count
+    through = [*maps, curve.maps[-1]], [*times, curve.times[-1]], turns, closed, curve.worse[of]
+    return Bounded.through(*through), [owners[i] for i in of]
+
+
+def _solved(curve: Bounded, piece: int, s: float, pose: Pose) -> HarmonicMap:
+    """The map of least distortion whose handles are where the curve carries them."""
+    map = HarmonicMap(curve.boundary.domain, *curve(piece, s))
+    first = map if certificate_of(map).certified else curve.maps[piece]
+    asked = pose.with_targets(map(pose.handles))
+    found = solve(map.domain, asked, options=Options(restarts=0), start=first).map
+    return found if isinstance(found, HarmonicMap) else first
+
+
+def _by_time(follow: Bounded, curve: Bounded) -> Between:
+    """The curve, by the pieces of the one that it was made from."""
+    if curve is follow:
+        return follow
 
     def between(piece: int, s: float) -> Coefficients:
-        time = times[piece] + s * (times[piece + 1] - times[piece])
-        i = min(bisect.bisect_right(all_times, time), len(all_times) - 1) - 1
-        return curve(i, (time - all_times[i]) / (all_times[i + 1] - all_times[i]))
+        time = follow.times[piece] + s * (follow.times[piece + 1] - follow.times[piece])
+        i = min(bisect.bisect_right(curve.times, time), len(curve.turns)) - 1
+        return curve(i, (time - curve.times[i]) / (curve.times[i + 1] - curve.times[i]))
 
     return between

@@ -22,13 +22,21 @@ from glid_nb.certificate.rounding import rounded_down
 from glid_nb.geometry import Domain, place
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion import file, settings
+from glid_nb.motion.boundary import boundary_of
 from glid_nb.motion.bounded import Bounded
-from glid_nb.motion.curve import Curve, Piece, blended, linear_pieces, through_solved
+from glid_nb.motion.curve import (
+    Curve,
+    Piece,
+    blended,
+    linear_pieces,
+    through_mended,
+    through_solved,
+)
 from glid_nb.motion.settings import Between, Easing, MotionError, Repeat, checked
 
 _TOLERANCE = 0.002
 _MOST_FRAMES = 100_000
-_FINER = (1, 3, 9)  # pieces for one, where some are not proved: they follow the curve more closely
+_FINER = 2  # times a piece that is not proved becomes three: they follow the curve more closely
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,8 +76,8 @@ class Motion:
     way."""
     between: Between
     """Either "bounded", bounded distortion interpolation; "solved", the same through maps solved on
-    the way, with handles that move on rigid paths; or "linear", coefficients blended as they
-    are."""
+    the way, with handles that move on rigid paths; "auto", bounded but where that is worse than the
+    worse keyframe and solved better, see :attr:`ways`; or "linear", coefficients blended."""
     tolerance: float
     """How far an image may be off the smooth motion, relative to the cage's longer side."""
     turns: tuple[int, ...]
@@ -84,7 +92,7 @@ class Motion:
         *,
         easing: Easing | Sequence[Easing] = "linear",
         repeat: Repeat = "once",
-        between: Between = "bounded",
+        between: Between = "auto",
         tolerance: float = _TOLERANCE,
         turns: int | Sequence[int] = 0,
         handles: ArrayLike | None = None,
@@ -134,6 +142,11 @@ class Motion:
     def duration(self) -> float:
         """Seconds; once there and back for "ping-pong"."""
         return self.end - self.start
+
+    @property
+    def ways(self) -> tuple[str, ...]:
+        """What lies between each keyframe and the next: "bounded", "solved" or "linear"."""
+        return self._curve.ways
 
     @functools.cached_property
     def pieces(self) -> tuple[Piece, ...]:
@@ -224,11 +237,15 @@ class Motion:
         maps = self.keyframes + self.keyframes[:closed]
         through = maps, self.times, self.easing
         if self.between == "linear":
-            return Curve(*through, functools.partial(blended, maps), (1,) * len(intervals))
+            ways = ("linear",) * len(intervals)
+            return Curve(*through, functools.partial(blended, maps), (1,) * len(ways), ways)
         way = follow = Bounded.through(maps, self.times, self.turns, closed)
-        if self.between == "solved":
+        ways = (self.between,) * len(intervals)
+        if self.between == "auto":
+            way, ways = through_mended(follow, closed)
+        elif self.between == "solved":
             way = through_solved(follow, self.handles, closed)
-        return Curve(*through, way, tuple(map(follow.laps, intervals)))
+        return Curve(*through, way, tuple(map(follow.laps, intervals)), ways)
 
     @functools.cached_property
     def _proved(self) -> tuple[tuple[Piece, ...], tuple[PieceCertificate, ...]]:
@@ -239,14 +256,19 @@ class Motion:
 
     def _made(self, index: int) -> tuple[tuple[Piece, ...], tuple[PieceCertificate, ...]]:
         """The pieces of an interval, shorter ones where they are not proved, and their proofs."""
-        tolerance = self.tolerance * self.domain.cage.longer_side
-        for finer in (1,) if self.between == "linear" else _FINER:
-            times = self._curve.breaks(index, tolerance, finer)
-            maps = [self._curve.map(time) for time in times]
-            proofs = certify_pieces(maps)
-            if all(proof.certified for proof in proofs):
-                break
-        return linear_pieces(times, maps), proofs
+        curve, boundary = self._curve, boundary_of(self.domain)
+        times = curve.breaks(index, self.tolerance * self.domain.cage.longer_side)
+        maps = [curve.map(time) for time in times]
+        proofs = list(certify_pieces(maps))
+        for _ in range(0 if self.between == "linear" else _FINER):
+            failing = [i for i, proof in enumerate(proofs) if not proof.certified]
+            if any(boundary.worst(map.phi, map.psi)[0] >= 0 for map in maps):
+                break  # no piece through a map that folds is ever proved
+            for i in reversed(failing):
+                times[i + 1 : i + 1] = np.linspace(times[i], times[i + 1], 4)[1:-1].tolist()
+                maps[i + 1 : i + 1] = [curve.map(time) for time in times[i + 1 : i + 3]]
+                proofs[i : i + 1] = certify_pieces(maps[i : i + 4])
+        return linear_pieces(times, maps), tuple(proofs)
 
     def save(self, path: str | Path, proof: str | Path | None = None) -> None:
         """Write keyframes, settings and pieces as JSON, and the proof that ``glid-check`` reads.

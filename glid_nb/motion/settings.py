@@ -13,7 +13,7 @@ from glid_nb.geometry import loop_name
 from glid_nb.harmonic import HarmonicMap
 
 Easing = Literal["linear", "in", "out", "in-out"]
-Between = Literal["bounded", "solved", "linear"]
+Between = Literal["auto", "bounded", "solved", "linear"]
 Repeat = Literal["once", "loop", "ping-pong"]
 
 EASINGS: dict[str, Callable[[float], float]] = {

@@ -13,8 +13,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from glid_nb import Motion
+from glid_nb import Domain, Motion, load_pose, samples, solve, trace
 from glid_nb.certificate import certificate_of, certify
+from glid_nb.certificate.pieces import certify_pieces
+from glid_nb.geometry import as_points, uniform_panels
 from glid_nb.harmonic import HarmonicMap
 from glid_nb.motion import MotionError
 from glid_nb.motion.boundary import boundary_of
@@ -33,9 +35,10 @@ def poses(name: str, *angles: float) -> list[HarmonicMap]:
     return [turned(random_map(name, 0.01, i), a, complex(a)) for i, a in enumerate(angles)]
 
 
-def extremes(map: HarmonicMap) -> tuple[float, float]:
-    """The least sigma_2 and the largest k at the nodes."""
-    f, g = map.wirtinger(np.concatenate([*map.domain.cage.loops]))
+def extremes(map: HarmonicMap, points: Any = None) -> tuple[float, float]:
+    """The least sigma_2 and the largest k at points, by default at the corners."""
+    corners = np.concatenate([*map.domain.cage.loops])
+    f, g = map.wirtinger(corners if points is None else as_points(points))
     return float((np.abs(f) - np.abs(g)).min()), float((np.abs(g) / np.abs(f)).max())
 
 
@@ -77,6 +80,73 @@ def test_nothing_between_two_keyframes_is_worse_than_the_worse_one(
         sigma2, k = extremes(curve.map(t))
         assert sigma2 >= 0.98 * min(s for s, _ in ends)
         assert k <= 1.02 * max(k for _, k in ends)
+
+
+@pytest.fixture(scope="module")
+def stretched() -> list[HarmonicMap]:
+    """The frog at rest and pulled far in two ways, between which its plain interpolation folds."""
+    d = Domain.from_cage(trace(samples.image("frog")).cage)
+    pose = load_pose(samples.pose_path("frog", "extreme"))
+    first = (
+        "1.807 -6.425 -6.609 -3.478 .897 -1.989 5.724 -1.798 -2.365 -2.078 0 -.819 3.44 2.767 2 3.7"
+    )
+    last = (
+        "1.473 -7.036 -4.093 -5.598 .289 -2.353 4.677 -.577 -3.33 -.708 0 -.268 .848 3.024 1.4 4.9"
+    )
+    pulled = (np.reshape([float(x) for x in to.split()], (-1, 2)) for to in (first, last))
+    solved = [solve(d, pose.with_targets(to)).map for to in pulled]
+    return [HarmonicMap.identity(d), *(map for map in solved if isinstance(map, HarmonicMap))]
+
+
+@pytest.mark.parametrize("chosen", [(1, 2), (0, 1, 2)])
+def test_maps_solved_on_the_way_mend_what_the_projection_loses(
+    stretched: list[HarmonicMap], chosen: tuple[int, ...]
+) -> None:
+    maps = [stretched[i] for i in chosen]
+    times = [0, 0.3, 2, 2.4, 3][: len(maps) + 1]
+    motion = Motion(maps, times, repeat="loop")
+    assert motion.certificate.certified
+    points = uniform_panels(motion.domain.cage, 6000).start
+    ends = np.array([extremes(map, points) for map in (*maps, maps[0])])
+    assert {*motion.ways} <= {"solved", "bounded"}
+    for i, way in enumerate(motion.ways):
+        assert way == "solved" or {*chosen[i : i + 2]} != {1, 2}
+        worse = ends[i : i + 2, 0].min(), ends[i : i + 2, 1].max()
+        for s in np.linspace(0, 1, 24):
+            map = motion._curve.map(times[i] + s * (times[i + 1] - times[i]))
+            sigma2, k = extremes(map, points)
+            assert sigma2 >= 0.985 * worse[0]
+            assert k <= 1.015 * worse[1]
+
+
+def test_a_fold_is_refused_at_once_and_as_asked(
+    stretched: list[HarmonicMap], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    proved = counted(monkeypatch)
+    motion = Motion(stretched[1:], between="bounded")
+    assert motion.certificate.until < 0.2
+    assert motion.ways == ("bounded",)
+    assert len(proved) == 1
+
+
+def test_only_the_piece_that_fails_is_divided(monkeypatch: pytest.MonkeyPatch) -> None:
+    proved = counted(monkeypatch)
+    one, two = (random_map("ell", 0.3, i) for i in (1, 2))
+    motion = Motion([one, turned(two, 3.05), turned(one, 3.05)], tolerance=9)
+    assert motion.certificate.certified
+    assert proved == [2, 4, 2]
+
+
+def counted(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """How many maps each proof of pieces is given."""
+    counts: list[int] = []
+
+    def certify(maps: list[HarmonicMap]) -> Any:
+        counts.append(len(maps))
+        return certify_pieces(maps)
+
+    monkeypatch.setattr("glid_nb.motion.motion.certify_pieces", certify)
+    return counts
 
 
 def test_forty_million_points_and_times_contradict_nothing_of_a_whole_motion() -> None:
