@@ -84,8 +84,7 @@ class ShaderMap:
         chain = _vectors(vertices, np.concatenate(inverse_edges))
         self.cage = _padded(chain, [*vertices[-1:].view(float), 0, 0])
         """(c, 4) float32: a vertex, and 1 over the edge that leads to it; 0 where none does."""
-        self.n_chain = len(self.cage)
-        """Vertices of the chain."""
+        self.n_chain = len(self.cage)  # vertices of the chain
         self._far = [1e3 * float(np.abs(vertices).max()), 0, 0, 0]
         self.n_holes = len(_padded(np.zeros((domain.n_holes, 4)), self._far))
         """Holes of the shader, also unused ones."""

@@ -97,8 +97,7 @@ class Tracer:
     """
 
     def __init__(self, image: ImageSource) -> None:
-        self.image = read_image(image)
-        """The picture, (h, w, 4)."""
+        self.image = read_image(image)  # the picture, (h, w, 4)
         self.frame = PixelFrame(*self.image.shape[1::-1])
         """Conversion between pixel and world coordinates."""
         self._stages: dict[str, tuple[tuple[Any, ...], Any]] = {}

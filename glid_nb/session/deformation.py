@@ -71,12 +71,10 @@ class Deformation(Undoable[EditState]):
     ) -> None:
         check_type("domain", domain, Domain, "make one with Domain.from_cage(cage)")
         super().__init__(EditState.initial(domain, pose, energy, options))
-        self.selection: tuple[int, ...] = ()
-        """Indices of the selected handles."""
+        self.selection: tuple[int, ...] = ()  # indices of the selected handles
         self.dragged: tuple[int, ...] = ()
         """Indices of the handles that are being dragged, a gesture of the history."""
-        self.begun = False
-        """Whether the solver was ever asked for something."""
+        self.begun = False  # whether the solver was ever asked for something
         self._chain = 0
         self._frame: Frame | None = None
         self._error: Exception | None = None

@@ -81,10 +81,8 @@ class SolverMonitor(ClosingWidget, ipywidgets.VBox):
         plots: bool = True,
         **kwargs: Any,
     ) -> None:
-        self.deformation = deformation
-        """The model that this is a view of."""
-        self.line = ipywidgets.HTML()
-        """The status line."""
+        self.deformation = deformation  # the model that this is a view of
+        self.line = ipywidgets.HTML()  # the status line
         empty, size = _placeholder(width, height), {"width": width, "height": height}
         self.image = ipywidgets.Image(value=empty, format="svg+xml", **size)
         """The plots; empty axes until the solver has begun."""

@@ -79,10 +79,8 @@ class SolverPanel(EditControls):
         self.method = _menu(_methods(), "What solves: ours, or another to compare with")
         rows = {"name": ("Method", self.method)}
         method = FieldRows(lambda _, name: act(lambda: model.set_method(name)), rows)
-        self.about = ipywidgets.HTML()
-        """What the method does."""
-        self.settings = FieldRows(set_setting, {})
-        """The method's own settings."""
+        self.about = ipywidgets.HTML()  # what the method does
+        self.settings = FieldRows(set_setting, {})  # the method's own settings
         self._shown: type[Method] | None = None
         self.energy = _menu({name: e.label for name, e in ENERGIES.items()}, "What is minimised")
         self.s = ipywidgets.BoundedFloatText(

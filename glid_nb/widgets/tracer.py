@@ -67,8 +67,7 @@ class CageTracer(Pad):
             raise ValueError("give a model, or a picture and options, not both")
         self.tracing_model = model if model is not None else TracingModel(image, options)
         """The model that this is a view of."""
-        self.gestures = TraceGestures(self.tracing_model)
-        """What pointers and keys mean here."""
+        self.gestures = TraceGestures(self.tracing_model)  # what pointers and keys mean here
         self._pushed_image: NDArray[np.uint8] | None = None
         super().__init__(height=height, **kwargs)
         self._push()

@@ -35,8 +35,7 @@ class MeshOperators:
         opposite = np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)
         e1, e2 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
         area = 0.5 * np.imag(np.conj(e1) * e2)
-        self.area, self.weights = float(area.sum()), area / area.sum()
-        """(t,) shares of the area."""
+        self.area, self.weights = float(area.sum()), area / area.sum()  # (t,) shares of the area
         hats = 1j * opposite / (2 * area[:, None])
         shape = (len(area), len(z))
         entries = (np.repeat(np.arange(len(area)), 3), mesh.triangles.ravel())
